@@ -1,0 +1,22 @@
+# One compile line for every target. -ffp-contract=off is what makes one hash possible: g++ 12 and clang 14 both fuse
+# multiply-add in code compiled for AVX2 and up unless told not to.
+add_library(trueshade_flags INTERFACE)
+target_compile_features(trueshade_flags INTERFACE cxx_std_20)
+target_compile_options(
+  trueshade_flags
+  INTERFACE -ffp-contract=off -fno-fast-math -fno-math-errno -fno-strict-aliasing)
+target_compile_definitions(
+  trueshade_flags
+  INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_PURE
+            HWY_DISABLED_TARGETS=HWY_SSSE3)  # its Round loses the sign of -0
+# Ours only, not a consumer's: warnings are errors, and the hardening of docs/reliability.
+add_library(trueshade_private_flags INTERFACE)
+target_compile_options(
+  trueshade_private_flags
+  INTERFACE -Wall -Wextra -Wconversion -Wfloat-conversion -Werror -fstack-protector-strong -fstack-clash-protection)
+target_compile_definitions(trueshade_private_flags INTERFACE _GLIBCXX_ASSERTIONS)
+if(CMAKE_BUILD_TYPE MATCHES "Release|RelWithDebInfo")
+  target_compile_definitions(trueshade_private_flags INTERFACE _FORTIFY_SOURCE=2)
+endif()
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+add_link_options(-Wl,-z,relro,-z,now)

@@ -1,0 +1,30 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace trueshade {
+
+/// Why a run ends early; the value is the exit code of the command.
+enum class ErrorKind : int {
+  usage = 2,        ///< the command line
+  bad_input = 3,    ///< a file or value that is not what its format says
+  limit = 4,        ///< well formed, but over a stated limit
+  io = 5,           ///< reading or writing failed
+  out_of_memory = 6,
+};
+
+/// A fault in what the user gave us: a file, a scene, an option. Bugs in our own code assert instead.
+/// what() reads `WHERE: REASON (REMEDY)`; WHERE may be `FILE: JSON pointer`, `FILE: line 12` or an option's name.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, std::string_view where, std::string_view reason, std::string_view remedy)
+      : std::runtime_error(std::string(where) + ": " + std::string(reason) + " (" + std::string(remedy) + ")"),
+        kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+
+ private:
+  ErrorKind kind_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/format.h"
+
+namespace trueshade {
+
+/// Stored texels of one plane. Rows run from the top of the picture down, without padding; channels R, G, B, A;
+/// multi-byte channels little-endian. These bytes are what `--hash` hashes.
+struct Image {
+  int width = 0, height = 0;  ///< pixels
+  Format format = Format::rgba8;
+  std::vector<uint8_t> texels;
+
+  Image() = default;
+  Image(int w, int h, Format f);  ///< all bytes zero
+
+  size_t row_bytes() const { return size_t(width) * size_t(info(format).bytes_per_texel()); }
+  uint8_t* texel(int x, int y) { return texels.data() + offset(x, y); }  ///< y counts from the top
+  const uint8_t* texel(int x, int y) const { return texels.data() + offset(x, y); }
+
+  /// Value of one channel: unorm as RN(code / 255), half and float as they are, integers converted. y from the top.
+  double value(int x, int y, int channel) const;
+
+ private:
+  size_t offset(int x, int y) const {
+    return size_t(y) * row_bytes() + size_t(x) * size_t(info(format).bytes_per_texel());
+  }
+};
+
+/// A named plane beside the colour target, as `--aov` names it.
+struct NamedImage {
+  std::string name;
+  Image image;
+};
+
+/// SHA-256 of the stored bytes, 64 hex digits; every NaN counts as the quiet NaN 7FC00000 (half: 7E00).
+std::string image_hash(const Image& image);
+
+}  // namespace trueshade

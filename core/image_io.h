@@ -1,0 +1,36 @@
+#pragma once
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/image.h"
+
+namespace trueshade {
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;  ///< key, value; keys like `trueshade:imageHash`
+
+/// Writes one picture; the ending of `path` (.png, .exr) chooses the file format. The file appears whole or not at all:
+/// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io) or Error(usage) for an ending.
+///   PNG: rgba8 codes as they are; float formats sRGB-encoded (IEC 61966-2-1) to 8 bits; alpha unassociated.
+///   EXR: single part, ZIP; `color` as R G B A (half stays half, unorm as RN(k/255)); each aov under its channel names
+///        (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X.., id.object, ...); PNG ignores `aovs`.
+/// Date and software fields are constant, so equal images are equal files.
+void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs, const Metadata& metadata);
+
+/// The bytes write_image would write to a .png.
+std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata);
+
+/// Writes bytes to `path` whole or not at all (temporary, fsync, rename). Error(io).
+void write_file(const std::string& path, std::span<const uint8_t> bytes);
+
+struct ImageFileInfo {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  ///< `NAME type`
+  Metadata metadata;
+};
+
+/// Header of a PNG or EXR file. Error(io) if it cannot be read, Error(bad_input) if it is neither.
+ImageFileInfo read_image_info(const std::string& path);
+
+}  // namespace trueshade

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenes/scene.h"
+
+namespace trueshade {
+
+struct BuiltinInfo {
+  std::string_view name;         ///< without `builtin:`
+  std::string_view description;  ///< one line
+};
+
+std::span<const BuiltinInfo> builtin_scenes();
+
+/// `NAME[,key=value...]`, keys lights, seed, objects, radius=overlap|constant. Generated from the seed by integers and
+/// + - * / sqrt alone: the same bits on every CPU. Error(bad_input) for an unknown name, key or value; Error(limit).
+Scene builtin_scene(std::string_view spec, const SceneLimits& limits = {});
+
+}  // namespace trueshade

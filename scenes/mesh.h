@@ -1,0 +1,26 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trueshade {
+
+/// Indexed triangles, a stream per component (SoA). Positions and normals in object space; every stream has
+/// vertex_count() elements or, where marked optional, none. Normals are stored as given: unit length is not required.
+struct Mesh {
+  std::string name;
+  std::array<std::vector<float>, 3> position;
+  std::array<std::vector<float>, 3> normal;
+  std::array<std::vector<float>, 2> uv;     ///< optional; 0 where absent
+  std::array<std::vector<float>, 4> color;  ///< optional RGBA, linear; 1 where absent
+  std::vector<uint32_t> indices;            ///< 3 a triangle, in submission order; front faces counter-clockwise
+
+  size_t vertex_count() const { return position[0].size(); }
+  size_t triangle_count() const { return indices.size() / 3; }
+  bool has_uv() const { return !uv[0].empty(); }
+  bool has_color() const { return !color[0].empty(); }
+};
+
+}  // namespace trueshade

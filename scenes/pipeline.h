@@ -1,0 +1,90 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/format.h"
+#include "scenes/light_model.h"
+
+namespace trueshade {
+
+// GL's names for GL's state; the spelling in JSON is the enumerator's.
+enum class DepthFunc : uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
+enum class CullFace : uint8_t { none, front, back, front_and_back };
+enum class FrontFace : uint8_t { ccw, cw };
+enum class ClipOrigin : uint8_t { lower_left, upper_left };
+enum class ClipDepth : uint8_t { negative_one_to_one, zero_to_one };
+enum class Interpolation : uint8_t { smooth, flat, noperspective };
+enum class Provoking : uint8_t { last, first };
+enum class Strategy : uint8_t { deferred_loop };  ///< spelled `deferred-loop` outside C++
+
+/// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image.
+struct Viewport {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Viewport&) const = default;
+};
+
+/// State of the geometry pass. Every field may change pixels.
+struct GeometryState {
+  Viewport viewport;
+  float depth_near = 0.0f, depth_far = 1.0f;  ///< glDepthRange, each in [0, 1]
+  DepthFunc depth_func = DepthFunc::less;
+  float clear_depth = 1.0f;                   ///< in [0, 1]
+  bool depth_clamp = false;                   ///< no near and far clipping; depth clamped to the range instead
+  CullFace cull_face = CullFace::none;
+  FrontFace front_face = FrontFace::ccw;
+  ClipOrigin clip_origin = ClipOrigin::lower_left;
+  ClipDepth clip_depth = ClipDepth::negative_one_to_one;
+  Provoking provoking = Provoking::last;      ///< the vertex a flat attribute follows
+  bool operator==(const GeometryState&) const = default;
+};
+
+struct PlaneState {
+  Format format = Format::rgba32f;
+  Interpolation interpolation = Interpolation::smooth;
+  bool operator==(const PlaneState&) const = default;
+};
+
+/// The planes the light pass reads, in the formats that round them. position, normal, uv: rgba32f, rgba16f or rgb16f;
+/// albedo: these or rgba8. Depth is d32f, ids are r32ui.
+struct GBufferState {
+  PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
+  bool position_from_depth = false;  ///< rebuilt from the stored depth (docs/arithmetic.md); `position` is not read
+  HalfRound half_round = HalfRound::toward_zero;
+  bool operator==(const GBufferState&) const = default;
+};
+
+/// Everything that may change a pixel, beside the scene.
+struct Pipeline {
+  std::string preset = "many-lights";  ///< the row the other values started from; not read by any stage
+  int width = 800, height = 800;       ///< pixels, 1..65536 each
+  GeometryState geometry;
+  GBufferState gbuffer;
+  LightModel light_model;
+  Strategy strategy = Strategy::deferred_loop;
+  Format target = Format::rgba8;       ///< rgba8, rgba16f or rgba32f
+  bool operator==(const Pipeline&) const = default;
+};
+
+/// How a frame is computed. Never changes a pixel.
+struct Execution {
+  int threads = 0;            ///< 0: one a core; at most 1024
+  int tile = 64;              ///< pixels a side: 8, 16, 32, 48 or 64
+  std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
+  bool light_culling = true;
+  bool geometry_culling = true;    ///< cluster frustum, cone and hierarchical-depth culls
+  bool shuffle_tiles = false;      ///< tiles in a scrambled order; for tests of determinism
+};
+
+/// Throws Error(usage) naming the field and its range.
+void validate(const Pipeline& pipeline);
+void validate(const Execution& execution);
+
+/// Pipeline as JSON, all fields, fixed key order and number spelling: equal pipelines are equal texts.
+std::string pipeline_json(const Pipeline& pipeline);
+
+/// Reads `text` over `base`: keys present replace, unknown keys and bad values throw Error(bad_input) with a JSON
+/// pointer behind `where`. The schema is scenes/pipeline.schema.json.
+Pipeline pipeline_from_json(std::string_view text, std::string_view where, const Pipeline& base);
+
+}  // namespace trueshade

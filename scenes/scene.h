@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x3.hpp>
+#include <glm/vec4.hpp>
+
+#include "scenes/camera.h"
+#include "scenes/light.h"
+#include "scenes/mesh.h"
+
+namespace trueshade {
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0f};  ///< linear RGBA, times the vertex colour
+};
+
+/// One drawing of a mesh. Geometry is stored once however often it is drawn.
+struct Instance {
+  uint32_t mesh = 0;      ///< index into Scene::meshes
+  uint32_t material = 0;  ///< index into Scene::materials
+  glm::mat4x3 world_from_object{1.0f};  ///< affine: 4 columns of 3
+};
+
+/// Everything that is drawn, at one time. Instances are drawn in order; lights are summed in order.
+struct Scene {
+  std::string spec;  ///< what the user wrote: `builtin:city,seed=3`, or the file's name without its folder
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+  Camera camera;
+  glm::vec4 clear{0.0f};  ///< linear RGBA of the target where nothing is drawn
+
+  uint64_t triangle_count() const;  ///< over all instances
+};
+
+/// Limits a scene is held to; each has an option's or a key's name in its error.
+struct SceneLimits {
+  uint64_t lights = uint64_t(1) << 20;
+  uint64_t instances = uint64_t(16) << 20;
+  uint64_t file_bytes = uint64_t(1) << 30;
+  uint64_t json_bytes = uint64_t(256) << 20;
+};
+
+/// Throws Error(bad_input or limit) unless every index, number and count is in its stated range: finite positions with
+/// |x| <= 1e18, colours in [0, 1e18], ranges > 0, unit directions, indices below the vertex count.
+void validate(const Scene& scene, const SceneLimits& limits = {});
+
+/// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
+Scene load_scene(const std::string& spec, const SceneLimits& limits = {});
+
+/// SHA-256 over the loaded values (not over file bytes): meshes, materials, instances, lights, camera, clear colour.
+std::string scene_hash(const Scene& scene);
+
+}  // namespace trueshade

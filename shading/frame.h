@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/image.h"
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+
+/// Counts of one frame. The first group depends on scene and pipeline alone; the second on Execution too.
+struct FrameStats {
+  uint64_t pixels = 0;             ///< of the image
+  uint64_t covered_pixels = 0;     ///< N: with a surface
+  uint64_t lit_pixel_lights = 0;   ///< pairs of covered pixel and light that is in range and faces it
+  uint64_t pixel_lights = 0;       ///< covered pixels times lights
+  uint64_t triangles = 0;          ///< submitted, over all instances
+  uint64_t lights = 0;
+
+  uint64_t clusters_drawn = 0;     ///< cluster x tile pairs whose triangles were set up
+  uint64_t triangles_tested = 0;   ///< set up, over all tiles
+  uint64_t fragments = 0;          ///< covered samples before the depth test
+  uint64_t tile_pixel_lights = 0;  ///< covered pixels times lights in the tile's list
+  uint64_t evaluated_pixel_lights = 0;  ///< lanes the light kernel computed a contribution for
+  double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
+};
+
+/// Planes to hand out beside the colour target.
+/// Names: depth position normal albedo uv id.object id.material light.count (lights that light the pixel; 0 = none).
+std::span<const std::string_view> aov_names();
+
+struct Frame {
+  Image color;
+  std::vector<NamedImage> aovs;  ///< in the order asked for
+  FrameStats stats;
+};
+
+struct ClusteredScene;
+
+/// Scene with its meshes split into clusters, built once; frames of any pipeline are drawn from it.
+/// Borrows the scene, which must outlive it unchanged.
+class PreparedScene {
+ public:
+  explicit PreparedScene(const Scene& scene);
+  ~PreparedScene();
+  PreparedScene(PreparedScene&&) noexcept;
+
+  const Scene& scene() const { return *scene_; }
+  const ClusteredScene& clusters() const { return *clusters_; }
+
+ private:
+  const Scene* scene_;
+  std::unique_ptr<ClusteredScene> clusters_;
+};
+
+/// Called now and then with the tiles done and the tiles in all, from any one thread at a time.
+using Progress = std::function<void(int done, int total)>;
+
+/// Draws one frame: geometry pass, light lists, light pass, store. The image is a pure function of scene and pipeline;
+/// `execution`, the machine and the caller's floating-point environment never change a bit of it.
+/// `aovs`: names from aov_names(). Throws Error(usage) for values out of range.
+Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution = {},
+                   std::span<const std::string> aovs = {}, const Progress& progress = {});
+Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},
+                   std::span<const std::string> aovs = {});
+
+/// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
+std::vector<std::string_view> simd_targets();
+
+}  // namespace trueshade
