@@ -33,13 +33,19 @@ SurfacePoint knot_surface(double u, double v) {
 
 }  // namespace
 
+Mesh knot_mesh() {
+  Mesh mesh = torus_mesh(420, 49, knot_surface);
+  mesh.name = "knot";
+  return mesh;
+}
+
 Scene circle(const Parameters& parameters) {
   Scene scene;
   scene.clear = {0.01f, 0.01f, 0.015f, 1.0f};
   scene.materials = {{"stage", {0.46f, 0.46f, 0.48f, 1.0f}},
                      {"knot", {0.85f, 0.83f, 0.80f, 1.0f}},
                      {"ball", {0.72f, 0.72f, 0.74f, 1.0f}}};
-  scene.meshes = {plane_mesh(28), torus_mesh(420, 49, knot_surface), sphere_mesh(14)};
+  scene.meshes = {plane_mesh(28), knot_mesh(), sphere_mesh(14)};
   scene.instances.push_back({0, 0, placed({0.0, 0.0, 0.0}, {14.0, 1.0, 14.0})});
   scene.instances.push_back({1, 1, placed({0.0, 1.0, 0.0}, glm::dvec3(1.15))});
   const uint32_t balls = parameters.objects_or(kObjects) - 1;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr uint32_t kLights = 100, kObjects = 125;
 
-/// A first stand-in with the right number of triangles.
+}  // namespace
+
 Mesh rabbit_mesh() {
   Mesh mesh = torus_mesh(200, 100, [](double u, double v) -> SurfacePoint {
     const double a = 2.0 * kPi * u, b = -2.0 * kPi * v;
@@ -18,8 +19,6 @@ Mesh rabbit_mesh() {
   mesh.name = "rabbit";
   return mesh;
 }
-
-}  // namespace
 
 Scene rabbits(const Parameters& parameters) {
   Scene scene;

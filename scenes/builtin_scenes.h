@@ -31,6 +31,9 @@ Light point_light(const glm::dvec3& position, const glm::dvec3& color, double ra
 /// Saturated colour of a hue in turns (any real), red at 0, of largest channel 1 and smallest channel 1 - saturation.
 glm::dvec3 color_of_hue(double hue, double saturation);
 
+Mesh rabbit_mesh();  ///< closed, 40,000 triangles, about 1 unit high, standing on y = 0 and looking along +z
+Mesh knot_mesh();    ///< a fluted tube along the (2, 3) torus knot, of radius 1.6 about the y axis; closed
+
 Scene city(const Parameters& parameters);
 Scene rabbits(const Parameters& parameters);
 Scene sphere(const Parameters& parameters);

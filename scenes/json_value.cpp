@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/error.h"
 
 namespace trueshade::json {
 namespace {
@@ -50,9 +49,9 @@ std::string Node::pointer() const {
   return text;
 }
 
-void Node::fail(const std::string& reason, const std::string& remedy) const {
+void Node::fail(const std::string& reason, const std::string& remedy, ErrorKind kind) const {
   const std::string place = pointer();
-  throw Error(ErrorKind::bad_input, std::string(where_) + (place.empty() ? "" : ": " + place), reason, remedy);
+  throw Error(kind, std::string(where_) + (place.empty() ? "" : ": " + place), reason, remedy);
 }
 
 bool Node::boolean() const {

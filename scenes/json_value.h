@@ -13,6 +13,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/error.h"
+
 // JSON (RFC 8259) as we read it: strict, and every error names the place by a JSON pointer (RFC 6901).
 namespace trueshade::json {
 
@@ -44,8 +46,8 @@ class Node {
   Node(const Value& value, const Node& parent, std::string_view key) : value_(&value), parent_(&parent), where_(parent.where_), key_(key) {}
   Node(const Value& value, const Node& parent, size_t index) : value_(&value), parent_(&parent), where_(parent.where_), index_(index) {}
 
-  /// Error(bad_input): `WHERE: POINTER: reason (remedy)`.
-  [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const;
+  /// Throws `WHERE: POINTER: reason (remedy)`.
+  [[noreturn]] void fail(const std::string& reason, const std::string& remedy, ErrorKind kind = ErrorKind::bad_input) const;
 
   bool boolean() const;
   double number(double least, double most) const;          ///< both ends included
