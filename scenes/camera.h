@@ -19,7 +19,8 @@ struct Camera {
   std::optional<std::array<float, 16>> clip_from_world;  ///< column-major; replaces all but `eye`
 };
 
-/// Clip space (-w <= x, y, z <= w) from world space, in the operations of docs/arithmetic.md; `aspect` = width / height.
-Matrix4 clip_from_world(const Camera& camera, double aspect);
+/// Clip space from world space, in the operations of docs/arithmetic.md; `aspect` = width / height. Visible depths are
+/// -w <= z <= w, or 0 <= z <= w under `zero_to_one`. A matrix handed over is taken as it is.
+Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one);
 
 }  // namespace trueshade

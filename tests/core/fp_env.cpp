@@ -1,0 +1,100 @@
+#include "core/fp_env.h"
+
+#include <atomic>
+#include <cfenv>
+#include <chrono>
+#include <limits>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+#include "tests/catch.hpp"
+
+namespace trueshade {
+namespace {
+
+/// Whether this thread rounds to nearest even and keeps denormals, found by computing.
+[[gnu::noinline]] bool computes_as_ieee() {
+  volatile float one = 1.0f, tie = 0x1p-24f, above = 0x1.8p-24f, denormal = std::numeric_limits<float>::denorm_min();
+  return one + tie == 1.0f && one + above == 1.0f + 0x1p-23f && -one - tie == -1.0f && denormal * 2.0f != 0.0f &&
+         0x1p-126f * (one / 2) != 0.0f;
+}
+
+TEST_CASE("FpScope computes as IEEE 754 says and gives the caller's settings back") {
+  CHECK(computes_as_ieee());
+  std::fesetround(FE_UPWARD);
+#if defined(__x86_64__)
+  _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
+  const unsigned before = _mm_getcsr();
+#endif
+  const bool hostile = !computes_as_ieee();
+  bool inside = false;
+  {
+    const FpScope ieee;
+    inside = computes_as_ieee();
+  }
+#if defined(__x86_64__)
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(0x1f80);
+  CHECK(after == before);
+#endif
+  std::fesetround(FE_TONEAREST);
+  CHECK(hostile);
+  CHECK(inside);
+}
+
+TEST_CASE("parallel_for calls every index once and under IEEE arithmetic, whatever the caller's settings") {
+  for (const int threads : {0, 1, 2, 3, 8, 64}) {
+    std::vector<std::atomic<int>> calls(1000);
+    std::atomic<int> wrong{0};
+    std::fesetround(FE_DOWNWARD);
+    parallel_for(1000, threads, [&](int i) {
+      ++calls[size_t(i)];
+      if (!computes_as_ieee()) ++wrong;
+    });
+    const int round = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    CHECK(round == FE_DOWNWARD);
+    CHECK(wrong == 0);
+    for (const auto& count : calls) REQUIRE(count == 1);
+  }
+  parallel_for(0, 4, [](int) { FAIL("called for an empty range"); });
+}
+
+TEST_CASE("parallel_for runs as many threads as asked for, beyond the number of cores") {
+  for (const int threads : {2, 8, 64}) {
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    parallel_for(threads, threads, [&](int) {  // each call waits for all the others, so each needs its own thread
+      {
+        const std::lock_guard lock(mutex);
+        seen.insert(std::this_thread::get_id());
+      }
+      for (bool all = false; !all && std::chrono::steady_clock::now() < deadline;) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const std::lock_guard lock(mutex);
+        all = int(seen.size()) == threads;
+      }
+    });
+    CHECK(int(seen.size()) == threads);
+  }
+}
+
+TEST_CASE("an exception of a body reaches the caller of parallel_for") {
+  for (const int threads : {1, 4})
+    CHECK_THROWS_AS(parallel_for(100, threads,
+                                 [](int i) {
+                                   if (i == 37) throw std::runtime_error("37");
+                                 }),
+                    std::runtime_error);
+}
+
+}  // namespace
+}  // namespace trueshade

@@ -1,0 +1,42 @@
+// Vectors: FIPS 180-4 examples as published with the standard (NIST, "SHA256" example values), and the one-million-a vector.
+#include "core/sha256.h"
+
+#include <string>
+
+#include "tests/catch.hpp"
+
+namespace trueshade {
+namespace {
+
+std::string sha256(const std::string& text) {
+  Sha256 hash;
+  hash.update(text.data(), text.size());
+  return hash.hex();
+}
+
+TEST_CASE("SHA-256 gives the published digests") {
+  CHECK(sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
+        "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  CHECK(sha256("abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrst"
+               "nopqrstu") == "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1");
+  CHECK(sha256(std::string(1000000, 'a')) == "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST_CASE("SHA-256 does not depend on how its input is cut into pieces") {
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += char('!' + i % 90);
+  for (size_t length : {55u, 56u, 63u, 64u, 65u, 119u, 120u, 128u, 300u}) {
+    const std::string whole = sha256(text.substr(0, length));
+    for (size_t cut = 0; cut <= length; ++cut) {
+      Sha256 hash;
+      hash.update(text.data(), cut);
+      hash.update(text.data() + cut, length - cut);
+      if (hash.hex() != whole) FAIL("length " << length << " cut at " << cut);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trueshade
