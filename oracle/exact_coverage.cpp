@@ -12,31 +12,53 @@ namespace {
 
 constexpr int64_t kHuge = int64_t(1) << 40;  // 1/256 pixel; from here on a triangle is cut to the guard box
 
-enum class Plane { near, far, positive_w };
+enum class Plane { small_w, near, far };
+constexpr float kSmallestW = 0x1p-100f;
 
-/// A vertex of the polygon and the edge of the original triangle it lies on: ends (i, i) for an original vertex.
+/// A vertex of the polygon and the edge of the original triangle it lies on: ends (i, i) for an original vertex, (-1,
+/// -1) for a point inside the triangle.
 struct PolygonVertex {
   VertexValues values;
   int end[2];
 };
 
-/// Signed distance from a plane, times 2^149; exact.
+/// Signed distance of an original vertex from a plane, times 2^149; exact.
 WideInteger distance(const VertexValues& v, Plane plane, ClipDepth depth) {
   const WideInteger z = WideInteger::from_float(float(v[2])), w = WideInteger::from_float(float(v[3]));
   switch (plane) {
+    case Plane::small_w:
+      return w - WideInteger::from_float(kSmallestW);
     case Plane::near:
       return depth == ClipDepth::zero_to_one ? z : z + w;
     case Plane::far:
       return w - z;
-    case Plane::positive_w:
-      return w - WideInteger::from_float(0x1p-100f);
   }
   return {};
 }
 
-/// Whether a vertex made by the near cut is behind the far plane. On the near plane z = -w (or 0), so w decides; a
-/// value rounded once has the exact value's sign.
-bool inside_after_cut(const VertexValues& v) { return v[3] >= 0; }
+double rounded_distance(const VertexValues& v, Plane plane, ClipDepth depth) {
+  switch (plane) {
+    case Plane::small_w:
+      return v[3] - double(kSmallestW);
+    case Plane::near:
+      return depth == ClipDepth::zero_to_one ? v[2] : v[2] + v[3];
+    case Plane::far:
+      return v[3] - v[2];
+  }
+  return 0;
+}
+
+bool inside(const VertexValues& v, Plane plane, ClipDepth depth) {
+  switch (plane) {
+    case Plane::small_w:
+      return v[3] >= double(kSmallestW);
+    case Plane::near:
+      return depth == ClipDepth::zero_to_one ? v[2] >= 0 : v[2] >= -v[3];
+    case Plane::far:
+      return v[2] <= v[3];
+  }
+  return false;
+}
 
 VertexValues cut_original_edge(const VertexValues& a, const VertexValues& b, size_t count, Plane plane,
                                ClipDepth depth) {
@@ -50,115 +72,110 @@ VertexValues cut_original_edge(const VertexValues& a, const VertexValues& b, siz
   return result;
 }
 
-/// The near plane and the far plane meet in z = w = 0 (with zero_to_one too). Where an edge that the near cut made goes
-/// through there, w = 0 is the cut. docs/arithmetic.md does not define it; nothing a projection makes comes here.
-VertexValues cut_near_edge(const VertexValues& p, const VertexValues& q, size_t count) {
-  VertexValues result{};
-  for (size_t k = 0; k < count; ++k) {
-    const long double numerator = (long double)(p[k]) * q[3] - (long double)(q[k]) * p[3];
-    result[k] = double(numerator / ((long double)(q[3]) - p[3]));
-  }
-  result[2] = result[3] = 0.0;
-  return result;
+/// In double, from inside to outside; for edges that an earlier cut made, and for the guard box.
+VertexValues cut_rounded(const VertexValues& in, const VertexValues& out, double d_in, double d_out, size_t count) {
+  const double t = d_in / (d_in - d_out);
+  VertexValues v{};
+  for (size_t k = 0; k < count; ++k) v[k] = in[k] + (out[k] - in[k]) * t;
+  return v;
+}
+
+/// The original edge that holds both vertices, as its ends; false if they share none.
+bool shared_edge(const PolygonVertex& a, const PolygonVertex& b, int ends[2]) {
+  int all[4] = {a.end[0], a.end[1], b.end[0], b.end[1]};
+  std::sort(std::begin(all), std::end(all));
+  const auto distinct = std::unique(std::begin(all), std::end(all)) - std::begin(all);
+  ends[0] = all[0], ends[1] = all[1];
+  return distinct == 2 && all[0] >= 0;
 }
 
 std::vector<PolygonVertex> cut(const std::vector<PolygonVertex>& polygon, const std::array<VertexValues, 3>& original,
                                size_t count, Plane plane, ClipDepth depth) {
-  const auto inside = [&](const PolygonVertex& v) {
-    if (v.end[0] != v.end[1]) return inside_after_cut(v.values);
-    return distance(v.values, plane, depth).sign() >= 0;
-  };
   std::vector<PolygonVertex> result;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const PolygonVertex& a = polygon[i];
     const PolygonVertex& b = polygon[(i + 1) % polygon.size()];
-    if (inside(a)) result.push_back(a);
-    if (inside(a) == inside(b)) continue;
-    // The original edge that holds both: the one edge end of a that b's edge has, and the other.
-    int ends[4] = {a.end[0], a.end[1], b.end[0], b.end[1]};
-    std::sort(std::begin(ends), std::end(ends));
-    const auto distinct = std::unique(std::begin(ends), std::end(ends)) - std::begin(ends);
-    if (distinct == 2) {
+    const bool a_in = inside(a.values, plane, depth), b_in = inside(b.values, plane, depth);
+    if (a_in) result.push_back(a);
+    if (a_in == b_in) continue;
+    int ends[2];
+    if (shared_edge(a, b, ends)) {
       result.push_back({cut_original_edge(original[size_t(ends[0])], original[size_t(ends[1])], count, plane, depth),
                         {ends[0], ends[1]}});
     } else {
-      result.push_back({cut_near_edge(a.values, b.values, count), {ends[0], ends[2]}});
+      const VertexValues &in = a_in ? a.values : b.values, &out = a_in ? b.values : a.values;
+      result.push_back(
+          {cut_rounded(in, out, rounded_distance(in, plane, depth), rounded_distance(out, plane, depth), count),
+           {-1, -1}});
     }
   }
   return result;
 }
 
-/// Cut by one side of the guard box, sign * coordinate <= bound * w, in double as docs/arithmetic.md says.
-std::vector<VertexValues> cut_guard(const std::vector<VertexValues>& polygon, size_t count, size_t axis, double sign,
-                                    double bound) {
-  std::vector<VertexValues> result;
+/// Cut by one side of the guard box, sign * coordinate <= bound * w.
+std::vector<PolygonVertex> cut_guard(const std::vector<PolygonVertex>& polygon, size_t count, size_t axis, double sign,
+                                     double bound) {
+  std::vector<PolygonVertex> result;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const VertexValues* a = &polygon[i];
-    const VertexValues* b = &polygon[(i + 1) % polygon.size()];
-    double da = bound * (*a)[3] - sign * (*a)[axis], db = bound * (*b)[3] - sign * (*b)[axis];
-    if (da >= 0) result.push_back(*a);
+    const VertexValues& a = polygon[i].values;
+    const VertexValues& b = polygon[(i + 1) % polygon.size()].values;
+    const double da = bound * a[3] - sign * a[axis], db = bound * b[3] - sign * b[axis];
+    if (da >= 0) result.push_back(polygon[i]);
     if ((da >= 0) == (db >= 0)) continue;
-    if (da < 0) {  // always from inside to outside
-      std::swap(a, b);
-      std::swap(da, db);
-    }
-    const double t = da / (da - db);
-    VertexValues v{};
-    for (size_t k = 0; k < count; ++k) v[k] = (*a)[k] + ((*b)[k] - (*a)[k]) * t;
-    result.push_back(v);
+    result.push_back({da >= 0 ? cut_rounded(a, b, da, db, count) : cut_rounded(b, a, db, da, count), {-1, -1}});
   }
   return result;
 }
 
-/// Snaps; false where a coordinate is huge.
-bool snap(const std::array<VertexValues, 3>& values, const GeometryState& state, const Viewport& viewport,
-          WindowTriangle& out) {
-  out.values = values;
+/// Snaps one vertex; false where a coordinate is huge.
+bool snap(const VertexValues& v, const GeometryState& state, const Viewport& viewport, int64_t& x, int64_t& y) {
   const bool flip = state.clip_origin == ClipOrigin::upper_left;
-  bool any_huge = false;
-  for (size_t i = 0; i < 3; ++i) {
-    const VertexValues& v = values[i];
-    bool huge_x = false, huge_y = false;
-    out.x[i] = window_coordinate(v[0], v[3], viewport.width, viewport.x, &huge_x);
-    out.y[i] = window_coordinate(flip ? -v[1] : v[1], v[3], viewport.height, viewport.y, &huge_y);
-    any_huge = any_huge || huge_x || huge_y;
-  }
-  return !any_huge;
+  bool huge_x = false, huge_y = false;
+  x = window_coordinate(v[0], v[3], viewport.width, viewport.x, &huge_x);
+  y = window_coordinate(flip ? -v[1] : v[1], v[3], viewport.height, viewport.y, &huge_y);
+  return !huge_x && !huge_y;
 }
 
-/// Area and facing; false where nothing is left to draw.
-bool face(const GeometryState& state, WindowTriangle& t) {
-  t.twice_area = Int128(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - Int128(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
-  if (t.twice_area == 0) return false;
-  const bool counter_clockwise = (t.twice_area > 0) == (state.clip_origin == ClipOrigin::lower_left);
-  t.front = counter_clockwise == (state.front_face == FrontFace::ccw);
+std::vector<PolygonVertex> clipped(const std::array<VertexValues, 3>& values, size_t count, const GeometryState& state,
+                                   const Viewport& viewport) {
+  std::vector<PolygonVertex> polygon;
+  for (int i = 0; i < 3; ++i) {
+    polygon.push_back({values[size_t(i)], {i, i}});
+    for (size_t k = 0; k < 4; ++k)
+      if (!std::isfinite(values[size_t(i)][k])) return {};
+  }
+  polygon = cut(polygon, values, count, Plane::small_w, state.clip_depth);
+  if (!state.depth_clamp) {
+    polygon = cut(polygon, values, count, Plane::near, state.clip_depth);
+    polygon = cut(polygon, values, count, Plane::far, state.clip_depth);
+  }
+  int64_t x = 0, y = 0;
+  const bool huge = std::any_of(polygon.begin(), polygon.end(),
+                                [&](const PolygonVertex& v) { return !snap(v.values, state, viewport, x, y); });
+  if (!huge) return polygon;
+  const double bound = 0x1p31 / double(std::max(viewport.width, viewport.height));
+  for (const size_t axis : {size_t(0), size_t(1)})
+    for (const double sign : {1.0, -1.0}) polygon = cut_guard(polygon, count, axis, sign, bound);
+  return polygon;
+}
+
+/// Facing of the whole and what culling makes of it; false where nothing is left to draw.
+bool face(const GeometryState& state, Int128 area, WindowPolygon& polygon) {
+  if (area == 0) return false;
+  polygon.sign = area > 0 ? 1 : -1;
+  const bool counter_clockwise = (area > 0) == (state.clip_origin == ClipOrigin::lower_left);
+  polygon.front = counter_clockwise == (state.front_face == FrontFace::ccw);
   switch (state.cull_face) {
     case CullFace::none:
       return true;
     case CullFace::front:
-      return !t.front;
+      return !polygon.front;
     case CullFace::back:
-      return t.front;
+      return polygon.front;
     case CullFace::front_and_back:
       return false;
   }
   return true;
-}
-
-void add_fan_triangle(const std::array<VertexValues, 3>& values, size_t count, const GeometryState& state,
-                      const Viewport& viewport, std::vector<WindowTriangle>& out) {
-  WindowTriangle triangle;
-  if (snap(values, state, viewport, triangle)) {
-    if (face(state, triangle)) out.push_back(triangle);
-    return;
-  }
-  const double bound = 0x1p31 / double(std::max(viewport.width, viewport.height));
-  std::vector<VertexValues> polygon(values.begin(), values.end());
-  for (const size_t axis : {size_t(0), size_t(1)})
-    for (const double sign : {1.0, -1.0}) polygon = cut_guard(polygon, count, axis, sign, bound);
-  for (size_t i = 1; i + 1 < polygon.size(); ++i)
-    if (snap({polygon[0], polygon[i], polygon[i + 1]}, state, viewport, triangle) && face(state, triangle))
-      out.push_back(triangle);
 }
 
 bool left_or_horizontal_in(const WindowTriangle& t, size_t i, ClipOrigin origin) {
@@ -206,43 +223,62 @@ int64_t window_coordinate(double numerator, double w, int size, int origin, bool
   return int64_t(result);
 }
 
-std::vector<WindowTriangle> window_triangles(const std::array<VertexValues, 3>& values, size_t count,
-                                             const GeometryState& state, const Viewport& viewport) {
+WindowPolygon window_polygon(const std::array<VertexValues, 3>& values, size_t count, const GeometryState& state,
+                             const Viewport& viewport) {
   assert(count >= 4 && count <= kMaxValues);
-  for (const VertexValues& v : values)
-    for (size_t k = 0; k < 4; ++k)
-      if (!std::isfinite(v[k])) return {};
-  std::vector<PolygonVertex> polygon;
-  for (int i = 0; i < 3; ++i) polygon.push_back({values[size_t(i)], {i, i}});
-  if (state.depth_clamp) {
-    polygon = cut(polygon, values, count, Plane::positive_w, state.clip_depth);
-  } else {
-    polygon = cut(polygon, values, count, Plane::near, state.clip_depth);
-    polygon = cut(polygon, values, count, Plane::far, state.clip_depth);
+  const std::vector<PolygonVertex> corners = clipped(values, count, state, viewport);
+  WindowPolygon polygon;
+  Int128 area = 0;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    WindowTriangle t;
+    t.values = {corners[0].values, corners[i].values, corners[i + 1].values};
+    for (size_t k = 0; k < 3; ++k) snap(t.values[k], state, viewport, t.x[k], t.y[k]);
+    t.twice_area = Int128(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - Int128(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+    area += t.twice_area;
+    if (t.twice_area != 0) polygon.pieces.push_back(t);
   }
-  std::vector<WindowTriangle> result;
-  for (size_t i = 1; i + 1 < polygon.size(); ++i)
-    add_fan_triangle({polygon[0].values, polygon[i].values, polygon[i + 1].values}, count, state, viewport, result);
-  return result;
+  if (!face(state, area, polygon)) polygon.pieces.clear();
+  return polygon;
 }
 
-bool covers(const WindowTriangle& triangle, ClipOrigin origin, int x, int y) {
+bool covers(const WindowTriangle& piece, ClipOrigin origin, int x, int y) {
   const int64_t px = int64_t(x) * kSubpixels + kSubpixels / 2, py = int64_t(y) * kSubpixels + kSubpixels / 2;
   for (int i = 0; i < 3; ++i) {
-    const Int128 e = triangle.edge(i, px, py);
-    if (e < 0 || (e == 0 && !left_or_horizontal_in(triangle, size_t(i), origin))) return false;
+    const Int128 e = piece.edge(i, px, py);
+    if (e < 0 || (e == 0 && !left_or_horizontal_in(piece, size_t(i), origin))) return false;
   }
   return true;
 }
 
-PixelRect pixel_bounds(const WindowTriangle& t, int width, int height) {
-  const auto [left, right] = std::minmax_element(t.x.begin(), t.x.end());
-  const auto [bottom, top] = std::minmax_element(t.y.begin(), t.y.end());
+std::optional<size_t> covering_piece(const WindowPolygon& polygon, ClipOrigin origin, int x, int y) {
+  int sum = 0;
+  std::optional<size_t> first;
+  for (size_t i = 0; i < polygon.pieces.size(); ++i) {
+    const bool same_facing = (polygon.pieces[i].twice_area > 0) == (polygon.sign > 0);
+    if (!covers(polygon.pieces[i], origin, x, y)) continue;
+    sum += same_facing ? 1 : -1;
+    if (same_facing && !first) first = i;
+  }
+  return sum > 0 ? first : std::nullopt;
+}
+
+PixelRect pixel_bounds(const WindowPolygon& polygon, const Viewport& viewport, int width, int height) {
+  if (polygon.pieces.empty()) return {};
+  int64_t left = kHuge, right = -kHuge, bottom = kHuge, top = -kHuge;
+  for (const WindowTriangle& piece : polygon.pieces)
+    for (size_t k = 0; k < 3; ++k) {
+      left = std::min(left, piece.x[k]), right = std::max(right, piece.x[k]);
+      bottom = std::min(bottom, piece.y[k]), top = std::max(top, piece.y[k]);
+    }
   // A shift rounds down: the first sample at or after c is pixel (c + 127) >> 8, the last at or before it (c - 128)
   // >> 8.
-  const auto first = [](int64_t c, int size) { return int(std::clamp<int64_t>((c + 127) >> 8, 0, size)); };
-  const auto past_last = [](int64_t c, int size) { return int(std::clamp<int64_t>(((c - 128) >> 8) + 1, 0, size)); };
-  return {first(*left, width), first(*bottom, height), past_last(*right, width), past_last(*top, height)};
+  const auto bounded = [](int64_t pixel, int64_t origin, int64_t size, int64_t image) {
+    return int(std::clamp(std::clamp(pixel, origin, origin + size), int64_t(0), image));
+  };
+  return {bounded((left + 127) >> 8, viewport.x, viewport.width, width),
+          bounded((bottom + 127) >> 8, viewport.y, viewport.height, height),
+          bounded(((right - 128) >> 8) + 1, viewport.x, viewport.width, width),
+          bounded(((top - 128) >> 8) + 1, viewport.y, viewport.height, height)};
 }
 
 void count_exactly(std::span<const ClipTriangleValues> triangles, const GeometryState& state, int width, int height,
@@ -253,12 +289,11 @@ void count_exactly(std::span<const ClipTriangleValues> triangles, const Geometry
     std::array<VertexValues, 3> values{};
     for (size_t i = 0; i < 3; ++i)
       for (size_t k = 0; k < 4; ++k) values[i][k] = double(triangle.vertex[i][k]);
-    for (const WindowTriangle& t : window_triangles(values, 4, state, viewport)) {
-      const PixelRect box = pixel_bounds(t, width, height);
-      for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x)
-          if (covers(t, state.clip_origin, x, y)) ++counts[size_t(y) * size_t(width) + size_t(x)];
-    }
+    const WindowPolygon polygon = window_polygon(values, 4, state, viewport);
+    const PixelRect box = pixel_bounds(polygon, viewport, width, height);
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = box.x0; x < box.x1; ++x)
+        if (covering_piece(polygon, state.clip_origin, x, y)) ++counts[size_t(y) * size_t(width) + size_t(x)];
   }
 }
 

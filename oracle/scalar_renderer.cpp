@@ -74,6 +74,12 @@ double float_spacing(double magnitude) {
   return double(std::nextafter(m, std::numeric_limits<float>::infinity())) - double(m);
 }
 
+Real vertex_depth(const VertexValues& v, const GeometryState& state) {
+  const Real z = Real(v[2]) / Real(v[3]), near = state.depth_near, far = state.depth_far;
+  if (state.clip_depth == ClipDepth::zero_to_one) return z * (far - near) + near;
+  return z * ((far - near) / 2) + (near + far) / 2;
+}
+
 Fragment fragment_of(const DrawnTriangle& t, uint32_t index, const GeometryState& state, int x, int y) {
   Fragment f;
   f.instance = t.instance;
@@ -175,23 +181,21 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
       std::array<VertexValues, 3> values;
       for (size_t i = 0; i < 3; ++i)
         values[i] = vertex_values(scene, drawn, clip_from_world, indices[3 * triangle + i]);
-      for (const WindowTriangle& window : window_triangles(values, kMaxValues, state, viewport)) {
-        DrawnTriangle t{window, instance, triangle, {}, values[state.provoking == Provoking::last ? 2 : 0]};
-        const bool zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
-        const Real near = state.depth_near, far = state.depth_far;
-        for (size_t i = 0; i < 3; ++i) {
-          const Real z = Real(window.values[i][2]) / Real(window.values[i][3]);
-          t.depth[i] = zero_to_one ? z * (far - near) + near : z * ((far - near) / 2) + (near + far) / 2;
-        }
-        const uint32_t index = uint32_t(frame.triangles.size());
-        frame.triangles.push_back(t);
-        const PixelRect box = pixel_bounds(window, frame.width, frame.height);
-        for (int y = box.y0; y < box.y1; ++y)
-          for (int x = box.x0; x < box.x1; ++x)
-            if (covers(window, state.clip_origin, x, y))
-              frame.fragments[size_t(y) * size_t(frame.width) + size_t(x)].push_back(
-                  fragment_of(t, index, state, x, y));
+      const WindowPolygon polygon = window_polygon(values, kMaxValues, state, viewport);
+      const auto first = uint32_t(frame.triangles.size());
+      for (const WindowTriangle& window : polygon.pieces) {
+        DrawnTriangle piece{window, instance, triangle, {}, values[state.provoking == Provoking::last ? 2 : 0]};
+        for (size_t i = 0; i < 3; ++i) piece.depth[i] = vertex_depth(window.values[i], state);
+        frame.triangles.push_back(piece);
       }
+      const PixelRect box = pixel_bounds(polygon, viewport, frame.width, frame.height);
+      for (int y = box.y0; y < box.y1; ++y)
+        for (int x = box.x0; x < box.x1; ++x)
+          if (const std::optional<size_t> piece = covering_piece(polygon, state.clip_origin, x, y)) {
+            const auto index = first + uint32_t(*piece);
+            frame.fragments[size_t(y) * size_t(frame.width) + size_t(x)].push_back(
+                fragment_of(frame.triangles[index], index, state, x, y));
+          }
     }
   }
   return frame;

@@ -206,3 +206,11 @@ TEST_CASE("Oracle: every sample of a random quadrilateral belongs to one of its 
       }
   }
 }
+
+TEST_CASE("Oracle: pixels outside the viewport are never drawn") {
+  GeometryState state;
+  state.viewport = {-3, 4, 20, 30};
+  const auto drawn = counts({ClipTriangleValues{{{-4, -4, 0, 1}, {9, -4, 0, 1}, {-4, 9, 0, 1}}}}, state);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) REQUIRE(at(drawn, x, y) == (x < 17 && y >= 4 && y < 34 ? 1 : 0));
+}
