@@ -7,14 +7,6 @@
 namespace trueshade {
 namespace {
 
-Matrix4 product(const Matrix4& a, const Matrix4& b) {
-  Matrix4 out;
-  for (size_t c = 0; c < 4; ++c)
-    for (size_t r = 0; r < 4; ++r)
-      out[4 * c + r] = ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
-  return out;
-}
-
 Matrix4 from_affine(const glm::mat4x3& m) {
   Matrix4 out{};
   for (int c = 0; c < 4; ++c)

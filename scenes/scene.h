@@ -33,6 +33,7 @@ struct Scene {
   std::vector<Light> lights;
   Camera camera;
   glm::vec4 clear{0.0f};  ///< linear RGBA of the target where nothing is drawn
+  std::string pipeline_text;  ///< JSON of the scene file's "pipeline", for pipeline_from_json(); empty if it has none
 
   uint64_t triangle_count() const;  ///< over all instances
 };
@@ -50,6 +51,8 @@ struct SceneLimits {
 void validate(const Scene& scene, const SceneLimits& limits = {});
 
 /// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
+/// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of lights.
+/// Errors: bad_input with file and place; limit; io for a file that cannot be read.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {});
 
 /// SHA-256 over the loaded values (not over file bytes): meshes, materials, instances, lights, camera, clear colour.

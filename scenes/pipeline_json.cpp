@@ -1,0 +1,245 @@
+#include "scenes/pipeline_json.h"
+
+#include <array>
+
+#include "scenes/presets.h"
+
+namespace trueshade {
+namespace {
+
+using Names = std::span<const std::string_view>;
+
+// Spelling of enumerators, in the order of their values.
+constexpr std::string_view kDepthFuncs[] = {"never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"};
+constexpr std::string_view kCullFaces[] = {"none", "front", "back", "front_and_back"};
+constexpr std::string_view kFrontFaces[] = {"ccw", "cw"};
+constexpr std::string_view kClipOrigins[] = {"lower_left", "upper_left"};
+constexpr std::string_view kClipDepths[] = {"negative_one_to_one", "zero_to_one"};
+constexpr std::string_view kInterpolations[] = {"smooth", "flat", "noperspective"};
+constexpr std::string_view kProvoking[] = {"last", "first"};
+constexpr std::string_view kStrategies[] = {"deferred-loop"};
+constexpr std::string_view kHalfRounds[] = {"toward_zero", "nearest"};
+constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic"};
+constexpr std::string_view kOrders[] = {"factored", "separate"};
+
+constexpr std::string_view kRootKeys[] = {"version", "preset", "width", "height", "geometry", "gbuffer", "light_model", "strategy", "target"};
+constexpr std::string_view kGeometryKeys[] = {"viewport", "depth_near", "depth_far", "depth_func", "clear_depth", "depth_clamp",
+                                              "cull_face", "front_face", "clip_origin", "clip_depth", "provoking"};
+constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
+constexpr std::string_view kGBufferKeys[] = {"position", "normal", "albedo", "uv", "position_from_depth", "half_round"};
+constexpr std::string_view kPlaneKeys[] = {"format", "interpolation"};
+constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess", "specular_color", "falloff", "order", "alpha_from_albedo"};
+
+enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel };
+constexpr std::array<json::ObjectKeys, 6> kObjects{{{"", kRootKeys},
+                                                    {"geometry", kGeometryKeys},
+                                                    {"viewport", kViewportKeys},
+                                                    {"gbuffer", kGBufferKeys},
+                                                    {"plane", kPlaneKeys},
+                                                    {"light_model", kLightModelKeys}}};
+
+// --- Writing -------------------------------------------------------------------------------------------------------
+
+/// An object being written, member after member.
+class Writer {
+ public:
+  explicit Writer(std::string& out) : out_(out) { out_ += '{'; }
+  ~Writer() { out_ += '}'; }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  std::string& key(std::string_view name) {
+    if (!first_) out_ += ',';
+    first_ = false;
+    json::append_string(out_, name);
+    return out_ += ':';
+  }
+  void put(std::string_view name, int value) { key(name) += std::to_string(value); }
+  void put(std::string_view name, bool value) { key(name) += value ? "true" : "false"; }
+  void put(std::string_view name, float value) { json::append_number(key(name), value); }
+  void put(std::string_view name, std::string_view value) { json::append_string(key(name), value); }
+  template <typename Enum>
+  void put(std::string_view name, Enum value, Names names) {
+    put(name, names[size_t(value)]);
+  }
+
+ private:
+  std::string& out_;
+  bool first_ = true;
+};
+
+void write_geometry(std::string& out, const GeometryState& g) {
+  Writer w(out);
+  {
+    Writer v(w.key("viewport"));
+    v.put("x", g.viewport.x);
+    v.put("y", g.viewport.y);
+    v.put("width", g.viewport.width);
+    v.put("height", g.viewport.height);
+  }
+  w.put("depth_near", g.depth_near);
+  w.put("depth_far", g.depth_far);
+  w.put("depth_func", g.depth_func, kDepthFuncs);
+  w.put("clear_depth", g.clear_depth);
+  w.put("depth_clamp", g.depth_clamp);
+  w.put("cull_face", g.cull_face, kCullFaces);
+  w.put("front_face", g.front_face, kFrontFaces);
+  w.put("clip_origin", g.clip_origin, kClipOrigins);
+  w.put("clip_depth", g.clip_depth, kClipDepths);
+  w.put("provoking", g.provoking, kProvoking);
+}
+
+void write_plane(std::string& out, const PlaneState& plane) {
+  Writer w(out);
+  w.put("format", info(plane.format).name);
+  w.put("interpolation", plane.interpolation, kInterpolations);
+}
+
+void write_gbuffer(std::string& out, const GBufferState& g) {
+  Writer w(out);
+  write_plane(w.key("position"), g.position);
+  write_plane(w.key("normal"), g.normal);
+  write_plane(w.key("albedo"), g.albedo);
+  write_plane(w.key("uv"), g.uv);
+  w.put("position_from_depth", g.position_from_depth);
+  w.put("half_round", g.half_round, kHalfRounds);
+}
+
+void write_light_model(std::string& out, const LightModel& m) {
+  Writer w(out);
+  w.put("renormalize", m.renormalize);
+  w.put("specular_masked", m.specular_masked);
+  w.put("shininess", m.shininess);
+  w.key("specular_color");
+  for (int k = 0; k < 3; ++k) json::append_number(out += k == 0 ? '[' : ',', m.specular_color[k]);
+  out += ']';
+  w.put("falloff", m.falloff, kFalloffs);
+  w.put("order", m.order, kOrders);
+  w.put("alpha_from_albedo", m.alpha_from_albedo);
+}
+
+// --- Reading -------------------------------------------------------------------------------------------------------
+
+constexpr float kLargest = 1e18f;
+
+void read(const json::Node& node, bool& value) { value = node.boolean(); }
+
+template <typename Enum>
+void read_choice(const json::Node& object, std::string_view key, Enum& value, Names names) {
+  if (const auto node = object.find(key)) value = Enum(node->choice(names));
+}
+
+void read_flag(const json::Node& object, std::string_view key, bool& value) {
+  if (const auto node = object.find(key)) read(*node, value);
+}
+
+void read_real(const json::Node& object, std::string_view key, float& value, float least, float most) {
+  if (const auto node = object.find(key)) value = node->real(least, most);
+}
+
+void read_integer(const json::Node& object, std::string_view key, int& value, int least, int most) {
+  if (const auto node = object.find(key)) value = int(node->integer(least, most));
+}
+
+void read_geometry(const json::Node& node, GeometryState& g) {
+  node.check_keys(kObjects[kGeometry]);
+  if (const auto v = node.find("viewport")) {
+    v->check_keys(kObjects[kViewport]);
+    read_integer(*v, "x", g.viewport.x, INT32_MIN, INT32_MAX);
+    read_integer(*v, "y", g.viewport.y, INT32_MIN, INT32_MAX);
+    read_integer(*v, "width", g.viewport.width, 0, INT32_MAX);
+    read_integer(*v, "height", g.viewport.height, 0, INT32_MAX);
+  }
+  read_real(node, "depth_near", g.depth_near, 0.0f, 1.0f);
+  read_real(node, "depth_far", g.depth_far, 0.0f, 1.0f);
+  read_choice(node, "depth_func", g.depth_func, kDepthFuncs);
+  read_real(node, "clear_depth", g.clear_depth, 0.0f, 1.0f);
+  read_flag(node, "depth_clamp", g.depth_clamp);
+  read_choice(node, "cull_face", g.cull_face, kCullFaces);
+  read_choice(node, "front_face", g.front_face, kFrontFaces);
+  read_choice(node, "clip_origin", g.clip_origin, kClipOrigins);
+  read_choice(node, "clip_depth", g.clip_depth, kClipDepths);
+  read_choice(node, "provoking", g.provoking, kProvoking);
+}
+
+Format read_format(const json::Node& node, Names names) { return *format_from_name(names[node.choice(names)]); }
+
+void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& plane) {
+  constexpr std::string_view kFormats[] = {"rgba32f", "rgba16f", "rgb16f", "rgba8"};  // rgba8 for albedo alone
+  const auto node = gbuffer.find(key);
+  if (!node) return;
+  node->check_keys(kObjects[kPlane]);
+  if (const auto format = node->find("format")) plane.format = read_format(*format, Names(kFormats).first(key == "albedo" ? 4 : 3));
+  read_choice(*node, "interpolation", plane.interpolation, kInterpolations);
+}
+
+void read_gbuffer(const json::Node& node, GBufferState& g) {
+  node.check_keys(kObjects[kGBuffer]);
+  read_plane(node, "position", g.position);
+  read_plane(node, "normal", g.normal);
+  read_plane(node, "albedo", g.albedo);
+  read_plane(node, "uv", g.uv);
+  read_flag(node, "position_from_depth", g.position_from_depth);
+  read_choice(node, "half_round", g.half_round, kHalfRounds);
+}
+
+void read_light_model(const json::Node& node, LightModel& m) {
+  node.check_keys(kObjects[kLightModel]);
+  read_flag(node, "renormalize", m.renormalize);
+  read_flag(node, "specular_masked", m.specular_masked);
+  read_real(node, "shininess", m.shininess, 0.0f, kLargest);
+  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, kLargest);
+  read_choice(node, "falloff", m.falloff, kFalloffs);
+  read_choice(node, "order", m.order, kOrders);
+  read_flag(node, "alpha_from_albedo", m.alpha_from_albedo);
+}
+
+}  // namespace
+
+std::span<const json::ObjectKeys> pipeline_object_keys() { return kObjects; }
+
+std::string pipeline_json(const Pipeline& pipeline) {
+  std::string out;
+  {
+    Writer w(out);
+    w.put("version", 1);
+    w.put("preset", std::string_view(pipeline.preset));
+    w.put("width", pipeline.width);
+    w.put("height", pipeline.height);
+    write_geometry(w.key("geometry"), pipeline.geometry);
+    write_gbuffer(w.key("gbuffer"), pipeline.gbuffer);
+    write_light_model(w.key("light_model"), pipeline.light_model);
+    w.put("strategy", pipeline.strategy, kStrategies);
+    w.put("target", info(pipeline.target).name);
+  }
+  return out;
+}
+
+Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
+  constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
+  node.check_keys(kObjects[kRoot]);
+  if (const auto version = node.find("version")) version->integer(1, 1);
+  Pipeline p = base;
+  if (const auto preset = node.find("preset")) {
+    std::vector<std::string_view> names;
+    for (const Preset& row : presets()) names.push_back(row.name);
+    p = presets()[preset->choice(names)].pipeline;
+  }
+  read_integer(node, "width", p.width, 1, 65536);
+  read_integer(node, "height", p.height, 1, 65536);
+  if (const auto geometry = node.find("geometry")) read_geometry(*geometry, p.geometry);
+  if (const auto gbuffer = node.find("gbuffer")) read_gbuffer(*gbuffer, p.gbuffer);
+  if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);
+  read_choice(node, "strategy", p.strategy, kStrategies);
+  if (const auto target = node.find("target")) p.target = read_format(*target, kTargets);
+  if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
+    node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions", "give them different values");
+  return p;
+}
+
+Pipeline pipeline_from_json(std::string_view text, std::string_view where, const Pipeline& base) {
+  const json::Value value = json::parse(text, where);
+  return pipeline_from_node(json::Node(value, where), base);
+}
+
+}  // namespace trueshade

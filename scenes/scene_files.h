@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Files a scene is made of. A scene file comes from anywhere; what it names may lie in its own folder only.
+namespace trueshade {
+
+using Bytes = std::vector<uint8_t>;
+
+/// Whole content of the regular file at `path`, which the user gave. Never waits for a pipe or device.
+/// Error(io) if it cannot be read, Error(bad_input) if it is no regular file, Error(limit) over `limit` bytes.
+Bytes read_user_file(const std::string& path, uint64_t limit);
+
+/// Path that a URI in a scene file stands for: percent-decoded and relative. Error(bad_input) behind `where` for a scheme,
+/// an absolute path, a backslash, NUL or other control character, a bad escape, or more `..` than folders before it.
+std::string relative_path_from_uri(std::string_view uri, std::string_view where);
+
+/// The folder of a scene file, held open: what is read lies beneath it, symbolic links followed.
+class SceneFolder {
+ public:
+  explicit SceneFolder(const std::string& scene_path);
+  ~SceneFolder();
+  SceneFolder(const SceneFolder&) = delete;
+  SceneFolder& operator=(const SceneFolder&) = delete;
+
+  /// As read_user_file(), of `relative` (from relative_path_from_uri) beneath the folder; also Error(bad_input) if a link
+  /// leads out. `portable`: by resolved names instead of openat2(2), as on kernels before 5.6.
+  Bytes read(const std::string& relative, uint64_t limit, std::string_view where, bool portable = false) const;
+
+ private:
+  int open_beneath(const std::string& relative, bool portable) const;
+  std::string name_;
+  int folder_ = -1;
+};
+
+/// Content of a .gz file, all its members. Error(bad_input) for a broken stream, Error(limit) over `limit` bytes.
+Bytes gunzipped(const Bytes& compressed, uint64_t limit, std::string_view where);
+
+}  // namespace trueshade

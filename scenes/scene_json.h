@@ -1,0 +1,18 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenes/json_value.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+
+/// The keys of every object of a scene's text, the root first; those of its "pipeline" aside.
+std::span<const json::ObjectKeys> scene_object_keys();
+
+/// Scene of a JSON text (scenes/scene.schema.json). Geometry files are read from the folder of `path`, once each.
+/// Not validated. Error(bad_input) with JSON pointer, line or byte; Error(limit), Error(io) for the geometry files.
+Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits);
+
+}  // namespace trueshade
