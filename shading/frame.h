@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "raster/simd_target.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
@@ -68,8 +69,5 @@ Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const E
                    std::span<const std::string> aovs = {}, const Progress& progress = {});
 Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {});
-
-/// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
-std::vector<std::string_view> simd_targets();
 
 }  // namespace trueshade

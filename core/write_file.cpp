@@ -1,0 +1,94 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/image_io.h"
+
+namespace trueshade {
+namespace {
+
+const char* remedy(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR: return "create the folder first";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "choose a folder you may write to";
+    case ENOSPC:
+    case EDQUOT: return "free some space or choose another disk";
+    case EFBIG: return "raise the limit on file sizes, or write a smaller image";
+    case EISDIR: return "name a file, not a folder";
+    default: return "check the disk and the folder";
+  }
+}
+
+[[noreturn]] void fail(const std::string& path, const char* step, int error) {
+  throw Error(ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(error), remedy(error));
+}
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+/// A file under a name of its own beside `path`; removed on destruction unless it took the name of `path`.
+class Temporary {
+ public:
+  explicit Temporary(const std::string& path) : path_(path) {
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+      name_ = folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+      descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail(path, "create a file in its folder", errno);
+    }
+  }
+  ~Temporary() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!name_.empty()) unlink(name_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  void write_all(std::span<const uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(path_, "write", errno);
+      bytes = bytes.subspan(size_t(written));
+    }
+  }
+
+  /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
+  void take_name() {
+    if (fsync(descriptor_) != 0 && errno != EINVAL) fail(path_, "write to disk", errno);
+    const int closed = close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) fail(path_, "write", errno);
+    if (rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "take this name", errno);
+    name_.clear();
+    const int folder = open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;  // a folder may be writable and not readable; its entry is then written when the system likes
+    const int synced = fsync(folder) != 0 && errno != EINVAL ? errno : 0;
+    close(folder);
+    if (synced != 0) fail(path_, "write its folder to disk", synced);
+  }
+
+ private:
+  std::string path_, name_;
+  int descriptor_ = -1;
+};
+
+}  // namespace
+
+void write_file(const std::string& path, std::span<const uint8_t> bytes) {
+  Temporary file(path);
+  file.write_all(bytes);
+  file.take_name();
+}
+
+}  // namespace trueshade

@@ -1,0 +1,86 @@
+// Perspective-correct, linear and flat attributes of vectors of pixels. Included once per SIMD target.
+// docs/arithmetic.md section 5.
+#if defined(TRUESHADE_RASTER_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_INTERPOLATE_INL_H_
+#undef TRUESHADE_RASTER_INTERPOLATE_INL_H_
+#else
+#define TRUESHADE_RASTER_INTERPOLATE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "raster/surfaces.h"
+#include "raster/vertex_stage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using VI32 = hn::Vec<I32>;
+
+/// Weights of vertices 1 and 2 in canonical order, and where the vertices are in VisibleVertices.
+struct Weights {
+  VI32 vertex[3];        ///< canonical order
+  V64 smooth[2], linear[2];
+};
+
+/// Smaller and larger of two, the first where equal: the same answer for -0 and 0 on every target, unlike Min and Max.
+HWY_INLINE V32 lesser(V32 a, V32 b) { return hn::IfThenElse(hn::Lt(b, a), b, a); }
+HWY_INLINE V32 greater(V32 a, V32 b) { return hn::IfThenElse(hn::Gt(b, a), b, a); }
+
+HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 px, V64 py) {
+  const D64 d;
+  const I32 di;
+  const hn::Rebind<int64_t, D64> dl;
+  VI32 x[3], y[3];
+  for (int i = 0; i < 3; ++i) {
+    x[i] = hn::GatherIndex(di, in.x.data(), corner[i]);
+    y[i] = hn::GatherIndex(di, in.y.data(), corner[i]);
+  }
+  const auto before = [&](int a, int b) { return hn::Or(hn::Lt(y[a], y[b]), hn::And(hn::Eq(y[a], y[b]), hn::Lt(x[a], x[b]))); };
+  const auto first_is_1 = hn::And(before(1, 0), hn::Not(before(2, 1)));
+  const auto first_is_2 = hn::And(before(2, 0), before(2, 1));
+  const auto turn = [&](const VI32 v[3], VI32 out[3]) {
+    for (int i = 0; i < 3; ++i)
+      out[i] = hn::IfThenElse(first_is_2, v[(i + 2) % 3], hn::IfThenElse(first_is_1, v[(i + 1) % 3], v[i]));
+  };
+  Weights w;
+  VI32 cx[3], cy[3];
+  turn(corner, w.vertex);
+  turn(x, cx);
+  turn(y, cy);
+  V64 rx[3], ry[3], u[3], e[3];
+  for (int i = 0; i < 3; ++i) {
+    rx[i] = hn::Sub(hn::PromoteTo(d, cx[i]), hn::Mul(px, hn::Set(d, 256.0)));
+    ry[i] = hn::Sub(hn::PromoteTo(d, cy[i]), hn::Mul(py, hn::Set(d, 256.0)));
+    u[i] = hn::GatherIndex(d, in.u.data(), hn::PromoteTo(dl, w.vertex[i]));
+  }
+  for (int i = 0; i < 3; ++i)
+    e[i] = hn::Sub(hn::Mul(rx[(i + 1) % 3], ry[(i + 2) % 3]), hn::Mul(rx[(i + 2) % 3], ry[(i + 1) % 3]));
+  const V64 one = hn::Set(d, 1.0);
+  const V64 l0 = hn::Mul(e[0], u[0]), l1 = hn::Mul(e[1], u[1]), l2 = hn::Mul(e[2], u[2]);
+  const V64 r = hn::Div(one, hn::Add(hn::Add(l0, l1), l2));
+  w.smooth[0] = hn::Mul(l1, r);
+  w.smooth[1] = hn::Mul(l2, r);
+  const V64 inverse_area = hn::Div(one, hn::Add(hn::Add(e[0], e[1]), e[2]));
+  w.linear[0] = hn::Mul(e[1], inverse_area);
+  w.linear[1] = hn::Mul(e[2], inverse_area);
+  return w;
+}
+
+HWY_INLINE V32 interpolated(const float* stream, const Weights& w, Interpolation how, VI32 provoking) {
+  const D64 d;
+  const D32 df;
+  if (how == Interpolation::flat) return hn::GatherIndex(df, stream, provoking);
+  const V32 a0 = hn::GatherIndex(df, stream, w.vertex[0]), a1 = hn::GatherIndex(df, stream, w.vertex[1]),
+            a2 = hn::GatherIndex(df, stream, w.vertex[2]);
+  const V64* b = how == Interpolation::smooth ? w.smooth : w.linear;
+  const V64 base = hn::PromoteTo(d, a0);
+  const V64 sum = hn::Add(hn::Mul(b[0], hn::Sub(hn::PromoteTo(d, a1), base)), hn::Mul(b[1], hn::Sub(hn::PromoteTo(d, a2), base)));
+  const V32 value = hn::DemoteTo(df, hn::Add(base, sum));
+  const V32 low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
+  return lesser(greater(value, low), high);
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

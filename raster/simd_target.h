@@ -1,0 +1,23 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+namespace trueshade {
+
+/// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
+std::vector<std::string_view> simd_targets();
+
+/// For its lifetime kernels run on one SIMD target: `best`, or a name of simd_targets(). Error(usage) if the machine does
+/// not run it. The choice is the process's: frames drawn at the same time share it (the image does not depend on it).
+class SimdScope {
+ public:
+  explicit SimdScope(std::string_view name);
+  ~SimdScope();
+  SimdScope(const SimdScope&) = delete;
+  SimdScope& operator=(const SimdScope&) = delete;
+
+ private:
+  bool chosen_;
+};
+
+}  // namespace trueshade

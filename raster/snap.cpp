@@ -1,0 +1,55 @@
+#include "raster/snap.h"
+
+#include <cmath>
+
+#include "raster/fixed_point.h"
+
+namespace trueshade {
+namespace {
+
+using Wide = __int128;
+
+// Sign of x * a - w * b, exact: mantissas of 53 bits times factors below 2^42, in 128-bit integers. The caller asks
+// only where both products are close, so their exponents differ by less than the factors' range.
+int compare_products(double x, int64_t a, double w, int64_t b) {
+  int x_exponent = 0, w_exponent = 0;
+  Wide left = Wide(int64_t(std::ldexp(std::frexp(x, &x_exponent), 53))) * a;
+  Wide right = Wide(int64_t(std::ldexp(std::frexp(w, &w_exponent), 53))) * b;
+  if (left == 0 || right == 0 || (left < 0) != (right < 0)) return (left > right) - (left < right);
+  const auto magnitude_bits = [](Wide v) {
+    int bits = 0;
+    for (unsigned __int128 m = v < 0 ? static_cast<unsigned __int128>(-v) : static_cast<unsigned __int128>(v); m != 0; m >>= 1) ++bits;
+    return bits;
+  };
+  const int sign = left < 0 ? -1 : 1;
+  const int left_top = magnitude_bits(left) + x_exponent, right_top = magnitude_bits(right) + w_exponent;
+  if (left_top != right_top) return left_top > right_top ? sign : -sign;
+  const int shift = x_exponent - w_exponent;  // equal tops: the shifted operand ends as long as the other
+  if (shift > 0) left <<= shift;
+  if (shift < 0) right <<= -shift;
+  return (left > right) - (left < right);
+}
+
+}  // namespace
+
+std::optional<int64_t> snapped_quotient(double x, double w, int64_t scale) {
+  const double estimate = (x / w) * double(scale);
+  if (!(std::abs(estimate) < double(kWideLimit))) return std::nullopt;
+  int64_t n = int64_t(std::nearbyint(estimate));
+  // n is right if |2 x scale - 2 n w| <= w, with n even where equal. The estimate is at most one off.
+  for (;;) {
+    const int above = compare_products(x, 2 * scale, w, 2 * n + 1);
+    if (above > 0 || (above == 0 && n % 2 != 0)) {
+      ++n;
+      continue;
+    }
+    const int below = compare_products(x, 2 * scale, w, 2 * n - 1);
+    if (below < 0 || (below == 0 && n % 2 != 0)) {
+      --n;
+      continue;
+    }
+    return n;
+  }
+}
+
+}  // namespace trueshade

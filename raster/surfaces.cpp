@@ -1,0 +1,287 @@
+#include "raster/surfaces.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/surfaces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raster/careful.h"
+#include "raster/interpolate-inl.h"
+#include "raster/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr size_t kSlot = kClusterVertices;
+
+void copy_stream(const std::vector<float>& from, const uint32_t* vertex, int count, float absent, float* to) {
+  for (int i = 0; i < count; ++i) to[i] = from.empty() ? absent : from[vertex[i]];
+}
+
+// World position and unit world normal of a slot's vertices; the object-space values are there already.
+void to_world(const InstanceTransform& t, VisibleVertices& work, size_t at, int count) {
+  const D32 d;
+  const float zero_row[3][4] = {{t.normal[0][0], t.normal[0][1], t.normal[0][2], 0.0f},
+                                {t.normal[1][0], t.normal[1][1], t.normal[1][2], 0.0f},
+                                {t.normal[2][0], t.normal[2][1], t.normal[2][2], 0.0f}};
+  float* stream[6];
+  for (int c = 0; c < 6; ++c) stream[c] = work.stream[c].data() + at;
+  for (int i = 0; i < count; i += int(hn::Lanes(d))) {
+    const V32 x = hn::LoadU(d, stream[0] + i), y = hn::LoadU(d, stream[1] + i), z = hn::LoadU(d, stream[2] + i);
+    const V32 nx = hn::LoadU(d, stream[3] + i), ny = hn::LoadU(d, stream[4] + i), nz = hn::LoadU(d, stream[5] + i);
+    V32 n[3];
+    for (int r = 0; r < 3; ++r) {
+      hn::StoreU(affine_row(t.world[r], x, y, z), d, stream[r] + i);
+      const V32 a = hn::Mul(hn::Set(d, zero_row[r][0]), nx), b = hn::Mul(hn::Set(d, zero_row[r][1]), ny);
+      n[r] = hn::Add(hn::Add(a, b), hn::Mul(hn::Set(d, zero_row[r][2]), nz));
+    }
+    const V32 l2 = hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2]));
+    const V32 inverse = hn::IfThenElseZero(hn::Gt(l2, hn::Zero(d)), hn::Div(hn::Set(d, 1.0f), hn::Sqrt(l2)));
+    for (int r = 0; r < 3; ++r) hn::StoreU(hn::Mul(n[r], inverse), d, stream[3 + r] + i);
+  }
+}
+
+// Transforms the vertices of one seen cluster into its slot.
+void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int32_t slot, bool need_uv, VisibleVertices& work) {
+  const ClusterDraw& draw = in.draws[in.list[position]];
+  const Instance& instance = in.scene.instances[draw.instance];
+  const ClusteredMesh& clusters = in.clusters.meshes[instance.mesh];
+  const Cluster& cluster = clusters.clusters[draw.cluster];
+  const Mesh& mesh = in.scene.meshes[instance.mesh];
+  const size_t at = size_t(slot) * kSlot;
+  if (work.x.size() < at + kSlot) {
+    const size_t grown = std::max(2 * work.x.size(), at + kSlot);
+    work.x.resize(grown), work.y.resize(grown), work.u.resize(grown);
+    for (auto& stream : work.stream) stream.resize(grown);
+  }
+  WindowVertices window;
+  window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y), window);
+  std::copy_n(window.x, cluster.vertices, work.x.data() + at);
+  std::copy_n(window.y, cluster.vertices, work.y.data() + at);
+  std::copy_n(window.u, cluster.vertices, work.u.data() + at);
+  const uint32_t* vertex = &clusters.vertex[cluster.first_vertex];
+  for (size_t c = 0; c < 3; ++c) {
+    std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices, work.stream[size_t(kPosition) + c].data() + at);
+    copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
+  }
+  for (size_t c = 0; c < 4; ++c) copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
+  for (size_t c = 0; c < 2 && need_uv; ++c) copy_stream(mesh.uv[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kUv) + c].data() + at);
+  to_world(in.view.instances[draw.instance], work, at, cluster.vertices);
+}
+
+// Gives every seen cluster a slot and every pixel the three vertices of its triangle.
+void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
+                  SurfaceTile& out) {
+  const int pixels = rect.size * rect.size;
+  work.slot_of.resize(std::max(work.slot_of.size(), in.list.size()), -1);
+  work.position_of.clear();
+  for (auto& corner : work.corner) corner.assign(size_t(pixels), 0);
+  out.covered_pixels = 0;
+  for (int i = 0; i < pixels; ++i) {
+    const uint32_t id = visible.id[i];
+    out.covered[i] = id == 0 ? 0 : -1;
+    if (id == 0) {
+      out.object[i] = out.material[i] = 0;
+      continue;
+    }
+    ++out.covered_pixels;
+    const uint32_t position = id_position(id);
+    int32_t& slot = work.slot_of[position];
+    if (slot < 0) {
+      slot = int32_t(work.position_of.size());
+      work.position_of.push_back(position);
+      fill_slot(in, rect, position, slot, need_uv, work);
+    }
+    const ClusterDraw& draw = in.draws[in.list[position]];
+    const Instance& instance = in.scene.instances[draw.instance];
+    const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
+    const size_t triangle = mesh.clusters[draw.cluster].first_triangle + id_triangle(id);
+    for (size_t k = 0; k < 3; ++k) work.corner[k][size_t(i)] = uint32_t(slot) * uint32_t(kSlot) + mesh.corner[k][triangle];
+    out.object[i] = draw.instance + 1;
+    out.material[i] = instance.material + 1;
+  }
+  for (const uint32_t position : work.position_of) work.slot_of[position] = -1;
+}
+
+struct StreamGroup {
+  int first, count;
+  PlaneState plane;
+};
+
+// Which planes are interpolated, and how.
+int stream_groups(const GBufferState& planes, bool need_uv, StreamGroup out[4]) {
+  int count = 0;
+  if (!planes.position_from_depth) out[count++] = {kPosition, 3, planes.position};
+  out[count++] = {kNormal, 3, planes.normal};
+  out[count++] = {kAlbedo, 4, planes.albedo};
+  if (need_uv) out[count++] = {kUv, 2, planes.uv};
+  return count;
+}
+
+void interpolate_tile(const TileRect& rect, const GeometryState& state, const StreamGroup* group, int groups,
+                      const VisibleVertices& work, SurfaceTile& out) {
+  const D64 d;
+  const D32 df;
+  const I32 di;
+  alignas(64) static constexpr double kColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
+  const int blocks = rect.size / kBlockSize;
+  for (int i = 0; i < rect.size * rect.size; i += int(hn::Lanes(d))) {
+    const auto covered = hn::Load(di, out.covered + i);
+    if (hn::AllTrue(di, hn::Eq(covered, hn::Zero(di)))) continue;
+    const int block = i / kBlockPixels, k = i % kBlockPixels;
+    const V64 px = hn::Add(hn::Set(d, (block % blocks) * kBlockSize + k % kBlockSize), hn::LoadU(d, kColumn));
+    const V64 py = hn::Add(hn::Set(d, (block / blocks) * kBlockSize + k / kBlockSize), hn::LoadU(d, kRow));
+    VI32 corner[3];
+    for (int c = 0; c < 3; ++c) corner[c] = hn::LoadU(di, reinterpret_cast<const int32_t*>(work.corner[c].data()) + i);
+    const Weights w = weights(work, corner, px, py);
+    const VI32 provoking = corner[state.provoking == Provoking::last ? 2 : 0];
+    for (int g = 0; g < groups; ++g)
+      for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
+        hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df, out.plane[c] + i);
+  }
+}
+
+// The same formulas for one pixel of a triangle that was clipped or is too large for the vector path.
+struct CarefulPixel {
+  const CarefulPieces& fan;
+  const ClipVertex* clip;
+  const WindowTransform& t;
+  const CarefulPieces::Piece& piece;
+  int order[3];                 // canonical order of the piece's corners
+  double smooth[2], linear[2];
+
+  CarefulPixel(const CarefulPieces& f, const ClipVertex v[3], const WindowTransform& window, int which, int px, int py)
+      : fan(f), clip(v), t(window), piece(f.piece[which]) {
+    const WindowTriangle& w = piece.triangle;
+    int first = 0;
+    for (int i = 1; i < 3; ++i)
+      if (w.y[i] < w.y[first] || (w.y[i] == w.y[first] && w.x[i] < w.x[first])) first = i;
+    double e[3], u[3];
+    for (int i = 0; i < 3; ++i) {
+      order[i] = (first + i) % 3;
+      u[i] = 1.0 / fan.polygon.all[piece.corner[order[i]]].c[3];
+    }
+    __int128 area = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int a = (first + i + 1) % 3, b = (first + i + 2) % 3;
+      const __int128 exact = __int128(w.x[a] - 256 * px) * (w.y[b] - 256 * py) - __int128(w.x[b] - 256 * px) * (w.y[a] - 256 * py);
+      area += exact;
+      e[i] = double(exact);
+    }
+    const double l0 = e[0] * u[0], l1 = e[1] * u[1], l2 = e[2] * u[2], r = 1.0 / ((l0 + l1) + l2);
+    smooth[0] = l1 * r;
+    smooth[1] = l2 * r;
+    const double inverse_area = 1.0 / double(area);
+    linear[0] = e[1] * inverse_area;
+    linear[1] = e[2] * inverse_area;
+  }
+
+  float value(const float v[3], Interpolation how, int provoking) const {
+    if (how == Interpolation::flat) return v[provoking];
+    double a[3];
+    for (int i = 0; i < 3; ++i) a[i] = corner_attribute(fan.polygon, piece.corner[order[i]], clip, t, v[0], v[1], v[2]);
+    const double* b = how == Interpolation::smooth ? smooth : linear;
+    const double plane = a[0] + (b[0] * (a[1] - a[0]) + b[1] * (a[2] - a[0]));
+    const double low = std::min({a[0], a[1], a[2]}), high = std::max({a[0], a[1], a[2]});
+    return float(plane < low ? low : (plane > high ? high : plane));
+  }
+};
+
+void interpolate_careful(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
+                         const VisibilityTile& visible, const VisibleVertices& work, SurfaceTile& out) {
+  const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  const int provoking = in.state.provoking == Provoking::last ? 2 : 0;
+  uint32_t id = 0;
+  ClipVertex clip[3];
+  CarefulPieces fan;
+  for (int y = 0; y < rect.size; ++y) {
+    for (int x = 0; x < rect.size; ++x) {
+      const int i = tile_index(rect.size, x, y);
+      if (visible.id[i] == 0 || !id_careful(visible.id[i])) continue;
+      if (visible.id[i] != id) {
+        id = visible.id[i];
+        clip_corners(in, id_position(id), id_triangle(id), clip);
+        fan = careful_pieces(clip, in.view.window, origin.x, origin.y);
+      }
+      const CarefulPixel pixel(fan, clip, in.view.window, piece_at(fan, in.view.window.upper_left, x, y), x, y);
+      for (int g = 0; g < groups; ++g) {
+        for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
+          float v[3];
+          for (size_t k = 0; k < 3; ++k) v[k] = work.stream[c][work.corner[k][size_t(i)]];
+          out.plane[c][i] = pixel.value(v, group[g].plane.interpolation, provoking);
+        }
+      }
+    }
+  }
+}
+
+// Positions from the stored depth: docs/arithmetic.md section 7.
+void rebuild_positions(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible, SurfaceTile& out) {
+  const WindowTransform& t = in.view.window;
+  const auto& m = in.view.world_from_clip;
+  const float left = float(t.offset[0] / 128 - t.scale[0] / 128) * 0.5f;
+  const float bottom = float(t.offset[1] / 128 - std::abs(t.scale[1]) / 128) * 0.5f;
+  const float per_x = float(2.0 / double(t.scale[0] / 128)), per_y = float(2.0 / double(std::abs(t.scale[1]) / 128));
+  const float per_z = float(1.0 / t.z_scale), z_offset = float(t.z_offset);
+  for (int y = 0; y < rect.size; ++y) {
+    for (int x = 0; x < rect.size; ++x) {
+      const int i = tile_index(rect.size, x, y);
+      if (out.covered[i] == 0) continue;
+      const float nx = (float(rect.x + x) + 0.5f - left) * per_x - 1.0f;
+      const float up = (float(rect.y + y) + 0.5f - bottom) * per_y - 1.0f;
+      const float ny = t.upper_left ? -up : up;
+      const float nz = (visible.depth[i] - z_offset) * per_z;
+      float h[4];
+      for (size_t r = 0; r < 4; ++r) h[r] = ((m[4 * r] * nx + m[4 * r + 1] * ny) + m[4 * r + 2] * nz) + m[4 * r + 3];
+      const float inverse = 1.0f / h[3];
+      for (int c = 0; c < 3; ++c) out.plane[kPosition + c][i] = h[c] * inverse;
+    }
+  }
+}
+
+// Albedo times the material's colour, then every plane as its format stores it.
+void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const StreamGroup* group, int groups,
+                  SurfaceTile& out) {
+  const DF d;
+  const int pixels = rect.size * rect.size;
+  for (int i = 0; i < pixels; ++i) {
+    if (out.covered[i] == 0) continue;
+    const glm::vec4& base = in.scene.materials[out.material[i] - 1].base_color;
+    for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] *= base[c];
+  }
+  for (int g = 0; g < groups; ++g) {
+    if (info(group[g].plane.format).bytes_per_channel == 4) continue;
+    for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
+      for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
+        hn::Store(stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round), d, out.plane[c] + i);
+  }
+}
+
+void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const VisibilityTile& visible,
+                           bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+  find_corners(in, rect, visible, need_uv, work, out);
+  if (out.covered_pixels == 0) return;
+  StreamGroup group[4];
+  const int groups = stream_groups(planes, need_uv, group);
+  interpolate_tile(rect, in.state, group, groups, work, out);
+  interpolate_careful(in, rect, group, groups, visible, work, out);
+  if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
+  store_planes(in, rect, planes, group, groups, out);
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(resolve_surfaces_simd);
+
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const VisibilityTile& visible,
+                      bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+  HWY_DYNAMIC_DISPATCH(resolve_surfaces_simd)(in, rect, planes, visible, need_uv, work, out);
+}
+}  // namespace trueshade
+#endif  // HWY_ONCE

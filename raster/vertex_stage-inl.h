@@ -1,0 +1,126 @@
+// The vertex stage for vectors of a cluster's vertices: clip position, outcodes, snapped window position, depth.
+// Included once per SIMD target. docs/arithmetic.md sections 2 to 5.
+#if defined(TRUESHADE_RASTER_VERTEX_STAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_VERTEX_STAGE_INL_H_
+#undef TRUESHADE_RASTER_VERTEX_STAGE_INL_H_
+#else
+#define TRUESHADE_RASTER_VERTEX_STAGE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "raster/clusters.h"
+#include "raster/fixed_point.h"
+#include "raster/snap.h"
+#include "raster/view.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D64 = hn::ScalableTag<double>;         // a lane is a vertex, a triangle or a pixel; lanes never meet
+using D32 = hn::Rebind<float, D64>;          // as many floats
+using I32 = hn::Rebind<int32_t, D64>;
+using U32 = hn::Rebind<uint32_t, D64>;
+using V64 = hn::Vec<D64>;
+using V32 = hn::Vec<D32>;
+
+/// Row `m` of an affine transform: ((m0 x + m1 y) + m2 z) + m3.
+HWY_INLINE V32 affine_row(const float m[4], V32 x, V32 y, V32 z) {
+  const D32 d;
+  return hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0]), x), hn::Mul(hn::Set(d, m[1]), y)), hn::Mul(hn::Set(d, m[2]), z)),
+                 hn::Set(d, m[3]));
+}
+
+/// Vertices in window space, relative to the sample of a tile's pixel (0, 0). Where `needs_care` is set, x and y mean
+/// nothing: the vertex is outside near or far, has w <= 0 or no finite value, or lies 2^25 subpixels away; clip.h sees to
+/// its triangles.
+struct WindowVertices {
+  alignas(64) int32_t x[kClusterVertices], y[kClusterVertices];  ///< 1/256 pixel, y up, |.| < 2^26
+  alignas(64) double z[kClusterVertices];                        ///< window depth
+  alignas(64) double u[kClusterVertices];                        ///< 1 / w
+  alignas(64) int32_t needs_care[kClusterVertices];              ///< -1 or 0
+  bool any_needs_care;
+};
+
+/// Window position of the sample of a tile's pixel (0, 0), in 1/256 pixel.
+struct SampleOrigin {
+  int32_t x, y;
+};
+inline SampleOrigin sample_origin(int tile_x, int tile_y) { return {tile_x * 256 + 128, tile_y * 256 + 128}; }
+
+/// Where the quotient lies too close to a tie for its f64 estimate, the exact one decides.
+HWY_INLINE V64 round_near_ties(V64 estimate, V64 rounded, V64 coordinate, V64 w, int64_t scale) {
+  const D64 d;
+  const auto close = hn::Gt(hn::Abs(hn::Sub(estimate, rounded)), hn::Set(d, 0.5 - 0x1p-14));
+  if (HWY_LIKELY(hn::AllFalse(d, close))) return rounded;
+  constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
+  alignas(64) double c[kLanes], ws[kLanes], r[kLanes], e[kLanes];
+  hn::Store(coordinate, d, c);
+  hn::Store(w, d, ws);
+  hn::Store(rounded, d, r);
+  hn::Store(estimate, d, e);
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    if (!(e[i] < 2.0 * double(kVectorLimit) && e[i] > -2.0 * double(kVectorLimit)) || !(ws[i] > 0.0)) continue;
+    const std::optional<int64_t> exact = snapped_quotient(c[i], ws[i], scale);
+    if (exact) r[i] = double(*exact);
+  }
+  return hn::Load(d, r);
+}
+
+/// One axis of the window position, relative to `origin`; `fits` loses the lanes that do not fit the vector path.
+template <class M>
+HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTransform& t, int axis, int32_t origin, M& fits) {
+  const D64 d;
+  const V64 estimate = hn::Mul(hn::Mul(coordinate, u), hn::Set(d, double(t.scale[axis])));
+  const V64 rounded = round_near_ties(estimate, hn::Round(estimate), coordinate, w, t.scale[axis]);
+  const V64 window = hn::Add(rounded, hn::Set(d, double(t.offset[axis])));
+  const V64 limit = hn::Set(d, double(kVectorLimit));
+  // The estimate is bounded too: a far-away viewport must not bring a badly rounded quotient back into range.
+  const auto small = hn::And(hn::Lt(hn::Abs(window), limit), hn::Lt(hn::Abs(estimate), hn::Add(limit, limit)));
+  fits = hn::And(fits, small);
+  return hn::DemoteTo(I32(), hn::IfThenElseZero(small, hn::Sub(window, hn::Set(d, double(origin)))));
+}
+
+/// Places one vector of clip positions at out[i...]; returns whether any of them needs care.
+HWY_INLINE bool place_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin, size_t i,
+                               WindowVertices& out) {
+  const D64 d;
+  const I32 di;
+  const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), wz = hn::PromoteTo(d, cz), ww = hn::PromoteTo(d, cw);
+  auto fits = hn::Ge(ww, hn::Set(d, 0x1p-100));
+  if (!t.depth_clamp) {
+    const V64 near = t.zero_to_one ? hn::Zero(d) : hn::Neg(ww);
+    fits = hn::And(fits, hn::And(hn::Ge(wz, near), hn::Le(wz, ww)));
+  }
+  // Inf - Inf is NaN: only where all four are finite is the sum of the differences zero.
+  const V64 nothing = hn::Add(hn::Add(hn::Sub(wx, wx), hn::Sub(wy, wy)), hn::Add(hn::Sub(wz, wz), hn::Sub(ww, ww)));
+  fits = hn::And(fits, hn::Eq(nothing, hn::Zero(d)));
+  const V64 u = hn::Div(hn::Set(d, 1.0), ww);
+  hn::Store(snap_axis(wx, ww, u, t, 0, origin.x, fits), di, out.x + i);
+  hn::Store(snap_axis(wy, ww, u, t, 1, origin.y, fits), di, out.y + i);
+  hn::Store(u, d, out.u + i);
+  hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, t.z_scale)), hn::Set(d, t.z_offset)), d, out.z + i);
+  hn::Store(hn::DemoteTo(di, hn::IfThenElse(fits, hn::Zero(d), hn::Set(d, -1.0))), di, out.needs_care + i);
+  return !hn::AllTrue(d, fits);
+}
+
+/// Window positions of all vertices of a cluster.
+inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
+                            const WindowTransform& t, SampleOrigin origin, WindowVertices& out) {
+  const D32 df;
+  out.any_needs_care = false;
+  for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
+    const size_t from = cluster.first_vertex + i;
+    const V32 x = hn::LoadU(df, &mesh.position[0][from]), y = hn::LoadU(df, &mesh.position[1][from]),
+              z = hn::LoadU(df, &mesh.position[2][from]);
+    const bool care = place_vertices(affine_row(instance.clip[0], x, y, z), affine_row(instance.clip[1], x, y, z),
+                                     affine_row(instance.clip[2], x, y, z), affine_row(instance.clip[3], x, y, z), t,
+                                     origin, i, out);
+    out.any_needs_care = out.any_needs_care || care;
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

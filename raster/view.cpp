@@ -1,0 +1,115 @@
+#include "raster/view.h"
+
+#include <algorithm>
+
+#include "scenes/camera.h"
+
+namespace trueshade {
+namespace {
+
+Matrix4 from_affine(const glm::mat4x3& m) {
+  Matrix4 out{};
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 3; ++r) out[size_t(4 * c + r)] = double(m[c][r]);
+  out[15] = 1.0;
+  return out;
+}
+
+struct Vector3 {
+  double x, y, z;
+};
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// The inverse transpose: cofactors over the determinant, or the cofactors alone where there is no inverse.
+void set_normal_matrix(const glm::mat4x3& m, float out[3][3]) {
+  Vector3 a[3];
+  for (int c = 0; c < 3; ++c) a[c] = {double(m[c].x), double(m[c].y), double(m[c].z)};
+  const Vector3 cofactor[3] = {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
+  const double det = (a[0].x * cofactor[0].x + a[0].y * cofactor[0].y) + a[0].z * cofactor[0].z;
+  const double divisor = det == 0.0 ? 1.0 : det;
+  for (int c = 0; c < 3; ++c) {
+    out[0][c] = float(cofactor[c].x / divisor);
+    out[1][c] = float(cofactor[c].y / divisor);
+    out[2][c] = float(cofactor[c].z / divisor);
+  }
+}
+
+double minor3(const Matrix4& m, int row, int column) {
+  double a[3][3];
+  for (int r = 0, i = 0; r < 4; ++r) {
+    if (r == row) continue;
+    for (int c = 0, k = 0; c < 4; ++c)
+      if (c != column) a[i][k++] = m[size_t(4 * c + r)];
+    ++i;
+  }
+  return (a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0])) +
+         a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+}
+
+std::array<float, 16> inverse_rows(const Matrix4& m) {
+  double cofactor[4][4];
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) cofactor[r][c] = ((r + c) % 2 ? -1.0 : 1.0) * minor3(m, r, c);
+  const double det = ((m[0] * cofactor[0][0] + m[4] * cofactor[0][1]) + m[8] * cofactor[0][2]) + m[12] * cofactor[0][3];
+  std::array<float, 16> out;
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) out[4 * r + c] = float(cofactor[c][r] / det);
+  return out;
+}
+
+InstanceTransform instance_transform(const Matrix4& clip_from_world, const glm::mat4x3& world_from_object) {
+  InstanceTransform out;
+  const Matrix4 clip = product(clip_from_world, from_affine(world_from_object));
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) out.clip[r][c] = float(clip[size_t(4 * c + r)]);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) out.world[r][c] = world_from_object[c][r];
+  set_normal_matrix(world_from_object, out.normal);
+  return out;
+}
+
+Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
+  return clip_from_world(scene.camera, double(pipeline.width) / double(pipeline.height),
+                         pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
+}
+
+}  // namespace
+
+WindowTransform window_transform(const GeometryState& state, int width, int height) {
+  Viewport v = state.viewport;
+  if (v.width == 0 && v.height == 0) v = {v.x, v.y, width, height};
+  WindowTransform out;
+  out.upper_left = state.clip_origin == ClipOrigin::upper_left;
+  out.scale[0] = 128 * int64_t(v.width);
+  out.scale[1] = (out.upper_left ? -128 : 128) * int64_t(v.height);
+  out.offset[0] = 256 * int64_t(v.x) + 128 * int64_t(v.width);
+  out.offset[1] = 256 * int64_t(v.y) + 128 * int64_t(v.height);
+  out.zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
+  // + 0 turns -0 into 0: no stored depth is -0, so minima and maxima have one answer on every SIMD target.
+  const double n = double(state.depth_near + 0.0f), f = double(state.depth_far + 0.0f);
+  out.z_scale = out.zero_to_one ? f - n : (f - n) * 0.5;
+  out.z_offset = out.zero_to_one ? n : (n + f) * 0.5;
+  out.depth_low = std::min(state.depth_near, state.depth_far) + 0.0f;
+  out.depth_high = std::max(state.depth_near, state.depth_far) + 0.0f;
+  out.depth_clamp = state.depth_clamp;
+  const auto clamped = [](int64_t value, int size) { return int(std::clamp<int64_t>(value, 0, size)); };
+  out.x0 = clamped(v.x, width);
+  out.x1 = clamped(int64_t(v.x) + v.width, width);
+  out.y0 = clamped(v.y, height);
+  out.y1 = clamped(int64_t(v.y) + v.height, height);
+  return out;
+}
+
+View make_view(const Scene& scene, const Pipeline& pipeline) {
+  const Matrix4 clip = clip_matrix(scene, pipeline);
+  View view{pipeline.width, pipeline.height, window_transform(pipeline.geometry, pipeline.width, pipeline.height), {},
+            inverse_rows(clip)};
+  view.instances.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances)
+    view.instances.push_back(instance_transform(clip, instance.world_from_object));
+  return view;
+}
+
+}  // namespace trueshade

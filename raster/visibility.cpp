@@ -1,0 +1,181 @@
+#include "raster/visibility.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/visibility.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "raster/coverage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Box of a cluster's vertices, from the snapped coordinates; means something only if none needs care.
+struct WindowBox {
+  int32_t x0, y0, x1, y1;
+  double near;
+};
+
+WindowBox window_box(const WindowVertices& v, int count) {
+  WindowBox box{v.x[0], v.y[0], v.x[0], v.y[0], v.z[0]};
+  for (int i = 1; i < count; ++i) {
+    box.x0 = std::min(box.x0, v.x[i]);
+    box.y0 = std::min(box.y0, v.y[i]);
+    box.x1 = std::max(box.x1, v.x[i]);
+    box.y1 = std::max(box.y1, v.y[i]);
+    box.near = std::min(box.near, v.z[i]);
+  }
+  return box;
+}
+
+// Triangles of a near cluster that have area and a sample in their box and the tile, many at a time, in 32-bit integers:
+// with every coordinate within 2^14 of 0 a doubled area stays below 2^31. Returns how many it wrote to `out`.
+int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4], uint8_t* out) {
+  const I32 di;
+  const hn::Rebind<uint8_t, I32> d8;
+  const size_t lanes = hn::Lanes(di);
+  int count = 0;
+  const auto last_x = hn::Set(di, limit[2] - 1), last_y = hn::Set(di, limit[3] - 1);
+  const auto low_x = hn::Set(di, limit[0]), low_y = hn::Set(di, limit[1]);
+  const auto round_up = hn::Set(di, 255);
+  for (size_t t = 0; t < cluster.triangles; t += lanes) {
+    alignas(64) uint8_t corner[3][16] = {};
+    const size_t here = std::min<size_t>(lanes, cluster.triangles - t);
+    for (size_t k = 0; k < 3; ++k) std::copy_n(&mesh.corner[k][cluster.first_triangle + t], here, corner[k]);
+    const auto i0 = hn::PromoteTo(di, hn::Load(d8, corner[0])), i1 = hn::PromoteTo(di, hn::Load(d8, corner[1])),
+               i2 = hn::PromoteTo(di, hn::Load(d8, corner[2]));
+    const auto x0 = hn::GatherIndex(di, v.x, i0), x1 = hn::GatherIndex(di, v.x, i1), x2 = hn::GatherIndex(di, v.x, i2);
+    const auto y0 = hn::GatherIndex(di, v.y, i0), y1 = hn::GatherIndex(di, v.y, i1), y2 = hn::GatherIndex(di, v.y, i2);
+    const auto flat = hn::Eq(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
+    const auto first_x = hn::Max(hn::ShiftRight<8>(hn::Add(hn::Min(hn::Min(x0, x1), x2), round_up)), low_x);
+    const auto first_y = hn::Max(hn::ShiftRight<8>(hn::Add(hn::Min(hn::Min(y0, y1), y2), round_up)), low_y);
+    const auto end_x = hn::Min(hn::ShiftRight<8>(hn::Max(hn::Max(x0, x1), x2)), last_x);
+    const auto end_y = hn::Min(hn::ShiftRight<8>(hn::Max(hn::Max(y0, y1), y2)), last_y);
+    const auto rejected = hn::Or(flat, hn::Or(hn::Gt(first_x, end_x), hn::Gt(first_y, end_y)));
+    alignas(64) int32_t dropped[16];
+    hn::Store(hn::VecFromMask(di, rejected), di, dropped);
+    for (size_t i = 0; i < here; ++i) {
+      out[count] = uint8_t(t + i);
+      count += dropped[i] == 0;
+    }
+  }
+  return count;
+}
+
+int all_triangles(const Cluster& cluster, uint8_t* out) {
+  for (int i = 0; i < cluster.triangles; ++i) out[i] = uint8_t(i);
+  return cluster.triangles;
+}
+
+// Whether every block under the box (in 1/256 pixel) is already nearer than `near`.
+bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
+  const int blocks = rect.size / kBlockSize;
+  const int x0 = std::clamp(box.x0 >> 10, 0, blocks - 1), x1 = std::clamp(box.x1 >> 10, 0, blocks - 1);
+  const int y0 = std::clamp(box.y0 >> 10, 0, blocks - 1), y1 = std::clamp(box.y1 >> 10, 0, blocks - 1);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x)
+      if (!(near > tile.far[y * blocks + x])) return false;
+  return true;
+}
+
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit, RasterCounts& counts) {
+  const ClusterDraw& draw = in.draws[in.list[position]];
+  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
+  const Cluster& cluster = mesh.clusters[draw.cluster];
+  const WindowTransform& t = in.view.window;
+  const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  WindowVertices v;
+  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
+  uint8_t triangle[kClusterTriangles + 1];
+  int count = 0;
+  if (v.any_needs_care) {
+    count = all_triangles(cluster, triangle);
+  } else {
+    const WindowBox box = window_box(v, cluster.vertices);
+    const int size = rect.size * 256;
+    if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
+    const float near = std::min(std::max(float(box.near), t.depth_low), t.depth_high);
+    if (commit.skip_hidden && hidden_box(commit.tile, rect, box, near)) return;
+    const int32_t reach = std::max({-box.x0, -box.y0, box.x1, box.y1});
+    count = reach < (1 << 14) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+  }
+  ++counts.clusters;
+  counts.triangles += uint64_t(cluster.triangles);
+  for (int i = 0; i < count; ++i) {
+    const size_t at = cluster.first_triangle + triangle[i];
+    const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
+    const bool careful = v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
+    commit.id = visible_id(position, triangle[i], careful);
+    if (careful) {
+      ClipVertex clip[3];
+      clip_corners(in, position, triangle[i], clip);
+      draw_careful(clip, t, origin, in.state, rect, commit);
+      continue;
+    }
+    WindowTriangle window;
+    for (size_t k = 0; k < 3; ++k) {
+      window.x[k] = v.x[corner[k]];
+      window.y[k] = v.y[corner[k]];
+      window.z[k] = v.z[corner[k]];
+    }
+    TriangleSetup<double> setup;
+    if (set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
+  }
+}
+
+void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts) {
+  const size_t pixels = size_t(rect.size) * size_t(rect.size);
+  std::fill_n(out.depth, pixels, in.state.clear_depth);
+  std::fill_n(out.id, pixels, 0u);
+  std::fill_n(out.far, pixels / kBlockPixels, in.state.clear_depth);
+  const DepthFunc func = in.state.depth_func;
+  const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
+  DepthCommit commit{out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins};
+  if (!commit.skip_hidden) {
+    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, counts);
+  } else {
+    std::vector<uint32_t> order(in.list.size());
+    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto near_depth = [&](uint32_t i) { return in.draws[in.list[i]].near_depth; };
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return near_depth(a) < near_depth(b) || (near_depth(a) == near_depth(b) && a < b);
+    });
+    for (const uint32_t i : order) draw_cluster(in, rect, i, commit, counts);
+  }
+  counts.fragments += commit.fragments;
+}
+
+void clip_corners_simd(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {
+  const ClusterDraw& draw = in.draws[in.list[position]];
+  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
+  const Cluster& cluster = mesh.clusters[draw.cluster];
+  const D32 df;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t at = cluster.first_vertex + mesh.corner[k][cluster.first_triangle + triangle];
+    for (int r = 0; r < 4; ++r)
+      v[k].c[r] = hn::GetLane(affine_row(in.view.instances[draw.instance].clip[r], hn::Set(df, mesh.position[0][at]),
+                                         hn::Set(df, mesh.position[1][at]), hn::Set(df, mesh.position[2][at])));
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(clip_corners_simd);
+
+void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts) {
+  HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {
+  HWY_DYNAMIC_DISPATCH(clip_corners_simd)(in, position, triangle, v);
+}
+}  // namespace trueshade
+#endif  // HWY_ONCE

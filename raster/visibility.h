@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "raster/clip.h"
+#include "raster/clusters.h"
+#include "raster/fixed_point.h"
+#include "raster/view.h"
+
+namespace trueshade {
+
+/// A cluster of an instance that may be seen, from cluster_bins.h.
+struct ClusterDraw {
+  uint32_t instance;
+  uint32_t cluster;   ///< of the instance's mesh
+  float near_depth;   ///< no fragment of it is nearer; -infinity where nothing is known
+  uint16_t tile_x0, tile_y0, tile_x1, tile_y1;  ///< tiles it may touch, half open
+};
+
+/// A square of pixels and which of them may be drawn; window coordinates, y up.
+struct TileRect {
+  int x, y;       ///< lower left pixel in the window
+  int size;       ///< 8, 16, 32, 48 or 64
+  int limit[4];   ///< x0, y0, x1, y1 in the tile, half open: inside viewport and image
+};
+
+// What is seen in a pixel: position in the tile's list, triangle of the cluster, and whether the triangle took the
+// careful path. 0 is nothing. Ids ascend in submission order.
+inline constexpr uint32_t kMaxTileClusters = (uint32_t(1) << 24) - 2;
+constexpr uint32_t visible_id(uint32_t position, uint32_t triangle, bool careful) {
+  return ((position + 1) << 8) | (triangle << 1) | uint32_t(careful);
+}
+constexpr uint32_t id_position(uint32_t id) { return (id >> 8) - 1; }
+constexpr uint32_t id_triangle(uint32_t id) { return (id >> 1) & 127; }
+constexpr bool id_careful(uint32_t id) { return id & 1; }
+
+/// Depth and visible triangle of each pixel of a tile, in tile_index() order.
+struct VisibilityTile {
+  alignas(64) float depth[kMaxTilePixels];
+  alignas(64) uint32_t id[kMaxTilePixels];
+  alignas(64) float far[kMaxTilePixels / kBlockPixels];  ///< largest depth of each block
+};
+
+struct RasterCounts {
+  uint64_t clusters = 0, triangles = 0, fragments = 0;
+};
+
+/// What a tile is drawn from.
+struct TileDraws {
+  const ClusteredScene& clusters;
+  const Scene& scene;
+  const View& view;
+  const GeometryState& state;
+  std::span<const ClusterDraw> draws;
+  std::span<const uint32_t> list;  ///< into `draws`, ascending: the order of submission
+};
+
+/// Clip-space corners of a triangle of a cluster, as the vertex stage rounds them.
+void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]);
+
+/// Draws the listed clusters into `out`, which it clears first. `culling`: skip what hierarchical depth proves hidden and
+/// draw front to back; never changes a bit.
+void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts);
+
+}  // namespace trueshade

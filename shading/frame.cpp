@@ -1,0 +1,190 @@
+#include "shading/frame.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/fp_env.h"
+#include "raster/cluster_bins.h"
+#include "raster/clusters.h"
+#include "raster/simd_target.h"
+#include "raster/surfaces.h"
+#include "raster/view.h"
+#include "raster/visibility.h"
+#include "shading/light_pass.h"
+#include "shading/light_table.h"
+#include "shading/target.h"
+
+namespace trueshade {
+namespace {
+
+constexpr std::string_view kAovNames[] = {"depth", "position", "normal",    "albedo",
+                                          "uv",    "id.object", "id.material", "light.count"};
+
+double now_ms() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Scratch of one thread: about 0.7 MB, kept for the thread's life so that no frame allocates it.
+struct TileScratch {
+  VisibilityTile visible;
+  SurfaceTile surface;
+  ColorTile color;
+  VisibleVertices vertices;
+  LightLists lights;
+};
+
+TileScratch& thread_scratch() {
+  thread_local std::unique_ptr<TileScratch> scratch = std::make_unique<TileScratch>();
+  return *scratch;
+}
+
+struct TileCounts {
+  RasterCounts raster;
+  LightCounts light;
+  uint64_t covered = 0;
+  double geometry_ms = 0.0, light_ms = 0.0;
+};
+
+// What every tile of a frame shares.
+struct FrameWork {
+  const PreparedScene& prepared;
+  const Pipeline& pipeline;
+  const Execution& execution;
+  const View view;
+  const ClusterBins bins;
+  const LightTable lights;
+  bool need_uv;
+  Frame& out;
+
+  TileRect rect(int tile) const {
+    const int size = execution.tile, x = tile % bins.tiles_x * size, y = tile / bins.tiles_x * size;
+    const WindowTransform& t = view.window;
+    const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
+    return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
+  }
+
+  void draw(int tile, TileScratch& s, TileCounts& counts) const {
+    const double start = now_ms();
+    const Scene& scene = prepared.scene();
+    const TileRect where = rect(tile);
+    const TileDraws draws{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
+    draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
+    resolve_surfaces(draws, where, pipeline.gbuffer, s.visible, need_uv, s.vertices, s.surface);
+    counts.covered += uint64_t(s.surface.covered_pixels);
+    const double middle = now_ms();
+    const float eye[3] = {scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z};
+    const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
+    light_tile(s.surface, where.size, lights, pipeline.light_model, eye, clear, execution.light_culling, s.lights, s.color,
+               counts.light);
+    store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
+    for (NamedImage& aov : out.aovs)
+      store_aov(aov.name, s.visible, s.surface, s.color, where, pipeline.gbuffer.half_round, aov.image);
+    counts.geometry_ms += middle - start;
+    counts.light_ms += now_ms() - middle;
+  }
+};
+
+// Tiles in the order they are started: dearest first, so that no thread is left alone with a dear one at the end.
+std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution) {
+  std::vector<int> order(bins.first.size() - 1);
+  std::iota(order.begin(), order.end(), 0);
+  if (execution.shuffle_tiles) {
+    uint64_t state = 0x9E3779B97F4A7C15ull;
+    for (size_t i = order.size(); i > 1; --i) {
+      state = state * 6364136223846793005ull + 1442695040888963407ull;
+      std::swap(order[i - 1], order[size_t((state >> 33) % i)]);
+    }
+  } else {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return bins.tile_list(a).size() > bins.tile_list(b).size(); });
+  }
+  return order;
+}
+
+void check_aovs(std::span<const std::string> names) {
+  for (const std::string& name : names) {
+    if (std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames)) continue;
+    std::string known;
+    for (const auto& n : kAovNames) known += (known.empty() ? "" : ", ") + std::string(n);
+    throw Error(ErrorKind::usage, "aov", "there is no plane '" + name + "'", "one or more of " + known);
+  }
+}
+
+void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
+  for (const TileCounts& t : tiles) {  // in tile order, so that the sums do not depend on scheduling
+    stats.covered_pixels += t.covered;
+    stats.lit_pixel_lights += t.light.lit_pairs;
+    stats.clusters_drawn += t.raster.clusters;
+    stats.triangles_tested += t.raster.triangles;
+    stats.fragments += t.raster.fragments;
+    stats.tile_pixel_lights += t.light.tile_pairs;
+    stats.evaluated_pixel_lights += t.light.evaluated_pairs;
+    stats.geometry_ms += t.geometry_ms;
+    stats.light_ms += t.light_ms;
+  }
+}
+
+void draw_tiles(const FrameWork& work, const Progress& progress) {
+  const std::vector<int> order = tile_order(work.bins, work.execution);
+  std::vector<TileCounts> counts(order.size());
+  std::atomic<int> done = 0;
+  std::mutex reporting;
+  parallel_for(int(order.size()), work.execution.threads, [&](int i) {
+    const int tile = order[size_t(i)];
+    work.draw(tile, thread_scratch(), counts[size_t(tile)]);
+    const int finished = ++done;
+    if (!progress || finished % 16 != 0) return;
+    if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
+  });
+  add_up(counts, work.out.stats);
+}
+
+}  // namespace
+
+std::span<const std::string_view> aov_names() { return kAovNames; }
+
+PreparedScene::PreparedScene(const Scene& scene)
+    : scene_(&scene), clusters_(std::make_unique<ClusteredScene>(cluster_scene(scene))) {}
+PreparedScene::~PreparedScene() = default;
+PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
+
+Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                   std::span<const std::string> aovs, const Progress& progress) {
+  validate(pipeline);
+  validate(execution);
+  check_aovs(aovs);
+  const FpScope fp;
+  const SimdScope simd(execution.simd);
+  const double start = now_ms();
+  const Scene& scene = prepared.scene();
+  Frame frame;
+  frame.color = Image(pipeline.width, pipeline.height, pipeline.target);
+  for (const std::string& name : aovs)
+    frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, pipeline.gbuffer))});
+
+  View view = make_view(scene, pipeline);
+  ClusterBins bins = bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
+  const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
+  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), make_light_table(scene.lights, pipeline.light_model),
+              need_uv, frame}, progress);
+
+  FrameStats& stats = frame.stats;
+  stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
+  stats.lights = scene.lights.size();
+  stats.pixel_lights = stats.covered_pixels * stats.lights;
+  stats.triangles = scene.triangle_count();
+  stats.total_ms = now_ms() - start;
+  return frame;
+}
+
+Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution, std::span<const std::string> aovs,
+                   const Progress& progress) {
+  return render_frame(PreparedScene(scene), pipeline, execution, aovs, progress);
+}
+
+}  // namespace trueshade

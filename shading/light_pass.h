@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "raster/surfaces.h"
+#include "scenes/light_model.h"
+#include "shading/light_table.h"
+
+namespace trueshade {
+
+struct LightCounts {
+  uint64_t tile_pairs = 0;       ///< covered pixels times lights in the tile's list
+  uint64_t evaluated_pairs = 0;  ///< lanes a contribution was computed for
+  uint64_t lit_pairs = 0;        ///< covered pixel and light with falloff > 0 and N.L > 0
+};
+
+/// Colour of a tile before it is stored, in tile_index() order.
+struct ColorTile {
+  alignas(64) float plane[4][kMaxTilePixels];
+  alignas(64) uint32_t light_count[kMaxTilePixels];  ///< lights that light the pixel, as lit_pairs counts them
+};
+
+/// Light lists of the tile at work; kept between tiles to save allocation.
+struct LightLists {
+  std::vector<uint32_t> tile, region;
+};
+
+/// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha included.
+/// Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by tile, by
+/// 16x16 region and by vector: never changes a bit.
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model, const float eye[3],
+                const float clear[4], bool culling, LightLists& work, ColorTile& out, LightCounts& counts);
+
+}  // namespace trueshade

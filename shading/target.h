@@ -1,0 +1,21 @@
+#pragma once
+#include "core/image.h"
+#include "raster/visibility.h"
+#include "scenes/pipeline.h"
+#include "shading/light_pass.h"
+
+namespace trueshade {
+
+/// Rounds a tile's colours to the target's format (docs/arithmetic.md section 7) and writes them into their place of the
+/// image, whose rows run from the top down while the tile's y points up.
+void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target);
+
+/// Writes one plane of a tile into an AOV image of the same size.
+/// Names are aov_names(); pixels without a surface get 0, depth its stored value.
+void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
+               const TileRect& rect, HalfRound half_round, Image& plane);
+
+/// The format an AOV of that name has under a pipeline.
+Format aov_format(std::string_view name, const GBufferState& planes);
+
+}  // namespace trueshade
