@@ -122,10 +122,7 @@ struct DepthCommit {
     const float* depth = tile.depth + block * kBlockPixels;
     V32 far = hn::Load(df, depth);
     for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
-    constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
-    alignas(64) float lane[kLanes];
-    hn::Store(far, df, lane);
-    tile.far[block] = *std::max_element(lane, lane + hn::Lanes(df));
+    tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
 };
 
