@@ -163,6 +163,9 @@ Command command_from_arguments(int count, const char* const* arguments) {
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
+  constexpr std::string_view kCommands[] = {"render", "info", "list"};
+  if (count > 1 && arguments[1][0] != '-' && std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
+    throw usage("command line", std::string("there is no command '") + arguments[1] + "'", "one of: " + joined(kCommands));
   try {
     app.parse(count, arguments);
   } catch (const CLI::CallForHelp&) {

@@ -112,8 +112,8 @@ std::string heading(const RenderedFrame& result, const std::vector<StatLine>& li
   const std::string size = std::to_string(color.width) + " \xc3\x97 " + std::to_string(color.height);
   return "<h1>" + escaped(result.scene.spec) + "</h1>\n<p class=quiet>preset " + escaped(result.pipeline.preset) + ", " +
          size + " pixels, " + std::string(info(color.format).name) + ", trueshade " + kVersion + "</p>\n<div class=facts>" +
-         fact(value_of(lines, "total_ms") + " ms", "time per frame, " + std::to_string(thread_count(result.execution.threads)) +
-                                                       " threads, " + simd) +
+         fact(value_of(lines, "frame_ms") + " ms", "time per frame, median of " + std::to_string(result.repeated_ms.size()) + "; " +
+                                                       std::to_string(thread_count(result.execution.threads)) + " threads, " + simd) +
          fact(grouped(value_of(lines, "triangles")), "triangles") + fact(grouped(value_of(lines, "lights")), "lights") +
          fact(grouped(value_of(lines, "lit_pixel_lights")), "pixel-light pairs lit") + "</div>\n<p>Image <code>sha256:" +
          result.image_hash + "</code><br>Scene <code>sha256:" + result.scene_hash + "</code></p>\n";
@@ -144,7 +144,7 @@ std::string table(const std::vector<StatLine>& lines) {
 std::span<const std::string_view> report_planes() { return kPlanes; }
 
 std::string report_page(const RenderedFrame& result) {
-  const std::vector<StatLine> lines = stat_lines(result.frame.stats);
+  const std::vector<StatLine> lines = stat_lines(result);
   return "<!doctype html>\n<html lang=en>\n<meta charset=utf-8>\n<meta name=viewport content=\"width=device-width, "
          "initial-scale=1\">\n<title>" + escaped(result.scene.spec) + " \xe2\x80\x93 Trueshade</title>\n<style>" + std::string(kStyle) +
          "</style>\n<main>\n" + heading(result, lines) + figure(result.frame.color, "Image", "as stored in the target") +
