@@ -61,23 +61,23 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
   };
   const double culled = s.pixel_lights == 0 ? 0.0 : 1.0 - ratio(s.tile_pixel_lights, s.pixel_lights);
   std::vector<StatLine> lines = {
-          count("pixels", "pixels", s.pixels),
-          count("covered_pixels", "covered pixels", s.covered_pixels),
-          real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
-          count("triangles", "triangles", s.triangles),
-          count("lights", "lights", s.lights),
-          count("pixel_lights", "pixel-light pairs", s.pixel_lights),
-          count("lit_pixel_lights", "pairs lit", s.lit_pixel_lights),
-          real("lit_lights_per_pixel", "lights that light a covered pixel", ratio(s.lit_pixel_lights, s.covered_pixels)),
-          count("clusters_drawn", "clusters set up", s.clusters_drawn),
-          count("triangles_tested", "triangles set up", s.triangles_tested),
-          count("fragments", "fragments before the depth test", s.fragments),
-          count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
-          real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
-          count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
-          time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
-          time("light_ms", "light, all threads [ms]", s.light_ms),
-          time("total_ms", "this frame, planes included [ms]", s.total_ms)};
+      count("pixels", "pixels", s.pixels),
+      count("covered_pixels", "covered pixels", s.covered_pixels),
+      real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
+      count("triangles", "triangles", s.triangles),
+      count("lights", "lights", s.lights),
+      count("pixel_lights", "pixel-light pairs", s.pixel_lights),
+      count("lit_pixel_lights", "pairs lit", s.lit_pixel_lights),
+      real("lit_lights_per_pixel", "lights that light a covered pixel", ratio(s.lit_pixel_lights, s.covered_pixels)),
+      count("clusters_drawn", "clusters set up", s.clusters_drawn),
+      count("triangles_tested", "triangles set up", s.triangles_tested),
+      count("fragments", "fragments before the depth test", s.fragments),
+      count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
+      real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
+      count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
+      time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
+      time("light_ms", "light, all threads [ms]", s.light_ms),
+      time("total_ms", "this frame, planes included [ms]", s.total_ms)};
   if (!result.repeated_ms.empty())
     lines.push_back(time("frame_ms", "time per frame [ms]", result.repeated_ms[result.repeated_ms.size() / 2]));
   return lines;
@@ -92,7 +92,8 @@ std::string stats_text(const RenderedFrame& result) {
   }
   std::string text;
   for (const StatLine& line : lines)
-    text += line.label + std::string(widest - line.label.size() + 2 + longest - line.value.size(), ' ') + line.value + '\n';
+    text +=
+        line.label + std::string(widest - line.label.size() + 2 + longest - line.value.size(), ' ') + line.value + '\n';
   return text;
 }
 

@@ -15,8 +15,8 @@ struct RenderedFrame {
   Pipeline pipeline;
   Execution execution;
   Frame frame;
-  std::string image_hash;  ///< 64 hex digits
-  std::string scene_hash;  ///< 64 hex digits; empty where nobody asks
+  std::string image_hash;           ///< 64 hex digits
+  std::string scene_hash;           ///< 64 hex digits; empty where nobody asks
   std::vector<double> repeated_ms;  ///< the frame drawn again without planes, for a report's time per frame; ascending
 };
 

@@ -11,7 +11,6 @@
 #include "cli/frame_text.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
-#include "cli/version.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "scenes/presets.h"
@@ -39,7 +38,8 @@ Pipeline pipeline_of(const RenderOptions& options, const Scene& scene) {
     pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
   if (options.pipeline_file) {
     const Bytes text = read_user_file(*options.pipeline_file, kMaxPipelineBytes);
-    pipeline = pipeline_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, *options.pipeline_file, pipeline);
+    pipeline =
+        pipeline_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, *options.pipeline_file, pipeline);
   }
   if (options.size) std::tie(pipeline.width, pipeline.height) = std::pair(options.size->width, options.size->height);
   if (options.target) pipeline.target = *options.target;
