@@ -45,15 +45,4 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
   return out;
 }
 
-int piece_at(const CarefulPieces& fan, bool upper_left, int px, int py) {
-  constexpr int kWhole[4] = {0, 0, kMaxTile, kMaxTile};
-  for (int i = 0; i < fan.count; ++i) {
-    TriangleSetup<__int128> setup;
-    if (fan.piece[i].sign == fan.facing && set_up_triangle(fan.piece[i].triangle, {}, upper_left, kWhole, setup) &&
-        setup.covers(px, py))
-      return i;
-  }
-  return -1;
-}
-
 }  // namespace trueshade

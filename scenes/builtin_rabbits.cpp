@@ -1,22 +1,101 @@
+#include <cmath>
+
 #include "scenes/builtin_scenes.h"
 #include "scenes/pcg32.h"
 #include "scenes/shapes.h"
+#include "scenes/surface_net.h"
 #include "scenes/trig.h"
 
+// A hill of rabbits. One rabbit is the surface of a field: rounded parts, joined smoothly, of which we mesh the zero level.
 namespace trueshade::builtin {
 namespace {
 
 constexpr uint32_t kLights = 100, kObjects = 125;
+constexpr size_t kRabbitTriangles = 40000;
+
+double length(const glm::dvec3& v) { return std::sqrt(dot(v, v)); }
+
+double ball(const glm::dvec3& p, const glm::dvec3& centre, double radius) { return length(p - centre) - radius; }
+
+/// Near the distance to an ellipsoid, exact to first order at its surface.
+double ellipsoid(const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii) {
+  const glm::dvec3 q = (p - centre) / radii;
+  const double scaled = length(q), slope = length(q / radii);
+  return slope > 0.0 ? scaled * (scaled - 1.0) / slope : -radii.x;
+}
+
+/// A rod from a to b, of radius ra at a and rb at b.
+double rod(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, double ra, double rb) {
+  const glm::dvec3 ab = b - a, ap = p - a;
+  const double raw = dot(ap, ab) / dot(ab, ab);
+  const double t = raw < 0.0 ? 0.0 : raw > 1.0 ? 1.0 : raw;
+  return length(ap - ab * t) - (ra + (rb - ra) * t);
+}
+
+/// The smaller of both, rounded where they meet over a width of k.
+double joined(double a, double b, double k) {
+  const double near = k - std::fabs(a - b);
+  const double least = a < b ? a : b;
+  return near > 0.0 ? least - near * near / (4.0 * k) : least;
+}
+
+double eye_field(const glm::dvec3& p) { return ball(p, {0.113, 0.625, 0.345}, 0.030); }
+
+/// `p` with x >= 0: the rabbit is symmetric. The ear is an oval in front of which a groove is cut.
+double ear_field(const glm::dvec3& p) {
+  const double oval = joined(rod(p, {0.055, 0.68, 0.22}, {0.105, 0.90, 0.13}, 0.034, 0.062),
+                             rod(p, {0.105, 0.90, 0.13}, {0.135, 1.06, 0.07}, 0.062, 0.022), 0.05);
+  const double groove = rod(p, {0.085, 0.78, 0.245}, {0.145, 1.02, 0.155}, 0.045, 0.045);
+  return -joined(-oval, groove, 0.03);
+}
+
+double rabbit_field(const glm::dvec3& at) {
+  const glm::dvec3 p(std::fabs(at.x), at.y, at.z);
+  double f = ellipsoid(p, {0.0, 0.31, -0.10}, {0.235, 0.275, 0.33});                             // body
+  f = joined(f, ellipsoid(p, {0.0, 0.33, 0.13}, {0.165, 0.21, 0.17}), 0.12);                     // chest
+  f = joined(f, ellipsoid(p, {0.185, 0.20, -0.17}, {0.105, 0.175, 0.20}), 0.05);                 // haunch
+  f = joined(f, rod(p, {0.185, 0.05, -0.20}, {0.185, 0.045, 0.11}, 0.052, 0.048), 0.05);         // hind foot
+  f = joined(f, rod(p, {0.090, 0.27, 0.20}, {0.085, 0.055, 0.25}, 0.062, 0.046), 0.05);          // foreleg
+  f = joined(f, rod(p, {0.085, 0.045, 0.25}, {0.085, 0.042, 0.32}, 0.046, 0.042), 0.04);         // paw
+  f = joined(f, ball(p, {0.0, 0.23, -0.46}, 0.088), 0.03);                                       // tail
+  double head = ellipsoid(p, {0.0, 0.60, 0.26}, {0.140, 0.135, 0.165});
+  head = joined(head, ball(p, {0.045, 0.555, 0.385}, 0.062), 0.07);                              // cheek
+  head = joined(head, ball(p, {0.0, 0.592, 0.432}, 0.026), 0.025);                               // nose
+  head = joined(head, eye_field(p), 0.008);
+  head = joined(head, ear_field(p), 0.045);
+  return joined(f, head, 0.09);
+}
+
+/// 1 where `distance` is below 0, 0 beyond `soft`, between them a straight line: the edge of a patch of colour.
+double patch(double distance, double soft) {
+  const double part = 1.0 - distance / soft;
+  return part < 0.0 ? 0.0 : part > 1.0 ? 1.0 : part;
+}
+
+/// Lighter below, pink inside the ears and on the nose, dark eyes, white tail; times the material's colour.
+glm::dvec3 rabbit_color(const glm::dvec3& at) {
+  const glm::dvec3 p(std::fabs(at.x), at.y, at.z);
+  glm::dvec3 color(0.78 + 0.22 * patch(p.y, 0.3));
+  const auto paint = [&](const glm::dvec3& other, double share) { color += (other - color) * share; };
+  paint({1.0, 1.0, 1.0}, patch(ball(p, {0.0, 0.23, -0.50}, 0.09), 0.02));
+  if (p.y > 0.74) paint({0.95, 0.60, 0.60}, patch(rod(p, {0.085, 0.78, 0.245}, {0.145, 1.02, 0.155}, 0.045, 0.045), 0.012));
+  paint({0.9, 0.48, 0.5}, patch(ball(p, {0.0, 0.600, 0.450}, 0.022), 0.012));
+  paint({0.03, 0.025, 0.04}, patch(eye_field(p), 0.010));
+  return color;
+}
 
 }  // namespace
 
 Mesh rabbit_mesh() {
-  Mesh mesh = torus_mesh(200, 100, [](double u, double v) -> SurfacePoint {
-    const double a = 2.0 * kPi * u, b = -2.0 * kPi * v;
-    const glm::dvec3 n(cosine(a) * cosine(b), sine(b), sine(a) * cosine(b));
-    return {glm::dvec3(0.45 * cosine(a), 0.45, 0.45 * sine(a)) + 0.3 * n, n};
-  });
+  Mesh mesh = surface_net(rabbit_field, {-0.3151, -0.0217, -0.5731}, {52, 93, 86}, 0.0122);
   mesh.name = "rabbit";
+  split_edges(mesh, kRabbitTriangles);
+  for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const glm::dvec3 color = rabbit_color({mesh.position[0][v], mesh.position[1][v], mesh.position[2][v]});
+    for (int k = 0; k < 3; ++k) mesh.color[size_t(k)].push_back(float(color[k]));
+    mesh.color[3].push_back(1.0f);
+  }
+  order_in_patches(mesh);
   return mesh;
 }
 
@@ -28,24 +107,31 @@ Scene rabbits(const Parameters& parameters) {
   scene.meshes = {rabbit_mesh()};
   Pcg32 random(parameters.seed, 2);
   const uint32_t objects = parameters.objects_or(kObjects);
-  uint32_t columns = 1;
-  while (columns * columns < objects) ++columns;
-  const double pitch = 1.25, half = 0.5 * pitch * double(columns);
+  // Seeds of a sunflower: evenly spread over a disc however many they are; the hill rises towards the middle.
+  const double spacing = 0.47, radius = spacing * std::sqrt(double(objects)), top = 0.42 * radius;
+  const auto on_hill = [&](double distance, double angle) {
+    const double part = distance / radius;
+    return glm::dvec3(distance * cosine(angle), top * (1.0 - part * part), distance * sine(angle));
+  };
   for (uint32_t i = 0; i < objects; ++i) {
-    const glm::dvec3 at((double(i % columns) + 0.5) * pitch - half, 0.0, (double(i / columns) + 0.5) * pitch - half);
-    scene.instances.push_back({0, random.below(4), placed(at, glm::dvec3(1.0), 2.0 * kPi * random.real())});
+    const double angle = 2.399963229728653 * i;
+    const glm::dvec3 at = on_hill(spacing * std::sqrt(i + 0.5), angle);
+    const double outward = 0.5 * kPi - angle + random.between(-0.9, 0.9);  // looking down the hill, more or less
+    scene.instances.push_back({0, random.below(4), placed(at, glm::dvec3(random.between(0.85, 1.1)), outward)});
   }
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
   for (uint32_t i = 0; i < lights; ++i) {
-    const glm::dvec3 at(random.between(-half, half), (0.9 + 0.9 * random.real()) * reach, random.between(-half, half));
-    scene.lights.push_back(point_light(at, color_of_hue(random.real(), 0.6) * random.between(0.5, 0.8), 3.0 * reach));
+    const double distance = radius * 1.1 * std::sqrt(random.real()), angle = 2.0 * kPi * random.real();
+    const glm::dvec3 at = on_hill(distance, angle) + glm::dvec3(0.0, 0.9 + 0.8 * random.real(), 0.0) * reach;
+    const double hue = 0.06 + 0.5 * random.real() * random.real() + (i % 4 == 0 ? 0.5 : 0.0);
+    scene.lights.push_back(point_light(at, color_of_hue(hue, 0.55) * random.between(0.5, 0.8), 2.4 * reach));
   }
-  scene.camera.eye = glm::vec3(glm::dvec3(0.0, 0.75, 1.35) * half);
-  scene.camera.target = glm::vec3(glm::dvec3(0.0, 0.02, 0.1) * half);
+  scene.camera.eye = glm::vec3(glm::dvec3(0.25, 0.75, 1.55) * radius);
+  scene.camera.target = glm::vec3(glm::dvec3(0.0, 0.22, 0.12) * radius);
   scene.camera.fov_y_rad = 0.8f;
   scene.camera.near = 0.1f;
-  scene.camera.far = float(10.0 * half);
+  scene.camera.far = float(10.0 * radius);
   return scene;
 }
 
