@@ -8,7 +8,7 @@
 namespace trueshade::json {
 namespace {
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;  // in double: 1e18f is a little less
 
 std::string number_text(double value) {
   char buffer[32];
@@ -66,7 +66,7 @@ double Node::number(double least, double most) const {
   return *d;
 }
 
-float Node::real(float least, float most) const { return float(number(double(least), double(most))); }
+float Node::real(double least, double most) const { return float(number(least, most)); }
 
 int64_t Node::integer(int64_t least, int64_t most) const {
   const double* d = std::get_if<double>(&value_->is);
@@ -89,15 +89,15 @@ const Array& Node::array(size_t least, size_t most) const {
   return **a;
 }
 
-glm::vec3 Node::vec3(float least, float most) const {
+glm::vec3 Node::vec3(double least, double most) const {
   array(3, 3);
   return {element(0).real(least, most), element(1).real(least, most), element(2).real(least, most)};
 }
 
 glm::vec4 Node::color() const {
   const size_t count = array(3, 4).size();
-  return {element(0).real(0.0f, kLargest), element(1).real(0.0f, kLargest), element(2).real(0.0f, kLargest),
-          count == 4 ? element(3).real(0.0f, 1.0f) : 1.0f};
+  return {element(0).real(0.0, kLargest), element(1).real(0.0, kLargest), element(2).real(0.0, kLargest),
+          count == 4 ? element(3).real(0.0, 1.0) : 1.0f};
 }
 
 size_t Node::choice(std::span<const std::string_view> names) const {

@@ -51,10 +51,10 @@ class Node {
 
   bool boolean() const;
   double number(double least, double most) const;          ///< both ends included
-  float real(float least, float most) const;               ///< number(), rounded to float
+  float real(double least, double most) const;             ///< number(), rounded to float
   int64_t integer(int64_t least, int64_t most) const;      ///< a number without a fraction
   const std::string& string() const;
-  glm::vec3 vec3(float least, float most) const;           ///< an array of 3
+  glm::vec3 vec3(double least, double most) const;          ///< an array of 3
   glm::vec4 color() const;                                 ///< 3 or 4 numbers, RGB in [0, 1e18], alpha in [0, 1], 1 if absent
   const Array& array(size_t least, size_t most) const;
   bool is_array() const { return std::holds_alternative<std::unique_ptr<Array>>(value_->is); }

@@ -120,7 +120,7 @@ void write_light_model(std::string& out, const LightModel& m) {
 
 // --- Reading -------------------------------------------------------------------------------------------------------
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;
 
 void read(const json::Node& node, bool& value) { value = node.boolean(); }
 
@@ -133,7 +133,7 @@ void read_flag(const json::Node& object, std::string_view key, bool& value) {
   if (const auto node = object.find(key)) read(*node, value);
 }
 
-void read_real(const json::Node& object, std::string_view key, float& value, float least, float most) {
+void read_real(const json::Node& object, std::string_view key, float& value, double least, double most) {
   if (const auto node = object.find(key)) value = node->real(least, most);
 }
 

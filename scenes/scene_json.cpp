@@ -19,9 +19,9 @@
 namespace trueshade {
 namespace {
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;
 constexpr double kRadPerDeg = kPi / 180.0;
-constexpr float kSmallest = 1e-30f;  // of lengths that must be above 0
+constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kRootKeys[] = {"version", "camera", "clear", "materials", "objects", "lights", "pipeline"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target", "up", "fov_deg", "fov_axis", "near", "far", "clip_from_world"};
@@ -53,7 +53,7 @@ glm::vec3 vec3_or(const json::Node& node, Key key, const glm::vec3& absent) {
   return found ? found->vec3(-kLargest, kLargest) : absent;
 }
 
-float real_or(const json::Node& node, Key key, float absent, float least, float most) {
+float real_or(const json::Node& node, Key key, float absent, double least, double most) {
   const auto found = node.find(key);
   return found ? found->real(least, most) : absent;
 }
