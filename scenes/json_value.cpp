@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-
 namespace trueshade::json {
 namespace {
 
@@ -35,10 +34,14 @@ std::string shown(const Value& value) {
 void append_pointer(std::string& pointer, std::string_view key) {
   pointer += '/';
   for (const char c : key.substr(0, 80)) {
-    if (c == '~') pointer += "~0";
-    else if (c == '/') pointer += "~1";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) pointer += '?';  // an error is one line
-    else pointer += c;
+    if (c == '~')
+      pointer += "~0";
+    else if (c == '/')
+      pointer += "~1";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      pointer += '?';  // an error is one line
+    else
+      pointer += c;
   }
 }
 
@@ -83,7 +86,8 @@ const std::string& Node::string() const {
 const Array& Node::array(size_t least, size_t most) const {
   const auto* a = std::get_if<std::unique_ptr<Array>>(&value_->is);
   if (!a || (*a)->size() < least || (*a)->size() > most) {
-    const std::string count = least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+    const std::string count =
+        least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
     fail("found " + (a ? "an array of " + std::to_string((*a)->size()) : shown(*value_)), "an array of " + count);
   }
   return **a;
@@ -140,9 +144,12 @@ void append_string(std::string& out, std::string_view text) {
   out += '"';
   for (const char c : text) {
     const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') (out += '\\') += c;
-    else if (byte < 0x20) ((out += "\\u00") += kHex[byte >> 4]) += kHex[byte & 15];
-    else out += c;
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (byte < 0x20)
+      ((out += "\\u00") += kHex[byte >> 4]) += kHex[byte & 15];
+    else
+      out += c;
   }
   out += '"';
 }

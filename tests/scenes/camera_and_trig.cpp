@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "tests/catch.hpp"
 #include "scenes/camera.h"
 #include "scenes/trig.h"
+#include "tests/catch.hpp"
 
 // libm is no part of a scene, but a good judge: glibc's sine is within 1 ulp.
 namespace trueshade {

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "tests/catch.hpp"
 #include "core/error.h"
+#include "tests/catch.hpp"
 
 /// Text of the Error that `body` throws; its kind is checked. Fails the test if it throws none.
 template <typename Body>

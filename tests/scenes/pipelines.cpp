@@ -15,8 +15,17 @@ Pipeline strange_pipeline() {
   Pipeline p = *preset_pipeline("touchdesigner");
   p.width = 65536;
   p.height = 1;
-  p.geometry = {{-3, 4, 5, 6}, 0.25f, 0.1f, DepthFunc::gequal, 0.3f, true, CullFace::front, FrontFace::cw,
-                ClipOrigin::upper_left, ClipDepth::zero_to_one, Provoking::first};
+  p.geometry = {{-3, 4, 5, 6},
+                0.25f,
+                0.1f,
+                DepthFunc::gequal,
+                0.3f,
+                true,
+                CullFace::front,
+                FrontFace::cw,
+                ClipOrigin::upper_left,
+                ClipDepth::zero_to_one,
+                Provoking::first};
   p.gbuffer.normal = {Format::rgb16f, Interpolation::noperspective};
   p.gbuffer.uv.interpolation = Interpolation::flat;
   p.gbuffer.position_from_depth = true;
@@ -88,9 +97,11 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"gbuffer": {"position": "rgba32f"}})", "p.json: /gbuffer/position: found \"rgba32f\" (an object)"},
       {R"({"gbuffer": {"position": {"format": "rgba8"}}})", "p.json: /gbuffer/position/format: found \"rgba8\""},
       {R"({"gbuffer": {"albedo": {"format": "d32f"}}})", "p.json: /gbuffer/albedo/format: found \"d32f\""},
-      {R"({"gbuffer": {"position_from_depth": true}, "geometry": {"depth_near": 1}})", "p.json: position_from_depth with depth_near = depth_far"},
+      {R"({"gbuffer": {"position_from_depth": true}, "geometry": {"depth_near": 1}})",
+       "p.json: position_from_depth with depth_near = depth_far"},
       {R"({"light_model": {"shininess": -1}})", "p.json: /light_model/shininess: found -1"},
-      {R"({"light_model": {"specular_color": [1, 1]}})", "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
+      {R"({"light_model": {"specular_color": [1, 1]}})",
+       "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
       {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
       {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
       {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
@@ -111,9 +122,11 @@ TEST_CASE("pipelines out of range are named by field") {
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 65536");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.height = 65537; }), "height: 65537");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.target = Format::r32ui; }), "target: r32ui");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }), "gbuffer.normal.format: rgba8");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }),
+                    "gbuffer.normal.format: rgba8");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }), "light_model.specular_color");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
+                    "light_model.specular_color");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) {

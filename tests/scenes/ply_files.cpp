@@ -1,7 +1,7 @@
+#include <zlib.h>
+
 #include <bit>
 #include <cstring>
-
-#include <zlib.h>
 
 #include "expect_error.h"
 #include "scenes/load_geometry.h"
@@ -18,7 +18,9 @@ constexpr std::string_view kQuad =
 
 Bytes bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
 
-Mesh read(std::string_view text, MissingNormals normals = MissingNormals::flat) { return mesh_from_ply(bytes_of(text), "m.ply", normals); }
+Mesh read(std::string_view text, MissingNormals normals = MissingNormals::flat) {
+  return mesh_from_ply(bytes_of(text), "m.ply", normals);
+}
 
 std::string refusal(std::string_view text) {
   return error_of(ErrorKind::bad_input, [&] { read(text); });
@@ -40,12 +42,13 @@ void append(std::string& out, T value, bool big_endian) {
 
 /// The square with normals, colours, uv, an unknown element and unknown properties.
 std::string binary_quad(bool big_endian) {
-  std::string out = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
-                    "_endian 1.0\r\nelement camera 2\r\nproperty list uchar double of\r\nelement vertex 4\r\n"
-                    "property double x\r\nproperty float y\r\nproperty short z\r\nproperty float quality\r\n"
-                    "property float nx\r\nproperty float ny\r\nproperty float nz\r\nproperty uchar red\r\n"
-                    "property uchar green\r\nproperty uchar blue\r\nproperty float s\r\nproperty float t\r\nelement face 2\r\n"
-                    "property int part\r\nproperty list uint ushort vertex_index\r\nend_header\r\n";
+  std::string out =
+      std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
+      "_endian 1.0\r\nelement camera 2\r\nproperty list uchar double of\r\nelement vertex 4\r\n"
+      "property double x\r\nproperty float y\r\nproperty short z\r\nproperty float quality\r\n"
+      "property float nx\r\nproperty float ny\r\nproperty float nz\r\nproperty uchar red\r\n"
+      "property uchar green\r\nproperty uchar blue\r\nproperty float s\r\nproperty float t\r\nelement face 2\r\n"
+      "property int part\r\nproperty list uint ushort vertex_index\r\nend_header\r\n";
   for (const int count : {0, 2}) {
     append(out, uint8_t(count), big_endian);
     for (int i = 0; i < count; ++i) append(out, 1.5, big_endian);
@@ -134,7 +137,8 @@ TEST_CASE("a file cut at any byte is refused") {
   }
   const std::string packed = gzip(kQuad);
   for (size_t size = 0; size < packed.size(); ++size)
-    error_of(ErrorKind::bad_input, [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", 1 << 20, MissingNormals::flat); });
+    error_of(ErrorKind::bad_input,
+             [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", 1 << 20, MissingNormals::flat); });
 }
 
 TEST_CASE("bad text files are refused with the line") {
@@ -142,23 +146,29 @@ TEST_CASE("bad text files are refused with the line") {
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "ascii", "ascii2")), "m.ply: line 2: the format is unknown");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "comment", "remark")), "m.ply: line 3: 'remark' is no keyword");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex -4")), "m.ply: line 4: the count is no whole number");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 4000000000")), "m.ply: line 11: element vertex says 4000000000");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 18446744073709551615")), "m.ply: line 11: element vertex says");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 4000000000")),
+                    "m.ply: line 11: element vertex says 4000000000");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 18446744073709551615")),
+                    "m.ply: line 11: element vertex says");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "float x")), "m.ply: line 6: property x is given twice");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "float w")), "m.ply: line 11: the vertices have only some of x to z");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "float w")),
+                    "m.ply: line 11: the vertices have only some of x to z");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "quad y")), "m.ply: line 6: 'quad' is no type");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "list uchar int", "list float int")), "m.ply: line 9: the length of a list is a float");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "list uchar int", "list float int")),
+                    "m.ply: line 9: the length of a list is a float");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex_indices", "corners")), "m.ply: line 14: the faces have no list");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 nan 0")), "m.ply: line 13: vertex 2: y is out of range");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 inf 0")), "m.ply: line 13: vertex 2: y is out of range");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 2e18 0")), "m.ply: line 13: vertex 2: y is out of range");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 0x1 0")), "m.ply: line 13: '0x1' is no number");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 1,5 0")), "m.ply: line 13: '1,5' is no number");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 4")), "m.ply: line 15: face 0: index 4 is beyond the vertices (from 0 to below 4)");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 4")),
+                    "m.ply: line 15: face 0: index 4 is beyond the vertices (from 0 to below 4)");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 -1")), "m.ply: line 15: face 0: index -1");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "2 0 1")), "m.ply: line 15: face 0 has 2 corners");
   CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "200 0 1 2 3")), "m.ply: line 15: a list says 200");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "300 0 1 2 3")), "m.ply: line 15: '300' does not fit its type");
+  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "300 0 1 2 3")),
+                    "m.ply: line 15: '300' does not fit its type");
   CHECK_STARTS_WITH(refusal(std::string(kQuad) + "7\n"), "m.ply: line 16: more data after the last element");
   CHECK_STARTS_WITH(refusal(std::string("ply\n") + std::string(100000, 'x')), "m.ply: line 2: the header has no end");
 }

@@ -1,7 +1,8 @@
+#include "scenes/scene_files.h"
+
 #include <sys/stat.h>
 
 #include "expect_error.h"
-#include "scenes/scene_files.h"
 #include "scratch_folder.h"
 
 namespace trueshade {
@@ -19,11 +20,29 @@ TEST_CASE("paths inside the scene's folder are decoded and taken") {
 }
 
 TEST_CASE("paths that leave the folder or the rules are refused") {
-  for (const char* bad : {"", "/etc/passwd", "%2Fetc/passwd", "..", "../a.ply", "%2e%2e/a.ply", "a/../../b.ply", "a/b/../../../c",
-                          "a\\b.ply", "a%5Cb.ply", "a%00.ply", "a%0ab.ply", "a%", "a%2", "a%zz", "file:///a.ply", "http://x/a.ply",
-                          "data:abc", "C:/a.ply", "//host/a.ply"})
+  for (const char* bad : {"",
+                          "/etc/passwd",
+                          "%2Fetc/passwd",
+                          "..",
+                          "../a.ply",
+                          "%2e%2e/a.ply",
+                          "a/../../b.ply",
+                          "a/b/../../../c",
+                          "a\\b.ply",
+                          "a%5Cb.ply",
+                          "a%00.ply",
+                          "a%0ab.ply",
+                          "a%",
+                          "a%2",
+                          "a%zz",
+                          "file:///a.ply",
+                          "http://x/a.ply",
+                          "data:abc",
+                          "C:/a.ply",
+                          "//host/a.ply"})
     CHECK_STARTS_WITH(path_refusal(bad), "s.json: /objects/0/geometry: the path ");
-  CHECK_STARTS_WITH(path_refusal(std::string_view("a\0b", 3)), "s.json: /objects/0/geometry: the path has a control character");
+  CHECK_STARTS_WITH(path_refusal(std::string_view("a\0b", 3)),
+                    "s.json: /objects/0/geometry: the path has a control character");
   CHECK_STARTS_WITH(path_refusal(std::string(5000, 'a')), "s.json: /objects/0/geometry: the path is too long");
 }
 
@@ -51,9 +70,11 @@ TEST_CASE("a scene's folder gives its own files and no others, with openat2 and 
     error_of(ErrorKind::bad_input, [&] { read("up/outside.ply"); });
     error_of(ErrorKind::bad_input, [&] { read("loop.ply"); });
     error_of(ErrorKind::bad_input, [&] { read("sub"); });
-    CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { read("pipe.ply"); }), "s.json: pipe.ply: this is no regular file");
+    CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { read("pipe.ply"); }),
+                      "s.json: pipe.ply: this is no regular file");
     CHECK_STARTS_WITH(error_of(ErrorKind::io, [&] { read("absent.ply"); }), "s.json: absent.ply: No such file");
-    CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { read("in.ply", 5); }), "s.json: in.ply: 6 bytes are over the limit");
+    CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { read("in.ply", 5); }),
+                      "s.json: in.ply: 6 bytes are over the limit");
   }
 }
 

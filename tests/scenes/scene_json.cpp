@@ -25,7 +25,9 @@ std::string refusal(const std::string& text, ErrorKind kind = ErrorKind::bad_inp
   return name == std::string::npos ? message : message.substr(name);  // without the scratch folder
 }
 
-std::string with(const std::string& key, const std::string& value) { return R"({"version": 1, ")" + key + "\": " + value + "}"; }
+std::string with(const std::string& key, const std::string& value) {
+  return R"({"version": 1, ")" + key + "\": " + value + "}";
+}
 
 TEST_CASE("an empty scene has a camera and draws nothing") {
   const Scene scene = load(R"({"version": 1})");
@@ -74,7 +76,8 @@ TEST_CASE("lights of every type, a ring among them") {
 TEST_CASE("cameras by angle along either axis and by matrix") {
   const Scene x = load(with("camera", R"({"eye": [0, 0, 9], "fov_deg": 90, "fov_axis": "x", "near": 1, "far": 20})"));
   CHECK(*x.camera.fov_x_rad == Approx(1.5707963));
-  const Scene m = load(with("camera", R"({"eye": [0, 0, 9], "clip_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})"));
+  const Scene m =
+      load(with("camera", R"({"eye": [0, 0, 9], "clip_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})"));
   CHECK((*m.camera.clip_from_world)[5] == 1.0f);
 }
 
@@ -94,21 +97,29 @@ TEST_CASE("bad scenes are refused at their pointer") {
       {with("camera", R"({"eye": [0, 0, 1], "fov_deg": 180})"), "s.json: /camera/fov_deg: found 180"},
       {with("camera", R"({"eye": [0, 0, 1], "near": 2, "far": 1})"), "s.json: /camera: near is not below far"},
       {with("camera", R"({"eye": [0, 0, 1], "near": 0})"), "s.json: /camera/near: found 0"},
-      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1], "far": 3})"), "s.json: /camera/far: this key is unknown"},
-      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1]})"), "s.json: /camera/clip_from_world: found an array of 1"},
+      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1], "far": 3})"),
+       "s.json: /camera/far: this key is unknown"},
+      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1]})"),
+       "s.json: /camera/clip_from_world: found an array of 1"},
       {with("camera", R"({"eye": [0, 0, 0]})"), "s.json: camera: eye, target and up leave no direction"},
       {with("camera", R"({"eye": [0, 9, 0]})"), "s.json: camera: eye, target and up leave no direction"},
-      {with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "a", "color": [1, 1, 1]}])"), "s.json: /materials/1: a material of this name"},
+      {with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "a", "color": [1, 1, 1]}])"),
+       "s.json: /materials/1: a material of this name"},
       {with("materials", R"([{"name": "a", "color": [1, 1, -1]}])"), "s.json: /materials/0/color/2: found -1"},
       {with("objects", R"([{}])"), "s.json: /objects/0: an object has 'geometry' or 'mesh'"},
       {with("objects", R"([{"mesh": "teapot"}])"), "s.json: /objects/0/mesh: found \"teapot\" (one of cube"},
       {with("objects", R"([{"mesh": "cube", "normals": "flat"}])"), "s.json: /objects/0/normals: a mesh of ours"},
-      {with("objects", R"([{"mesh": "cube", "color": [1, 1, 1], "material": "a"}])"), "s.json: /objects/0: 'color' and 'material'"},
-      {with("objects", R"([{"mesh": "cube", "material": "a"}])"), "s.json: /objects/0/material: no material has this name"},
-      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1.1]}])"), "s.json: /objects/0/rotation: the quaternion"},
-      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1], "rotation_deg": [0, 0, 0]}])"), "s.json: /objects/0: 'rotation' and"},
+      {with("objects", R"([{"mesh": "cube", "color": [1, 1, 1], "material": "a"}])"),
+       "s.json: /objects/0: 'color' and 'material'"},
+      {with("objects", R"([{"mesh": "cube", "material": "a"}])"),
+       "s.json: /objects/0/material: no material has this name"},
+      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1.1]}])"),
+       "s.json: /objects/0/rotation: the quaternion"},
+      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1], "rotation_deg": [0, 0, 0]}])"),
+       "s.json: /objects/0: 'rotation' and"},
       {with("objects", R"([{"geometry": "../t.ply"}])"), "s.json: /objects/0/geometry: the path leaves"},
-      {with("objects", R"([{"geometry": "t.ply\u0000"}])"), "s.json: /objects/0/geometry: the path has a control character"},
+      {with("objects", R"([{"geometry": "t.ply\u0000"}])"),
+       "s.json: /objects/0/geometry: the path has a control character"},
       {with("objects", R"([{"geometry": "t.stl"}])"), "s.json: /objects/0/geometry: the ending names no geometry"},
       {with("objects", R"([{"geometry": "bad.ply"}])"), "bad.ply: line 2: the header has no end"},
       {with("lights", R"([{"color": [1, 1, 1]}])"), "s.json: /lights/0: 'type' is missing"},
@@ -116,10 +127,14 @@ TEST_CASE("bad scenes are refused at their pointer") {
       {with("lights", R"([{"type": "ambient", "range": 1}])"), "s.json: /lights/0/range: this key is unknown"},
       {with("lights", R"([{"type": "point", "position": [0, 0, 0], "range": 0}])"), "s.json: /lights/0/range: found 0"},
       {with("lights", R"([{"type": "point", "position": [0, 0, 1e19]}])"), "s.json: /lights/0/position/2: found 1e+19"},
-      {with("lights", R"([{"type": "directional", "direction": [0, 0, 0]}])"), "s.json: /lights/0/direction: the direction has no length"},
-      {with("lights", R"([{"type": "spot", "position": [0,0,0], "direction": [1,0,0], "cone_deg": 170, "penumbra_deg": 11}])"), "s.json: /lights/0: cone_deg and"},
+      {with("lights", R"([{"type": "directional", "direction": [0, 0, 0]}])"),
+       "s.json: /lights/0/direction: the direction has no length"},
+      {with("lights",
+            R"([{"type": "spot", "position": [0,0,0], "direction": [1,0,0], "cone_deg": 170, "penumbra_deg": 11}])"),
+       "s.json: /lights/0: cone_deg and"},
       {with("lights", R"([{"type": "ring", "count": 0, "radius": 1}])"), "s.json: /lights/0/count: found 0"},
-      {with("lights", R"([{"type": "ring", "count": 3, "radius": 1, "colors": []}])"), "s.json: /lights/0/colors: found an array of 0"},
+      {with("lights", R"([{"type": "ring", "count": 3, "radius": 1, "colors": []}])"),
+       "s.json: /lights/0/colors: found an array of 0"},
       {with("pipeline", R"({"width": -1})"), "s.json: /pipeline/width: found -1"},
       {with("pipeline", R"({"preset": "x"})"), "s.json: /pipeline/preset: found \"x\""},
   };
@@ -127,7 +142,8 @@ TEST_CASE("bad scenes are refused at their pointer") {
     INFO(text);
     CHECK_STARTS_WITH(refusal(text), start);
   }
-  CHECK_STARTS_WITH(refusal(with("objects", R"([{"geometry": "no.ply"}])"), ErrorKind::io), "s.json: /objects/0/geometry: no.ply: No such file");
+  CHECK_STARTS_WITH(refusal(with("objects", R"([{"geometry": "no.ply"}])"), ErrorKind::io),
+                    "s.json: /objects/0/geometry: no.ply: No such file");
   CHECK_STARTS_WITH(refusal(with("lights", R"([{"type": "ring", "count": 1048577, "radius": 1}])"), ErrorKind::limit),
                     "s.json: /lights/0: the lights are over the limit");
 }

@@ -2,11 +2,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/catch.hpp"
 #include "scenes/json_value.h"
 #include "scenes/pipeline_json.h"
 #include "scenes/presets.h"
 #include "scenes/scene_json.h"
+#include "tests/catch.hpp"
 
 namespace trueshade {
 namespace {
@@ -50,8 +50,8 @@ TEST_CASE("readers and schemas list the same keys") {
 
 TEST_CASE("the pipeline schema lists the presets that exist") {
   const json::Value value = schema("pipeline.schema.json");
-  const json::Node root(value, "pipeline.schema.json"), properties = root.member("properties"), preset = properties.member("preset"),
-                                                        names = preset.member("enum");
+  const json::Node root(value, "pipeline.schema.json"),
+      properties = root.member("properties"), preset = properties.member("preset"), names = preset.member("enum");
   REQUIRE(names.array(1, 100).size() == presets().size());
   for (size_t i = 0; i < presets().size(); ++i) CHECK(names.element(i).string() == presets()[i].name);
 }

@@ -1,10 +1,10 @@
 #pragma once
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
-
-#include <unistd.h>
 
 /// A folder of the test's own that goes with it.
 class ScratchFolder {
