@@ -81,7 +81,7 @@ class Net {
     const double slope2 = dot(slope, slope);
     if (slope2 > 0.0) p -= slope * (field_(p) / slope2);
     vertex_[at(cell)] = uint32_t(mesh_.vertex_count());
-    add_vertex(mesh_, p, unit(gradient(p)));
+    add_vertex(mesh_, p, unit(slope));  // the step is far shorter than the gradient takes to turn
   }
 
   glm::dvec3 gradient(const glm::dvec3& p) const {
