@@ -25,7 +25,4 @@ struct CarefulPieces {
 /// Clips and snaps. Coordinates come out relative to the sample (origin_x, origin_y), in 1/256 pixel.
 CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y);
 
-/// The piece that gives pixel (px, py) of a tile its values: the first of the fan's facing that covers it, or -1.
-int piece_at(const CarefulPieces& fan, bool upper_left, int px, int py);
-
 }  // namespace trueshade

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "raster/fixed_point.h"
 #include "raster/snap.h"
@@ -55,9 +56,51 @@ int last_bit(double value) {
   return exponent - 24;
 }
 
+// A sum or product of two doubles and what rounding left of it, exact (Dekker 1971, Knuth 1969).
+struct Exact {
+  double value, rest;
+};
+Exact exact_sum(double a, double b) {
+  const double s = a + b, t = s - a;
+  return {s, (a - (s - t)) + (b - t)};
+}
+Exact exact_product(double a, double b) {
+  const double ca = 134217729.0 * a, cb = 134217729.0 * b;
+  const double ah = ca - (ca - a), bh = cb - (cb - b), al = a - ah, bl = b - bh, p = a * b;
+  return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+}
+
+// The crossing in pairs of doubles, about 100 bits, where that settles the rounding to 53; nothing where it does not.
+std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVertex& vb, double a, double b) {
+  const double ca[4] = {double(va.c[0]), double(va.c[1]), double(va.c[2]), double(va.c[3])};
+  const double cb[4] = {double(vb.c[0]), double(vb.c[1]), double(vb.c[2]), double(vb.c[3])};
+  if (p.constant != 0.0) return std::nullopt;
+  const Exact da = exact_sum(ca[p.axis] * p.sign, ca[3] * p.w_factor), db = exact_sum(cb[p.axis] * p.sign, cb[3] * p.w_factor);
+  const Exact den = exact_sum(db.value, -da.value);
+  if (da.rest != 0.0 || db.rest != 0.0 || den.rest != 0.0) return std::nullopt;
+  const Exact left = exact_product(a, db.value), right = exact_product(b, da.value);
+  const Exact high = exact_sum(left.value, -right.value), low = exact_sum(left.rest, -right.rest);
+  const Exact mid = exact_sum(high.rest, low.value);
+  if (std::abs(high.value) < std::abs(left.value) * 0x1p-30) return std::nullopt;  // the parts cancel
+  const double n0 = high.value, n1 = mid.value, n2 = mid.rest + low.rest;
+  const double q1 = (n0 + n1) / den.value;
+  if (!(std::abs(q1) > 1e-200 && std::abs(q1) < 1e200)) return std::nullopt;
+  const Exact back = exact_product(q1, den.value);
+  const double rest = ((((n0 - back.value) - back.rest) + n1) + n2) / den.value;
+  const Exact q = exact_sum(q1, rest);
+  // Where the rest is this far from half a unit of the last place, no error of the pair can turn the rounding.
+  int exponent = 0;
+  const double fraction = std::frexp(std::abs(q.value), &exponent);
+  const double half_unit = std::ldexp(1.0, exponent - (fraction == 0.5 ? 55 : 54));
+  if (std::abs(std::abs(q.rest) - half_unit) < half_unit * 0x1p-20 || (fraction == 0.5 && std::abs(q.rest) > half_unit * 0.5))
+    return std::nullopt;
+  return q.value;
+}
+
 // (a*db - b*da) / (db - da), exact, rounded once; da and db the plane's distances at the two ends.
 double exact_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVertex& vb, float a, float b) {
   if (a == b) return double(a);
+  if (const std::optional<double> quick = quick_crossing(p, va, vb, double(a), double(b))) return *quick;
   const double ca[2] = {double(va.c[p.axis]) * p.sign, double(va.c[3]) * p.w_factor};
   const double cb[2] = {double(vb.c[p.axis]) * p.sign, double(vb.c[3]) * p.w_factor};
   const int unit = std::min({last_bit(ca[0]), last_bit(ca[1]), last_bit(cb[0]), last_bit(cb[1]), last_bit(p.constant)});
@@ -144,10 +187,14 @@ ClippedPolygon clip_triangle(const ClipVertex v[3], const WindowTransform& windo
     polygon.corner[i] = uint8_t(i);
   }
   polygon.corners = 3;
-  cut(polygon, kW, v, window);
   if (!window.depth_clamp) {
     cut(polygon, kNear, v, window);
     cut(polygon, kFar, v, window);
+  }
+  for (int i = 0; i < polygon.corners; ++i) {  // between near and far w is at least 0; only without them, or at 0, this cuts
+    if (polygon.at(i).c[3] >= kSmallestW) continue;
+    cut(polygon, kW, v, window);
+    break;
   }
   if (polygon.corners != 0 && beyond_box(polygon, window))
     for (const Plane plane : {kRight, kLeft, kTop, kBottom}) cut(polygon, plane, v, window);

@@ -122,25 +122,70 @@ struct DepthCommit {
     const float* depth = tile.depth + block * kBlockPixels;
     V32 far = hn::Load(df, depth);
     for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
-    constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
-    alignas(64) float lane[kLanes];
-    hn::Store(far, df, lane);
-    tile.far[block] = *std::max_element(lane, lane + hn::Lanes(df));
+    tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
 };
 
-/// Vector path: 4x4 blocks of the triangle's box, a vector of pixels at a time.
-template <class Commit>
-HWY_INLINE void cover_blocks(const TriangleSetup<double>& s, const TileRect& rect, Commit& commit) {
+/// Column and row of each lane's pixel in a block, for vectors that start at a multiple of their length.
+alignas(64) inline constexpr double kLaneColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kLaneRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
+
+/// Edge functions of a setup at vectors of pixels, as f64 rounded once; exact below 2^53.
+template <class T>
+struct EdgeVectors;
+
+template <>
+struct EdgeVectors<double> {
+  const TriangleSetup<double>& s;
+  V64 across[3];
+
+  explicit EdgeVectors(const TriangleSetup<double>& setup) : s(setup) {
+    const D64 d;
+    const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
+    for (int i = 0; i < 3; ++i)
+      across[i] = hn::Add(hn::Mul(column, hn::Set(d, s.sx[i])), hn::Mul(row, hn::Set(d, s.sy[i])));
+  }
+  HWY_INLINE V64 at(int i, double px, double py) const {
+    return hn::Add(hn::Set(D64(), s.c[i] + px * s.sx[i] + py * s.sy[i]), across[i]);
+  }
+};
+
+/// E = high * 2^32 + low with both parts exact, so that one addition rounds it once; and rounding keeps the sign and 1.
+template <>
+struct EdgeVectors<__int128> {
+  static_assert(2 * (kWideBits + 1) + 1 - 32 <= 53);
+  double c[3][2], sx[3][2], sy[3][2];  // high, low
+  V64 column, row;
+
+  explicit EdgeVectors(const TriangleSetup<__int128>& s) : column(hn::LoadU(D64(), kLaneColumn)), row(hn::LoadU(D64(), kLaneRow)) {
+    for (int i = 0; i < 3; ++i) {
+      split(s.c[i], c[i]);
+      split(s.sx[i], sx[i]);
+      split(s.sy[i], sy[i]);
+    }
+  }
+  static void split(__int128 v, double out[2]) {
+    out[0] = double(int64_t(v >> 32));
+    out[1] = double(uint32_t(v));
+  }
+  HWY_INLINE V64 at(int i, double px, double py) const {
+    const D64 d;
+    V64 part[2];
+    for (int k = 0; k < 2; ++k)
+      part[k] = hn::Add(hn::Set(d, c[i][k] + px * sx[i][k] + py * sy[i][k]),
+                        hn::Add(hn::Mul(column, hn::Set(d, sx[i][k])), hn::Mul(row, hn::Set(d, sy[i][k]))));
+    return hn::Add(hn::Mul(part[0], hn::Set(d, 0x1p32)), part[1]);
+  }
+};
+
+/// Draws the 4x4 blocks under the triangle's box, a vector of pixels at a time.
+template <class T, class Commit>
+HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
   const D64 d;
   const int lanes = int(hn::Lanes(d));
-  alignas(64) static constexpr double kColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
-  const V64 column = hn::LoadU(d, kColumn), row = hn::LoadU(d, kRow);
-  V64 across[3], least[3];
-  for (int i = 0; i < 3; ++i) {
-    across[i] = hn::Add(hn::Mul(column, hn::Set(d, s.sx[i])), hn::Mul(row, hn::Set(d, s.sy[i])));
-    least[i] = hn::Set(d, s.least[i]);
-  }
+  const EdgeVectors<T> edges(s);
+  const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
+  V64 least[3];
+  for (int i = 0; i < 3; ++i) least[i] = hn::Set(d, double(s.least[i]));
   const bool limited = rect.limit[0] > 0 || rect.limit[1] > 0 || rect.limit[2] < rect.size || rect.limit[3] < rect.size;
   commit.begin(s);
   for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by) {
@@ -151,7 +196,7 @@ HWY_INLINE void cover_blocks(const TriangleSetup<double>& s, const TileRect& rec
       for (int k = 0; k < kBlockPixels; k += lanes) {
         const double px = bx * kBlockSize + k % kBlockSize, py = by * kBlockSize + k / kBlockSize;
         V64 e[3];
-        for (int i = 0; i < 3; ++i) e[i] = hn::Add(hn::Set(d, s.c[i] + px * s.sx[i] + py * s.sy[i]), across[i]);
+        for (int i = 0; i < 3; ++i) e[i] = edges.at(i, px, py);
         M64 covered = hn::And(hn::Ge(e[0], least[0]), hn::And(hn::Ge(e[1], least[1]), hn::Ge(e[2], least[2])));
         if (limited) {
           const V64 x = hn::Add(hn::Set(d, px), column), y = hn::Add(hn::Set(d, py), row);
@@ -166,20 +211,6 @@ HWY_INLINE void cover_blocks(const TriangleSetup<double>& s, const TileRect& rec
   }
 }
 
-/// Wide path: the same formulas on 128-bit integers, a pixel at a time.
-template <class Commit>
-inline void cover_wide(const TriangleSetup<__int128>& s, const TileRect& rect, Commit& commit) {
-  commit.begin(s);
-  for (int y = s.y0; y < s.y1; ++y) {
-    for (int x = s.x0; x < s.x1; ++x) {
-      if (s.covers(x, y)) commit.scalar(tile_index(rect.size, x, y), double(s.edge(1, x, y)), double(s.edge(2, x, y)));
-    }
-  }
-  for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by)
-    for (int bx = s.x0 / kBlockSize; bx * kBlockSize < s.x1; ++bx)
-      commit.finish_block(by * (rect.size / kBlockSize) + bx);
-}
-
 /// Draws a triangle by the path its size asks for.
 template <class Commit>
 inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryState& state, bool upper_left,
@@ -192,7 +223,7 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
     if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
   } else {
     TriangleSetup<__int128> setup;
-    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover_wide(setup, rect, commit);
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
   }
 }
 

@@ -17,10 +17,29 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using VI32 = hn::Vec<I32>;
 
-/// Weights of vertices 1 and 2 in canonical order, and where the vertices are in VisibleVertices.
-struct Weights {
-  VI32 vertex[3];        ///< canonical order
+/// Weights of vertices 1 and 2 in canonical order.
+struct Barycentrics {
   V64 smooth[2], linear[2];
+};
+
+/// From the edge functions and 1 / w of the vertices; `area` is the edges' exact sum, rounded once.
+HWY_INLINE Barycentrics barycentrics(const V64 e[3], const V64 u[3], V64 area) {
+  const V64 one = hn::Set(D64(), 1.0);
+  const V64 l0 = hn::Mul(e[0], u[0]), l1 = hn::Mul(e[1], u[1]), l2 = hn::Mul(e[2], u[2]);
+  const V64 r = hn::Div(one, hn::Add(hn::Add(l0, l1), l2));
+  const V64 inverse_area = hn::Div(one, area);
+  return {{hn::Mul(l1, r), hn::Mul(l2, r)}, {hn::Mul(e[1], inverse_area), hn::Mul(e[2], inverse_area)}};
+}
+
+/// a0 + (b1 (a1 - a0) + b2 (a2 - a0)).
+HWY_INLINE V64 affine(const V64 b[2], V64 a0, V64 a1, V64 a2) {
+  return hn::Add(a0, hn::Add(hn::Mul(b[0], hn::Sub(a1, a0)), hn::Mul(b[1], hn::Sub(a2, a0))));
+}
+
+/// Barycentrics of pixels whose triangles differ, and where the vertices are in VisibleVertices, in canonical order.
+struct Weights {
+  VI32 vertex[3];
+  Barycentrics at;
 };
 
 /// Smaller and larger of two, the first where equal: the same answer for -0 and 0 on every target, unlike Min and Max.
@@ -56,14 +75,7 @@ HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 
   }
   for (int i = 0; i < 3; ++i)
     e[i] = hn::Sub(hn::Mul(rx[(i + 1) % 3], ry[(i + 2) % 3]), hn::Mul(rx[(i + 2) % 3], ry[(i + 1) % 3]));
-  const V64 one = hn::Set(d, 1.0);
-  const V64 l0 = hn::Mul(e[0], u[0]), l1 = hn::Mul(e[1], u[1]), l2 = hn::Mul(e[2], u[2]);
-  const V64 r = hn::Div(one, hn::Add(hn::Add(l0, l1), l2));
-  w.smooth[0] = hn::Mul(l1, r);
-  w.smooth[1] = hn::Mul(l2, r);
-  const V64 inverse_area = hn::Div(one, hn::Add(hn::Add(e[0], e[1]), e[2]));
-  w.linear[0] = hn::Mul(e[1], inverse_area);
-  w.linear[1] = hn::Mul(e[2], inverse_area);
+  w.at = barycentrics(e, u, hn::Add(hn::Add(e[0], e[1]), e[2]));
   return w;
 }
 
@@ -73,10 +85,8 @@ HWY_INLINE V32 interpolated(const float* stream, const Weights& w, Interpolation
   if (how == Interpolation::flat) return hn::GatherIndex(df, stream, provoking);
   const V32 a0 = hn::GatherIndex(df, stream, w.vertex[0]), a1 = hn::GatherIndex(df, stream, w.vertex[1]),
             a2 = hn::GatherIndex(df, stream, w.vertex[2]);
-  const V64* b = how == Interpolation::smooth ? w.smooth : w.linear;
-  const V64 base = hn::PromoteTo(d, a0);
-  const V64 sum = hn::Add(hn::Mul(b[0], hn::Sub(hn::PromoteTo(d, a1), base)), hn::Mul(b[1], hn::Sub(hn::PromoteTo(d, a2), base)));
-  const V32 value = hn::DemoteTo(df, hn::Add(base, sum));
+  const V64* b = how == Interpolation::smooth ? w.at.smooth : w.at.linear;
+  const V32 value = hn::DemoteTo(df, affine(b, hn::PromoteTo(d, a0), hn::PromoteTo(d, a1), hn::PromoteTo(d, a2)));
   const V32 low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
   return lesser(greater(value, low), high);
 }

@@ -35,7 +35,10 @@ int compare_products(double x, int64_t a, double w, int64_t b) {
 std::optional<int64_t> snapped_quotient(double x, double w, int64_t scale) {
   const double estimate = (x / w) * double(scale);
   if (!(std::abs(estimate) < double(kWideLimit))) return std::nullopt;
-  int64_t n = int64_t(std::nearbyint(estimate));
+  const double nearest = std::nearbyint(estimate);
+  int64_t n = int64_t(nearest);
+  // Below 2^40 the estimate is off by less than 2^-11: away from a tie it has decided.
+  if (std::abs(estimate - nearest) < 0.5 - 0x1p-10) return n;
   // n is right if |2 x scale - 2 n w| <= w, with n even where equal. The estimate is at most one off.
   for (;;) {
     const int above = compare_products(x, 2 * scale, w, 2 * n + 1);

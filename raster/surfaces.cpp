@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "raster/careful.h"
+#include "raster/coverage-inl.h"
 #include "raster/interpolate-inl.h"
 #include "raster/store-inl.h"
 
@@ -126,14 +127,13 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
   const D64 d;
   const D32 df;
   const I32 di;
-  alignas(64) static constexpr double kColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
   const int blocks = rect.size / kBlockSize;
   for (int i = 0; i < rect.size * rect.size; i += int(hn::Lanes(d))) {
     const auto covered = hn::Load(di, out.covered + i);
     if (hn::AllTrue(di, hn::Eq(covered, hn::Zero(di)))) continue;
     const int block = i / kBlockPixels, k = i % kBlockPixels;
-    const V64 px = hn::Add(hn::Set(d, (block % blocks) * kBlockSize + k % kBlockSize), hn::LoadU(d, kColumn));
-    const V64 py = hn::Add(hn::Set(d, (block / blocks) * kBlockSize + k / kBlockSize), hn::LoadU(d, kRow));
+    const V64 px = hn::Add(hn::Set(d, (block % blocks) * kBlockSize + k % kBlockSize), hn::LoadU(d, kLaneColumn));
+    const V64 py = hn::Add(hn::Set(d, (block / blocks) * kBlockSize + k / kBlockSize), hn::LoadU(d, kLaneRow));
     VI32 corner[3];
     for (int c = 0; c < 3; ++c) corner[c] = hn::LoadU(di, reinterpret_cast<const int32_t*>(work.corner[c].data()) + i);
     const Weights w = weights(work, corner, px, py);
@@ -144,75 +144,97 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
   }
 }
 
-// The same formulas for one pixel of a triangle that was clipped or is too large for the vector path.
-struct CarefulPixel {
-  const CarefulPieces& fan;
-  const ClipVertex* clip;
-  const WindowTransform& t;
-  const CarefulPieces::Piece& piece;
-  int order[3];                 // canonical order of the piece's corners
-  double smooth[2], linear[2];
-
-  CarefulPixel(const CarefulPieces& f, const ClipVertex v[3], const WindowTransform& window, int which, int px, int py)
-      : fan(f), clip(v), t(window), piece(f.piece[which]) {
-    const WindowTriangle& w = piece.triangle;
-    int first = 0;
-    for (int i = 1; i < 3; ++i)
-      if (w.y[i] < w.y[first] || (w.y[i] == w.y[first] && w.x[i] < w.x[first])) first = i;
-    double e[3], u[3];
-    for (int i = 0; i < 3; ++i) {
-      order[i] = (first + i) % 3;
-      u[i] = 1.0 / fan.polygon.all[piece.corner[order[i]]].c[3];
-    }
-    __int128 area = 0;
-    for (int i = 0; i < 3; ++i) {
-      const int a = (first + i + 1) % 3, b = (first + i + 2) % 3;
-      const __int128 exact = __int128(w.x[a] - 256 * px) * (w.y[b] - 256 * py) - __int128(w.x[b] - 256 * px) * (w.y[a] - 256 * py);
-      area += exact;
-      e[i] = double(exact);
-    }
-    const double l0 = e[0] * u[0], l1 = e[1] * u[1], l2 = e[2] * u[2], r = 1.0 / ((l0 + l1) + l2);
-    smooth[0] = l1 * r;
-    smooth[1] = l2 * r;
-    const double inverse_area = 1.0 / double(area);
-    linear[0] = e[1] * inverse_area;
-    linear[1] = e[2] * inverse_area;
-  }
-
-  float value(const float v[3], Interpolation how, int provoking) const {
-    if (how == Interpolation::flat) return v[provoking];
-    double a[3];
-    for (int i = 0; i < 3; ++i) a[i] = corner_attribute(fan.polygon, piece.corner[order[i]], clip, t, v[0], v[1], v[2]);
-    const double* b = how == Interpolation::smooth ? smooth : linear;
-    const double plane = a[0] + (b[0] * (a[1] - a[0]) + b[1] * (a[2] - a[0]));
-    const double low = std::min({a[0], a[1], a[2]}), high = std::max({a[0], a[1], a[2]});
-    return float(plane < low ? low : (plane > high ? high : plane));
-  }
+// A piece of a triangle that needed care, with everything interpolation wants: one triangle, many pixels.
+struct CarefulSurface {
+  uint32_t id;
+  TriangleSetup<__int128> setup;
+  double u[3], area;                  // canonical order
+  double attribute[kStreams][3];
+  float provoking[kStreams];
 };
 
+void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups, uint32_t id,
+                          const uint32_t corner[3], const VisibleVertices& work, std::vector<CarefulSurface>& out) {
+  const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  const WindowTransform& t = in.view.window;
+  GeometryState any_side = in.state;
+  any_side.cull_face = CullFace::none;
+  ClipVertex clip[3];
+  clip_corners(in, id_position(id), id_triangle(id), clip);
+  const CarefulPieces fan = careful_pieces(clip, t, origin.x, origin.y);
+  for (int i = 0; i < fan.count; ++i) {
+    const CarefulPieces::Piece& piece = fan.piece[i];
+    CarefulSurface surface;
+    surface.id = id;
+    if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, surface.setup)) continue;
+    surface.area = double(surface.setup.edge(0, 0, 0) + surface.setup.edge(1, 0, 0) + surface.setup.edge(2, 0, 0));
+    int order[3];
+    canonical_order(piece.triangle, order);
+    for (int k = 0; k < 3; ++k) surface.u[k] = 1.0 / fan.polygon.all[piece.corner[order[k]]].c[3];
+    for (int g = 0; g < groups; ++g) {
+      for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
+        float v[3];
+        for (int k = 0; k < 3; ++k) v[k] = work.stream[c][corner[k]];
+        surface.provoking[c] = v[in.state.provoking == Provoking::last ? 2 : 0];
+        for (int k = 0; k < 3; ++k)
+          surface.attribute[c][k] = corner_attribute(fan.polygon, piece.corner[order[k]], clip, t, v[0], v[1], v[2]);
+      }
+    }
+    out.push_back(surface);
+  }
+}
+
+// The attributes of one piece at the lanes it owns; the other lanes keep what they have.
+void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups, int at,
+                       SurfaceTile& out) {
+  const D64 d;
+  const D32 df;
+  const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
+  const Barycentrics w = barycentrics(e, u, hn::Set(d, s.area));
+  for (int g = 0; g < groups; ++g) {
+    for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
+      const double* a = s.attribute[c];
+      const V64 plane = affine(group[g].plane.interpolation == Interpolation::smooth ? w.smooth : w.linear, hn::Set(d, a[0]),
+                               hn::Set(d, a[1]), hn::Set(d, a[2]));
+      const V64 low = hn::Set(d, std::min({a[0], a[1], a[2]})), high = hn::Set(d, std::max({a[0], a[1], a[2]}));
+      const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
+      V64 value = hn::IfThenElse(hn::Gt(above, high), high, above);
+      if (group[g].plane.interpolation == Interpolation::flat) value = hn::Set(d, double(s.provoking[c]));
+      const V64 there = hn::PromoteTo(d, hn::Load(df, out.plane[c] + at));
+      hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
+    }
+  }
+}
+
+// Pixels of triangles that were clipped or are too large for the vector path: a few triangles, each over many pixels.
 void interpolate_careful(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
                          const VisibilityTile& visible, const VisibleVertices& work, SurfaceTile& out) {
-  const SampleOrigin origin = sample_origin(rect.x, rect.y);
-  const int provoking = in.state.provoking == Provoking::last ? 2 : 0;
-  uint32_t id = 0;
-  ClipVertex clip[3];
-  CarefulPieces fan;
-  for (int y = 0; y < rect.size; ++y) {
-    for (int x = 0; x < rect.size; ++x) {
-      const int i = tile_index(rect.size, x, y);
-      if (visible.id[i] == 0 || !id_careful(visible.id[i])) continue;
-      if (visible.id[i] != id) {
-        id = visible.id[i];
-        clip_corners(in, id_position(id), id_triangle(id), clip);
-        fan = careful_pieces(clip, in.view.window, origin.x, origin.y);
-      }
-      const CarefulPixel pixel(fan, clip, in.view.window, piece_at(fan, in.view.window.upper_left, x, y), x, y);
-      for (int g = 0; g < groups; ++g) {
-        for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
-          float v[3];
-          for (size_t k = 0; k < 3; ++k) v[k] = work.stream[c][work.corner[k][size_t(i)]];
-          out.plane[c][i] = pixel.value(v, group[g].plane.interpolation, provoking);
-        }
+  const D64 d;
+  std::vector<CarefulSurface> surfaces;  // of the tile, by id in no order: there are few
+  const int blocks = rect.size / kBlockSize, lanes = int(hn::Lanes(d));
+  for (int i = 0; i < rect.size * rect.size; i += lanes) {
+    const double px = (i / kBlockPixels % blocks) * kBlockSize + i % kBlockPixels % kBlockSize;
+    const double py = (i / kBlockPixels / blocks) * kBlockSize + i % kBlockPixels / kBlockSize;
+    uint32_t done = 0;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const uint32_t id = visible.id[i + lane];
+      if (id == 0 || !id_careful(id) || id == done) continue;
+      done = id;
+      const uint32_t corner[3] = {work.corner[0][size_t(i + lane)], work.corner[1][size_t(i + lane)], work.corner[2][size_t(i + lane)]};
+      if (std::none_of(surfaces.begin(), surfaces.end(), [id](const CarefulSurface& s) { return s.id == id; }))
+        add_careful_surfaces(in, rect, group, groups, id, corner, work, surfaces);
+      alignas(64) double mine[HWY_MAX_BYTES / sizeof(double)];
+      for (int k = 0; k < lanes; ++k) mine[k] = visible.id[i + k] == id ? 1.0 : 0.0;
+      M64 open = hn::Gt(hn::Load(d, mine), hn::Zero(d));
+      for (const CarefulSurface& s : surfaces) {
+        if (s.id != id) continue;
+        const EdgeVectors<__int128> edges(s.setup);
+        const V64 e[3] = {edges.at(0, px, py), edges.at(1, px, py), edges.at(2, px, py)};
+        M64 owned = open;
+        for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
+        if (hn::AllFalse(d, owned)) continue;
+        interpolate_piece(s, e, owned, group, groups, i, out);
+        open = hn::AndNot(owned, open);
       }
     }
   }

@@ -38,15 +38,21 @@ constexpr bool culled(const GeometryState& state, bool counter_clockwise) {
   return front == (state.cull_face == CullFace::front);
 }
 
+/// Corners in canonical order: the smallest (y, x) first, the others as they follow.
+inline void canonical_order(const WindowTriangle& t, int order[3]) {
+  int first = 0;
+  for (int i = 1; i < 3; ++i)
+    if (t.y[i] < t.y[first] || (t.y[i] == t.y[first] && t.x[i] < t.x[first])) first = i;
+  for (int i = 0; i < 3; ++i) order[i] = (first + i) % 3;
+}
+
 /// Sets up a triangle; false if it covers nothing: no area, culled, or no sample in its box and [0, limit).
 /// Corners are put in canonical order, smallest (y, x) first, and signs turned so that the area is positive.
 template <class T>
 inline bool set_up_triangle(const WindowTriangle& in, const GeometryState& state, bool upper_left, const int limit[4],
                             TriangleSetup<T>& out) {
-  int first = 0;
-  for (int i = 1; i < 3; ++i)
-    if (in.y[i] < in.y[first] || (in.y[i] == in.y[first] && in.x[i] < in.x[first])) first = i;
-  const int order[3] = {first, (first + 1) % 3, (first + 2) % 3};
+  int order[3];
+  canonical_order(in, order);
   T x[3], y[3];
   for (int i = 0; i < 3; ++i) {
     x[i] = T(in.x[order[i]]);

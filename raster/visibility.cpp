@@ -82,6 +82,14 @@ bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBo
   return true;
 }
 
+// Whether the blocks under a triangle's box hide it: cheaper than setting it up.
+bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const WindowTriangle& w, const WindowTransform& t) {
+  const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
+                      int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
+                      std::min({w.z[0], w.z[1], w.z[2]})};
+  return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
+}
+
 void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit, RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -122,6 +130,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
       window.y[k] = v.y[corner[k]];
       window.z[k] = v.z[corner[k]];
     }
+    if (commit.skip_hidden && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
   }

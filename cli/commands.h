@@ -1,0 +1,16 @@
+#pragma once
+#include <string_view>
+
+#include "cli/options.h"
+
+namespace trueshade {
+
+// The subcommands. Each writes its files, then its answer to standard output, and throws Error where it cannot.
+void render(const RenderOptions& options);
+void print_info(const InfoOptions& options);
+void print_list(const ListOptions& options);
+
+/// Writes text to standard output and flushes it. Error(io) where that fails, say on a full disk.
+void print(std::string_view text);
+
+}  // namespace trueshade

@@ -1,0 +1,120 @@
+#include "cli/frame_text.h"
+
+#include <algorithm>
+
+#include "cli/json_text.h"
+#include "cli/version.h"
+#include "core/fp_env.h"
+
+namespace trueshade {
+namespace {
+
+std::string size_text(const Image& image) { return std::to_string(image.width) + 'x' + std::to_string(image.height); }
+
+double ratio(uint64_t part, uint64_t whole) { return whole == 0 ? 0.0 : double(part) / double(whole); }
+
+/// Milliseconds to the microsecond: more digits would only say what the machine happened to do.
+double rounded_ms(double ms) { return double(int64_t(ms * 1000.0 + 0.5)) / 1000.0; }
+
+JsonObject scene_json(const RenderedFrame& result) {
+  const Scene& scene = result.scene;
+  JsonObject json;
+  json.put("spec", scene.spec).put("hash", "sha256:" + result.scene_hash);
+  json.put("meshes", uint64_t(scene.meshes.size())).put("instances", uint64_t(scene.instances.size()));
+  json.put("triangles", scene.triangle_count()).put("lights", uint64_t(scene.lights.size()));
+  return json;
+}
+
+JsonObject execution_json(const Execution& execution) {
+  JsonObject json;
+  const std::string_view simd = execution.simd == "best" ? simd_targets().front() : execution.simd;
+  json.put("threads", thread_count(execution.threads)).put("tile", execution.tile).put("simd", simd);
+  json.put("light_culling", execution.light_culling).put("geometry_culling", execution.geometry_culling);
+  return json;
+}
+
+}  // namespace
+
+std::string hash_line(const RenderedFrame& result) {
+  const Image& color = result.frame.color;
+  return "sha256:" + result.image_hash + "  " + size_text(color) + "  " + std::string(info(color.format).name) + '\n';
+}
+
+Metadata metadata_of(const RenderedFrame& result) {
+  return {{"trueshade:imageHash", "sha256:" + result.image_hash},
+          {"trueshade:pipeline", pipeline_json(result.pipeline)},
+          {"trueshade:scene", result.scene.spec},
+          {"trueshade:sceneHash", "sha256:" + result.scene_hash},
+          {"trueshade:version", kVersion}};
+}
+
+std::vector<StatLine> stat_lines(const RenderedFrame& result) {
+  const FrameStats& s = result.frame.stats;
+  const auto count = [](const char* key, const char* label, uint64_t value) {
+    return StatLine{key, label, json_number(value)};
+  };
+  const auto real = [](const char* key, const char* label, double value) {
+    return StatLine{key, label, json_number(double(int64_t(value * 1e4 + 0.5)) / 1e4)};
+  };
+  const auto time = [](const char* key, const char* label, double ms) {
+    return StatLine{key, label, json_number(rounded_ms(ms))};
+  };
+  const double culled = s.pixel_lights == 0 ? 0.0 : 1.0 - ratio(s.tile_pixel_lights, s.pixel_lights);
+  std::vector<StatLine> lines = {
+      count("pixels", "pixels", s.pixels),
+      count("covered_pixels", "covered pixels", s.covered_pixels),
+      real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
+      count("triangles", "triangles", s.triangles),
+      count("lights", "lights", s.lights),
+      count("pixel_lights", "pixel-light pairs", s.pixel_lights),
+      count("lit_pixel_lights", "pairs lit", s.lit_pixel_lights),
+      real("lit_lights_per_pixel", "lights that light a covered pixel", ratio(s.lit_pixel_lights, s.covered_pixels)),
+      count("clusters_drawn", "clusters set up", s.clusters_drawn),
+      count("triangles_tested", "triangles set up", s.triangles_tested),
+      count("fragments", "fragments before the depth test", s.fragments),
+      count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
+      real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
+      count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
+      time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
+      time("light_ms", "light, all threads [ms]", s.light_ms),
+      time("total_ms", "this frame, planes included [ms]", s.total_ms)};
+  if (!result.repeated_ms.empty())
+    lines.push_back(time("frame_ms", "time per frame [ms]", result.repeated_ms[result.repeated_ms.size() / 2]));
+  return lines;
+}
+
+std::string stats_text(const RenderedFrame& result) {
+  const std::vector<StatLine> lines = stat_lines(result);
+  size_t widest = 0, longest = 0;
+  for (const StatLine& line : lines) {
+    widest = std::max(widest, line.label.size());
+    longest = std::max(longest, line.value.size());
+  }
+  std::string text;
+  for (const StatLine& line : lines)
+    text +=
+        line.label + std::string(widest - line.label.size() + 2 + longest - line.value.size(), ' ') + line.value + '\n';
+  return text;
+}
+
+std::string json_of(const RenderedFrame& result, std::span<const std::string> files) {
+  JsonObject stats;
+  for (const StatLine& line : stat_lines(result)) stats.put_raw(line.key, line.value);
+  JsonArray aovs, paths;
+  for (const NamedImage& aov : result.frame.aovs)
+    aovs.add_raw(JsonObject()
+                     .put("name", aov.name)
+                     .put("format", info(aov.image.format).name)
+                     .put("hash", "sha256:" + image_hash(aov.image))
+                     .text());
+  for (const std::string& file : files) paths.add_raw(json_string(file));
+  JsonObject json;
+  json.put("version", kVersion);
+  json.put_raw("scene", scene_json(result).text()).put_raw("pipeline", pipeline_json(result.pipeline));
+  json.put_raw("execution", execution_json(result.execution).text()).put_raw("stats", stats.text());
+  json.put("hash", "sha256:" + result.image_hash);
+  json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
+  return json.text() + '\n';
+}
+
+}  // namespace trueshade

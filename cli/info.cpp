@@ -1,0 +1,52 @@
+#include <string>
+
+#include "cli/commands.h"
+#include "core/image_io.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+namespace {
+
+std::string row(const std::string& name, const std::string& value) {
+  return name + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') + value + '\n';
+}
+
+std::string about_image(const std::string& path) {
+  const ImageFileInfo image = read_image_info(path);
+  std::string text = row("image", path) + row("size", std::to_string(image.width) + 'x' + std::to_string(image.height));
+  for (const std::string& channel : image.channels) text += row("channel", channel);
+  for (const auto& [key, value] : image.metadata) text += row(key, value);
+  return text;
+}
+
+std::string about_scene(const std::string& spec) {
+  const Scene scene = load_scene(spec);
+  const char* const kTypes[] = {"ambient", "directional", "point", "spot"};
+  size_t lights[4] = {};
+  for (const Light& light : scene.lights) ++lights[size_t(light.type)];
+  std::string kinds;
+  for (size_t type = 0; type < 4; ++type)
+    if (lights[type] != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(lights[type]) + ' ' + kTypes[type];
+  size_t vertices = 0, stored = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    vertices += mesh.vertex_count();
+    stored += mesh.triangle_count();
+  }
+  return row("scene", scene.spec) + row("hash", "sha256:" + scene_hash(scene)) +
+         row("meshes", std::to_string(scene.meshes.size()) + " (" + std::to_string(stored) + " triangles, " +
+                           std::to_string(vertices) + " vertices stored)") +
+         row("materials", std::to_string(scene.materials.size())) +
+         row("instances", std::to_string(scene.instances.size())) +
+         row("triangles drawn", std::to_string(scene.triangle_count())) +
+         row("lights", std::to_string(scene.lights.size()) + (kinds.empty() ? "" : " (" + kinds + ')')) +
+         (scene.pipeline_text.empty() ? "" : row("pipeline", scene.pipeline_text));
+}
+
+}  // namespace
+
+void print_info(const InfoOptions& options) {
+  const bool image = options.file.ends_with(".png") || options.file.ends_with(".exr");
+  print(image ? about_image(options.file) : about_scene(options.file));
+}
+
+}  // namespace trueshade

@@ -1,0 +1,57 @@
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/json_text.h"
+#include "scenes/builtin.h"
+#include "scenes/presets.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+namespace {
+
+/// One heading of the list: names, each with a line about it or none.
+struct Section {
+  std::string key, heading;
+  std::vector<std::pair<std::string, std::string>> entries;
+};
+
+std::vector<Section> sections() {
+  Section scenes{"scenes", "Scenes (render builtin:NAME)", {}}, rows{"presets", "Presets (--preset)", {}};
+  Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
+  Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
+  for (const BuiltinInfo& scene : builtin_scenes()) scenes.entries.emplace_back(scene.name, scene.description);
+  for (const Preset& preset : presets()) rows.entries.emplace_back(preset.name, preset.source);
+  for (const Format format : kFormats) formats.entries.emplace_back(info(format).name, "");
+  for (const std::string_view name : aov_names()) planes.entries.emplace_back(name, "");
+  for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
+  return {scenes, rows, {"strategies", "Strategies", {{"deferred-loop", ""}}}, formats, planes, simd};
+}
+
+std::string json_of(const std::vector<Section>& list) {
+  JsonObject json;
+  for (const Section& section : list) {
+    JsonArray names;
+    for (const auto& [name, about] : section.entries)
+      names.add_raw(about.empty() ? json_string(name)
+                                  : JsonObject().put("name", name).put("description", about).text());
+    json.put_raw(section.key, names.text());
+  }
+  return json.text() + '\n';
+}
+
+std::string text_of(const std::vector<Section>& list) {
+  std::string text;
+  for (const Section& section : list) {
+    text += section.heading + '\n';
+    for (const auto& [name, about] : section.entries)
+      text += "  " + (about.empty() ? name : name + std::string(name.size() < 16 ? 16 - name.size() : 1, ' ') + about) +
+              '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void print_list(const ListOptions& options) { print(options.json ? json_of(sections()) : text_of(sections())); }
+
+}  // namespace trueshade

@@ -1,0 +1,196 @@
+#include "cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "cli/version.h"
+#include "core/error.h"
+#include "scenes/presets.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+namespace {
+
+constexpr int kMaxSide = 65536;
+
+Error usage(const std::string& where, const std::string& reason, const std::string& remedy) {
+  return {ErrorKind::usage, where, reason, remedy};
+}
+
+template <typename Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : " ") + std::string(name);
+  return text;
+}
+
+/// A decimal integer that is the whole of `text`; nothing where it is not one or beyond 64 bits.
+std::optional<int64_t> integer(std::string_view text) {
+  int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+int integer_in(const std::string& option, const std::string& text, int least, int most) {
+  const std::optional<int64_t> value = integer(text);
+  if (!value || *value < least || *value > most)
+    throw usage(option,
+                "'" + text + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+                "give one");
+  return int(*value);
+}
+
+Size size_from_text(const std::string& text) {
+  const size_t cross = text.find('x');
+  const auto width = integer(std::string_view(text).substr(0, cross));
+  const auto height = integer(cross == std::string::npos ? "" : std::string_view(text).substr(cross + 1));
+  if (!width || !height || *width < 1 || *height < 1)
+    throw usage("--size", "'" + text + "' is not a size", "give WIDTHxHEIGHT in pixels, like 800x600");
+  if (*width > kMaxSide || *height > kMaxSide)
+    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "render in parts");
+  return {int(*width), int(*height)};
+}
+
+Format target_from_text(const std::string& text) {
+  constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
+  if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
+    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(kTargets));
+  return *format_from_name(text);
+}
+
+std::vector<std::string> aovs_from_text(const std::string& list) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, end - begin);
+    const auto known = aov_names();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + joined(known));
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw usage("--aov", "plane '" + name + "' is named twice", "name it once");
+    names.push_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
+
+void check_outputs(const RenderOptions& options) {
+  bool exr = false;
+  for (const std::string& path : options.outputs) {
+    exr = exr || path.ends_with(".exr");
+    if (!path.ends_with(".png") && !path.ends_with(".exr") && !path.ends_with(".html"))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
+  }
+  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
+    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
+  if (!options.aovs.empty() && !exr && !options.json)
+    throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
+}
+
+/// Option values as text, read by us so that every error is of one form.
+struct RenderTexts {
+  std::optional<std::string> size, target, aov, threads, tile;
+  bool no_light_culling = false;
+};
+
+CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
+  CLI::App* render = app.add_subcommand("render", "Draw a scene");
+  render->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+      ->required();
+  render
+      ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  render->add_option(
+      "--preset", options.preset, "Row of numbers the pipeline starts from: " + [] {
+        std::string names;
+        for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
+        return names;
+      }());
+  render->add_option("--pipeline", options.pipeline_file,
+                     "JSON file of values that replace the preset's and the scene's");
+  render->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
+  render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
+  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
+  render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
+  render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
+  render->add_option("--tile", texts.tile, "Tile side: 8, 16, 32, 48 or 64; never changes a pixel");
+  render->add_flag("--no-light-culling", texts.no_light_culling,
+                   "Try every light on every pixel; never changes a pixel");
+  render->add_flag("--hash", options.hash, "Print the hash of the image's stored bytes");
+  render->add_flag("--stats", options.stats, "Print counts and times");
+  render->add_flag("--json", options.json, "Print all of it as one JSON document");
+  return render;
+}
+
+RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.target) options.target = target_from_text(*texts.target);
+  if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
+  options.execution.light_culling = !texts.no_light_culling;
+  if (options.preset && !preset_pipeline(*options.preset))
+    throw usage("--preset", "there is no preset '" + *options.preset + "'", "`trueshade list` names them");
+  const std::vector<std::string_view> simd = simd_targets();
+  if (options.simd != "best" && std::find(simd.begin(), simd.end(), options.simd) == simd.end())
+    throw usage("--simd", "this machine has no '" + options.simd + "'", "one of: best " + joined(simd));
+  validate(execution_of(options));
+  check_outputs(options);
+  return options;
+}
+
+/// CLI11's message without the line breaks that some have.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+Execution execution_of(const RenderOptions& options) {
+  Execution execution = options.execution;
+  execution.simd = options.simd;
+  return execution;
+}
+
+Command command_from_arguments(int count, const char* const* arguments) {
+  CLI::App app("Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.", "trueshade");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("trueshade ") + kVersion);
+  app.footer(
+      "Exit codes: 0 ok, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out of memory, 70 our "
+      "fault.");
+  RenderOptions render;
+  RenderTexts texts;
+  InfoOptions info;
+  ListOptions list;
+  const CLI::App* render_command = add_render(app, render, texts);
+  CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
+  info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
+  CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
+  list_command->add_flag("--json", list.json, "As one JSON document");
+  constexpr std::string_view kCommands[] = {"render", "info", "list"};
+  if (count > 1 && arguments[1][0] != '-' &&
+      std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
+    throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
+                "one of: " + joined(kCommands));
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::CallForHelp&) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    return PrintText{
+        (chosen.empty() ? app : *chosen[0]).help(chosen.empty() ? "" : "trueshade " + chosen[0]->get_name())};
+  } catch (const CLI::CallForVersion& version) {
+    return PrintText{std::string(version.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw usage("command line", one_line(error.what()), "see trueshade --help");
+  }
+  if (render_command->parsed()) return finished(std::move(render), texts);
+  if (info_command->parsed()) return info;
+  return list;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,30 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace trueshade {
+
+/// A line on standard error that says what is done, how fast and how long it will take. Only on a terminal, and only
+/// for work that has taken a second; wiped when the work ends.
+class ProgressBar {
+ public:
+  ProgressBar(std::string_view what, std::string_view unit);  ///< as in "rendering", "tiles"
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// One thread at a time.
+  void show(int done, int total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_, unit_;
+  Clock::time_point begin_, shown_;
+  bool terminal_, drawn_ = false;
+};
+
+/// The line for `done` of `total` after `seconds`, without control characters.
+std::string progress_line(std::string_view what, std::string_view unit, int done, int total, double seconds);
+
+}  // namespace trueshade

@@ -1,0 +1,22 @@
+# An install tree for find_package(trueshade). Image files are a component of their own (COMPONENTS image_io), because they
+# bring OpenImageIO. The headers named here are the interface; the others are ours to change.
+include(CMakePackageConfigHelpers)
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trueshade)
+set_target_properties(trueshade_flags PROPERTIES EXPORT_NAME flags)
+
+install(TARGETS trueshade_flags trueshade_core trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade)
+install(TARGETS trueshade_image_io EXPORT trueshade_image_io)
+install(TARGETS trueshade)
+foreach(header
+  core/error.h core/format.h core/fp_env.h core/half.h core/image.h core/image_io.h core/sha256.h
+  scenes/builtin.h scenes/camera.h scenes/light.h scenes/light_model.h scenes/mesh.h scenes/pipeline.h scenes/presets.h
+  scenes/scene.h raster/simd_target.h shading/frame.h)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder})
+endforeach()
+
+install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir})
+install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/trueshadeConfig.cmake ${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake
+        DESTINATION ${config_dir})

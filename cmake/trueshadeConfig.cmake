@@ -1,0 +1,22 @@
+# find_package(trueshade [COMPONENTS image_io]): trueshade::shading draws frames; trueshade::image_io reads and writes files.
+include(CMakeFindDependencyMacro)
+foreach(dependency Threads glm TBB hwy nlohmann_json ZLIB)
+  find_dependency(${dependency})
+endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/trueshadeTargets.cmake)
+
+if("image_io" IN_LIST trueshade_FIND_COMPONENTS)
+  # By pkg-config: Debian 12's OpenImageIO CMake package asks for programs that its -dev package does not bring.
+  find_dependency(PkgConfig)
+  pkg_check_modules(OIIO QUIET IMPORTED_TARGET OpenImageIO)
+  if(OIIO_FOUND)
+    include(${CMAKE_CURRENT_LIST_DIR}/trueshadeImageIoTargets.cmake)
+    set(trueshade_image_io_FOUND TRUE)
+  endif()
+endif()
+foreach(component IN LISTS trueshade_FIND_COMPONENTS)
+  if(trueshade_FIND_REQUIRED_${component} AND NOT trueshade_${component}_FOUND)
+    set(trueshade_FOUND FALSE)
+    set(trueshade_NOT_FOUND_MESSAGE "component ${component} is not there (image_io needs libopenimageio-dev)")
+  endif()
+endforeach()

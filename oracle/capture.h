@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/image.h"
+
+namespace trueshade::oracle {
+
+/// What a renderer drew, from wherever it came: a real driver on this machine, a file captured elsewhere, our own frame,
+/// or a mutant made to be rejected. Images have rows top first, values as they read back from the stored formats.
+struct Capture {
+  std::string driver;              ///< vendor, renderer and version in one line
+  Image color;                     ///< the target; empty if none was captured
+  std::vector<NamedImage> planes;  ///< named as `--aov` names them; any subset
+
+  const Image* plane(std::string_view name) const {
+    for (const NamedImage& p : planes)
+      if (p.name == name) return &p.image;
+    return nullptr;
+  }
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,76 @@
+# Sourced by run and check: brings the packages that are missing, and builds. Silent where there is nothing to do.
+# Needs bash and coreutils only. Logs are shown where a step fails, and nowhere else.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+say() { printf 'trueshade: %s\n' "$*"; }
+die() {
+  printf 'trueshade: error: %s\n' "$*" >&2
+  exit 1
+}
+
+# quietly WHAT COMMAND...: runs it, and shows what it said if it fails.
+quietly() {
+  local what=$1 log status=0
+  shift
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  if ((status != 0)); then
+    cat "$log" >&2
+    rm -f "$log"
+    die "$what failed (its output is above)"
+  fi
+  rm -f "$log"
+}
+
+# Names of packages of the list, and of those given, that are not installed.
+missing_packages() {
+  local package status
+  while read -r package; do
+    [[ -z $package || $package == \#* ]] && continue
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || status=absent
+    [[ $status == installed ]] || printf '%s\n' "$package"
+  done < <(cat "$root/scripts/packages.txt"; printf '%s\n' "$@")
+}
+
+# install_packages [EXTRA...]: the list, and what else is named.
+install_packages() {
+  local -a missing as_root=()
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    [[ -e $root/build/.packages-named ]] && return
+    mkdir -p "$root/build" && touch "$root/build/.packages-named"
+    say "this is no Debian; going on as if the like of these were installed: $(grep -v '^#' "$root/scripts/packages.txt" | tr '\n' ' ')"
+    return
+  fi
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]} == 0)) && return
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      die "packages are missing; as root run: apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+  fi
+  local -a get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y)
+  say "installing ${#missing[@]} packages: ${missing[*]}"
+  # The lists of a new machine are empty or old: fetched only where the packages cannot be had without.
+  if ! "${get[@]}" --no-install-recommends install "${missing[@]}" >/dev/null 2>&1 </dev/null; then
+    quietly "apt-get update" "${get[@]}" update
+    quietly "apt-get install" "${get[@]}" --no-install-recommends install "${missing[@]}"
+  fi
+}
+
+# build PRESET [TARGET]: configures once, then builds what has changed, all of it or one target.
+build() {
+  local folder=$root/build/$1
+  local -a target=() launcher=()
+  (($# > 1)) && target=(--target "$2")
+  if [[ ! -e $folder/build.ninja ]]; then
+    say "configuring build/$1"
+    command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    quietly "cmake" cmake -S "$root" --preset "$1" "${launcher[@]}"
+  fi
+  # A dry run tells whether there is work, so that a second start says nothing.
+  if [[ $(ninja -C "$folder" -n "${@:2}" 2>/dev/null | tail -n 1) != *"no work to do"* ]]; then
+    say "building build/$1 on $(nproc) cores, which takes minutes the first time"
+    quietly "the build" cmake --build "$folder" --parallel "$(nproc)" "${target[@]}"
+  fi
+}

@@ -1,0 +1,144 @@
+// What the command writes, read back by OpenImageIO and hashed from what was read.
+#include <OpenImageIO/imageio.h>
+
+#include <fstream>
+
+#include "core/sha256.h"
+#include "tests/catch.hpp"
+#include "tests/cli/run_command.h"
+#include "tests/cli/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Output of a run that must succeed.
+std::string output_of(const std::vector<std::string>& arguments, const std::string& folder = ".") {
+  const Outcome outcome = run_command(arguments, folder);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.err.empty());
+  return outcome.out;
+}
+
+TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata") {
+  const ScratchFolder folder;
+  const std::string line =
+      output_of({"render", "builtin:cornell", "--size", "61x47", "-o", "x.png", "--hash"}, folder.path(""));
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const auto file = OIIO::ImageInput::open(folder.path("x.png"), &config);
+  REQUIRE(file);
+  std::vector<uint8_t> codes(61 * 47 * 4);
+  REQUIRE(file->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, codes.data()));
+  Sha256 hash;
+  hash.update(codes.data(), codes.size());
+  const std::string hex = hash.hex();
+  CHECK(line == "sha256:" + hex + "  61x47  rgba8\n");
+  CHECK(file->spec().get_string_attribute("trueshade:imageHash") == "sha256:" + hex);
+  CHECK(file->spec().get_string_attribute("trueshade:scene") == "builtin:cornell");
+  CHECK(file->spec().get_string_attribute("trueshade:pipeline").find("\"width\":61") != std::string::npos);
+  const std::string about = output_of({"info", "x.png"}, folder.path(""));
+  CHECK(about.find("61x47") != std::string::npos);
+  CHECK(about.find(hex) != std::string::npos);
+}
+
+TEST_CASE("an EXR has the planes asked for under their channel names") {
+  const ScratchFolder folder;
+  output_of({"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
+             "light.count,depth,position,normal,albedo,uv,id.object,id.material"},
+            folder.path(""));
+  const auto file = OIIO::ImageInput::open(folder.path("x.exr"));
+  REQUIRE(file);
+  std::vector<std::string> names = file->spec().channelnames;
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"A",           "B",         "G",           "N.X",      "N.Y",
+                                          "N.Z",         "P.X",       "P.Y",         "P.Z",      "R",
+                                          "albedo.A",    "albedo.B",  "albedo.G",    "albedo.R", "depth.Z",
+                                          "id.material", "id.object", "light.count", "uv.X",     "uv.Y"});
+  CHECK(file->spec().channelformat(file->spec().channelindex("R")) == OIIO::TypeDesc::HALF);
+  CHECK(file->spec().channelformat(file->spec().channelindex("id.object")) == OIIO::TypeDesc::UINT32);
+}
+
+TEST_CASE("equal images are equal files, however they were computed") {
+  const ScratchFolder folder;
+  std::vector<std::string> exr, png, hashes;
+  const std::vector<std::vector<std::string>> ways = {{},
+                                                      {"--threads", "1"},
+                                                      {"--threads", "7", "--tile", "8"},
+                                                      {"--simd", "scalar", "--tile", "48"},
+                                                      {"--simd", "scalar", "--no-light-culling"}};
+  for (const std::vector<std::string>& way : ways) {
+    std::vector<std::string> arguments = {
+        "render", "builtin:cornell",          "--size", "100x75", "-o", "x.exr", "-o", "x.png",
+        "--aov",  "depth,normal,light.count", "--hash"};
+    arguments.insert(arguments.end(), way.begin(), way.end());
+    hashes.push_back(output_of(arguments, folder.path("")));
+    exr.push_back(contents(folder.path("x.exr")));
+    png.push_back(contents(folder.path("x.png")));
+  }
+  for (size_t i = 1; i < ways.size(); ++i) {
+    INFO("way " << i);
+    CHECK(hashes[i] == hashes[0]);
+    CHECK((exr[i] == exr[0] && png[i] == png[0]));
+  }
+  CHECK(folder.entries() == std::vector<std::string>{"x.exr", "x.png"});
+}
+
+TEST_CASE("--json prints one document with all there is to know") {
+  const std::string json =
+      output_of({"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
+  CHECK(json.find('\n') == json.size() - 1);
+  for (const char* key : {"\"scene\": {", "\"pipeline\": {", "\"execution\": {", "\"stats\": {", "\"hash\": \"sha256:",
+                          "\"files\": []", "\"covered_pixels\": ", "\"threads\": ", "\"name\": \"depth\""})
+    CHECK(json.find(key) != std::string::npos);
+}
+
+TEST_CASE("pipelines are layered: preset, then the pipeline file, then options") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("p.json")) << R"({"version": 1, "width": 20, "height": 10, "target": "rgba32f"})";
+  const auto line = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"render", "builtin:cornell", "--pipeline", "p.json", "--hash"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const std::string text = output_of(arguments, folder.path(""));
+    return text.substr(text.find("  "));
+  };
+  CHECK(line({}) == "  20x10  rgba32f\n");
+  CHECK(line({"--size", "5x6"}) == "  5x6  rgba32f\n");
+  CHECK(line({"--size", "5x6", "--target", "rgba8"}) == "  5x6  rgba8\n");
+}
+
+TEST_CASE("a report is one page that needs no other file") {
+  const ScratchFolder folder;
+  output_of({"render", "builtin:cornell", "--size", "50x40", "-o", "report.html"}, folder.path(""));
+  const std::string page = contents(folder.path("report.html"));
+  CHECK(page.starts_with("<!doctype html>"));
+  CHECK(page.ends_with("</html>\n"));
+  size_t pictures = 0;
+  for (size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at) ++pictures;
+  CHECK(pictures == 6);
+  for (const char* outside : {"http:", "https:", "<script", "<link"}) CHECK(page.find(outside) == std::string::npos);
+}
+
+TEST_CASE("help, version and lists go to standard output") {
+  CHECK(output_of({"--help"}).find("render") != std::string::npos);
+  CHECK(output_of({"render", "--help"}).find("--no-light-culling") != std::string::npos);
+  CHECK(output_of({"--version"}).starts_with("trueshade "));
+  CHECK(output_of({"list"}).find("city") != std::string::npos);
+  const std::string json = output_of({"list", "--json"});
+  for (const char* key : {"scenes", "presets", "strategies", "formats", "simd"})
+    CHECK(json.find('"' + std::string(key) + "\": [") != std::string::npos);
+}
+
+TEST_CASE("info on a scene says what is in it") {
+  const std::string text = output_of({"info", "builtin:cornell"});
+  for (const char* word : {"triangles drawn", "lights", "instances", "sha256:"})
+    CHECK(text.find(word) != std::string::npos);
+}
+
+}  // namespace
+}  // namespace trueshade

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace trueshade {
+
+/// How a run of the command ended.
+struct Outcome {
+  int exit_code = -1;  ///< -1000 - N where signal N ended it
+  std::string out, err;
+};
+
+/// Runs `trueshade ARGUMENTS...` in `folder` with a time limit of 60 s. `shell_setup`: shell text before it, like
+/// `ulimit -f 8`.
+Outcome run_command(const std::vector<std::string>& arguments, const std::string& folder = ".",
+                    const std::string& shell_setup = "true");
+
+}  // namespace trueshade
