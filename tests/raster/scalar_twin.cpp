@@ -180,7 +180,7 @@ TEST_CASE("Random frames equal the scalar renderer's: surfaces exactly, values w
   }
   INFO(tally.covered << " covered of " << tally.pixels << ", " << tally.uncertain << " uncertain");
   CHECK(tally.covered > tally.pixels / 20);
-  CHECK(tally.uncertain < tally.pixels / 1000);
+  CHECK(tally.uncertain < tally.pixels / 200);  // nearly all under depth clamp, where z / w reaches 2^100 at a cut
 }
 
 TEST_CASE("Random frames are the same on every SIMD target, tile size and thread count, with and without culling") {
