@@ -314,7 +314,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   Scene scene;
   if (const auto pipeline = root.find("pipeline")) {
     pipeline_from_node(*pipeline,
-                       *preset_pipeline("many-lights"));  // bad values are refused here, where the place is known
+                       presets().front().pipeline);  // bad values are refused here, where the place is known
     scene.pipeline_text = json::text_of(pipeline->value());
   }
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
