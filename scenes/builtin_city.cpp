@@ -92,14 +92,16 @@ Light street_lamp(uint32_t number, double city_radius, double reach, Pcg32& rand
       kPitch * (int(even.y * (2 * streets + 1)) - streets) + (random.below(2) == 0 ? -0.3 : 0.3) * kStreet;
   const glm::dvec3 at =
       random.below(2) == 0 ? glm::dvec3(along, 7.0 * reach, across) : glm::dvec3(across, 7.0 * reach, along);
-  return point_light(at, lamp_color(at, false, random) * random.between(0.8, 1.2), 44.0 * reach);
+  const glm::dvec3 color = lamp_color(at, false, random);
+  return point_light(at, color * random.between(0.8, 1.2), 44.0 * reach);
 }
 
 Light roof_lamp(const Building& building, double reach, Pcg32& random) {
   const double spread = building.roof_half_width * 0.9;
   const glm::dvec3 at =
-      building.roof + glm::dvec3(random.between(-spread, spread), 6.0 * reach, random.between(-spread, spread));
-  return point_light(at, lamp_color(at, true, random) * random.between(0.8, 1.2), 40.0 * reach);
+      building.roof + glm::dvec3{random.between(-spread, spread), 6.0 * reach, random.between(-spread, spread)};
+  const glm::dvec3 color = lamp_color(at, true, random);
+  return point_light(at, color * random.between(0.8, 1.2), 40.0 * reach);
 }
 
 /// A sign before one of the four walls, somewhere between street and roof.
@@ -109,7 +111,8 @@ Light wall_lamp(const Building& building, double reach, Pcg32& random) {
   const double height = building.roof.y * random.between(0.3, 0.95);
   const glm::dvec3 offset = random.below(2) == 0 ? glm::dvec3(side, 0.0, along) : glm::dvec3(along, 0.0, side);
   const glm::dvec3 at = glm::dvec3(building.roof.x, height, building.roof.z) + offset;
-  return point_light(at, lamp_color(at, true, random) * random.between(0.8, 1.2), 40.0 * reach);
+  const glm::dvec3 color = lamp_color(at, true, random);
+  return point_light(at, color * random.between(0.8, 1.2), 40.0 * reach);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ Scene cornell(const Parameters& parameters) {
       scene.lights.push_back(point_light({0.7, 0.6, 2.6}, {0.5, 0.49, 0.52}, 6.0));
       continue;
     }
-    const glm::dvec3 at(random.between(-0.88, 0.88), random.between(-0.85, 0.8), random.between(-0.7, 1.1));
+    const glm::dvec3 at{random.between(-0.88, 0.88), random.between(-0.85, 0.8), random.between(-0.7, 1.1)};
     const glm::dvec3 color = color_of_hue(0.381966 * i, 0.7) * random.between(0.28, 0.42);
     scene.lights.push_back(point_light(at, color, 1.25 * reach));
   }

@@ -121,7 +121,8 @@ Scene rabbits(const Parameters& parameters) {
     const double angle = 2.399963229728653 * i;
     const glm::dvec3 at = on_hill(spacing * std::sqrt(i + 0.5), angle);
     const double outward = 0.5 * kPi - angle + random.between(-0.9, 0.9);  // looking down the hill, more or less
-    scene.instances.push_back({0, random.below(4), placed(at, glm::dvec3(random.between(0.92, 1.15)), outward)});
+    const uint32_t material = random.below(4);
+    scene.instances.push_back({0, material, placed(at, glm::dvec3(random.between(0.92, 1.15)), outward)});
   }
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);

@@ -132,7 +132,7 @@ Scene red(const Parameters& parameters) {
                              : pick < 0.85 ? glm::dvec3(0.45, 0.62, 1.0)
                                            : glm::dvec3(1.0, 0.32, 0.5);
     if (i % 3 == 0) {
-      const glm::dvec3 above = ground + glm::dvec3(random.between(-2.0, 2.0), 5.0, random.between(-2.0, 2.0)) * reach;
+      const glm::dvec3 above = ground + glm::dvec3{random.between(-2.0, 2.0), 5.0, random.between(-2.0, 2.0)} * reach;
       scene.lights.push_back(spot_light(above, ground, color * 0.65, 12.0 * reach));
     } else {
       scene.lights.push_back(point_light(ground + glm::dvec3(0.0, 1.3 * reach, 0.0), color * 0.5, 6.5 * reach));

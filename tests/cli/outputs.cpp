@@ -89,7 +89,7 @@ TEST_CASE("equal images are equal files, however they were computed") {
   CHECK(folder.entries() == std::vector<std::string>{"x.exr", "x.png"});
 }
 
-TEST_CASE("--json prints one document with all there is to know") {
+TEST_CASE("the answer in JSON is one document with all there is to know") {
   const std::string json =
       output_of({"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
   CHECK(json.find('\n') == json.size() - 1);

@@ -40,7 +40,7 @@ TEST_CASE("presets are found by name, valid, and named after themselves") {
   CHECK(preset_pipeline("many-lights") == Pipeline{});
   CHECK_FALSE(preset_pipeline("nonesuch"));
   for (const Preset& row : presets()) {
-    CHECK(row.name == row.pipeline.preset);
+    CHECK(std::string(row.name) == row.pipeline.preset);
     CHECK_NOTHROW(validate(row.pipeline));
   }
 }

@@ -53,7 +53,7 @@ TEST_CASE("the pipeline schema lists the presets that exist") {
   const json::Node root(value, "pipeline.schema.json"),
       properties = root.member("properties"), preset = properties.member("preset"), names = preset.member("enum");
   REQUIRE(names.array(1, 100).size() == presets().size());
-  for (size_t i = 0; i < presets().size(); ++i) CHECK(names.element(i).string() == presets()[i].name);
+  for (size_t i = 0; i < presets().size(); ++i) CHECK(names.element(i).string() == std::string(presets()[i].name));
 }
 
 }  // namespace
