@@ -218,7 +218,7 @@ int64_t window_coordinate(double numerator, double w, int size, int origin, bool
   const int64_t a = int64_t(std::ldexp(std::frexp(std::fabs(numerator), &numerator_exponent), 53));
   const int64_t b = int64_t(std::ldexp(std::frexp(w, &w_exponent), 53));
   const int shift = numerator_exponent - w_exponent, scale_exponent = std::ilogb(double(scale));
-  if (scale_exponent + shift - 1 >= 42) {  // past 2^42, and the centre is within 2^40
+  if (scale_exponent + shift - 1 >= 42) {  // past 2^42
     *huge = true;
     return centre;
   }
@@ -227,9 +227,8 @@ int64_t window_coordinate(double numerator, double w, int size, int origin, bool
   Int128 quotient = top / bottom;
   const Int128 twice_rest = 2 * (top % bottom);
   if (twice_rest > bottom || (twice_rest == bottom && (quotient & 1) != 0)) ++quotient;
-  const Int128 result = centre + (numerator < 0 ? -quotient : quotient);
-  *huge = result >= kHuge || result <= -kHuge;
-  return int64_t(result);
+  *huge = quotient >= kHuge;
+  return centre + int64_t(numerator < 0 ? -quotient : quotient);
 }
 
 WindowPolygon window_polygon(const std::array<VertexValues, 3>& values, size_t count, const GeometryState& state,
