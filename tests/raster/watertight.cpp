@@ -13,7 +13,7 @@ using namespace trueshade::testing;
 
 namespace {
 
-enum class Family { inside, clipped_by_view, clipped_by_near, slivers, huge };
+enum class Family { inside, clipped_by_view, clipped_by_near, slivers, huge, any_clip_space };
 constexpr Family kFamilies[] = {Family::inside, Family::clipped_by_view, Family::clipped_by_near, Family::slivers,
                                 Family::huge};
 
@@ -60,6 +60,10 @@ Vertex random_vertex(Random& random, Family family) {
   if (random() % 2 == 0) w = std::exp2(std::floor(between(random, 0, 4)));
   if (family == Family::clipped_by_near) w = between(random, -3, 4);
   const double scale = family == Family::clipped_by_near ? 1 : w;
+  if (family == Family::any_clip_space) {  // z and w of any sign: near and far may meet inside a triangle
+    w = between(random, -2, 2);
+    return {{float(x), float(y), float(between(random, -2, 2)), float(random() % 8 == 0 ? 0 : w)}};
+  }
   return {{float(x * scale), float(y * scale), float(0.5 * w - 0.25), float(w)}};
 }
 
@@ -214,6 +218,20 @@ TEST_CASE("Ten thousand fans and closed meshes are covered as exact integers say
 
 TEST_CASE("A hundred thousand fans and closed meshes are covered as exact integers say", "[.][long]") {
   run_fans_and_meshes(4000, 100000);
+}
+
+TEST_CASE("Clip coordinates that no camera makes are cut as exact integers say") {
+  Random random(7000);
+  const std::vector<std::string_view> targets = simd_targets();
+  Tally tally;
+  for (uint64_t i = 0; i < 8000; ++i) {
+    const View view = random_view(random);
+    compare(random_pair(random, Family::any_clip_space), 1, view, 64, std::span(targets).subspan(i % targets.size(), 1),
+            tally);
+  }
+  CHECK(tally.hit_twice == 0);
+  CHECK(tally.missed == 0);
+  CHECK(tally.samples > tally.shapes);
 }
 
 TEST_CASE("Where two triangles lie on both sides of their edge no pixel is hit twice and none on the edge is missed") {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "oracle/scalar_renderer.h"
 #include "scenes/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -340,4 +341,36 @@ TEST_CASE(
     scene.lights[0].direction = {0, 0, -1};
     CHECK(red_bits(simd) == 0x3F800000);
   }
+}
+
+TEST_CASE("The light sums of both presets are the real numbers' to within the bounds of their roundings") {
+  Random random(58);
+  for (const std::string_view preset : {"many-lights", "touchdesigner"})
+    for (int i = 0; i < 4; ++i) {
+      Scene scene = sheet(random);
+      for (int light = 0; light < 50; ++light) scene.lights.push_back(random_light(random));
+      const Pipeline pipeline = loop_pipeline(preset);
+      const LightModel& model = pipeline.light_model;
+      const Result result = render(scene, pipeline);
+      for (int y = 0; y < pipeline.height; ++y)
+        for (int x = 0; x < pipeline.width; ++x) {
+          if (!result.covered(x, y)) continue;
+          const Pixel pixel = result.pixel(x, y);
+          oracle::Surface surface{{pixel.position.x, pixel.position.y, pixel.position.z},
+                                  {pixel.normal.x, pixel.normal.y, pixel.normal.z},
+                                  {pixel.albedo[0], pixel.albedo[1], pixel.albedo[2]}};
+          const std::array<double, 3> real = oracle::lit_color(surface, scene, model);
+          for (size_t k = 0; k < 3; ++k) {
+            // Each light: some ten roundings of its terms, and shininess times those of N.H (GL_RULES section 6).
+            double bound = 0;
+            for (const Light& light : scene.lights)
+              bound += double(light.color[int(k)]) * (double(pixel.albedo[k]) + double(model.specular_color[int(k)]));
+            bound *= (12 + 4 * double(model.shininess) + double(scene.lights.size())) * 0x1p-24;
+            float stored;
+            std::memcpy(&stored, result.frame.color.texel(x, y) + 4 * k, 4);
+            CAPTURE(preset, i, x, y, k, stored, real[k], bound);
+            REQUIRE(std::fabs(double(stored) - real[k]) <= bound);
+          }
+        }
+    }
 }
