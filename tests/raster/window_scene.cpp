@@ -99,7 +99,7 @@ int Planes::covered_count() const {
 
 Planes drawn(const Scene& scene, const Pipeline& pipeline, const Execution& execution) {
   const std::string aovs[] = {"id.object", "depth", "position", "normal", "albedo", "uv"};
-  const Frame frame = render_frame(scene, pipeline, execution, aovs);
+  const Frame frame = render_frame(PreparedScene(scene), pipeline, execution, aovs);
   Planes planes;
   planes.width = pipeline.width;
   planes.height = pipeline.height;
