@@ -1,0 +1,173 @@
+#include "oracle/gl/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "oracle/exact_coverage.h"
+#include "oracle/gl/geometry_state.h"
+#include "oracle/gl/objects.h"
+#include "oracle/gl/pass_timer.h"
+#include "oracle/gl/read_back.h"
+#include "oracle/gl/scene_buffers.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// Textures of one frame and where the picture lies in them.
+struct Targets {
+  int width, height;  ///< of the textures: the image and its shift
+  std::vector<GlslPlane> planes;
+  std::vector<GlTexture> textures;  ///< one a plane
+  GlTexture depth, color;
+  GlTarget geometry, light;
+};
+
+Targets make_targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {
+  Targets t{pipeline.width + draw.shift_x, pipeline.height + draw.shift_y, planes_of(pipeline, options), {}, {}, {}, {}, {}};
+  std::vector<GLuint> names;
+  for (const GlslPlane& plane : t.planes) {
+    t.textures.push_back(make_texture(plane.format, t.width, t.height));
+    names.push_back(t.textures.back());
+  }
+  t.depth = make_texture(Format::d32f, t.width, t.height);
+  t.color = make_texture(pipeline.target, t.width, t.height);
+  t.geometry = make_target(names, t.depth);
+  const std::array<GLuint, 1> color{t.color};
+  t.light = make_target(color, 0);
+  return t;
+}
+
+void clear_geometry(const Targets& t, float clear_depth) {
+  glBindFramebuffer(GL_FRAMEBUFFER, t.geometry.framebuffer);
+  glDepthMask(GL_TRUE);
+  constexpr std::array<float, 4> kZero{};
+  constexpr std::array<GLuint, 4> kNone{};
+  for (size_t i = 0; i < t.planes.size(); ++i) {
+    if (t.planes[i].format == Format::r32ui) glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
+    else glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
+  }
+  glClearBufferfv(GL_DEPTH, 0, &clear_depth);
+}
+
+/// Uniforms of a position rebuilt from depth (docs/arithmetic.md section 7).
+void set_depth_uniforms(GLuint program, const Scene& scene, const Pipeline& pipeline, const GlDraw& draw) {
+  const GeometryState& g = pipeline.geometry;
+  const Matrix4 inverse = inverse_of(projection_of(scene.camera, g, pipeline.width, pipeline.height));
+  std::array<float, 16> columns{};
+  for (size_t i = 0; i < 16; ++i) columns[i] = float(inverse[i]);
+  glUniformMatrix4fv(glGetUniformLocation(program, "world_from_clip"), 1, GL_FALSE, columns.data());
+  const Viewport v = resolved_viewport(g, pipeline.width, pipeline.height);
+  const float up = g.clip_origin == ClipOrigin::upper_left ? -1.0f : 1.0f;
+  const std::array<float, 4> window{float(v.x + draw.shift_x), float(v.y + draw.shift_y), float(2.0 / v.width),
+                                    up * float(2.0 / v.height)};
+  set_uniform(program, "ndc_from_window", window);
+  set_uniform(program, "ndc_origin", std::array<float, 2>{1.0f, up});
+  const bool zero_to_one = g.clip_depth == ClipDepth::zero_to_one;
+  const double near = double(g.depth_near), far = double(g.depth_far);
+  const double scale = zero_to_one ? far - near : (far - near) * 0.5, offset = zero_to_one ? near : (near + far) * 0.5;
+  set_uniform(program, "depth_to_ndc", std::array<float, 2>{float(offset), float(1.0 / scale)});
+}
+
+void draw_lights(const Targets& t, const GlProgram& program, SceneBuffers& buffers, const Pipeline& pipeline,
+                 const GlDraw& draw) {
+  const Scene& scene = buffers.scene();
+  set_image_state(t.width, t.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, t.light.framebuffer);
+  const std::array<float, 4> clear{scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
+  glClearBufferfv(GL_COLOR, 0, clear.data());
+  glUseProgram(program);
+  int unit = 0;
+  for (size_t i = 0; i < t.planes.size(); ++i)
+    bind_texture(program, t.planes[i].sampler.c_str(), unit++, GL_TEXTURE_2D, t.textures[i]);
+  if (pipeline.gbuffer.position_from_depth) {
+    bind_texture(program, "depth_plane", unit++, GL_TEXTURE_2D, t.depth);
+    set_depth_uniforms(program, scene, pipeline, draw);
+  }
+  bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers.light_texels(pipeline.light_model));
+  const int all = int(scene.lights.size());
+  set_uniform(program, "light_count", draw.lights < 0 ? all : std::min(draw.lights, all));
+  const std::array<float, 3> eye{scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z};
+  set_uniform(program, "eye", eye);
+  const GlVertexArray none = make_vertex_array();
+  glBindVertexArray(none);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
+  const auto read = [&](GLuint texture, Format format) {
+    return read_texture(texture, format, draw.shift_x, draw.shift_y, pipeline.width, pipeline.height);
+  };
+  out.color = read(t.color, pipeline.target);
+  if (!draw.planes) return;
+  out.planes.push_back({"depth", read(t.depth, Format::d32f)});
+  for (size_t i = 0; i < t.planes.size(); ++i)
+    out.planes.push_back({t.planes[i].name, read(t.textures[i], t.planes[i].format)});
+}
+
+bool renders_to(Format format) {
+  const GlTexture texture = make_texture(format, 4, 4);
+  const std::array<GLuint, 1> names{texture};
+  return make_target(names, 0).complete;
+}
+
+bool wants_rgb16f(const GBufferState& g) {
+  return g.position.format == Format::rgb16f || g.normal.format == Format::rgb16f || g.albedo.format == Format::rgb16f ||
+         g.uv.format == Format::rgb16f;
+}
+
+}  // namespace
+
+GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotation) : context_(&context) {
+  context.make_current();
+  buffers_ = std::make_unique<SceneBuffers>(scene, rotation);
+  rgb16f_ = renders_to(Format::rgb16f);
+}
+
+GlRenderer::~GlRenderer() { context_->make_current(); }
+
+GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
+  GlslOptions options;
+  options.version = context_->info().major * 10 + context_->info().minor >= 45 ? 450 : 330;
+  options.ids = options.uv = draw.planes;
+  options.rgb16f = rgb16f_;
+  options.ambient = buffers_->has_type(LightType::ambient);
+  options.directional = buffers_->has_type(LightType::directional);
+  return options;
+}
+
+GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
+  context_->make_current();
+  check_limits(*context_, pipeline, pipeline.width + draw.shift_x, pipeline.height + draw.shift_y);
+  const GlslOptions options = draw.shaders != nullptr ? draw.shader_options : shader_options(draw);
+  const GlslShaders text = draw.shaders != nullptr ? *draw.shaders : shaders_of(pipeline, options);
+  const GlProgram geometry = make_program("geometry", text.geometry_vert, text.geometry_frag);
+  const GlProgram light = make_program("light", text.light_vert, text.light_frag);
+  const Targets targets = make_targets(pipeline, options, draw);
+  if (!targets.geometry.complete || !targets.light.complete)
+    throw std::runtime_error("the driver cannot render to the planes of this pipeline");
+
+  GlFrame frame;
+  frame.capture.driver = context_->info().line();
+  if (!options.rgb16f && wants_rgb16f(pipeline.gbuffer))
+    frame.notes.push_back("rgb16f is not renderable on this driver: its planes are rgba16f");
+  PassTimer timer(frame.passes);
+  buffers_->upload_instances(pipeline);
+  clear_geometry(targets, pipeline.geometry.clear_depth);
+  timer.end("upload and clear");
+  set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height), draw.shift_x,
+                     draw.shift_y);
+  glUseProgram(geometry);
+  buffers_->draw_instances();
+  timer.end("geometry");
+  draw_lights(targets, light, *buffers_, pipeline, draw);
+  timer.end("lights");
+  read_all(targets, pipeline, draw, frame.capture);
+  timer.end("read back");
+  check_gl("drawing");
+  return frame;
+}
+
+}  // namespace trueshade::oracle
