@@ -8,10 +8,10 @@
 
 namespace trueshade::oracle {
 
-/// What the text depends on beside the pipeline. None of it changes a pixel that the others can change too.
+/// What the text depends on beside the pipeline. As it stands: the judge's shaders on a driver of OpenGL 4.5.
 struct GlslOptions {
   int version = 450;            ///< 450 or 330; 330 cannot forbid contraction of the position
-  bool ids = false;             ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
+  bool ids = true;              ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
   bool uv = true;               ///< plane uv
   bool rgb16f = true;           ///< false: the driver cannot render to rgb16f, so rgba16f stands in
   bool ambient = true, directional = true;  ///< light types the loop knows beside point

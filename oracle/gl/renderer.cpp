@@ -133,8 +133,8 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.version = context_->info().major * 10 + context_->info().minor >= 45 ? 450 : 330;
   options.ids = options.uv = draw.planes;
   options.rgb16f = rgb16f_;
-  options.ambient = buffers_->has_type(LightType::ambient);
-  options.directional = buffers_->has_type(LightType::directional);
+  options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
+  options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;
 }
 
