@@ -128,7 +128,7 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
   if (options.ids || !w) add("id.object", "object", Format::r32ui);
   if (options.ids) {
     add("id.material", "material", Format::r32ui);
-    add("id.primitive", "primitive", Format::r32ui);
+    if (options.primitive) add("id.primitive", "primitive", Format::r32ui);
   }
   return planes;
 }

@@ -12,6 +12,7 @@ namespace trueshade::oracle {
 struct GlslOptions {
   int version = 450;            ///< 450 or 330; 330 cannot forbid contraction of the position
   bool ids = true;              ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
+  bool primitive = true;        ///< of ids, id.primitive too
   bool uv = true;               ///< plane uv
   bool rgb16f = true;           ///< false: the driver cannot render to rgb16f, so rgba16f stands in
   bool ambient = true, directional = true;  ///< light types the loop knows beside point

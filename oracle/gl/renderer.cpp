@@ -8,6 +8,7 @@
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
+#include "oracle/gl/probes.h"
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
 #include "oracle/matrices.h"
@@ -107,12 +108,6 @@ void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Ca
     out.planes.push_back({t.planes[i].name, read(t.textures[i], t.planes[i].format)});
 }
 
-bool renders_to(Format format) {
-  const GlTexture texture = make_texture(format, 4, 4);
-  const std::array<GLuint, 1> names{texture};
-  return make_target(names, 0).complete;
-}
-
 bool wants_rgb16f(const GBufferState& g) {
   return g.position.format == Format::rgb16f || g.normal.format == Format::rgb16f || g.albedo.format == Format::rgb16f ||
          g.uv.format == Format::rgb16f;
@@ -124,6 +119,7 @@ GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotatio
   context.make_current();
   buffers_ = std::make_unique<SceneBuffers>(scene, rotation);
   rgb16f_ = renders_to(Format::rgb16f);
+  primitive_ids_ = counts_primitives();
 }
 
 GlRenderer::~GlRenderer() { context_->make_current(); }
@@ -132,6 +128,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   GlslOptions options;
   options.version = context_->info().major * 10 + context_->info().minor >= 45 ? 450 : 330;
   options.ids = options.uv = draw.planes;
+  options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
@@ -153,6 +150,8 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   frame.capture.driver = context_->info().line();
   if (!options.rgb16f && wants_rgb16f(pipeline.gbuffer))
     frame.notes.push_back("rgb16f is not renderable on this driver: its planes are rgba16f");
+  if (options.ids && !options.primitive)
+    frame.notes.push_back("gl_PrimitiveID draws nothing on this driver: there is no plane id.primitive");
   PassTimer timer(frame.passes);
   buffers_->upload_instances(pipeline);
   clear_geometry(targets, pipeline.geometry.clear_depth);

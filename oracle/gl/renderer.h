@@ -52,7 +52,7 @@ class GlRenderer {
  private:
   const GlContext* context_;
   std::unique_ptr<SceneBuffers> buffers_;
-  bool rgb16f_;
+  bool rgb16f_, primitive_ids_;
 };
 
 }  // namespace trueshade::oracle

@@ -16,7 +16,7 @@ TEST_CASE("llvmpipe opens without a window and says what it is") {
   CHECK(context->info().max_texture_size >= 8192);
 }
 
-TEST_CASE("softpipe opens in the same process and draws with OpenGL 3.3") {
+TEST_CASE("softpipe opens in a process of its own and draws with OpenGL 3.3") {
   const oracle::GlContext* context = driver(GlDriver::softpipe);
   if (context == nullptr) return;
   CHECK(context->info().renderer.find("softpipe") != std::string::npos);
