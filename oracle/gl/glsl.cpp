@@ -21,22 +21,6 @@ bool has_ids(const std::vector<GlslPlane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
 }
 
-/// The varyings, declared the same way at both ends: `direction` is in or out.
-std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction) {
-  const GBufferState& g = pipeline.gbuffer;
-  std::string text;
-  const auto declare = [&](Interpolation interpolation, const char* type, const char* name) {
-    text += qualifier(interpolation) + ' ' + direction + ' ' + type + ' ' + name + ";\n";
-  };
-  if (!g.position_from_depth) declare(g.position.interpolation, "vec3", "world_position");
-  declare(g.normal.interpolation, "vec3", "world_normal");
-  declare(g.albedo.interpolation, "vec4", "color");
-  declare(Interpolation::flat, "vec4", "base");
-  if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
-  if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
-  return text;
-}
-
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: stores the surface, one plane an attachment");
   text += varyings_text(pipeline, options, "in");
@@ -69,32 +53,15 @@ std::string position_text(const GBufferState& g) {
 }
 
 std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
-  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   const LightModel& model = pipeline.light_model;
   std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
-  for (const GlslPlane& plane : planes)
-    if (plane.name == "position" || plane.name == "normal" || plane.name == "albedo")
-      text += "uniform sampler2D " + plane.sampler + ";\n";
-  const GlslPlane& coverage = coverage_plane(planes);
-  if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
-  if (pipeline.gbuffer.position_from_depth)
-    text += "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
-            "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
-  const int texels = texels_per_light(model);
-  text += "uniform samplerBuffer lights;  // " + std::to_string(texels) + " texels a light\n"
-          "uniform int light_count;\nuniform vec3 eye;\nlayout(location = 0) out vec4 target;\n\n";
+  text += surface_uniforms_text(pipeline, options);
+  text += "uniform samplerBuffer lights;  // " + std::to_string(texels_per_light(model)) + " texels a light\n"
+          "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
   text += light_function_text(model, options);
-  text += "\nvoid main() {\n  ivec2 pixel = ivec2(gl_FragCoord.xy);\n";
-  text += coverage.format == Format::r32ui ? "  if (texelFetch(" + coverage.sampler + ", pixel, 0).x == 0u) discard;\n"
-                                           : "  if (texelFetch(" + coverage.sampler + ", pixel, 0).w == 0.0) discard;\n";
-  text += position_text(pipeline.gbuffer);
-  text += "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
-          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n";
-  text += surface_text(model);
-  const std::string n = std::to_string(texels);
-  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += lit(P, N, V, albedo.rgb, "
-          "texelFetch(lights, " + n + " * i), texelFetch(lights, " + n + " * i + 1)" +
-          (texels == 3 ? ", texelFetch(lights, 3 * i + 2).xyz" : "") + ");\n";
+  text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
+  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += " + lit_call_text(model, "lights", "i") +
+          ";\n";
   text += std::string("  target = vec4(sum, ") + (model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n}\n";
   return text;
 }
@@ -142,6 +109,52 @@ const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes) {
 }
 
 int texels_per_light(const LightModel& model) { return model.falloff == Falloff::quadratic ? 3 : 2; }
+
+std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction) {
+  const GBufferState& g = pipeline.gbuffer;
+  std::string text;
+  const auto declare = [&](Interpolation interpolation, const char* type, const char* name) {
+    text += qualifier(interpolation) + ' ' + direction + ' ' + type + ' ' + name + ";\n";
+  };
+  if (!g.position_from_depth) declare(g.position.interpolation, "vec3", "world_position");
+  declare(g.normal.interpolation, "vec3", "world_normal");
+  declare(g.albedo.interpolation, "vec4", "color");
+  declare(Interpolation::flat, "vec4", "base");
+  if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
+  return text;
+}
+
+std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options) {
+  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
+  std::string text;
+  for (const GlslPlane& plane : planes)
+    if (plane.name == "position" || plane.name == "normal" || plane.name == "albedo")
+      text += "uniform sampler2D " + plane.sampler + ";\n";
+  const GlslPlane& coverage = coverage_plane(planes);
+  if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
+  if (pipeline.gbuffer.position_from_depth)
+    text += "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
+            "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
+  return text + "uniform vec3 eye;\n";
+}
+
+std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options) {
+  const GlslPlane coverage = coverage_plane(planes_of(pipeline, options));
+  const bool ids = coverage.format == Format::r32ui;
+  return "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n  if (texelFetch(" + coverage.sampler +
+         (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
+         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
+         "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" + surface_text(pipeline.light_model);
+}
+
+std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
+  const std::string n = std::to_string(texels_per_light(model));
+  std::string text = "lit(P, N, V, albedo.rgb";
+  for (int i = 0; i < texels_per_light(model); ++i)
+    text += ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");
+  return text + ")";
+}
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: matrices are rows, rounded once from double");

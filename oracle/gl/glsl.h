@@ -46,11 +46,19 @@ int texels_per_light(const LightModel& model);
 
 std::string glsl_header(int version, std::string_view purpose);
 std::string glsl_float(float value);           ///< a literal that reads back as the same float
+/// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
+std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
 /// `vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color[, vec3 k])`: what one light adds.
 std::string light_function_text(const LightModel& model, const GlslOptions& options);
-/// `vec3 N = ...; vec3 V = ...;` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
+/// Samplers and uniforms that read_surface_text() reads, without those of the lights.
+std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
+/// Discards pixels without a surface; then `vec3 P, N, V` and `vec4 albedo` of the pixel, from the planes.
+std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options);
+/// `vec3 N, V` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
 std::string surface_text(const LightModel& model);
+/// `lit(...)` of the light whose first texel in `buffer` is at `index` times texels_per_light().
+std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
 
 }  // namespace trueshade::oracle

@@ -11,7 +11,7 @@
 #include "oracle/gl/probes.h"
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
-#include "oracle/matrices.h"
+#include "oracle/gl/surface_uniforms.h"
 
 namespace trueshade::oracle {
 
@@ -53,25 +53,6 @@ void clear_geometry(const Targets& t, float clear_depth) {
   glClearBufferfv(GL_DEPTH, 0, &clear_depth);
 }
 
-/// Uniforms of a position rebuilt from depth (docs/arithmetic.md section 7).
-void set_depth_uniforms(GLuint program, const Scene& scene, const Pipeline& pipeline, const GlDraw& draw) {
-  const GeometryState& g = pipeline.geometry;
-  const Matrix4 inverse = inverse_of(projection_of(scene.camera, g, pipeline.width, pipeline.height));
-  std::array<float, 16> columns{};
-  for (size_t i = 0; i < 16; ++i) columns[i] = float(inverse[i]);
-  glUniformMatrix4fv(glGetUniformLocation(program, "world_from_clip"), 1, GL_FALSE, columns.data());
-  const Viewport v = resolved_viewport(g, pipeline.width, pipeline.height);
-  const float up = g.clip_origin == ClipOrigin::upper_left ? -1.0f : 1.0f;
-  const std::array<float, 4> window{float(v.x + draw.shift_x), float(v.y + draw.shift_y), float(2.0 / v.width),
-                                    up * float(2.0 / v.height)};
-  set_uniform(program, "ndc_from_window", window);
-  set_uniform(program, "ndc_origin", std::array<float, 2>{1.0f, up});
-  const bool zero_to_one = g.clip_depth == ClipDepth::zero_to_one;
-  const double near = double(g.depth_near), far = double(g.depth_far);
-  const double scale = zero_to_one ? far - near : (far - near) * 0.5, offset = zero_to_one ? near : (near + far) * 0.5;
-  set_uniform(program, "depth_to_ndc", std::array<float, 2>{float(offset), float(1.0 / scale)});
-}
-
 void draw_lights(const Targets& t, const GlProgram& program, SceneBuffers& buffers, const Pipeline& pipeline,
                  const GlDraw& draw) {
   const Scene& scene = buffers.scene();
@@ -80,18 +61,10 @@ void draw_lights(const Targets& t, const GlProgram& program, SceneBuffers& buffe
   const std::array<float, 4> clear{scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
   glClearBufferfv(GL_COLOR, 0, clear.data());
   glUseProgram(program);
-  int unit = 0;
-  for (size_t i = 0; i < t.planes.size(); ++i)
-    bind_texture(program, t.planes[i].sampler.c_str(), unit++, GL_TEXTURE_2D, t.textures[i]);
-  if (pipeline.gbuffer.position_from_depth) {
-    bind_texture(program, "depth_plane", unit++, GL_TEXTURE_2D, t.depth);
-    set_depth_uniforms(program, scene, pipeline, draw);
-  }
+  const int unit = bind_surface(program, t.planes, t.textures, t.depth, scene, pipeline, draw.shift_x, draw.shift_y);
   bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers.light_texels(pipeline.light_model));
   const int all = int(scene.lights.size());
   set_uniform(program, "light_count", draw.lights < 0 ? all : std::min(draw.lights, all));
-  const std::array<float, 3> eye{scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z};
-  set_uniform(program, "eye", eye);
   const GlVertexArray none = make_vertex_array();
   glBindVertexArray(none);
   glDrawArrays(GL_TRIANGLES, 0, 3);
