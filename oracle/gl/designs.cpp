@@ -64,7 +64,9 @@ namespace {
 GlslOptions lean_options(const GlRenderer& renderer) {
   GlDraw draw;
   draw.planes = false;
-  return renderer.shader_options(draw);
+  GlslOptions options = renderer.shader_options(draw);
+  options.products = true;
+  return options;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct GlslOptions {
   bool primitive = true;        ///< of ids, id.primitive too
   bool uv = true;               ///< plane uv
   bool rgb16f = true;           ///< false: the driver cannot render to rgb16f, so rgba16f stands in
+  bool products = false;        ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
 
@@ -24,6 +25,7 @@ struct GlslPlane {
   std::string output;   ///< of the geometry pass's fragment shader
   std::string sampler;  ///< of the light pass
   Format format;
+  bool operator==(const GlslPlane&) const = default;
 };
 
 /// The planes of a pipeline in attachment order.
@@ -35,6 +37,7 @@ const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 /// Four shaders that draw a frame. The files of `trueshade glsl` have these names.
 struct GlslShaders {
   std::string geometry_vert, geometry_frag, light_vert, light_frag;
+  bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
 

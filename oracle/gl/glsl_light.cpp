@@ -12,10 +12,19 @@ std::string power(const std::string& base, float exponent) {
   return "pow(" + base + ", " + glsl_float(exponent) + ")";
 }
 
+/// Statements that leave x^p in s, by binary powering.
+std::string products_text(int p) {
+  std::string text = "  float s = x;\n";
+  int bit = 1;
+  while (2 * bit <= p) bit *= 2;
+  for (bit /= 2; bit > 0; bit /= 2) text += std::string("  s = s * s") + ((p & bit) != 0 ? " * x;\n" : ";\n");
+  return text;
+}
+
 bool is_even_integer(float value) { return value <= 8192.0f && float(int(value)) == value && int(value) % 2 == 0; }
 
 /// `float s`: the cosine of the half angle to the shininess. An even one needs no square root.
-std::string specular_text(const LightModel& m) {
+std::string specular_text(const LightModel& m, bool products) {
   std::string text = R"(  vec3 H = L + V;
   float h2 = dot(H, H);
   float t = max(dot(N, H), 0.0);
@@ -23,7 +32,10 @@ std::string specular_text(const LightModel& m) {
   const bool even = is_even_integer(m.shininess);
   text += even ? "  float x = h2 > 0.0 ? t * t / h2 : 0.0;\n" : "  float x = h2 > 0.0 ? t / sqrt(h2) : 0.0;\n";
   if (m.renormalize) text += "  x = min(x, 1.0);\n";
-  const std::string specular = power("x", even ? m.shininess / 2 : m.shininess);
+  const float exponent = even ? m.shininess / 2 : m.shininess;
+  if (products && exponent >= 1.0f && exponent <= 64.0f && exponent == float(int(exponent)))
+    return text + products_text(int(exponent)) + (m.specular_masked ? "  s = nl > 0.0 ? s : 0.0;\n" : "");
+  const std::string specular = power("x", exponent);
   return text + "  float s = " + (m.specular_masked ? "nl > 0.0 ? " + specular + " : 0.0" : specular) + ";\n";
 }
 
@@ -73,7 +85,7 @@ vec3 unit(vec3 v) {
   if (options.directional) text += "  if (place.w == 1.0) { r = 1.0; f = 1.0; }\n";
   text += "  float nl = dot(N, D) * r;\n";
   text += "  vec3 L = D * r;\n  float c = max(nl, 0.0);\n";
-  return text + specular_text(m) + sum_text(m) + "}\n";
+  return text + specular_text(m, options.products) + sum_text(m) + "}\n";
 }
 
 }  // namespace trueshade::oracle

@@ -15,29 +15,41 @@
 
 namespace trueshade::oracle {
 
-namespace {
-
 /// Textures of one frame and where the picture lies in them.
 struct Targets {
-  int width, height;  ///< of the textures: the image and its shift
+  int width = 0, height = 0;  ///< of the textures: the image and its shift
+  Format color_format = Format::rgba8;
   std::vector<GlslPlane> planes;
   std::vector<GlTexture> textures;  ///< one a plane
   GlTexture depth, color;
   GlTarget geometry, light;
 };
 
-Targets make_targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {
-  Targets t{pipeline.width + draw.shift_x, pipeline.height + draw.shift_y, planes_of(pipeline, options), {}, {}, {}, {}, {}};
+struct Programs {
+  GlslShaders text;
+  GlProgram geometry, light;
+};
+
+namespace {
+
+std::unique_ptr<Targets> make_targets(int width, int height, Format color_format, const std::vector<GlslPlane>& planes) {
+  auto t = std::make_unique<Targets>();
+  t->width = width;
+  t->height = height;
+  t->color_format = color_format;
+  t->planes = planes;
   std::vector<GLuint> names;
-  for (const GlslPlane& plane : t.planes) {
-    t.textures.push_back(make_texture(plane.format, t.width, t.height));
-    names.push_back(t.textures.back());
+  for (const GlslPlane& plane : planes) {
+    t->textures.push_back(make_texture(plane.format, width, height));
+    names.push_back(t->textures.back());
   }
-  t.depth = make_texture(Format::d32f, t.width, t.height);
-  t.color = make_texture(pipeline.target, t.width, t.height);
-  t.geometry = make_target(names, t.depth);
-  const std::array<GLuint, 1> color{t.color};
-  t.light = make_target(color, 0);
+  t->depth = make_texture(Format::d32f, width, height);
+  t->color = make_texture(color_format, width, height);
+  t->geometry = make_target(names, t->depth);
+  const std::array<GLuint, 1> color{t->color};
+  t->light = make_target(color, 0);
+  if (!t->geometry.complete || !t->light.complete)
+    throw std::runtime_error("the driver cannot render to the planes of this pipeline");
   return t;
 }
 
@@ -95,7 +107,7 @@ GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotatio
   primitive_ids_ = counts_primitives();
 }
 
-GlRenderer::~GlRenderer() { context_->make_current(); }
+GlRenderer::~GlRenderer() { context_->make_current(); }  // what it owns is freed in that context
 
 GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   GlslOptions options;
@@ -108,16 +120,29 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   return options;
 }
 
+const Programs& GlRenderer::programs(const GlslShaders& text) {
+  if (programs_ == nullptr || programs_->text != text)
+    programs_ = std::make_unique<Programs>(Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+                                                    make_program("light", text.light_vert, text.light_frag)});
+  return *programs_;
+}
+
+const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {
+  const int width = pipeline.width + draw.shift_x, height = pipeline.height + draw.shift_y;
+  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
+  const Targets* t = targets_.get();
+  if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target || t->planes != planes)
+    targets_ = make_targets(width, height, pipeline.target, planes);
+  return *targets_;
+}
+
 GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   context_->make_current();
   check_limits(*context_, pipeline, pipeline.width + draw.shift_x, pipeline.height + draw.shift_y);
   const GlslOptions options = draw.shaders != nullptr ? draw.shader_options : shader_options(draw);
   const GlslShaders text = draw.shaders != nullptr ? *draw.shaders : shaders_of(pipeline, options);
-  const GlProgram geometry = make_program("geometry", text.geometry_vert, text.geometry_frag);
-  const GlProgram light = make_program("light", text.light_vert, text.light_frag);
-  const Targets targets = make_targets(pipeline, options, draw);
-  if (!targets.geometry.complete || !targets.light.complete)
-    throw std::runtime_error("the driver cannot render to the planes of this pipeline");
+  const Programs& program = programs(text);
+  const Targets& target = targets(pipeline, options, draw);
 
   GlFrame frame;
   frame.capture.driver = context_->info().line();
@@ -127,16 +152,16 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
     frame.notes.push_back("gl_PrimitiveID draws nothing on this driver: there is no plane id.primitive");
   PassTimer timer(frame.passes);
   buffers_->upload_instances(pipeline);
-  clear_geometry(targets, pipeline.geometry.clear_depth);
+  clear_geometry(target, pipeline.geometry.clear_depth);
   timer.end("upload and clear");
   set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height), draw.shift_x,
                      draw.shift_y);
-  glUseProgram(geometry);
+  glUseProgram(program.geometry);
   buffers_->draw_instances();
   timer.end("geometry");
-  draw_lights(targets, light, *buffers_, pipeline, draw);
+  draw_lights(target, program.light, *buffers_, pipeline, draw);
   timer.end("lights");
-  read_all(targets, pipeline, draw, frame.capture);
+  read_all(target, pipeline, draw, frame.capture);
   timer.end("read back");
   check_gl("drawing");
   return frame;

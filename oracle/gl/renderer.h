@@ -31,6 +31,8 @@ struct GlFrame {
 };
 
 class SceneBuffers;
+struct Targets;
+struct Programs;
 
 /// A scene on a driver. Meshes are uploaded once, frames of any pipeline drawn from them.
 /// Borrows both, which must outlive it unchanged; to be used on one thread at a time.
@@ -52,7 +54,12 @@ class GlRenderer {
  private:
   const GlContext* context_;
   std::unique_ptr<SceneBuffers> buffers_;
+  std::unique_ptr<Targets> targets_;    ///< of the last frame, kept while size and formats stay
+  std::unique_ptr<Programs> programs_;  ///< of the last frame, kept while the text stays
   bool rgb16f_, primitive_ids_;
+
+  const Programs& programs(const GlslShaders& text);
+  const Targets& targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw);
 };
 
 }  // namespace trueshade::oracle
