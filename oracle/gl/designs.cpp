@@ -19,7 +19,7 @@ namespace trueshade::oracle {
 std::string_view name_of(GlDesign design) {
   switch (design) {
     case GlDesign::deferred_loop: return "deferred-loop";
-    case GlDesign::light_volumes: return "light-volumes";
+    case GlDesign::deferred_volumes: return "deferred-volumes";
     case GlDesign::tiled: return "tiled";
     case GlDesign::forward_plus: return "forward-plus";
     case GlDesign::forward_loop: return "forward-loop";
@@ -55,7 +55,7 @@ struct GlPeer::Work {
   void begin_forward();
   void use_lighting();
   void light_deferred();
-  void light_volumes();
+  void draw_volumes();
   void draw_multipass();
 };
 
@@ -83,7 +83,7 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   if (!is_forward(design)) geometry = make_program("geometry", judge.geometry_vert, judge.geometry_frag);
   if (design == GlDesign::forward_plus)
     depth_only = make_program("depth", judge.geometry_vert, empty_fragment_text(options.version));
-  if (design == GlDesign::light_volumes)
+  if (design == GlDesign::deferred_volumes)
     base = make_program("base", judge.light_vert, base_fragment_text(pipeline, options));
 
   std::vector<GLuint> names;
@@ -161,7 +161,7 @@ void GlPeer::Work::light_deferred() {
   glBindFramebuffer(GL_FRAMEBUFFER, light_target.framebuffer);
   const glm::vec4& clear = scene().clear;
   glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{clear.r, clear.g, clear.b, clear.a}.data());
-  if (design == GlDesign::light_volumes) return light_volumes();
+  if (design == GlDesign::deferred_volumes) return draw_volumes();
   use_lighting();
   glBindVertexArray(none);
   const int columns = (pipeline.width + tile - 1) / tile, rows = (pipeline.height + tile - 1) / tile;
@@ -170,7 +170,7 @@ void GlPeer::Work::light_deferred() {
 }
 
 /// The paper's state: front faces culled, no depth test, depth clamp, so that a box around the eye lights what it should.
-void GlPeer::Work::light_volumes() {
+void GlPeer::Work::draw_volumes() {
   glUseProgram(base);
   bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
   glBindVertexArray(none);

@@ -61,12 +61,12 @@ std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options
   std::string text = glsl_header(options.version, std::string("lights of the design ") + std::string(name_of(design)));
   text += surface_uniforms_text(p, options);
   if (design == GlDesign::tiled) text += "uniform samplerBuffer records;\nflat in ivec2 range;\n";
-  if (design == GlDesign::light_volumes) text += "uniform samplerBuffer lights;\nflat in int light;\n";
+  if (design == GlDesign::deferred_volumes) text += "uniform samplerBuffer lights;\nflat in int light;\n";
   if (design == GlDesign::deferred_loop) text += "uniform samplerBuffer lights;\nuniform int light_count;\n";
   text += "layout(location = 0) out vec4 target;\n\n" + light_function_text(model, options) + "\nvoid main() {\n" +
           read_surface_text(p, options);
   if (design == GlDesign::tiled) text += loop_text(model, "records", "range.x", "range.y");
-  if (design == GlDesign::light_volumes) text += "  target = vec4(" + lit_call_text(model, "lights", "light") + ", 0.0);\n";
+  if (design == GlDesign::deferred_volumes) text += "  target = vec4(" + lit_call_text(model, "lights", "light") + ", 0.0);\n";
   if (design == GlDesign::deferred_loop) text += loop_text(model, "lights", "0", "light_count");
   return text + "}\n";
 }
@@ -108,7 +108,7 @@ Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design) {
 DesignShaders lighting_shaders(const Pipeline& p, const GlslOptions& options, GlDesign design) {
   if (is_forward(design)) return {vertex_text(p, options), forward_fragment_text(p, options, design)};
   const std::string frag = deferred_fragment_text(p, options, design);
-  if (design == GlDesign::light_volumes) return {box_vertex_text(p.light_model, options.version), frag};
+  if (design == GlDesign::deferred_volumes) return {box_vertex_text(p.light_model, options.version), frag};
   if (design == GlDesign::tiled) return {tile_vertex_text(options.version), frag};
   return {fullscreen_vertex_text(options.version), frag};
 }

@@ -14,7 +14,7 @@ struct DesignShaders {
 };
 DesignShaders lighting_shaders(const Pipeline& pipeline, const GlslOptions& options, GlDesign design);
 
-/// Writes black and the pixel's alpha where there is a surface: what light_volumes blends onto.
+/// Writes black and the pixel's alpha where there is a surface: what deferred_volumes blends onto.
 std::string base_fragment_text(const Pipeline& pipeline, const GlslOptions& options);
 
 /// Depth alone.

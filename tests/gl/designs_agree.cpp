@@ -43,7 +43,7 @@ void check_designs(const Scene& scene, const Preset& preset) {
       INFO(scene.spec << ", " << preset.name << ", " << name_of(design) << ", tile " << tile);
       // Volumes and multipass round after each light: 9 codes at 64 lights (GL_RULES section 4), a little more where
       // all of them are faint.
-      const bool blends = design == GlDesign::light_volumes || design == GlDesign::forward_multipass;
+      const bool blends = design == GlDesign::deferred_volumes || design == GlDesign::forward_multipass;
       CHECK(pixels_over(theirs, ours, blends ? 12 : 2) <= 16500 / 200);
       CHECK(peer.draw(true).capture.color.texels == theirs.texels);  // a second frame starts from nothing
     }
