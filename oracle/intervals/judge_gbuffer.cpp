@@ -62,7 +62,7 @@ class GBufferJudge {
     const Instance& instance = projector_.scene().instances[c.instance];
     const auto identifier = [&](const PlaneView& view, const char* name, double expected) {
       if (view && view.stored(x, y_top, 0) != expected)
-        m.note(name, 0, {expected, expected, expected, 0}, view.stored(x, y_top, 0), 1);
+        m.note(name, 0, {expected, expected, expected}, view.stored(x, y_top, 0), 1);
     };
     identifier(object_, "id.object", c.instance + 1.0);
     identifier(material_, "id.material", instance.material + 1.0);
@@ -84,7 +84,7 @@ class GBufferJudge {
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
         if (k >= p.count) {
-          if (stored != p.rest[k - 2]) m.note(p.name, k, {p.rest[k - 2], p.rest[k - 2], p.rest[k - 2], 0}, stored, 1);
+          if (stored != p.rest[k - 2]) m.note(p.name, k, {p.rest[k - 2], p.rest[k - 2], p.rest[k - 2]}, stored, 1);
           continue;
         }
         Range range = value_of(point, piece, values, p, k);
@@ -209,14 +209,14 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
   if (nominal != nullptr) ++row.covered;
   const bool clear_legal = !certain;
   if (legal.size() + (clear_legal ? 1 : 0) > 1) {
-    ++row.ambiguous;
-    row.predicted_other += chance_of_other(legal, nominal);
+    const Candidate* first = nominal != nullptr ? nominal : legal.front();
+    row.may_be_other(uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
   }
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
   if (is_clear(x, y_top)) {
     Match none;
     const bool hidden = !clear_legal || patch_key(projector_, all, sx, sy) < HUGE_VAL;
-    if (hidden) none.note("id.object", 0, {1, 1, 1, 0}, 0, 1);
+    if (hidden) none.note("id.object", 0, {1, 1, 1}, 0, 1);
     row.take(x, y_top, hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal), none, name_of(nominal));
     return;
   }
@@ -228,7 +228,7 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
     Match m = match(*c, x, y_top, bounded);
     if (m.legal && c != nominal) {
       if (!patch) patch = patch_key(projector_, all, sx, sy);
-      if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch, 0}, c->middle, 1);
+      if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch}, c->middle, 1);
     }
     if (m.legal) {
       row.take(x, y_top, class_of(m, bounded, c, nominal), m, name_of(c));
@@ -237,7 +237,7 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
     if (first || m.excess < closest.excess) closest = m;
     first = false;
   }
-  if (legal.empty()) closest.note("id.object", 0, {0, 0, 0, 0}, object_ ? object_.stored(x, y_top, 0) : 1, 1);
+  if (legal.empty()) closest.note("id.object", 0, {0, 0, 0}, object_ ? object_.stored(x, y_top, 0) : 1, 1);
   closest.choices.clear();
   closest.stored_values = 0;
   row.take(x, y_top, PixelClass::violation, closest, name_of(legal.empty() ? nullptr : legal.front()));

@@ -149,7 +149,7 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   const ShadedSurface surface = surface_at(x, y);
   const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, profile_.arithmetic, profile_.exact_planes);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
-  if (!lit.branches.empty()) ++row.ambiguous, row.predicted_other += 0.5;
+  if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;
   const auto others = [&](Match& m) {
     if (color_.channels > 3) {
@@ -158,7 +158,7 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
     }
     const double lights = count_ ? count_.stored(x, y, 0) : 0;
     if (count_ && (lights < lit.lights_low || lights > lit.lights_high))
-      m.note("light.count", 0, {double(lit.lights_low), double(lit.lights_low), double(lit.lights_high), 0}, lights, 1);
+      m.note("light.count", 0, {double(lit.lights_low), double(lit.lights_low), double(lit.lights_high)}, lights, 1);
   };
   fits(lit, {}, x, y, nominal);
   others(nominal);

@@ -34,11 +34,13 @@ double float_below(double x) {
 }
 double float_above(double x) { return -float_below(-x); }
 
-/// Chance that an output spread evenly over the range falls beyond the nearest of the two thresholds.
-double chance_beyond(const Range& r, double below, double above) {
+/// Chance that an output spread evenly over the range falls beyond the thresholds around the nominal value.
+void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   const double width = r.high - r.low;
-  if (!(width > 0)) return 0;
-  return std::min(1.0, (std::max(0.0, r.high - above) + std::max(0.0, below - r.low)) / width);
+  if (!(width > 0)) return;
+  const double up = std::max(0.0, r.high - above), down = std::max(0.0, below - r.low);
+  t.second_chance = std::min(1.0, (up + down) / width);
+  t.second_side = up >= down ? 1 : -1;
 }
 
 /// RNE(fl32(x * 255)) of a float x in [0, 1], as GL_RULES section 3 measured it.
@@ -62,24 +64,24 @@ LegalTexel unorm8(const Range& r, const Profile& profile) {
     t.low = std::max(0.0, std::ceil(low - profile.unorm_reach));
     t.high = std::min(255.0, std::floor(high + profile.unorm_reach));
   }
-  t.second_chance = r.low < r.high ? chance_beyond({value, low, high}, t.nominal - 0.5, t.nominal + 0.5) : 0;
+  if (r.low < r.high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
   return t;
 }
 
 LegalTexel half(const Range& r, const Profile& profile) {
   LegalTexel t;
   if (profile.half == HalfStore::either) {
-    t = {half_toward_zero(r.value), half_below(r.low), half_above(r.high), 0};
+    t = {half_toward_zero(r.value), half_below(r.low), half_above(r.high)};
     if (r.high > kLargestHalf) t.high = HUGE_VAL;  // to the largest half or to infinity
     if (r.low < -kLargestHalf) t.low = -HUGE_VAL;
   } else {
-    t = {stored_half(r.value, profile.half), stored_half(r.low, profile.half), stored_half(r.high, profile.half), 0};
+    t = {stored_half(r.value, profile.half), stored_half(r.low, profile.half), stored_half(r.high, profile.half)};
   }
   const double spacing = half_spacing(r.value);
   const bool truncates = profile.half != HalfStore::nearest;
   const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);
   const double above = truncates && t.nominal < 0 ? t.nominal : t.nominal + (truncates ? spacing : spacing / 2);
-  t.second_chance = chance_beyond(r, below, above);
+  set_chance(t, r, below, above);
   return t;
 }
 
@@ -95,7 +97,7 @@ double half_above(double x) { return -half_below(-x); }
 LegalTexel legal_texel(const Range& range, NumberClass number_class, int bytes_per_channel, const Profile& profile) {
   if (number_class == NumberClass::unorm) return unorm8(range, profile);
   if (bytes_per_channel == 2) return half(range, profile);
-  return {range.value, float_below(range.low), float_above(range.high), 0};
+  return {range.value, float_below(range.low), float_above(range.high)};
 }
 
 }  // namespace trueshade::oracle

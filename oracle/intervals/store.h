@@ -17,6 +17,7 @@ struct LegalTexel {
   double nominal = 0;        ///< what the store gives for Range::value; unorm and half: on the grid
   double low = 0, high = 0;
   double second_chance = 0;  ///< predicted probability that not the nominal value is stored, errors uniform in the range
+  int second_side = 0;       ///< where the likelier other value lies: -1 below, 1 above
   bool contains(double stored) const { return stored >= low && stored <= high; }
 };
 

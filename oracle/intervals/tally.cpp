@@ -77,8 +77,16 @@ void Match::channel_is(const PlaneView& view, const char* name, int at, const Ra
   ++stored_values;
   const auto taken = int8_t(stored < texel.nominal ? -1 : stored > texel.nominal ? 1 : 0);
   second = second || taken != 0;
+  if (view.bytes == 2 && profile.half == HalfStore::either) return;  // which neighbour is the nominal one is not known
+  const auto side = int8_t(texel.second_chance > 0 ? texel.second_side : taken);
   if (taken != 0 || texel.second_chance > 0)
-    choices.push_back({pixel, float(range.value), float(texel.second_chance), taken});
+    choices.push_back({pixel, float(range.value), float(texel.second_chance), side, taken});
+}
+
+void RowTally::may_be_other(uint64_t surface, double chance) {
+  ++ambiguous;
+  predicted_other += chance;
+  surface_choices.push_back({surface, float(chance)});
 }
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
@@ -111,6 +119,7 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
     v.covered += row.covered, v.ambiguous += row.ambiguous, v.stored_values += row.stored_values;
     v.predicted_other += row.predicted_other;
     v.worst_error = std::max(v.worst_error, row.worst_error);
+    v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());
     v.choices.insert(v.choices.end(), row.choices.begin(), row.choices.end());
     v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
   }

@@ -51,9 +51,11 @@ struct RowTally {
   std::vector<PixelClass> classes;
   uint64_t covered = 0, ambiguous = 0, stored_values = 0;
   double predicted_other = 0, worst_error = 0;
+  std::vector<SurfaceChoice> surface_choices;
   std::vector<StoreChoice> choices;
   std::vector<WorstPixel> worst;
 
+  void may_be_other(uint64_t surface, double chance);
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 };
 

@@ -38,7 +38,14 @@ struct StoreChoice {
   uint32_t pixel;   ///< y * width + x, y from the top
   float value;      ///< the real value before the store: equal values are one choice, however many pixels have them
   float chance;     ///< predicted that the second neighbour is taken
+  int8_t side;      ///< where the nearest threshold lies: -1 below, 1 above
   int8_t taken;     ///< 0: the nominal one; -1, 1: the one below, above
+};
+
+/// A pixel with more than one legal surface or branch.
+struct SurfaceChoice {
+  uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle move together
+  float chance;      ///< predicted that another is shown
 };
 
 struct StageVerdict {
@@ -50,6 +57,7 @@ struct StageVerdict {
   uint64_t ambiguous = 0;                         ///< pixels with more than one legal surface or branch
   double predicted_other = 0;                     ///< expected number of edge + depth_tie + clip + branch pixels
   uint64_t stored_values = 0;                     ///< unorm and half channels judged
+  std::vector<SurfaceChoice> surface_choices;     ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;               ///< those of them with two likely values, or that took a second one
   double worst_error = 0;                         ///< float planes: largest |given - value| / bound
   std::vector<WorstPixel> worst;                  ///< at most 32
