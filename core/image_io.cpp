@@ -2,27 +2,21 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <memory>
-#include <new>
 
 #include "core/error.h"
+#include "core/exr_channels.h"
 #include "core/fp_env.h"
-#include "core/png_header.h"
+#include "core/guarded.h"
 #include "core/srgb.h"
 
 namespace trueshade {
 namespace {
 
 constexpr int kRowsAtOnce = 64;  // a multiple of the 16 rows an EXR compresses together
-constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
 
 /// One channel of the file, and where its values come from.
 struct FileChannel {
@@ -37,19 +31,6 @@ OIIO::TypeDesc stored_type(const FileChannel& channel) {
   return layout.bytes_per_channel == 2 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
-/// The channels of an EXR an AOV becomes. Where the fourth component is a constant, it is left out.
-std::vector<std::string> channel_names(std::string_view aov, int channels) {
-  const std::string name(aov);
-  if (name == "depth") return {"depth.Z"};
-  if (name == "position") return {"P.X", "P.Y", "P.Z"};
-  if (name == "normal") return {"N.X", "N.Y", "N.Z"};
-  if (name == "uv") return {"uv.X", "uv.Y"};
-  if (channels == 1) return {name};
-  std::vector<std::string> names;
-  for (int channel = 0; channel < channels; ++channel) names.push_back(name + '.' + "RGBA"[channel]);
-  return names;
-}
-
 std::vector<FileChannel> exr_channels(const std::string& path, const Image& color, std::span<const NamedImage> aovs) {
   std::vector<FileChannel> channels;
   for (int channel = 0; channel < info(color.format).channels; ++channel)
@@ -59,7 +40,7 @@ std::vector<FileChannel> exr_channels(const std::string& path, const Image& colo
       throw Error(ErrorKind::usage, path, "plane " + aov.name + " has another size than the colour",
                   "give it the same");
     int channel = 0;
-    for (const std::string& name : channel_names(aov.name, info(aov.image.format).channels))
+    for (const std::string& name : exr_channels_of(aov.name, info(aov.image.format).channels))
       channels.push_back({name, &aov.image, channel++});
   }
   return channels;
@@ -174,64 +155,6 @@ std::vector<uint8_t> exr_bytes(const std::string& path, const Image& color, std:
   return exr.close();
 }
 
-/// What `job` returns, with an exception of OpenImageIO's own made one of ours. Running out of memory stays that.
-template <typename Job>
-auto guarded(const std::string& path, Job job) {
-  try {
-    return job();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    throw Error(ErrorKind::io, path, std::string("OpenImageIO failed: ") + failure.what(), "check the file");
-  }
-}
-
-std::vector<uint8_t> read_bytes(const std::string& path) {
-  const auto fail = [&path](const char* step) -> Error {
-    return {ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(errno), "check the name"};
-  };
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe must not make us wait
-  if (descriptor < 0) throw fail("open it");
-  const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* file) { close(*file); });
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0) throw fail("read it");
-  if (!S_ISREG(status.st_mode)) throw Error(ErrorKind::io, path, "it is not a regular file", "name an image file");
-  if (uint64_t(status.st_size) > kMaxFileBytes)
-    throw Error(ErrorKind::limit, path, "the file is over 4 GiB", "give a smaller one");
-  std::vector<uint8_t> bytes(size_t(status.st_size));
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t got = read(descriptor, bytes.data() + done, bytes.size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw fail("read it");
-    if (got == 0) throw Error(ErrorKind::io, path, "it shrank while being read", "try again");
-    done += size_t(got);
-  }
-  return bytes;
-}
-
-bool starts_with(const std::vector<uint8_t>& bytes, std::string_view magic) {
-  return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-}
-
-ImageFileInfo exr_header(const std::string& path, const std::vector<uint8_t>& bytes) {
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  const std::unique_ptr<OIIO::ImageInput> file = OIIO::ImageInput::create("openexr");
-  OIIO::ImageSpec spec;
-  if (!file || !file->set_ioproxy(&memory) || !file->open(path, spec)) {
-    const std::string message = file ? file->geterror() : "OpenImageIO has no reader for it";
-    throw Error(ErrorKind::bad_input, path, message, "write the file again");
-  }
-  ImageFileInfo header{spec.width, spec.height, {}, {}};
-  for (int channel = 0; channel < spec.nchannels; ++channel)
-    header.channels.push_back(std::string(spec.channel_name(channel)) + " " + spec.channelformat(channel).c_str());
-  for (const OIIO::ParamValue& entry : spec.extra_attribs)
-    header.metadata.emplace_back(entry.name().string(), entry.get_string());
-  file->close();
-  return header;
-}
-
 }  // namespace
 
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
@@ -249,13 +172,6 @@ void write_image(const std::string& path, const Image& color, std::span<const Na
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata) {
   const FpScope ieee;
   return guarded("PNG", [&] { return png_bytes("PNG", color, metadata); });
-}
-
-ImageFileInfo read_image_info(const std::string& path) {
-  const std::vector<uint8_t> bytes = read_bytes(path);
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return png_header(path, bytes);
-  if (starts_with(bytes, "\x76\x2f\x31\x01")) return guarded(path, [&] { return exr_header(path, bytes); });
-  throw Error(ErrorKind::bad_input, path, "it is neither PNG nor EXR", "give one of these");
 }
 
 }  // namespace trueshade

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trueshade {
+
+/// The channels of an EXR that a plane of so many components becomes. `color` is the picture itself. Where the fourth
+/// component of a plane is a constant, it is left out.
+std::vector<std::string> exr_channels_of(std::string_view plane, int components);
+
+}  // namespace trueshade
