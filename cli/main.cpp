@@ -44,12 +44,16 @@ int exit_code_of(const std::exception_ptr& fault) {
 /// Libraries end the process where they cannot start their own threads, far from any catch of ours.
 [[noreturn]] void end_without_signal() { std::_Exit(exit_code_of(std::current_exception())); }
 
-void execute(const Command& command) {
-  if (const auto* options = std::get_if<RenderOptions>(&command)) return render(*options);
-  if (const auto* options = std::get_if<InfoOptions>(&command)) return print_info(*options);
-  if (const auto* options = std::get_if<ListOptions>(&command)) return print_list(*options);
-  if (const auto* options = std::get_if<GlslFilesOptions>(&command)) return write_glsl(*options);
-  print(std::get<PrintText>(command).text);
+constexpr int kViolation = 1;
+
+int execute(const Command& command) {
+  if (const auto* options = std::get_if<RenderOptions>(&command)) render(*options);
+  if (const auto* options = std::get_if<InfoOptions>(&command)) print_info(*options);
+  if (const auto* options = std::get_if<ListOptions>(&command)) print_list(*options);
+  if (const auto* options = std::get_if<GlslFilesOptions>(&command)) write_glsl(*options);
+  if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
+  if (const auto* options = std::get_if<PrintText>(&command)) print(options->text);
+  return 0;
 }
 
 }  // namespace
@@ -61,8 +65,7 @@ int main(int count, char** arguments) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(trueshade::end_without_signal);
   try {
-    trueshade::execute(trueshade::command_from_arguments(count, arguments));
-    return 0;
+    return trueshade::execute(trueshade::command_from_arguments(count, arguments));
   } catch (...) {
     return trueshade::exit_code_of(std::current_exception());
   }

@@ -6,6 +6,7 @@
 
 #include "cli/version.h"
 #include "core/error.h"
+#include "oracle/intervals/profile.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"
 
@@ -95,23 +96,28 @@ struct RenderTexts {
   bool no_light_culling = false;
 };
 
-CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
-  CLI::App* render = app.add_subcommand("render", "Draw a scene");
-  render->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+/// The options of PipelineOptions but for the target.
+void add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
+  command->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
       ->required();
-  render
-      ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  render->add_option(
+  command->add_option(
       "--preset", options.preset, "Row of numbers the pipeline starts from: " + [] {
         std::string names;
         for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
         return names;
       }());
-  render->add_option("--pipeline", options.pipeline_file,
-                     "JSON file of values that replace the preset's and the scene's");
-  render->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
+  command->add_option("--pipeline", options.pipeline_file,
+                      "JSON file of values that replace the preset's and the scene's");
+  command->add_option("--size", size, "Image size in pixels, WIDTHxHEIGHT");
+}
+
+CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
+  CLI::App* render = app.add_subcommand("render", "Draw a scene");
+  add_pipeline_options(render, options, texts.size);
+  render
+      ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
@@ -125,6 +131,11 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   return render;
 }
 
+void check_preset(const std::optional<std::string>& preset) {
+  if (preset && !preset_pipeline(*preset))
+    throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");
+}
+
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.target) options.target = target_from_text(*texts.target);
@@ -132,8 +143,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
   options.execution.light_culling = !texts.no_light_culling;
-  if (options.preset && !preset_pipeline(*options.preset))
-    throw usage("--preset", "there is no preset '" + *options.preset + "'", "`trueshade list` names them");
+  check_preset(options.preset);
   const std::vector<std::string_view> simd = simd_targets();
   if (options.simd != "best" && std::find(simd.begin(), simd.end(), options.simd) == simd.end())
     throw usage("--simd", "this machine has no '" + options.simd + "'", "one of: best " + joined(simd));
@@ -150,8 +160,40 @@ CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options) {
 }
 
 GlslFilesOptions finished(GlslFilesOptions options) {
-  if (!preset_pipeline(options.preset))
-    throw usage("--preset", "there is no preset '" + options.preset + "'", "`trueshade list` names them");
+  check_preset(options.preset);
+  return options;
+}
+
+CLI::App* add_validate(CLI::App& app, ValidationOptions& options, std::optional<std::string>& size) {
+  CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
+  add_pipeline_options(command, options, size);
+  command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
+  command->add_option("--gbuffer", options.gbuffer_file,
+                      "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
+  command->add_option("--image", options.image_file, "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
+  command->add_option("--profile", options.profile,
+                      "Hold the driver to this profile instead of what OpenGL promises of any: " +
+                          joined(oracle::profile_names()));
+  command->add_flag("--quick", options.quick, "Do not look for the tightest profile that explains the image");
+  command->add_flag("--json", options.json, "Print all of it as one JSON document");
+  command->add_option("-o,--output", options.report, "Report to write, .html");
+  command->footer("Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
+                  "others as for trueshade.");
+  return command;
+}
+
+ValidationOptions finished(ValidationOptions options, const std::optional<std::string>& size) {
+  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
+  if (size) options.size = size_from_text(*size);
+  check_preset(options.preset);
+  if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
+    throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.profile && !oracle::profile_named(*options.profile))
+    throw usage("--profile", "there is no profile '" + *options.profile + "'", "one of: " + joined(oracle::profile_names()));
+  if (options.gbuffer_file.empty() && !options.image_file.empty())
+    throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
+  if (options.report && !options.report->ends_with(".html"))
+    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   return options;
 }
 
@@ -174,20 +216,23 @@ Command command_from_arguments(int count, const char* const* arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
   app.footer(
-      "Exit codes: 0 ok, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out of memory, 70 our "
-      "fault.");
+      "Exit codes: 0 ok, 1 a violation was found, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out "
+      "of memory, 7 no OpenGL driver, 70 our fault.");
   RenderOptions render;
   RenderTexts texts;
   InfoOptions info;
   ListOptions list;
   GlslFilesOptions glsl;
+  ValidationOptions validation;
+  std::optional<std::string> validation_size;
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl);
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl"};
+  const CLI::App* validate_command = add_validate(app, validation, validation_size);
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate"};
   if (count > 1 && arguments[1][0] != '-' &&
       std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
     throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
@@ -206,6 +251,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (render_command->parsed()) return finished(std::move(render), texts);
   if (info_command->parsed()) return info;
   if (glsl_command->parsed()) return finished(std::move(glsl));
+  if (validate_command->parsed()) return finished(std::move(validation), validation_size);
   return list;
 }
 

@@ -12,14 +12,18 @@ struct Size {
   int width, height;  ///< pixels
 };
 
-/// `trueshade render`. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
-struct RenderOptions {
+/// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
+struct PipelineOptions {
   std::string scene;                  ///< a file or builtin:NAME
-  std::vector<std::string> outputs;   ///< .png, .exr or .html
   std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
   std::optional<Size> size;
   std::optional<Format> target;
+};
+
+/// `trueshade render`
+struct RenderOptions : PipelineOptions {
+  std::vector<std::string> outputs;  ///< .png, .exr or .html
   std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
   std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
@@ -45,12 +49,22 @@ struct GlslFilesOptions {
   std::string folder;  ///< made if it is not there
 };
 
+/// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
+struct ValidationOptions : PipelineOptions {
+  std::string driver = "default";      ///< default, llvmpipe or softpipe; not read where there is a capture
+  std::optional<std::string> profile;  ///< what to hold the driver to; nothing: what OpenGL promises of any
+  std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
+  std::optional<std::string> report;   ///< .html
+  bool quick = false;                  ///< do not look for the tightest profile
+  bool json = false;
+};
+
 /// `--help` and `--version`: what to print.
 struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, PrintText>;
+using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ValidationOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

@@ -1,27 +1,20 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/frame_text.h"
+#include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
-#include "core/error.h"
 #include "core/image_io.h"
-#include "scenes/presets.h"
 #include "scenes/scene.h"
-#include "scenes/scene_files.h"
 #include "shading/frame.h"
 
 namespace trueshade {
 namespace {
 
-constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20;
 constexpr int kRepeats = 9;
 constexpr double kRepeatBudgetMs = 1000.0;
 
@@ -29,33 +22,6 @@ bool is_report(const std::string& path) { return path.ends_with(".html"); }
 
 bool wants_report(const RenderOptions& options) {
   return std::any_of(options.outputs.begin(), options.outputs.end(), is_report);
-}
-
-/// Layers, each over the one before: preset, scene file, pipeline file, options.
-Pipeline pipeline_of(const RenderOptions& options, const Scene& scene) {
-  Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : presets().front().pipeline;
-  if (!scene.pipeline_text.empty())
-    pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
-  if (options.pipeline_file) {
-    const Bytes text = read_user_file(*options.pipeline_file, kMaxPipelineBytes);
-    pipeline =
-        pipeline_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, *options.pipeline_file, pipeline);
-  }
-  if (options.size) std::tie(pipeline.width, pipeline.height) = std::pair(options.size->width, options.size->height);
-  if (options.target) pipeline.target = *options.target;
-  validate(pipeline);
-  return pipeline;
-}
-
-/// So that hours of rendering do not end in a folder that was never there. Writing may fail later for other reasons.
-void check_folders(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) {
-    const size_t slash = path.rfind('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-    if (access(folder.c_str(), W_OK) != 0)
-      throw Error(ErrorKind::io, path, std::string("cannot write to its folder: ") + std::strerror(errno),
-                  "choose a folder that exists and that you may write to");
-  }
 }
 
 /// The planes asked for, then those the report shows that are not among them.

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oracle/capture.h"
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+
+/// A frame that OpenGL drew on this machine.
+struct DriverFrame {
+  struct Pass {
+    std::string name;
+    double ms = 0;
+  };
+  oracle::Capture capture;
+  int subpixel_bits = 0;  ///< GL_SUBPIXEL_BITS
+  std::vector<Pass> passes;
+  std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
+};
+
+/// Draws with the driver of that name (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a build
+/// without OpenGL. This header is all the command sees of OpenGL.
+DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline);
+
+}  // namespace trueshade

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/commands.h"
+#include "cli/driver_capture.h"
+#include "cli/preparation.h"
+#include "cli/validation.h"
+#include "cli/validation_capture.h"
+#include "core/image_io.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+namespace {
+
+/// Milliseconds that `job` takes.
+template <typename Job>
+double timed(Job job) {
+  const auto start = std::chrono::steady_clock::now();
+  job();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
+  DriverFrame frame = drawn_by_driver(options.driver, scene, v.pipeline);
+  v.capture = std::move(frame.capture);
+  v.passes = std::move(frame.passes);
+  v.notes = std::move(frame.notes);
+  // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
+  v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
+}
+
+void read_files(const ValidationOptions& options, Validation& v) {
+  v.capture = capture_from_files(options.gbuffer_file, options.image_file);
+  const Image& plane = v.capture.planes.front().image;
+  if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
+  store_as(v.pipeline, options.gbuffer_file, v.capture);
+  if (!options.profile)
+    v.notes.push_back("a file does not tell its driver's subpixel bits: held to OpenGL's least, 4");
+}
+
+}  // namespace
+
+bool judge_opengl(const ValidationOptions& options) {
+  if (options.report) check_folders({&*options.report, 1});
+  const Scene scene = load_scene(options.scene);
+  Validation v;
+  v.pipeline = pipeline_of(options, scene);
+  if (options.profile) v.profile = *oracle::profile_named(*options.profile);
+  v.draw_ms = timed([&] {
+    if (options.gbuffer_file.empty()) draw_here(options, scene, v);
+    else read_files(options, v);
+  });
+  v.judge_ms = timed([&] {
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick});
+  });
+  if (options.report) {
+    const std::string page = validation_page(v);
+    write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
+  }
+  print(options.json ? validation_json(v) : validation_text(v));
+  return v.verdict.violations() == 0;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/driver_capture.h"
+#include "oracle/capture.h"
+#include "oracle/intervals/validate.h"
+#include "scenes/pipeline.h"
+
+namespace trueshade {
+
+/// A judged capture and all it came from, for the texts and pages that tell of it.
+struct Validation {
+  Pipeline pipeline;
+  oracle::Capture capture;
+  oracle::Profile profile;                ///< what the capture was held to
+  oracle::Verdict verdict;
+  std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
+  std::vector<std::string> notes;         ///< what a reader must know before the figures
+  double draw_ms = 0, judge_ms = 0;       ///< wall time, upload and reading files included
+};
+
+/// EXACT and STORE-2 pixels among all of a stage.
+double exact_share(const oracle::StageVerdict& stage);
+
+/// What the driver was held to, the tightest profile, and the verdict, each in one line.
+std::string profile_line(const oracle::Profile& profile);
+std::string tightest_line(const oracle::Inference& inferred);
+std::string conclusion(const oracle::Verdict& verdict);
+
+/// What the command says: lines for people, or one JSON document.
+std::string validation_text(const Validation& validation);
+std::string validation_json(const Validation& validation);
+
+/// A page of HTML that needs no other file: the picture, a map of the classes a stage, tables, the worst pixels.
+std::string validation_page(const Validation& validation);
+
+}  // namespace trueshade

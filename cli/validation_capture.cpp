@@ -1,0 +1,144 @@
+#include "cli/validation_capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/half.h"
+#include "core/image_io.h"
+
+namespace trueshade {
+namespace {
+
+constexpr double kLargestWhole = 16777216.0;  // 2^24: every whole number to here is a float
+
+Error bad_capture(const std::string& where, const std::string& reason, const std::string& remedy) {
+  return {ErrorKind::bad_input, where, reason, remedy};
+}
+
+std::string size_text(int width, int height) { return std::to_string(width) + 'x' + std::to_string(height); }
+
+/// The format a plane of that name has under the pipeline.
+Format stored_format(const Pipeline& pipeline, const std::string& plane) {
+  if (plane == "color") return pipeline.target;
+  if (plane == "position") return pipeline.gbuffer.position.format;
+  if (plane == "normal") return pipeline.gbuffer.normal.format;
+  if (plane == "albedo") return pipeline.gbuffer.albedo.format;
+  if (plane == "uv") return pipeline.gbuffer.uv.format;
+  return plane == "depth" ? Format::d32f : Format::r32ui;
+}
+
+/// The code k whose value a file stored as float or half: k / 255, rounded, as drivers read it back (GL_RULES section 3
+/// measured k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off.
+std::optional<uint8_t> code_of(double value, bool half) {
+  const double code = std::nearbyint(value * 255.0);
+  if (!(code >= 0.0 && code <= 255.0)) return std::nullopt;
+  const double reach = code / 255.0 * (half ? 0x1p-10 : 2 * 0x1p-23);
+  return std::fabs(value - code / 255.0) <= reach ? std::optional(uint8_t(code)) : std::nullopt;
+}
+
+/// Stores one value at `texel`; false where the format has no such value.
+bool store(double value, Format format, bool from_half, uint8_t* texel) {
+  const FormatInfo layout = info(format);
+  if (layout.number_class == NumberClass::unorm) {
+    const std::optional<uint8_t> code = code_of(value, from_half);
+    *texel = code.value_or(0);
+    return code.has_value();
+  }
+  if (layout.number_class == NumberClass::integer) {
+    if (!(value >= 0.0 && value <= kLargestWhole && value == std::floor(value))) return false;
+    const auto whole = uint32_t(value);
+    std::memcpy(texel, &whole, sizeof whole);
+    return true;
+  }
+  const auto number = float(value);
+  if (layout.bytes_per_channel == 4) {
+    std::memcpy(texel, &number, sizeof number);
+    return true;
+  }
+  const uint16_t half = half_from_float(number, HalfRound::toward_zero);
+  std::memcpy(texel, &half, sizeof half);
+  return std::isnan(number) || float_from_half(half) == number;
+}
+
+/// The format of a plane of `channels` components whose pipeline format is `wanted`: formats of four components that files
+/// hold without the constant fourth have a twin of three; uv has two, and gets the constants that OpenGL reads for the rest.
+Format format_for(Format wanted, int channels) {
+  if (channels == 3 && wanted == Format::rgba32f) return Format::rgb32f;
+  if (channels == 3 && wanted == Format::rgba16f) return Format::rgb16f;
+  if (channels == 2 && info(wanted).bytes_per_channel == 4) return Format::rg32f;
+  return wanted;
+}
+
+Image converted(const std::string& where, const std::string& name, const Image& given, Format wanted) {
+  const FormatInfo from = info(given.format);
+  const Format format = format_for(wanted, from.channels);
+  if (given.format == format) return given;
+  const FormatInfo to = info(format);
+  const bool pads_uv = name == "uv" && from.channels == 2;
+  if (from.channels != to.channels && !pads_uv)
+    throw bad_capture(where, name + " has " + std::to_string(from.channels) + " channels, and " + std::string(info(wanted).name) + " has " +
+                                 std::to_string(to.channels), "write all of R G B A");
+  const bool half = from.bytes_per_channel == 2;
+  if (half && to.number_class == NumberClass::floating && to.bytes_per_channel == 4)
+    throw bad_capture(where, name + " is stored as half, and the pipeline's as " + std::string(info(wanted).name),
+                      "write it as float, or name half formats in --pipeline");
+  Image image(given.width, given.height, format);
+  for (int y = 0; y < given.height; ++y)
+    for (int x = 0; x < given.width; ++x)
+      for (int k = 0; k < to.channels; ++k) {
+        const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? 1.0 : 0.0;
+        if (!store(value, format, half, image.texel(x, y) + k * to.bytes_per_channel))
+          throw bad_capture(where, name + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " + std::to_string(value) +
+                                       ", which " + std::string(to.name) + " does not hold",
+                            "name the plane's format in --pipeline, or capture before it is converted");
+      }
+  return image;
+}
+
+void check_kind(const std::string& file, const std::vector<NamedImage>& planes) {
+  if (planes.size() == 1 && planes[0].name == "color")
+    throw bad_capture(file, "there is no G-buffer in it", "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
+}
+
+}  // namespace
+
+oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::string& image_file) {
+  oracle::Capture capture;
+  capture.driver = "capture of " + gbuffer_file;
+  std::vector<NamedImage> planes = read_planes(gbuffer_file);
+  check_kind(gbuffer_file, planes);
+  for (NamedImage& plane : planes) {
+    if (plane.name == "color") capture.color = std::move(plane.image);
+    else capture.planes.push_back(std::move(plane));
+  }
+  if (image_file.empty()) return capture;
+  std::vector<NamedImage> picture = read_planes(image_file);
+  if (picture.front().name != "color") throw bad_capture(image_file, "it has no channels R G B A", "give the lit picture");
+  capture.driver += " and " + image_file;
+  capture.color = std::move(picture.front().image);
+  const Image& plane = capture.planes.front().image;
+  if (capture.color.width != plane.width || capture.color.height != plane.height)
+    throw bad_capture(image_file, "it is " + size_text(capture.color.width, capture.color.height) + ", and the G-buffer " +
+                                      size_text(plane.width, plane.height), "capture both at one size");
+  return capture;
+}
+
+void store_as(const Pipeline& pipeline, const std::string& where, oracle::Capture& capture) {
+  const Image& first = capture.planes.front().image;
+  if (first.width != pipeline.width || first.height != pipeline.height)
+    throw bad_capture(where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
+                      "give the capture's size, or none");
+  if (capture.color.width > 0) {
+    if (capture.color.format == Format::rgba8 && pipeline.target != Format::rgba8)
+      throw bad_capture(where, "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits", "give it as an EXR");
+    capture.color = converted(where, "color", capture.color, pipeline.target);
+  }
+  for (NamedImage& plane : capture.planes)
+    plane.image = converted(where, plane.name, plane.image, stored_format(pipeline, plane.name));
+}
+
+}  // namespace trueshade
