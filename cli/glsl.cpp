@@ -1,3 +1,5 @@
+#include "oracle/gl/glsl.h"
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -5,7 +7,6 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/image_io.h"
-#include "oracle/gl/glsl.h"
 #include "oracle/gl/state_list.h"
 #include "scenes/presets.h"
 

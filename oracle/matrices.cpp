@@ -61,7 +61,8 @@ Matrix4 projection_of(const Camera& camera, const GeometryState& state, int widt
   at(view, 3, 3) = 1;
   const Viewport viewport = resolved_viewport(state, width, height);
   const Real aspect = Real(viewport.width) / viewport.height, near = camera.near, far = camera.far;
-  const Real g = camera.fov_x_rad ? aspect / std::tan(Real(*camera.fov_x_rad) / 2) : 1 / std::tan(Real(camera.fov_y_rad) / 2);
+  const Real g =
+      camera.fov_x_rad ? aspect / std::tan(Real(*camera.fov_x_rad) / 2) : 1 / std::tan(Real(camera.fov_y_rad) / 2);
   const bool zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
   at(projection, 0, 0) = g / aspect;
   at(projection, 1, 1) = g;

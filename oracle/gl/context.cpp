@@ -31,8 +31,10 @@ class ScopedVariable {
   }
   ~ScopedVariable() {
     if (!set_) return;
-    if (before_) setenv(name_, before_->c_str(), 1);
-    else unsetenv(name_);
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
   }
   ScopedVariable(const ScopedVariable&) = delete;
   ScopedVariable& operator=(const ScopedVariable&) = delete;
@@ -45,9 +47,12 @@ class ScopedVariable {
 
 const char* gallium_name(GlDriver driver) {
   switch (driver) {
-    case GlDriver::llvmpipe: return "llvmpipe";
-    case GlDriver::softpipe: return "softpipe";
-    case GlDriver::any: break;
+    case GlDriver::llvmpipe:
+      return "llvmpipe";
+    case GlDriver::softpipe:
+      return "softpipe";
+    case GlDriver::any:
+      break;
   }
   return nullptr;
 }
@@ -76,8 +81,13 @@ EGLContext core_context(EGLDisplay display) {
   eglChooseConfig(display, kConfig, &config, 1, &configs);
   if (configs == 0) config = EGL_NO_CONFIG_KHR;  // EGL_KHR_no_config_context
   for (const auto& version : kVersions) {
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, version[0], EGL_CONTEXT_MINOR_VERSION, version[1],
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 version[0],
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 version[1],
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_NONE};
     const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
     if (context != EGL_NO_CONTEXT) return context;
   }
@@ -96,7 +106,8 @@ int gl_integer(GLenum name) {
 }
 
 Error no_driver(const std::string& reason) {
-  return {ErrorKind::no_gl_driver, "OpenGL", reason, "install libegl1, libopengl0 and libgl1-mesa-dri, or a GPU's driver"};
+  return {ErrorKind::no_gl_driver, "OpenGL", reason,
+          "install libegl1, libopengl0 and libgl1-mesa-dri, or a GPU's driver"};
 }
 
 /// epoxy ends the process where it cannot load a library of entry points, so they are tried first.
@@ -127,10 +138,14 @@ GlContext::GlContext(GlDriver driver) : handles_(std::make_unique<Handles>()) {
   }
   if (handles_->context == EGL_NO_CONTEXT) throw no_driver("no driver gives a context: " + tried);
   make_current();
-  info_ = {gl_text(GL_VENDOR),           gl_text(GL_RENDERER),
-           gl_text(GL_VERSION),          gl_integer(GL_MAJOR_VERSION),
-           gl_integer(GL_MINOR_VERSION), gl_integer(GL_SUBPIXEL_BITS),
-           gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE)};
+  info_ = {gl_text(GL_VENDOR),
+           gl_text(GL_RENDERER),
+           gl_text(GL_VERSION),
+           gl_integer(GL_MAJOR_VERSION),
+           gl_integer(GL_MINOR_VERSION),
+           gl_integer(GL_SUBPIXEL_BITS),
+           gl_integer(GL_MAX_TEXTURE_SIZE),
+           gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE)};
   const char* wanted = gallium_name(driver);
   if (wanted != nullptr && info_.renderer.find(wanted) == std::string::npos)
     throw no_driver(std::string("this Mesa has no ") + wanted + ", it gives " + info_.renderer);

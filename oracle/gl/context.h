@@ -4,8 +4,8 @@
 
 namespace trueshade::oracle {
 
-/// Which of a machine's OpenGL drivers to open. The Mesa rasterizers are chosen by name, as GALLIUM_DRIVER does; a process
-/// keeps the first one it opened, so llvmpipe and softpipe need a process each.
+/// Which of a machine's OpenGL drivers to open. The Mesa rasterizers are chosen by name, as GALLIUM_DRIVER does; a
+/// process keeps the first one it opened, so llvmpipe and softpipe need a process each.
 enum class GlDriver { any, llvmpipe, softpipe };
 
 /// What a driver says of itself.

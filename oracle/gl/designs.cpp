@@ -18,12 +18,18 @@ namespace trueshade::oracle {
 
 std::string_view name_of(GlDesign design) {
   switch (design) {
-    case GlDesign::deferred_loop: return "deferred-loop";
-    case GlDesign::deferred_volumes: return "deferred-volumes";
-    case GlDesign::tiled: return "tiled";
-    case GlDesign::forward_plus: return "forward-plus";
-    case GlDesign::forward_loop: return "forward-loop";
-    case GlDesign::forward_multipass: return "forward-multipass";
+    case GlDesign::deferred_loop:
+      return "deferred-loop";
+    case GlDesign::deferred_volumes:
+      return "deferred-volumes";
+    case GlDesign::tiled:
+      return "tiled";
+    case GlDesign::forward_plus:
+      return "forward-plus";
+    case GlDesign::forward_loop:
+      return "forward-loop";
+    case GlDesign::forward_multipass:
+      return "forward-multipass";
   }
   return {};
 }
@@ -72,7 +78,11 @@ GlslOptions lean_options(const GlRenderer& renderer) {
 }  // namespace
 
 GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
-    : renderer(r), pipeline(design_pipeline(p, d)), design(d), tile(tile_size), options(lean_options(r)),
+    : renderer(r),
+      pipeline(design_pipeline(p, d)),
+      design(d),
+      tile(tile_size),
+      options(lean_options(r)),
       planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
   renderer.context().make_current();
   check_limits(renderer.context(), pipeline, pipeline.width, pipeline.height);
@@ -109,8 +119,10 @@ void GlPeer::Work::draw_gbuffer() {
   constexpr std::array<float, 4> kZero{};
   constexpr std::array<GLuint, 4> kNone{};
   for (size_t i = 0; i < planes.size(); ++i) {
-    if (planes[i].format == Format::r32ui) glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
-    else glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
+    if (planes[i].format == Format::r32ui)
+      glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
+    else
+      glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
   }
   glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
@@ -165,11 +177,14 @@ void GlPeer::Work::light_deferred() {
   use_lighting();
   glBindVertexArray(none);
   const int columns = (pipeline.width + tile - 1) / tile, rows = (pipeline.height + tile - 1) / tile;
-  if (design == GlDesign::tiled) glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, columns * rows);
-  else glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (design == GlDesign::tiled)
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, columns * rows);
+  else
+    glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The paper's state: front faces culled, no depth test, depth clamp, so that a box around the eye lights what it should.
+/// The paper's state: front faces culled, no depth test, depth clamp, so that a box around the eye lights what it
+/// should.
 void GlPeer::Work::draw_volumes() {
   glUseProgram(base);
   bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
@@ -239,8 +254,10 @@ GlFrame GlPeer::Work::draw(bool read_back) {
   }
   if (is_forward(design)) {
     begin_forward();
-    if (design == GlDesign::forward_multipass) draw_multipass();
-    else renderer.buffers().draw_instances();
+    if (design == GlDesign::forward_multipass)
+      draw_multipass();
+    else
+      renderer.buffers().draw_instances();
     timer.end("forward");
   } else {
     light_deferred();

@@ -10,14 +10,15 @@ namespace trueshade::oracle {
 /// Ways to draw many lights with OpenGL, for benchmarks beside us: the same picture up to rounding.
 enum class GlDesign {
   deferred_loop,      ///< one full-screen pass that sums all lights
-  deferred_volumes,      ///< one additive box a light, blended into the target
+  deferred_volumes,   ///< one additive box a light, blended into the target
   tiled,              ///< thin G-buffer (position from depth, half normal), lists by tile within its depth bounds
   forward_plus,       ///< depth first, then the scene again with the tiles' lists, depth EQUAL
   forward_loop,       ///< the scene once, all lights in each fragment
   forward_multipass,  ///< the scene once a light
 };
-inline constexpr std::array kGlDesigns{GlDesign::deferred_loop, GlDesign::deferred_volumes, GlDesign::tiled,
-                                       GlDesign::forward_plus,  GlDesign::forward_loop,  GlDesign::forward_multipass};
+inline constexpr std::array kGlDesigns{GlDesign::deferred_loop, GlDesign::deferred_volumes,
+                                       GlDesign::tiled,         GlDesign::forward_plus,
+                                       GlDesign::forward_loop,  GlDesign::forward_multipass};
 
 /// As bench names them: "deferred-loop" and so on.
 std::string_view name_of(GlDesign design);

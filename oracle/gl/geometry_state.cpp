@@ -13,21 +13,31 @@ namespace {
 
 GLenum gl_enum(DepthFunc func) {
   switch (func) {
-    case DepthFunc::never: return GL_NEVER;
-    case DepthFunc::less: return GL_LESS;
-    case DepthFunc::equal: return GL_EQUAL;
-    case DepthFunc::lequal: return GL_LEQUAL;
-    case DepthFunc::greater: return GL_GREATER;
-    case DepthFunc::notequal: return GL_NOTEQUAL;
-    case DepthFunc::gequal: return GL_GEQUAL;
-    case DepthFunc::always: return GL_ALWAYS;
+    case DepthFunc::never:
+      return GL_NEVER;
+    case DepthFunc::less:
+      return GL_LESS;
+    case DepthFunc::equal:
+      return GL_EQUAL;
+    case DepthFunc::lequal:
+      return GL_LEQUAL;
+    case DepthFunc::greater:
+      return GL_GREATER;
+    case DepthFunc::notequal:
+      return GL_NOTEQUAL;
+    case DepthFunc::gequal:
+      return GL_GEQUAL;
+    case DepthFunc::always:
+      return GL_ALWAYS;
   }
   return GL_LESS;
 }
 
 void set_enabled(GLenum capability, bool enabled) {
-  if (enabled) glEnable(capability);
-  else glDisable(capability);
+  if (enabled)
+    glEnable(capability);
+  else
+    glDisable(capability);
 }
 
 void set_culling(CullFace face) {
@@ -46,9 +56,10 @@ void set_clip_control(ClipOrigin origin, ClipDepth depth) {
 
 /// What no pipeline asks for, and a context may start with: dithering is on initially (GL 4.6 core, 17.3.8).
 void set_common_state() {
-  for (const GLenum capability : {GL_DITHER, GL_MULTISAMPLE, GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST,
-                                  GL_POLYGON_OFFSET_FILL, GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART})
-    glDisable(capability);
+  constexpr GLenum kOff[] = {GL_DITHER,           GL_MULTISAMPLE,      GL_BLEND,
+                             GL_SCISSOR_TEST,     GL_STENCIL_TEST,     GL_POLYGON_OFFSET_FILL,
+                             GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART};
+  for (const GLenum capability : kOff) glDisable(capability);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
@@ -58,8 +69,10 @@ void set_common_state() {
 void check_limits(const GlContext& context, const Pipeline& pipeline, int width, int height) {
   const int side = context.info().max_texture_size;
   if (width > side || height > side)
-    throw Error(ErrorKind::limit, "OpenGL", "an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                " is more than " + context.info().renderer + " can draw", "at most " + std::to_string(side) + " pixels a side");
+    throw Error(ErrorKind::limit, "OpenGL",
+                "an image of " + std::to_string(width) + " x " + std::to_string(height) + " is more than " +
+                    context.info().renderer + " can draw",
+                "at most " + std::to_string(side) + " pixels a side");
   const GeometryState& g = pipeline.geometry;
   const bool initial = g.clip_origin == ClipOrigin::lower_left && g.clip_depth == ClipDepth::negative_one_to_one;
   if (!initial && epoxy_gl_version() < 45 && !context.has("GL_ARB_clip_control"))
@@ -68,7 +81,8 @@ void check_limits(const GlContext& context, const Pipeline& pipeline, int width,
   GLint most[2] = {0, 0};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, most);
   if (g.viewport.width > most[0] || g.viewport.height > most[1])
-    throw Error(ErrorKind::limit, "OpenGL", "the viewport is larger than the driver's", "at most " + std::to_string(most[0]));
+    throw Error(ErrorKind::limit, "OpenGL", "the viewport is larger than the driver's",
+                "at most " + std::to_string(most[0]));
 }
 
 void set_geometry_state(const GeometryState& state, const Viewport& viewport, int shift_x, int shift_y) {

@@ -10,9 +10,12 @@ namespace {
 
 std::string qualifier(Interpolation interpolation) {
   switch (interpolation) {
-    case Interpolation::smooth: return "smooth";
-    case Interpolation::flat: return "flat";
-    case Interpolation::noperspective: return "noperspective";
+    case Interpolation::smooth:
+      return "smooth";
+    case Interpolation::flat:
+      return "flat";
+    case Interpolation::noperspective:
+      return "noperspective";
   }
   return {};
 }
@@ -46,7 +49,8 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
 std::string position_text(const GBufferState& g) {
   if (!g.position_from_depth) return "  vec3 P = texelFetch(position_plane, pixel, 0).xyz;\n";
   return R"(  float depth = texelFetch(depth_plane, pixel, 0).x;
-  vec3 ndc = vec3((gl_FragCoord.xy - ndc_from_window.xy) * ndc_from_window.zw - ndc_origin, (depth - depth_to_ndc.x) * depth_to_ndc.y);
+  vec3 ndc = vec3((gl_FragCoord.xy - ndc_from_window.xy) * ndc_from_window.zw - ndc_origin,
+                  (depth - depth_to_ndc.x) * depth_to_ndc.y);
   vec4 h = ((world_from_clip[0] * ndc.x + world_from_clip[1] * ndc.y) + world_from_clip[2] * ndc.z) + world_from_clip[3];
   vec3 P = h.xyz * (1.0 / h.w);
 )";
@@ -56,12 +60,13 @@ std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& opt
   const LightModel& model = pipeline.light_model;
   std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
   text += surface_uniforms_text(pipeline, options);
-  text += "uniform samplerBuffer lights;  // " + std::to_string(texels_per_light(model)) + " texels a light\n"
+  text += "uniform samplerBuffer lights;  // " + std::to_string(texels_per_light(model)) +
+          " texels a light\n"
           "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
   text += light_function_text(model, options);
   text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
-  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += " + lit_call_text(model, "lights", "i") +
-          ";\n";
+  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += " +
+          lit_call_text(model, "lights", "i") + ";\n";
   text += std::string("  target = vec4(sum, ") + (model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n}\n";
   return text;
 }
@@ -134,8 +139,9 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
   const GlslPlane& coverage = coverage_plane(planes);
   if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
   if (pipeline.gbuffer.position_from_depth)
-    text += "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
-            "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
+    text +=
+        "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
+        "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
   return text + "uniform vec3 eye;\n";
 }
 
@@ -145,14 +151,16 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
   return "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n  if (texelFetch(" + coverage.sampler +
          (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
          "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
-         "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" + surface_text(pipeline.light_model);
+         "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
+         surface_text(pipeline.light_model);
 }
 
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
   const std::string n = std::to_string(texels_per_light(model));
   std::string text = "lit(P, N, V, albedo.rgb";
   for (int i = 0; i < texels_per_light(model); ++i)
-    text += ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");
+    text +=
+        ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");
   return text + ")";
 }
 
@@ -186,8 +194,9 @@ void main() {
   base = base_color;
 )";
   if (!pipeline.gbuffer.position_from_depth)
-    text += "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
-            "affine(world_from_object[2], p));\n";
+    text +=
+        "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
+        "affine(world_from_object[2], p));\n";
   if (options.uv) text += "  texcoord = vertex_uv;\n";
   if (has_ids(planes_of(pipeline, options))) text += "  ids = instance_ids;\n";
   return text + "}\n";

@@ -10,12 +10,12 @@ namespace trueshade::oracle {
 
 /// What the text depends on beside the pipeline. As it stands: the judge's shaders on a driver of OpenGL 4.5.
 struct GlslOptions {
-  int version = 450;            ///< 450 or 330; 330 cannot forbid contraction of the position
-  bool ids = true;              ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
-  bool primitive = true;        ///< of ids, id.primitive too
-  bool uv = true;               ///< plane uv
-  bool rgb16f = true;           ///< false: the driver cannot render to rgb16f, so rgba16f stands in
-  bool products = false;        ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
+  int version = 450;      ///< 450 or 330; 330 cannot forbid contraction of the position
+  bool ids = true;        ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
+  bool primitive = true;  ///< of ids, id.primitive too
+  bool uv = true;         ///< plane uv
+  bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
+  bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
 
@@ -48,7 +48,7 @@ int texels_per_light(const LightModel& model);
 // Parts that the peers' shaders are made of too.
 
 std::string glsl_header(int version, std::string_view purpose);
-std::string glsl_float(float value);           ///< a literal that reads back as the same float
+std::string glsl_float(float value);  ///< a literal that reads back as the same float
 /// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);

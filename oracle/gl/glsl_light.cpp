@@ -41,15 +41,18 @@ std::string specular_text(const LightModel& m, bool products) {
 
 std::string falloff_text(Falloff falloff) {
   switch (falloff) {
-    case Falloff::linear_range: return "  float f = max(1.0 - d / color.w, 0.0);  // color.w: the range\n";
-    case Falloff::quadratic: return "  float f = 1.0 / ((1.0 + k.y * d) + (k.z * d) * d);\n";
+    case Falloff::linear_range:
+      return "  float f = max(1.0 - d / color.w, 0.0);  // color.w: the range\n";
+    case Falloff::quadratic:
+      return "  float f = 1.0 / ((1.0 + k.y * d) + (k.z * d) * d);\n";
   }
   return {};
 }
 
 std::string sum_text(const LightModel& m) {
   switch (m.order) {
-    case TermOrder::factored: return "  return (albedo * c + specular_color * s) * (color.rgb * f);\n";
+    case TermOrder::factored:
+      return "  return (albedo * c + specular_color * s) * (color.rgb * f);\n";
     case TermOrder::separate:
       return "  return albedo * c * color.rgb * f + color.rgb * s * specular_color * f;\n";
   }

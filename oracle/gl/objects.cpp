@@ -12,14 +12,22 @@ void delete_program(GLuint name) { glDeleteProgram(name); }
 
 GlFormat gl_format(Format format) {
   switch (format) {
-    case Format::rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case Format::rgb16f: return {GL_RGB16F, GL_RGB, GL_HALF_FLOAT};
-    case Format::rgba16f: return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
-    case Format::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
-    case Format::rgb32f: return {GL_RGB32F, GL_RGB, GL_FLOAT};
-    case Format::rg32f: return {GL_RG32F, GL_RG, GL_FLOAT};
-    case Format::r32ui: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
-    case Format::d32f: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::rgb16f:
+      return {GL_RGB16F, GL_RGB, GL_HALF_FLOAT};
+    case Format::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
+    case Format::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::rgb32f:
+      return {GL_RGB32F, GL_RGB, GL_FLOAT};
+    case Format::rg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT};
+    case Format::r32ui:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
+    case Format::d32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
   }
   return {};
 }
@@ -46,10 +54,10 @@ GlTexture make_texture(Format format, int width, int height) {
   const GlFormat gl = gl_format(format);
   glBindTexture(GL_TEXTURE_2D, name);
   glTexImage2D(GL_TEXTURE_2D, 0, GLint(gl.internal), width, height, 0, gl.external, gl.type, nullptr);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   return texture;
 }
@@ -138,9 +146,12 @@ void set_uniform(GLuint program, const char* name, float value) {
 void set_uniform(GLuint program, const char* name, std::span<const float> values) {
   const GLint location = glGetUniformLocation(program, name);
   switch (values.size()) {
-    case 2: return glUniform2fv(location, 1, values.data());
-    case 3: return glUniform3fv(location, 1, values.data());
-    default: return glUniform4fv(location, GLsizei(values.size() / 4), values.data());
+    case 2:
+      return glUniform2fv(location, 1, values.data());
+    case 3:
+      return glUniform3fv(location, 1, values.data());
+    default:
+      return glUniform4fv(location, GLsizei(values.size() / 4), values.data());
   }
 }
 

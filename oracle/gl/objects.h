@@ -1,6 +1,6 @@
 #pragma once
-// Names of GL objects that free themselves, and the few calls that need checking. The context that made an object must be
-// current where the object ends.
+// Names of GL objects that free themselves, and the few calls that need checking. The context that made an object must
+// be current where the object ends.
 #include <epoxy/gl.h>
 
 #include <cstdint>

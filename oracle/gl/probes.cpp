@@ -16,9 +16,9 @@ bool renders_to(Format format) {
 }
 
 bool counts_primitives() {
-  const GlProgram program = make_program("probe", fullscreen_vertex_text(330),
-                                         glsl_header(330, "gl_PrimitiveID") +
-                                             "layout(location = 0) out uint id;\nvoid main() { id = uint(gl_PrimitiveID) + 1u; }\n");
+  const std::string fragment = glsl_header(330, "gl_PrimitiveID") +
+                               "layout(location = 0) out uint id;\nvoid main() { id = uint(gl_PrimitiveID) + 1u; }\n";
+  const GlProgram program = make_program("probe", fullscreen_vertex_text(330), fragment);
   const GlTexture texture = make_texture(Format::r32ui, 4, 4);
   const std::array<GLuint, 1> names{texture};
   const GlTarget target = make_target(names, 0);

@@ -32,7 +32,8 @@ struct Programs {
 
 namespace {
 
-std::unique_ptr<Targets> make_targets(int width, int height, Format color_format, const std::vector<GlslPlane>& planes) {
+std::unique_ptr<Targets> make_targets(int width, int height, Format color_format,
+                                      const std::vector<GlslPlane>& planes) {
   auto t = std::make_unique<Targets>();
   t->width = width;
   t->height = height;
@@ -59,8 +60,10 @@ void clear_geometry(const Targets& t, float clear_depth) {
   constexpr std::array<float, 4> kZero{};
   constexpr std::array<GLuint, 4> kNone{};
   for (size_t i = 0; i < t.planes.size(); ++i) {
-    if (t.planes[i].format == Format::r32ui) glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
-    else glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
+    if (t.planes[i].format == Format::r32ui)
+      glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
+    else
+      glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
   }
   glClearBufferfv(GL_DEPTH, 0, &clear_depth);
 }
@@ -94,8 +97,8 @@ void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Ca
 }
 
 bool wants_rgb16f(const GBufferState& g) {
-  return g.position.format == Format::rgb16f || g.normal.format == Format::rgb16f || g.albedo.format == Format::rgb16f ||
-         g.uv.format == Format::rgb16f;
+  return g.position.format == Format::rgb16f || g.normal.format == Format::rgb16f ||
+         g.albedo.format == Format::rgb16f || g.uv.format == Format::rgb16f;
 }
 
 }  // namespace
@@ -122,8 +125,9 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
 
 const Programs& GlRenderer::programs(const GlslShaders& text) {
   if (programs_ == nullptr || programs_->text != text)
-    programs_ = std::make_unique<Programs>(Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
-                                                    make_program("light", text.light_vert, text.light_frag)});
+    programs_ =
+        std::make_unique<Programs>(Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+                                            make_program("light", text.light_vert, text.light_frag)});
   return *programs_;
 }
 
@@ -131,7 +135,8 @@ const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& 
   const int width = pipeline.width + draw.shift_x, height = pipeline.height + draw.shift_y;
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   const Targets* t = targets_.get();
-  if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target || t->planes != planes)
+  if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target ||
+      t->planes != planes)
     targets_ = make_targets(width, height, pipeline.target, planes);
   return *targets_;
 }
@@ -154,8 +159,8 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   buffers_->upload_instances(pipeline);
   clear_geometry(target, pipeline.geometry.clear_depth);
   timer.end("upload and clear");
-  set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height), draw.shift_x,
-                     draw.shift_y);
+  set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height),
+                     draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
   buffers_->draw_instances();
   timer.end("geometry");

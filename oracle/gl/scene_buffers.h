@@ -26,7 +26,7 @@ class SceneBuffers {
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
-  void draw_instances() const;                              ///< every triangle, in submission order
+  void draw_instances() const;  ///< every triangle, in submission order
   /// Light records in the layout of texels_per_light(); made again when the layout changes.
   GLuint light_texels(const LightModel& model);
 

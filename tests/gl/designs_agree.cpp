@@ -1,9 +1,8 @@
 // The peers of the benchmarks draw our picture: a fast wrong picture is no peer.
-#include "oracle/gl/designs.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/gl/designs.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"

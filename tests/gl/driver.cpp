@@ -53,7 +53,8 @@ Planes planes_of_capture(const Capture& capture) {
   return planes;
 }
 
-Planes drawn_by_gl(const GlContext& context, const Scene& scene, const Pipeline& pipeline, const GlDraw& draw, int rotation) {
+Planes drawn_by_gl(const GlContext& context, const Scene& scene, const Pipeline& pipeline, const GlDraw& draw,
+                   int rotation) {
   return planes_of_capture(GlRenderer(context, scene, rotation).draw(pipeline, draw).capture);
 }
 

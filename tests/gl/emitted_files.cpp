@@ -32,8 +32,8 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
   for (const Preset& preset : presets()) {
     INFO(preset.name);
     std::filesystem::remove_all(folder);
-    const std::string command = std::string("'") + TRUESHADE_COMMAND + "' glsl --preset " + std::string(preset.name) + " -o '" +
-                                folder.string() + "' > /dev/null";
+    const std::string command = std::string("'") + TRUESHADE_COMMAND + "' glsl --preset " + std::string(preset.name) +
+                                " -o '" + folder.string() + "' > /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
     const GlslShaders read{contents(folder / "geometry.vert"), contents(folder / "geometry.frag"),
                            contents(folder / "light.vert"), contents(folder / "light.frag")};

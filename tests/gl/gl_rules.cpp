@@ -13,7 +13,8 @@ using oracle::GlDriver;
 
 namespace {
 
-int count(const GlContext& context, const std::vector<Corners>& triangles, const Pipeline& pipeline = window_pipeline()) {
+int count(const GlContext& context, const std::vector<Corners>& triangles,
+          const Pipeline& pipeline = window_pipeline()) {
   return drawn_by_gl(context, window_scene(triangles), pipeline).covered_count();
 }
 
@@ -50,7 +51,8 @@ TEST_CASE("Rows 4 to 9: llvmpipe covers left and lowest edges, shared edges once
   CHECK(mirrored.covered(15, 245));
   CHECK(mirrored.covered_count() == 55);
   const int mask[8] = {0x00, 0x02, 0x7C, 0x3C, 0x1C, 0x08, 0x00, 0x00};
-  const Planes small = drawn_by_gl(*context, window_scene({{{{1.25, 1.25}, {6.75, 2.5}, {3, 6.875}}}}), window_pipeline());
+  const Planes small =
+      drawn_by_gl(*context, window_scene({{{{1.25, 1.25}, {6.75, 2.5}, {3, 6.875}}}}), window_pipeline());
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x) CHECK(int(small.covered(x, y)) == ((mask[y] >> x) & 1));
   CHECK(count(*context, {{{{.5, .5}, {7.5, .5}, {.5, 7.5}}}}) == 28);
@@ -77,7 +79,8 @@ TEST_CASE("Rows 11 and 12: llvmpipe drops empty triangles and takes the facing o
 TEST_CASE("Rows 14, 15 and 21: llvmpipe clips at near and far, planes included") {
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Planes planes = drawn_by_gl(*context, window_scene({{{{0, 0, -2}, {256, 0, -2}, {128, 256, 2}}}}), window_pipeline());
+  const Planes planes =
+      drawn_by_gl(*context, window_scene({{{{0, 0, -2}, {256, 0, -2}, {128, 256, 2}}}}), window_pipeline());
   for (int y = 0; y < kWindow; ++y) {
     int row = 0;
     for (int x = 0; x < kWindow; ++x) row += planes.covered(x, y) ? 1 : 0;
@@ -99,7 +102,8 @@ TEST_CASE("Rows 14, 15 and 21: llvmpipe clips at near and far, planes included")
 TEST_CASE("Rows 20, 24 and 27: llvmpipe's depths, ties and clamps are those of the pipeline's state") {
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Planes plane = drawn_by_gl(*context, window_scene({{{{0, 0, -1}, {256, 0, 1}, {0, 256, -1}}}}), window_pipeline());
+  const Planes plane =
+      drawn_by_gl(*context, window_scene({{{{0, 0, -1}, {256, 0, 1}, {0, 256, -1}}}}), window_pipeline());
   CHECK(plane.depth[plane.index(127, 3)] == 0.498046875f);
   const Corners tied = {{{0, 0, 0.25}, {256, 0, -0.5}, {0, 256, 0.75}}};
   const Scene twice = window_objects({{tied}, {tied}});
@@ -119,8 +123,8 @@ TEST_CASE("Rows 20, 24 and 27: llvmpipe's depths, ties and clamps are those of t
 TEST_CASE("Rows 28 and 29: llvmpipe interpolates with and without perspective, and flat from the provoking vertex") {
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Scene scene = window_scene({{{{.5, .5, 0, 1, {0, 5}}, {8.5, .5, 0, 3, {1, 6}}, {.5, 8.5, 0, 1, {0, 7}}}}},
-                                   Projection::w_is_z);
+  const Scene scene =
+      window_scene({{{{.5, .5, 0, 1, {0, 5}}, {8.5, .5, 0, 3, {1, 6}}, {.5, 8.5, 0, 1, {0, 7}}}}}, Projection::w_is_z);
   Pipeline pipeline = window_pipeline();
   const auto uv = [&] {
     const Planes planes = drawn_by_gl(*context, scene, pipeline);

@@ -1,5 +1,5 @@
-// Every built-in scene under every preset on a real driver, against render_frame(). A first, coarse judgement: the strict
-// one is that of oracle/intervals. Values differ where OpenGL leaves latitude, so edges may go either way.
+// Every built-in scene under every preset on a real driver, against render_frame(). A first, coarse judgement: the
+// strict one is that of oracle/intervals. Values differ where OpenGL leaves latitude, so edges may go either way.
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +44,8 @@ Agreement compared(const Capture& gl, const Frame& ours) {
         a.unexplained += near_edge(our_ids, x, y, seen) ? 0 : 1;
       }
       double worst = 0;
-      for (int k = 0; k < 4; ++k) worst = std::max(worst, std::fabs(gl.color.value(x, y, k) - ours.color.value(x, y, k)));
+      for (int k = 0; k < 4; ++k)
+        worst = std::max(worst, std::fabs(gl.color.value(x, y, k) - ours.color.value(x, y, k)));
       a.far_codes += worst > 1.5 / 255 ? 1 : 0;
     }
   return a;
