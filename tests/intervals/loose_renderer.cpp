@@ -22,8 +22,8 @@ float LooseFloat::round(double exact) {
 }
 
 float LooseFloat::off_by(double exact, double ulps) {
-  if (!any_) return float(exact);
-  const double ulp = std::ldexp(1.0, std::ilogb(exact == 0 ? 1 : exact) - 23);
+  if (!any_ || exact == 0) return float(exact);
+  const double ulp = std::ldexp(1.0, std::ilogb(exact) - 23);
   // Half an ulp of the allowance is left for this rounding itself.
   return float(exact + ulp * (ulps - 0.5) * random_.between(-1, 1));
 }
