@@ -48,7 +48,8 @@ Metadata metadata_of(const RenderedFrame& result) {
           {"trueshade:version", kVersion}};
 }
 
-std::vector<StatLine> stat_lines(const FrameStats& s) {
+std::vector<StatLine> stat_lines(const RenderedFrame& result) {
+  const FrameStats& s = result.frame.stats;
   const auto count = [](const char* key, const char* label, uint64_t value) {
     return StatLine{key, label, json_number(value)};
   };
@@ -59,27 +60,31 @@ std::vector<StatLine> stat_lines(const FrameStats& s) {
     return StatLine{key, label, json_number(rounded_ms(ms))};
   };
   const double culled = s.pixel_lights == 0 ? 0.0 : 1.0 - ratio(s.tile_pixel_lights, s.pixel_lights);
-  return {count("pixels", "pixels", s.pixels),
-          count("covered_pixels", "covered pixels", s.covered_pixels),
-          real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
-          count("triangles", "triangles", s.triangles),
-          count("lights", "lights", s.lights),
-          count("pixel_lights", "pixel-light pairs", s.pixel_lights),
-          count("lit_pixel_lights", "pairs lit", s.lit_pixel_lights),
-          real("lit_lights_per_pixel", "lights that light a covered pixel", ratio(s.lit_pixel_lights, s.covered_pixels)),
-          count("clusters_drawn", "clusters set up", s.clusters_drawn),
-          count("triangles_tested", "triangles set up", s.triangles_tested),
-          count("fragments", "fragments before the depth test", s.fragments),
-          count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
-          real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
-          count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
-          time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
-          time("light_ms", "light, all threads [ms]", s.light_ms),
-          time("total_ms", "time per frame [ms]", s.total_ms)};
+  std::vector<StatLine> lines = {
+      count("pixels", "pixels", s.pixels),
+      count("covered_pixels", "covered pixels", s.covered_pixels),
+      real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
+      count("triangles", "triangles", s.triangles),
+      count("lights", "lights", s.lights),
+      count("pixel_lights", "pixel-light pairs", s.pixel_lights),
+      count("lit_pixel_lights", "pairs lit", s.lit_pixel_lights),
+      real("lit_lights_per_pixel", "lights that light a covered pixel", ratio(s.lit_pixel_lights, s.covered_pixels)),
+      count("clusters_drawn", "clusters set up", s.clusters_drawn),
+      count("triangles_tested", "triangles set up", s.triangles_tested),
+      count("fragments", "fragments before the depth test", s.fragments),
+      count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
+      real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
+      count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
+      time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
+      time("light_ms", "light, all threads [ms]", s.light_ms),
+      time("total_ms", "this frame, planes included [ms]", s.total_ms)};
+  if (!result.repeated_ms.empty())
+    lines.push_back(time("frame_ms", "time per frame [ms]", result.repeated_ms[result.repeated_ms.size() / 2]));
+  return lines;
 }
 
 std::string stats_text(const RenderedFrame& result) {
-  const std::vector<StatLine> lines = stat_lines(result.frame.stats);
+  const std::vector<StatLine> lines = stat_lines(result);
   size_t widest = 0, longest = 0;
   for (const StatLine& line : lines) {
     widest = std::max(widest, line.label.size());
@@ -87,13 +92,14 @@ std::string stats_text(const RenderedFrame& result) {
   }
   std::string text;
   for (const StatLine& line : lines)
-    text += line.label + std::string(widest - line.label.size() + 2 + longest - line.value.size(), ' ') + line.value + '\n';
+    text +=
+        line.label + std::string(widest - line.label.size() + 2 + longest - line.value.size(), ' ') + line.value + '\n';
   return text;
 }
 
 std::string json_of(const RenderedFrame& result, std::span<const std::string> files) {
   JsonObject stats;
-  for (const StatLine& line : stat_lines(result.frame.stats)) stats.put_raw(line.key, line.value);
+  for (const StatLine& line : stat_lines(result)) stats.put_raw(line.key, line.value);
   JsonArray aovs, paths;
   for (const NamedImage& aov : result.frame.aovs)
     aovs.add_raw(JsonObject()

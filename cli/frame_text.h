@@ -15,8 +15,9 @@ struct RenderedFrame {
   Pipeline pipeline;
   Execution execution;
   Frame frame;
-  std::string image_hash;  ///< 64 hex digits
-  std::string scene_hash;  ///< 64 hex digits; empty where nobody asks
+  std::string image_hash;           ///< 64 hex digits
+  std::string scene_hash;           ///< 64 hex digits; empty where nobody asks
+  std::vector<double> repeated_ms;  ///< the frame drawn again without planes, for a report's time per frame; ascending
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.
@@ -31,7 +32,7 @@ struct StatLine {
   std::string label;  ///< for people
   std::string value;  ///< a JSON number
 };
-std::vector<StatLine> stat_lines(const FrameStats& stats);
+std::vector<StatLine> stat_lines(const RenderedFrame& result);
 
 /// The stat lines as a table of text.
 std::string stats_text(const RenderedFrame& result);

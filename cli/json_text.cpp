@@ -28,10 +28,14 @@ size_t utf8_length(std::string_view text) {
 std::string escaped_control(char control) {
   constexpr char kDigits[] = "0123456789abcdef";
   switch (control) {
-    case '\n': return "\\n";
-    case '\t': return "\\t";
-    case '\r': return "\\r";
-    default: return std::string("\\u00") + kDigits[(uint8_t(control) >> 4) & 15] + kDigits[uint8_t(control) & 15];
+    case '\n':
+      return "\\n";
+    case '\t':
+      return "\\t";
+    case '\r':
+      return "\\r";
+    default:
+      return std::string("\\u00") + kDigits[(uint8_t(control) >> 4) & 15] + kDigits[uint8_t(control) & 15];
   }
 }
 

@@ -32,7 +32,8 @@ std::string json_of(const std::vector<Section>& list) {
   for (const Section& section : list) {
     JsonArray names;
     for (const auto& [name, about] : section.entries)
-      names.add_raw(about.empty() ? json_string(name) : JsonObject().put("name", name).put("description", about).text());
+      names.add_raw(about.empty() ? json_string(name)
+                                  : JsonObject().put("name", name).put("description", about).text());
     json.put_raw(section.key, names.text());
   }
   return json.text() + '\n';
@@ -43,7 +44,8 @@ std::string text_of(const std::vector<Section>& list) {
   for (const Section& section : list) {
     text += section.heading + '\n';
     for (const auto& [name, about] : section.entries)
-      text += "  " + (about.empty() ? name : name + std::string(name.size() < 16 ? 16 - name.size() : 1, ' ') + about) + '\n';
+      text += "  " + (about.empty() ? name : name + std::string(name.size() < 16 ? 16 - name.size() : 1, ' ') + about) +
+              '\n';
   }
   return text;
 }

@@ -1,8 +1,10 @@
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <variant>
 
 #include "cli/commands.h"
@@ -14,10 +16,33 @@ namespace {
 
 constexpr int kOurFault = 70;  // sysexits.h: EX_SOFTWARE
 
-int report(const char* message, int exit_code) {
-  std::fprintf(stderr, "trueshade: error: %s\n", message);
+int say(const std::string& message, int exit_code) {
+  std::fprintf(stderr, "trueshade: error: %s\n", message.c_str());
   return exit_code;
 }
+
+/// Says what is wrong, and gives the exit code: the only place that knows either.
+int exit_code_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const Error& error) {
+    return say(error.what(), int(error.kind()));
+  } catch (const std::bad_alloc&) {
+    return say("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)  // what a thread that cannot be started throws
+      return say("threads: there is not enough memory to start them (use fewer --threads)",
+                 int(ErrorKind::out_of_memory));
+    return say(std::string("internal: ") + error.what() + " (please report it)", kOurFault);
+  } catch (const std::exception& error) {
+    return say(std::string("internal: ") + error.what() + " (please report it)", kOurFault);
+  } catch (...) {
+    return say("internal: unknown exception (please report it)", kOurFault);
+  }
+}
+
+/// Libraries end the process where they cannot start their own threads, far from any catch of ours.
+[[noreturn]] void end_without_signal() { std::_Exit(exit_code_of(std::current_exception())); }
 
 void execute(const Command& command) {
   if (const auto* options = std::get_if<RenderOptions>(&command)) return render(*options);
@@ -29,21 +54,15 @@ void execute(const Command& command) {
 }  // namespace
 }  // namespace trueshade
 
-/// The only place that knows exit codes. A failed write must come back as an error, not as the end by a signal.
+/// The only catch. A failed write must come back as an error, not as the end by a signal.
 int main(int count, char** arguments) {
-  using namespace trueshade;
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(trueshade::end_without_signal);
   try {
-    execute(command_from_arguments(count, arguments));
+    trueshade::execute(trueshade::command_from_arguments(count, arguments));
     return 0;
-  } catch (const Error& error) {
-    return report(error.what(), int(error.kind()));
-  } catch (const std::bad_alloc&) {
-    return report("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
-  } catch (const std::exception& error) {
-    return report((std::string("internal: ") + error.what() + " (please report it)").c_str(), kOurFault);
   } catch (...) {
-    return report("internal: unknown exception (please report it)", kOurFault);
+    return trueshade::exit_code_of(std::current_exception());
   }
 }

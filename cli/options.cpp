@@ -36,7 +36,8 @@ std::optional<int64_t> integer(std::string_view text) {
 int integer_in(const std::string& option, const std::string& text, int least, int most) {
   const std::optional<int64_t> value = integer(text);
   if (!value || *value < least || *value > most)
-    throw usage(option, "'" + text + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+    throw usage(option,
+                "'" + text + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
                 "give one");
   return int(*value);
 }
@@ -96,22 +97,28 @@ struct RenderTexts {
 
 CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
   CLI::App* render = app.add_subcommand("render", "Draw a scene");
-  render->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")->required();
-  render->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
-      ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  render->add_option("--preset", options.preset, "Row of numbers the pipeline starts from: " + [] {
-    std::string names;
-    for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
-    return names;
-  }());
-  render->add_option("--pipeline", options.pipeline_file, "JSON file of values that replace the preset's and the scene's");
+  render->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+      ->required();
+  render
+      ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  render->add_option(
+      "--preset", options.preset, "Row of numbers the pipeline starts from: " + [] {
+        std::string names;
+        for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
+        return names;
+      }());
+  render->add_option("--pipeline", options.pipeline_file,
+                     "JSON file of values that replace the preset's and the scene's");
   render->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
   render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
   render->add_option("--tile", texts.tile, "Tile side: 8, 16, 32, 48 or 64; never changes a pixel");
-  render->add_flag("--no-light-culling", texts.no_light_culling, "Try every light on every pixel; never changes a pixel");
+  render->add_flag("--no-light-culling", texts.no_light_culling,
+                   "Try every light on every pixel; never changes a pixel");
   render->add_flag("--hash", options.hash, "Print the hash of the image's stored bytes");
   render->add_flag("--stats", options.stats, "Print counts and times");
   render->add_flag("--json", options.json, "Print all of it as one JSON document");
@@ -153,7 +160,9 @@ Command command_from_arguments(int count, const char* const* arguments) {
   CLI::App app("Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.", "trueshade");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
-  app.footer("Exit codes: 0 ok, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out of memory, 70 our fault.");
+  app.footer(
+      "Exit codes: 0 ok, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out of memory, 70 our "
+      "fault.");
   RenderOptions render;
   RenderTexts texts;
   InfoOptions info;
@@ -163,11 +172,17 @@ Command command_from_arguments(int count, const char* const* arguments) {
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
+  constexpr std::string_view kCommands[] = {"render", "info", "list"};
+  if (count > 1 && arguments[1][0] != '-' &&
+      std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
+    throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
+                "one of: " + joined(kCommands));
   try {
     app.parse(count, arguments);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
-    return PrintText{(chosen.empty() ? app : *chosen[0]).help(chosen.empty() ? "" : "trueshade " + chosen[0]->get_name())};
+    return PrintText{
+        (chosen.empty() ? app : *chosen[0]).help(chosen.empty() ? "" : "trueshade " + chosen[0]->get_name())};
   } catch (const CLI::CallForVersion& version) {
     return PrintText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {

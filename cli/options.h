@@ -14,14 +14,14 @@ struct Size {
 
 /// `trueshade render`. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
 struct RenderOptions {
-  std::string scene;                         ///< a file or builtin:NAME
-  std::vector<std::string> outputs;          ///< .png, .exr or .html
-  std::optional<std::string> preset;         ///< the lowest layer; nothing: the first row of presets()
+  std::string scene;                  ///< a file or builtin:NAME
+  std::vector<std::string> outputs;   ///< .png, .exr or .html
+  std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
   std::optional<Size> size;
   std::optional<Format> target;
-  std::vector<std::string> aovs;             ///< planes for .exr outputs, each one of aov_names()
-  std::string simd = "best";                 ///< stays alive for execution.simd, see execution_of()
+  std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
+  std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
 };

@@ -82,8 +82,8 @@ Image depth_view(const Image& depth, float clear_depth) {
 
 std::array<uint8_t, 3> heat_color(double share) {
   constexpr int kStops = 6;
-  constexpr double kRamp[kStops][3] = {{8, 10, 32},    {66, 24, 105},  {148, 38, 103},
-                                       {221, 81, 58},  {251, 158, 38}, {252, 250, 190}};
+  constexpr double kRamp[kStops][3] = {{8, 10, 32},   {66, 24, 105},  {148, 38, 103},
+                                       {221, 81, 58}, {251, 158, 38}, {252, 250, 190}};
   const double at = std::clamp(share, 0.0, 1.0) * (kStops - 1);
   const int stop = std::min(int(at), kStops - 2);
   std::array<uint8_t, 3> rgb;

@@ -20,8 +20,8 @@ std::string progress_line(std::string_view what, std::string_view unit, int done
   const int full = int(share * kBarCells);
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, "] %3d%%  %.0f ", int(share * 100.0), rate);
-  std::string line = std::string(what) + " [" + std::string(size_t(full), '#') + std::string(size_t(kBarCells - full), '.') +
-                     numbers + std::string(unit) + "/s";
+  std::string line = std::string(what) + " [" + std::string(size_t(full), '#') +
+                     std::string(size_t(kBarCells - full), '.') + numbers + std::string(unit) + "/s";
   if (rate > 0.0) {
     std::snprintf(numbers, sizeof numbers, "  %.0f s left", (total - done) / rate);
     line += numbers;

@@ -5,8 +5,8 @@
 
 namespace trueshade {
 
-/// A line on standard error that says what is done, how fast and how long it will take. Only on a terminal, and only for
-/// work that has taken a second; wiped when the work ends.
+/// A line on standard error that says what is done, how fast and how long it will take. Only on a terminal, and only
+/// for work that has taken a second; wiped when the work ends.
 class ProgressBar {
  public:
   ProgressBar(std::string_view what, std::string_view unit);  ///< as in "rendering", "tiles"

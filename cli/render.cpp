@@ -11,7 +11,6 @@
 #include "cli/frame_text.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
-#include "cli/version.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "scenes/presets.h"
@@ -23,8 +22,14 @@ namespace trueshade {
 namespace {
 
 constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20;
+constexpr int kRepeats = 9;
+constexpr double kRepeatBudgetMs = 1000.0;
 
 bool is_report(const std::string& path) { return path.ends_with(".html"); }
+
+bool wants_report(const RenderOptions& options) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), is_report);
+}
 
 /// Layers, each over the one before: preset, scene file, pipeline file, options.
 Pipeline pipeline_of(const RenderOptions& options, const Scene& scene) {
@@ -33,7 +38,8 @@ Pipeline pipeline_of(const RenderOptions& options, const Scene& scene) {
     pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
   if (options.pipeline_file) {
     const Bytes text = read_user_file(*options.pipeline_file, kMaxPipelineBytes);
-    pipeline = pipeline_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, *options.pipeline_file, pipeline);
+    pipeline =
+        pipeline_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, *options.pipeline_file, pipeline);
   }
   if (options.size) std::tie(pipeline.width, pipeline.height) = std::pair(options.size->width, options.size->height);
   if (options.target) pipeline.target = *options.target;
@@ -55,17 +61,29 @@ void check_folders(const std::vector<std::string>& paths) {
 /// The planes asked for, then those the report shows that are not among them.
 std::vector<std::string> planes_to_render(const RenderOptions& options) {
   std::vector<std::string> planes = options.aovs;
-  if (std::none_of(options.outputs.begin(), options.outputs.end(), is_report)) return planes;
+  if (!wants_report(options)) return planes;
   for (const std::string_view plane : report_planes())
     if (std::find(planes.begin(), planes.end(), plane) == planes.end()) planes.emplace_back(plane);
   return planes;
 }
 
-Frame drawn(const Scene& scene, const Pipeline& pipeline, const RenderOptions& options) {
-  const PreparedScene prepared(scene);
-  ProgressBar bar("rendering", "tiles");
-  return render_frame(prepared, pipeline, execution_of(options), planes_to_render(options),
-                      [&bar](int done, int total) { bar.show(done, total); });
+/// Draws result.frame; for a report also a few times more, as the first frame pays for memory and threads.
+void draw(const RenderOptions& options, RenderedFrame& result) {
+  const PreparedScene prepared(result.scene);
+  {
+    ProgressBar bar("rendering", "tiles");
+    result.frame = render_frame(prepared, result.pipeline, result.execution, planes_to_render(options),
+                                [&bar](int done, int total) { bar.show(done, total); });
+  }
+  if (!wants_report(options)) return;
+  ProgressBar bar("timing", "frames");
+  double spent_ms = 0.0;
+  for (int repeat = 0; repeat < kRepeats && (repeat == 0 || spent_ms < kRepeatBudgetMs); ++repeat) {
+    result.repeated_ms.push_back(render_frame(prepared, result.pipeline, result.execution).stats.total_ms);
+    spent_ms += result.repeated_ms.back();
+    bar.show(repeat + 1, kRepeats);
+  }
+  std::sort(result.repeated_ms.begin(), result.repeated_ms.end());
 }
 
 void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
@@ -86,8 +104,8 @@ void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
   const Scene scene = load_scene(options.scene);
-  RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}};
-  result.frame = drawn(scene, result.pipeline, options);
+  RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}, {}};
+  draw(options, result);
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !options.outputs.empty()) result.scene_hash = scene_hash(scene);
   write_outputs(options, result);

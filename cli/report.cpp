@@ -42,11 +42,20 @@ summary { cursor: pointer; color: var(--accent); }
 std::string escaped(std::string_view text) {
   std::string html;
   for (const char c : text) switch (c) {
-      case '<': html += "&lt;"; break;
-      case '>': html += "&gt;"; break;
-      case '&': html += "&amp;"; break;
-      case '"': html += "&quot;"; break;
-      default: html += c;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '&':
+        html += "&amp;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += c;
     }
   return html;
 }
@@ -102,21 +111,24 @@ std::string heat_ramp(uint32_t most) {
     const std::array<uint8_t, 3> rgb = heat_color(i / 10.0);
     stops += ", rgb(" + std::to_string(rgb[0]) + ' ' + std::to_string(rgb[1]) + ' ' + std::to_string(rgb[2]) + ')';
   }
-  return "<span class=ramp>0 <i style=\"background: linear-gradient(to right" + stops + ")\"></i> " + std::to_string(most) +
-         "</span>";
+  return "<span class=ramp>0 <i style=\"background: linear-gradient(to right" + stops + ")\"></i> " +
+         std::to_string(most) + "</span>";
 }
 
 std::string heading(const RenderedFrame& result, const std::vector<StatLine>& lines) {
   const Image& color = result.frame.color;
   const std::string simd(result.execution.simd == "best" ? simd_targets().front() : result.execution.simd);
   const std::string size = std::to_string(color.width) + " \xc3\x97 " + std::to_string(color.height);
-  return "<h1>" + escaped(result.scene.spec) + "</h1>\n<p class=quiet>preset " + escaped(result.pipeline.preset) + ", " +
-         size + " pixels, " + std::string(info(color.format).name) + ", trueshade " + kVersion + "</p>\n<div class=facts>" +
-         fact(value_of(lines, "total_ms") + " ms", "time per frame, " + std::to_string(thread_count(result.execution.threads)) +
-                                                       " threads, " + simd) +
+  return "<h1>" + escaped(result.scene.spec) + "</h1>\n<p class=quiet>preset " + escaped(result.pipeline.preset) +
+         ", " + size + " pixels, " + std::string(info(color.format).name) + ", trueshade " + kVersion +
+         "</p>\n<div class=facts>" +
+         fact(value_of(lines, "frame_ms") + " ms",
+              "time per frame, median of " + std::to_string(result.repeated_ms.size()) + "; " +
+                  std::to_string(thread_count(result.execution.threads)) + " threads, " + simd) +
          fact(grouped(value_of(lines, "triangles")), "triangles") + fact(grouped(value_of(lines, "lights")), "lights") +
-         fact(grouped(value_of(lines, "lit_pixel_lights")), "pixel-light pairs lit") + "</div>\n<p>Image <code>sha256:" +
-         result.image_hash + "</code><br>Scene <code>sha256:" + result.scene_hash + "</code></p>\n";
+         fact(grouped(value_of(lines, "lit_pixel_lights")), "pixel-light pairs lit") +
+         "</div>\n<p>Image <code>sha256:" + result.image_hash + "</code><br>Scene <code>sha256:" + result.scene_hash +
+         "</code></p>\n";
 }
 
 std::string pictures(const RenderedFrame& result) {
@@ -127,15 +139,16 @@ std::string pictures(const RenderedFrame& result) {
          figure(normal_view(plane(result, "normal"), depth, clear), "Normal", "world space, (N + 1) / 2") +
          figure(albedo_view(plane(result, "albedo"), depth, clear), "Albedo", "sRGB-encoded") +
          figure(depth_view(depth, clear), "Depth", "near is bright, logarithmic") +
-         figure(position_view(plane(result, "position"), depth, clear), "Position", "world x, y, z as red, green, blue, each over its extent") +
-         figure(heat_view(plane(result, "light.count"), most), "Lights per pixel", "that reach and face it" + heat_ramp(most)) +
+         figure(position_view(plane(result, "position"), depth, clear), "Position",
+                "world x, y, z as red, green, blue, each over its extent") +
+         figure(heat_view(plane(result, "light.count"), most), "Lights per pixel",
+                "that reach and face it" + heat_ramp(most)) +
          "</div>\n";
 }
 
 std::string table(const std::vector<StatLine>& lines) {
   std::string html = "<h2>Counts and times</h2>\n<table>\n";
-  for (const StatLine& line : lines)
-    html += "<tr><td>" + escaped(line.label) + "<td>" + grouped(line.value) + '\n';
+  for (const StatLine& line : lines) html += "<tr><td>" + escaped(line.label) + "<td>" + grouped(line.value) + '\n';
   return html + "</table>\n";
 }
 
@@ -144,11 +157,13 @@ std::string table(const std::vector<StatLine>& lines) {
 std::span<const std::string_view> report_planes() { return kPlanes; }
 
 std::string report_page(const RenderedFrame& result) {
-  const std::vector<StatLine> lines = stat_lines(result.frame.stats);
+  const std::vector<StatLine> lines = stat_lines(result);
   return "<!doctype html>\n<html lang=en>\n<meta charset=utf-8>\n<meta name=viewport content=\"width=device-width, "
-         "initial-scale=1\">\n<title>" + escaped(result.scene.spec) + " \xe2\x80\x93 Trueshade</title>\n<style>" + std::string(kStyle) +
-         "</style>\n<main>\n" + heading(result, lines) + figure(result.frame.color, "Image", "as stored in the target") +
-         pictures(result) + table(lines) + "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
+         "initial-scale=1\">\n<title>" +
+         escaped(result.scene.spec) + " \xe2\x80\x93 Trueshade</title>\n<style>" + std::string(kStyle) +
+         "</style>\n<main>\n" + heading(result, lines) +
+         figure(result.frame.color, "Image", "as stored in the target") + pictures(result) + table(lines) +
+         "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
          escaped(pipeline_json(result.pipeline)) + "</pre></details>\n</main>\n</html>\n";
 }
 

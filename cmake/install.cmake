@@ -10,7 +10,7 @@ install(TARGETS trueshade)
 foreach(header
   core/error.h core/format.h core/fp_env.h core/half.h core/image.h core/image_io.h core/sha256.h
   scenes/builtin.h scenes/camera.h scenes/light.h scenes/light_model.h scenes/mesh.h scenes/pipeline.h scenes/presets.h
-  scenes/scene.h shading/frame.h)
+  scenes/scene.h raster/simd_target.h shading/frame.h)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder})
 endforeach()

@@ -56,7 +56,8 @@ std::vector<FileChannel> exr_channels(const std::string& path, const Image& colo
     channels.push_back({std::string(1, "RGBA"[channel]), &color, channel});
   for (const NamedImage& aov : aovs) {
     if (aov.image.width != color.width || aov.image.height != color.height)
-      throw Error(ErrorKind::usage, path, "plane " + aov.name + " has another size than the colour", "give it the same");
+      throw Error(ErrorKind::usage, path, "plane " + aov.name + " has another size than the colour",
+                  "give it the same");
     int channel = 0;
     for (const std::string& name : channel_names(aov.name, info(aov.image.format).channels))
       channels.push_back({name, &aov.image, channel++});

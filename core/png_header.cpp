@@ -22,11 +22,21 @@ void read_size_and_channels(std::span<const uint8_t> data, ImageFileInfo& header
   const std::string depth = " uint" + std::to_string(int(data[8]));
   std::string_view names;
   switch (data[9]) {
-    case 0: names = "Y"; break;
-    case 2: names = "RGB"; break;
-    case 3: names = "P"; break;  // an index into a palette
-    case 4: names = "YA"; break;
-    default: names = "RGBA"; break;
+    case 0:
+      names = "Y";
+      break;
+    case 2:
+      names = "RGB";
+      break;
+    case 3:
+      names = "P";
+      break;  // an index into a palette
+    case 4:
+      names = "YA";
+      break;
+    default:
+      names = "RGBA";
+      break;
   }
   for (const char name : names) header.channels.push_back(name + depth);
 }

@@ -5,7 +5,8 @@
 
 namespace trueshade {
 
-/// x^(1/5) for x in (0, 1], to the last bits of a double; + - * / only, so that tables built from it are the same everywhere.
+/// x^(1/5) for x in (0, 1], to the last bits of a double; + - * / only, so that tables built from it are the same
+/// everywhere.
 constexpr double fifth_root(double x) {
   double root = 1.0;  // Newton on r^5 = x falls monotonically from any start above the root
   for (int step = 0; step < 100; ++step) {

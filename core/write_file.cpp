@@ -15,15 +15,21 @@ namespace {
 const char* remedy(int error) {
   switch (error) {
     case ENOENT:
-    case ENOTDIR: return "create the folder first";
+    case ENOTDIR:
+      return "create the folder first";
     case EACCES:
     case EPERM:
-    case EROFS: return "choose a folder you may write to";
+    case EROFS:
+      return "choose a folder you may write to";
     case ENOSPC:
-    case EDQUOT: return "free some space or choose another disk";
-    case EFBIG: return "raise the limit on file sizes, or write a smaller image";
-    case EISDIR: return "name a file, not a folder";
-    default: return "check the disk and the folder";
+    case EDQUOT:
+      return "free some space or choose another disk";
+    case EFBIG:
+      return "raise the limit on file sizes, or write a smaller image";
+    case EISDIR:
+      return "name a file, not a folder";
+    default:
+      return "check the disk and the folder";
   }
 }
 
@@ -72,7 +78,8 @@ class Temporary {
     if (rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "take this name", errno);
     name_.clear();
     const int folder = open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return;  // a folder may be writable and not readable; its entry is then written when the system likes
+    if (folder < 0)
+      return;  // a folder may be writable and not readable; its entry is then written when the system likes
     const int synced = fsync(folder) != 0 && errno != EINVAL ? errno : 0;
     close(folder);
     if (synced != 0) fail(path_, "write its folder to disk", synced);

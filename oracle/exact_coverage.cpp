@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 #include "oracle/wide_integer.h"
 
@@ -144,11 +145,11 @@ std::vector<PolygonVertex> clipped(const std::array<VertexValues, 3>& values, si
     for (size_t k = 0; k < 4; ++k)
       if (!std::isfinite(values[size_t(i)][k])) return {};
   }
-  polygon = cut(polygon, values, count, Plane::small_w, state.clip_depth);
   if (!state.depth_clamp) {
     polygon = cut(polygon, values, count, Plane::near, state.clip_depth);
     polygon = cut(polygon, values, count, Plane::far, state.clip_depth);
   }
+  polygon = cut(polygon, values, count, Plane::small_w, state.clip_depth);
   int64_t x = 0, y = 0;
   const bool huge = std::any_of(polygon.begin(), polygon.end(),
                                 [&](const PolygonVertex& v) { return !snap(v.values, state, viewport, x, y); });
@@ -157,6 +158,14 @@ std::vector<PolygonVertex> clipped(const std::array<VertexValues, 3>& values, si
   for (const size_t axis : {size_t(0), size_t(1)})
     for (const double sign : {1.0, -1.0}) polygon = cut_guard(polygon, count, axis, sign, bound);
   return polygon;
+}
+
+/// The corner of least rank is the hub of the fan: lowest, then leftmost in the window, then by its clip coordinates.
+std::tuple<int64_t, int64_t, double, double, double, double> hub_rank(const VertexValues& v, const GeometryState& state,
+                                                                      const Viewport& viewport) {
+  int64_t x = 0, y = 0;
+  snap(v, state, viewport, x, y);
+  return {y, x, v[3], v[2], v[0], v[1]};
 }
 
 /// Facing of the whole and what culling makes of it; false where nothing is left to draw.
@@ -209,7 +218,7 @@ int64_t window_coordinate(double numerator, double w, int size, int origin, bool
   const int64_t a = int64_t(std::ldexp(std::frexp(std::fabs(numerator), &numerator_exponent), 53));
   const int64_t b = int64_t(std::ldexp(std::frexp(w, &w_exponent), 53));
   const int shift = numerator_exponent - w_exponent, scale_exponent = std::ilogb(double(scale));
-  if (scale_exponent + shift - 1 >= 42) {  // past 2^42, and the centre is within 2^40
+  if (scale_exponent + shift - 1 >= 42) {  // past 2^42
     *huge = true;
     return centre;
   }
@@ -218,15 +227,21 @@ int64_t window_coordinate(double numerator, double w, int size, int origin, bool
   Int128 quotient = top / bottom;
   const Int128 twice_rest = 2 * (top % bottom);
   if (twice_rest > bottom || (twice_rest == bottom && (quotient & 1) != 0)) ++quotient;
-  const Int128 result = centre + (numerator < 0 ? -quotient : quotient);
-  *huge = result >= kHuge || result <= -kHuge;
-  return int64_t(result);
+  *huge = quotient >= kHuge;
+  return centre + int64_t(numerator < 0 ? -quotient : quotient);
 }
 
 WindowPolygon window_polygon(const std::array<VertexValues, 3>& values, size_t count, const GeometryState& state,
                              const Viewport& viewport) {
   assert(count >= 4 && count <= kMaxValues);
-  const std::vector<PolygonVertex> corners = clipped(values, count, state, viewport);
+  std::vector<PolygonVertex> corners = clipped(values, count, state, viewport);
+  // The fan's hub must not depend on which vertex was named first.
+  std::rotate(corners.begin(),
+              std::min_element(corners.begin(), corners.end(),
+                               [&](const PolygonVertex& a, const PolygonVertex& b) {
+                                 return hub_rank(a.values, state, viewport) < hub_rank(b.values, state, viewport);
+                               }),
+              corners.end());
   WindowPolygon polygon;
   Int128 area = 0;
   for (size_t i = 1; i + 1 < corners.size(); ++i) {

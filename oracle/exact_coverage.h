@@ -23,7 +23,7 @@ using VertexValues = std::array<double, kMaxValues>;
 /// A piece of a clipped triangle, ready to be sampled. Vertices in the order submitted.
 struct WindowTriangle {
   std::array<VertexValues, 3> values{};
-  std::array<int64_t, 3> x{}, y{};  ///< 1/256 pixel, |.| < 2^40
+  std::array<int64_t, 3> x{}, y{};  ///< 1/256 pixel, |.| < 2^41
   Int128 twice_area = 0;            ///< signed, counter-clockwise positive in a window whose y points up; never 0
 
   /// Twice the signed area of (vertex i+1, vertex i+2, p), turned so that inside is positive. p in 1/256 pixel.
@@ -42,7 +42,8 @@ struct WindowPolygon {
 Viewport resolved_viewport(const GeometryState& state, int width, int height);
 
 /// Window coordinate in 1/256 pixel: RNE(128 * size * ndc_numerator / w) + 256 * origin + 128 * size, the exact
-/// quotient rounded once, ties to even. `huge` is set, and the value meaningless, where it is 2^40 or more, or w = 0.
+/// quotient rounded once, ties to even. `huge` is set, and the value meaningless, where the quotient is 2^40 or more,
+/// or w is not above 0.
 int64_t window_coordinate(double numerator, double w, int size, int origin, bool* huge);
 
 /// Clips, snaps, culls by facing.

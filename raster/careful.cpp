@@ -1,20 +1,35 @@
 #include "raster/careful.h"
 
+#include <optional>
+#include <tuple>
+
 #include "raster/snap.h"
 
 namespace trueshade {
 namespace {
 
-bool place(const ClippedPolygon& polygon, int index, const WindowTransform& t, int64_t origin_x, int64_t origin_y, int slot,
-           WindowTriangle& out) {
-  const ClipCorner& corner = polygon.all[index];
+struct Placed {
+  int64_t x, y;  // relative to the origin
+  double z;
+};
+
+std::optional<Placed> place(const ClipCorner& corner, const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
   const auto x = snapped(t, 0, corner.c[0], corner.c[3]), y = snapped(t, 1, corner.c[1], corner.c[3]);
-  if (!x || !y) return false;  // not reached: the far-away box keeps corners in range
-  out.x[slot] = *x - origin_x;
-  out.y[slot] = *y - origin_y;
+  if (!x || !y) return std::nullopt;  // not reached: the far-away box keeps corners in range
   const double u = 1.0 / corner.c[3];
-  out.z[slot] = (corner.c[2] * u) * t.z_scale + t.z_offset;
-  return true;
+  return Placed{*x - origin_x, *y - origin_y, (corner.c[2] * u) * t.z_scale + t.z_offset};
+}
+
+// Where the fan starts: it must not depend on which vertex the triangle names first.
+int first_corner(const ClippedPolygon& polygon, const Placed* placed) {
+  const auto key = [&](int i) {
+    const double* c = polygon.at(i).c;
+    return std::tuple(placed[i].y, placed[i].x, c[3], c[2], c[0], c[1]);
+  };
+  int first = 0;
+  for (int i = 1; i < polygon.corners; ++i)
+    if (key(i) < key(first)) first = i;
+  return first;
 }
 
 __int128 doubled_area(const WindowTriangle& t) {
@@ -28,10 +43,23 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
   out.polygon = clip_triangle(v, t);
   __int128 total = 0;
   int signs = 0;
-  for (int i = 1; i + 1 < out.polygon.corners; ++i) {
-    CarefulPieces::Piece piece{{}, {out.polygon.corner[0], out.polygon.corner[i], out.polygon.corner[i + 1]}, 0};
-    for (int k = 0; k < 3; ++k)
-      if (!place(out.polygon, piece.corner[k], t, origin_x, origin_y, k, piece.triangle)) return {};
+  const int corners = out.polygon.corners;
+  Placed placed[12];
+  for (int i = 0; i < corners; ++i) {
+    const std::optional<Placed> at = place(out.polygon.at(i), t, origin_x, origin_y);
+    if (!at) return {};
+    placed[i] = *at;
+  }
+  const int first = corners == 0 ? 0 : first_corner(out.polygon, placed);
+  for (int i = 1; i + 1 < corners; ++i) {
+    const int index[3] = {first, (first + i) % corners, (first + i + 1) % corners};
+    CarefulPieces::Piece piece{};
+    for (int k = 0; k < 3; ++k) {
+      piece.corner[k] = out.polygon.corner[index[k]];
+      piece.triangle.x[k] = placed[index[k]].x;
+      piece.triangle.y[k] = placed[index[k]].y;
+      piece.triangle.z[k] = placed[index[k]].z;
+    }
     const __int128 area = doubled_area(piece.triangle);
     if (area == 0) continue;
     piece.sign = area > 0 ? 1 : -1;

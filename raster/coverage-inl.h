@@ -37,7 +37,10 @@ struct CountCommit {
     for (size_t i = 0; i < hn::Lanes(d); ++i) counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
     return false;
   }
-  void scalar(int at, double, double) { ++counts[at]; }
+  bool scalar(int at, double, double) {
+    ++counts[at];
+    return false;
+  }
   void finish_block(int) {}
 };
 
@@ -107,14 +110,15 @@ struct DepthCommit {
     return true;
   }
 
-  void scalar(int at, double e1, double e2) {
+  bool scalar(int at, double e1, double e2) {
     ++fragments;
     const double plane = z0 + (e1 * g1 + e2 * g2);
     const double in_hull = std::min(std::max(plane, z_low), z_high);
     const float z = float(std::min(std::max(in_hull, double(range_low)), double(range_high)));
-    if (!passes(func, z, tile.depth[at], id, tile.id[at])) return;
+    if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
     tile.depth[at] = z;
     tile.id[at] = id;
+    return true;
   }
 
   HWY_INLINE void finish_block(int block) {
@@ -194,7 +198,9 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
       if (commit.hidden(block)) continue;
       bool changed = false;
       for (int k = 0; k < kBlockPixels; k += lanes) {
-        const double px = bx * kBlockSize + k % kBlockSize, py = by * kBlockSize + k / kBlockSize;
+        const int top = by * kBlockSize + k / kBlockSize;
+        if (top >= s.y1 || top + (lanes + kBlockSize - 1) / kBlockSize <= s.y0) continue;
+        const double px = bx * kBlockSize + k % kBlockSize, py = top;
         V64 e[3];
         for (int i = 0; i < 3; ++i) e[i] = edges.at(i, px, py);
         M64 covered = hn::And(hn::Ge(e[0], least[0]), hn::And(hn::Ge(e[1], least[1]), hn::Ge(e[2], least[2])));
@@ -207,6 +213,19 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
         changed |= commit.vector(block * kBlockPixels + k, covered, e[1], e[2]);
       }
       if (changed) commit.finish_block(block);
+    }
+  }
+}
+
+/// The same for a box of a few samples, where vectors would stay nearly empty.
+template <class Commit>
+HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& rect, Commit& commit) {
+  commit.begin(s);
+  for (int y = s.y0; y < s.y1; ++y) {
+    for (int x = s.x0; x < s.x1; ++x) {
+      if (!s.covers(x, y)) continue;
+      const int at = tile_index(rect.size, x, y);
+      if (commit.scalar(at, s.edge(1, x, y), s.edge(2, x, y))) commit.finish_block(at / kBlockPixels);
     }
   }
 }

@@ -84,6 +84,13 @@ void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTil
   for (int i = 0; i < pixels; ++i) {
     const uint32_t id = visible.id[i];
     out.covered[i] = id == 0 ? 0 : -1;
+    if (i > 0 && id != 0 && id == visible.id[i - 1]) {
+      for (auto& corner : work.corner) corner[size_t(i)] = corner[size_t(i) - 1];
+      out.object[i] = out.object[i - 1];
+      out.material[i] = out.material[i - 1];
+      ++out.covered_pixels;
+      continue;
+    }
     if (id == 0) {
       out.object[i] = out.material[i] = 0;
       continue;

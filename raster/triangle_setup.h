@@ -24,6 +24,7 @@ struct TriangleSetup {
   double z0, g1, g2;     ///< z = z0 + (E_1 g1 + E_2 g2)
   double z_low, z_high;
 
+  int samples() const { return (x1 - x0) * (y1 - y0); }  ///< in the box
   T edge(int i, int px, int py) const { return c[i] + sx[i] * T(px) + sy[i] * T(py); }
   bool covers(int px, int py) const {
     return edge(0, px, py) >= least[0] && edge(1, px, py) >= least[1] && edge(2, px, py) >= least[2];

@@ -20,20 +20,27 @@ struct WindowBox {
   double near;
 };
 
+// Streams go on with copies of the last vertex, so whole vectors may be read.
 WindowBox window_box(const WindowVertices& v, int count) {
-  WindowBox box{v.x[0], v.y[0], v.x[0], v.y[0], v.z[0]};
-  for (int i = 1; i < count; ++i) {
-    box.x0 = std::min(box.x0, v.x[i]);
-    box.y0 = std::min(box.y0, v.y[i]);
-    box.x1 = std::max(box.x1, v.x[i]);
-    box.y1 = std::max(box.y1, v.y[i]);
-    box.near = std::min(box.near, v.z[i]);
+  const I32 di;
+  const D64 d;
+  auto x0 = hn::Set(di, v.x[0]), x1 = x0, y0 = hn::Set(di, v.y[0]), y1 = y0;
+  V64 near = hn::Set(d, v.z[0]);
+  for (int i = 0; i < count; i += int(hn::Lanes(di))) {
+    const auto x = hn::Load(di, v.x + i), y = hn::Load(di, v.y + i);
+    x0 = hn::Min(x0, x);
+    x1 = hn::Max(x1, x);
+    y0 = hn::Min(y0, y);
+    y1 = hn::Max(y1, y);
+    near = hn::Min(near, hn::Load(d, v.z + i));
   }
-  return box;
+  const auto least = [&](auto w) { return hn::GetLane(hn::MinOfLanes(di, w)); };
+  const auto most = [&](auto w) { return hn::GetLane(hn::MaxOfLanes(di, w)); };
+  return {least(x0), least(y0), most(x1), most(y1), hn::GetLane(hn::MinOfLanes(d, near))};
 }
 
-// Triangles of a near cluster that have area and a sample in their box and the tile, many at a time, in 32-bit integers:
-// with every coordinate within 2^14 of 0 a doubled area stays below 2^31. Returns how many it wrote to `out`.
+// Triangles that have area and a sample in their box and the tile, many at a time, in 32-bit integers: in a cluster that
+// spans less than 2^15 subpixels a doubled area stays below 2^31. Returns how many it wrote to `out`.
 int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4], uint8_t* out) {
   const I32 di;
   const hn::Rebind<uint8_t, I32> d8;
@@ -108,8 +115,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
     const float near = std::min(std::max(float(box.near), t.depth_low), t.depth_high);
     if (commit.skip_hidden && hidden_box(commit.tile, rect, box, near)) return;
-    const int32_t reach = std::max({-box.x0, -box.y0, box.x1, box.y1});
-    count = reach < (1 << 14) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
+    count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
@@ -132,7 +139,11 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     }
     if (commit.skip_hidden && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
-    if (set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
+    if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
+    if (setup.samples() <= 4)
+      cover_samples(setup, rect, commit);
+    else
+      cover_blocks(setup, rect, commit);
   }
 }
 

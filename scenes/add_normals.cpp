@@ -16,8 +16,8 @@ glm::dvec3 area_normal(const Mesh& mesh, size_t triangle) {
   return cross(position(mesh, mesh.indices[3 * triangle + 1]) - a, position(mesh, mesh.indices[3 * triangle + 2]) - a);
 }
 
-/// unit() without the overflow of squares: lengths of 1e18 give areas of 1e36 and squares of 1e72, well inside double; the
-/// small end is what needs care, where squares of areas vanish.
+/// unit() without the overflow of squares: lengths of 1e18 give areas of 1e36 and squares of 1e72, well inside double;
+/// the small end is what needs care, where squares of areas vanish.
 glm::dvec3 unit_of_area(const glm::dvec3& v) {
   double largest = 0.0;
   for (int k = 0; k < 3; ++k) largest = std::fabs(v[k]) > largest ? std::fabs(v[k]) : largest;

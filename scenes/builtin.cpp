@@ -14,17 +14,22 @@ Light point_light(const glm::dvec3& position, const glm::dvec3& color, double ra
   light.position = glm::vec3(position);
   light.color = glm::vec3(color);
   light.range = float(range);
-  light.attenuation = {1.0f, float(3.0 / range), float(16.0 / (range * range))};
+  light.attenuation = {1.0f, float(1.0 / range), float(10.0 / (range * range))};
   return light;
+}
+
+glm::dvec2 even_point(uint32_t index) {
+  const double x = 0.5 + 0.7548776662466927 * index, y = 0.5 + 0.5698402909980532 * index;
+  return {x - std::floor(x), y - std::floor(y)};
 }
 
 glm::dvec3 color_of_hue(double hue, double saturation) {
   const double t = (hue - std::floor(hue)) * 6.0;
   glm::dvec3 color(0.0);
   for (int k = 0; k < 3; ++k) {
-    const double turned = t + 2.0 * double((3 - k) % 3);           // red is brightest at 0, green at 2, blue at 4
+    const double turned = t + 2.0 * double((3 - k) % 3);  // red is brightest at 0, green at 2, blue at 4
     const double around = turned >= 6.0 ? turned - 6.0 : turned;
-    const double away = around > 3.0 ? 6.0 - around : around;      // 0 at the channel's own hue, 3 opposite it
+    const double away = around > 3.0 ? 6.0 - around : around;  // 0 at the channel's own hue, 3 opposite it
     const double level = 2.0 - away;
     color[k] = 1.0 - saturation * (1.0 - (level < 0.0 ? 0.0 : level > 1.0 ? 1.0 : level));
   }
@@ -87,7 +92,8 @@ class SpecReader {
         p.seed = number(key, value, 0, UINT64_MAX);
         has_seed = true;
       } else if (key == "radius" && !has_radius) {
-        if (value != "overlap" && value != "constant") fail("radius is '" + std::string(value) + "'", "overlap or constant");
+        if (value != "overlap" && value != "constant")
+          fail("radius is '" + std::string(value) + "'", "overlap or constant");
         p.constant_radius = value == "constant";
         has_radius = true;
       } else {

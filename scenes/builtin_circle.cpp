@@ -3,8 +3,8 @@
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 
-// After "TouchDesigner Deferred Lighting - Point Lights": lights on a circle, their colours from a ramp and noise, around
-// a torus knot on a stage with a ring of balls.
+// After "TouchDesigner Deferred Lighting - Point Lights": lights on a circle, their colours from a ramp and noise,
+// around a torus knot on a stage with a ring of balls.
 namespace trueshade::builtin {
 namespace {
 
@@ -31,6 +31,14 @@ SurfacePoint knot_surface(double u, double v) {
   return {centre + outward * radius, outward * radius - around * slope};
 }
 
+/// The ramp around the circle: amber, magenta, blue and back.
+glm::dvec3 ramp(double turn) {
+  const glm::dvec3 colors[] = {{1.0, 0.52, 0.16}, {1.0, 0.16, 0.50}, {0.16, 0.48, 1.0}};
+  const double at = (turn - std::floor(turn)) * 3.0;
+  const int first = int(at);
+  return colors[first] + (colors[(first + 1) % 3] - colors[first]) * (at - first);
+}
+
 }  // namespace
 
 Mesh knot_mesh() {
@@ -41,18 +49,18 @@ Mesh knot_mesh() {
 
 Scene circle(const Parameters& parameters) {
   Scene scene;
-  scene.clear = {0.01f, 0.01f, 0.015f, 1.0f};
+  scene.clear = {0.016f, 0.014f, 0.028f, 1.0f};
   scene.materials = {{"stage", {0.46f, 0.46f, 0.48f, 1.0f}},
                      {"knot", {0.85f, 0.83f, 0.80f, 1.0f}},
                      {"ball", {0.72f, 0.72f, 0.74f, 1.0f}}};
   scene.meshes = {plane_mesh(28), knot_mesh(), sphere_mesh(14)};
-  scene.instances.push_back({0, 0, placed({0.0, 0.0, 0.0}, {14.0, 1.0, 14.0})});
+  scene.instances.push_back({0, 0, placed({0.0, 0.0, 0.0}, {18.0, 1.0, 18.0})});
   scene.instances.push_back({1, 1, placed({0.0, 1.0, 0.0}, glm::dvec3(1.15))});
   const uint32_t balls = parameters.objects_or(kObjects) - 1;
   for (uint32_t i = 1; i < balls; ++i) {
     const double angle = 2.0 * kPi * i / (balls - 1);
     const double radius = 0.22 + 0.10 * double(i % 3);
-    scene.instances.push_back({2, 2, placed({3.1 * cosine(angle), radius, 3.1 * sine(angle)}, glm::dvec3(radius))});
+    scene.instances.push_back({2, 2, placed({2.8 * cosine(angle), radius, 2.8 * sine(angle)}, glm::dvec3(radius))});
   }
 
   Pcg32 random(parameters.seed, 6);
@@ -61,8 +69,8 @@ Scene circle(const Parameters& parameters) {
   for (uint32_t i = 0; i < lights; ++i) {
     const double turn = double(i) / lights;
     const double noise = random.real();
-    const glm::dvec3 at(2.45 * cosine(2.0 * kPi * turn), 0.35 + 0.9 * noise, 2.45 * sine(2.0 * kPi * turn));
-    scene.lights.push_back(point_light(at, color_of_hue(turn + 0.1 * noise, 0.9) * (0.16 + 0.2 * noise), 2.6 * reach));
+    const glm::dvec3 at(3.7 * cosine(2.0 * kPi * turn), 0.8 + 1.2 * noise, 3.7 * sine(2.0 * kPi * turn));
+    scene.lights.push_back(point_light(at, ramp(turn + 0.62 + 0.12 * noise) * (0.12 + 0.14 * noise), 5.0 * reach));
   }
   scene.camera.eye = {0.0f, 3.4f, 6.6f};
   scene.camera.target = {0.0f, 0.55f, 0.0f};

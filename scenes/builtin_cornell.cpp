@@ -4,7 +4,8 @@
 #include "scenes/trig.h"
 
 // The Cornell box (Goral and others, "Modeling the Interaction of Light Between Diffuse Surfaces", 1984): white floor,
-// ceiling and back, a red and a green wall, two blocks. One warm lamp under the ceiling, the others coloured and drifting.
+// ceiling and back, a red and a green wall, two blocks. One warm lamp under the ceiling, the others coloured and
+// drifting.
 namespace trueshade::builtin {
 namespace {
 
@@ -15,11 +16,11 @@ glm::mat4x3 wall(const glm::vec3& centre, const glm::vec3& side, const glm::vec3
 
 void add_box(Scene& scene) {
   const glm::vec3 x(1.0f, 0.0f, 0.0f), y(0.0f, 1.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
-  scene.instances.push_back({0, 0, wall(-y, x, y, z)});    // floor
-  scene.instances.push_back({0, 0, wall(y, x, -y, -z)});   // ceiling
-  scene.instances.push_back({0, 0, wall(-z, x, z, -y)});   // back
-  scene.instances.push_back({0, 1, wall(-x, -y, x, z)});   // left
-  scene.instances.push_back({0, 2, wall(x, y, -x, z)});    // right
+  scene.instances.push_back({0, 0, wall(-y, x, y, z)});   // floor
+  scene.instances.push_back({0, 0, wall(y, x, -y, -z)});  // ceiling
+  scene.instances.push_back({0, 0, wall(-z, x, z, -y)});  // back
+  scene.instances.push_back({0, 1, wall(-x, -y, x, z)});  // left
+  scene.instances.push_back({0, 2, wall(x, y, -x, z)});   // right
 }
 
 }  // namespace
@@ -41,12 +42,16 @@ Scene cornell(const Parameters& parameters) {
   const double reach = parameters.reach(kLights);
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {
-      scene.lights.push_back(point_light({0.0, 0.86, 0.0}, {0.80, 0.72, 0.58}, 2.6));
+      scene.lights.push_back(point_light({0.0, 0.80, 0.05}, {0.78, 0.70, 0.56}, 3.2));
       continue;
     }
-    const glm::dvec3 at(random.between(-0.9, 0.9), random.between(-0.85, 0.8), random.between(-0.7, 0.95));
-    const glm::dvec3 color = color_of_hue(0.381966 * i, 0.65) * random.between(0.2, 0.34);
-    scene.lights.push_back(point_light(at, color, 1.15 * reach));
+    if (i == 1) {  // beside the viewer, for the faces turned here
+      scene.lights.push_back(point_light({0.7, 0.6, 2.6}, {0.5, 0.49, 0.52}, 6.0));
+      continue;
+    }
+    const glm::dvec3 at{random.between(-0.88, 0.88), random.between(-0.85, 0.8), random.between(-0.7, 1.1)};
+    const glm::dvec3 color = color_of_hue(0.381966 * i, 0.7) * random.between(0.28, 0.42);
+    scene.lights.push_back(point_light(at, color, 1.25 * reach));
   }
   scene.camera.eye = {0.0f, 0.0f, 3.55f};
   scene.camera.fov_y_rad = 0.72f;

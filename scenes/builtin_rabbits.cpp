@@ -6,7 +6,8 @@
 #include "scenes/surface_net.h"
 #include "scenes/trig.h"
 
-// A hill of rabbits. One rabbit is the surface of a field: rounded parts, joined smoothly, of which we mesh the zero level.
+// A hill of rabbits. One rabbit is the surface of a field: rounded parts, joined smoothly, of which we mesh the zero
+// level.
 namespace trueshade::builtin {
 namespace {
 
@@ -51,16 +52,16 @@ double ear_field(const glm::dvec3& p) {
 
 double rabbit_field(const glm::dvec3& at) {
   const glm::dvec3 p(std::fabs(at.x), at.y, at.z);
-  double f = ellipsoid(p, {0.0, 0.31, -0.10}, {0.235, 0.275, 0.33});                             // body
-  f = joined(f, ellipsoid(p, {0.0, 0.33, 0.13}, {0.165, 0.21, 0.17}), 0.12);                     // chest
-  f = joined(f, ellipsoid(p, {0.185, 0.20, -0.17}, {0.105, 0.175, 0.20}), 0.05);                 // haunch
-  f = joined(f, rod(p, {0.185, 0.05, -0.20}, {0.185, 0.045, 0.11}, 0.052, 0.048), 0.05);         // hind foot
-  f = joined(f, rod(p, {0.090, 0.27, 0.20}, {0.085, 0.055, 0.25}, 0.062, 0.046), 0.05);          // foreleg
-  f = joined(f, rod(p, {0.085, 0.045, 0.25}, {0.085, 0.042, 0.32}, 0.046, 0.042), 0.04);         // paw
-  f = joined(f, ball(p, {0.0, 0.23, -0.46}, 0.088), 0.03);                                       // tail
+  double f = ellipsoid(p, {0.0, 0.31, -0.10}, {0.235, 0.275, 0.33});                      // body
+  f = joined(f, ellipsoid(p, {0.0, 0.33, 0.13}, {0.165, 0.21, 0.17}), 0.12);              // chest
+  f = joined(f, ellipsoid(p, {0.185, 0.20, -0.17}, {0.105, 0.175, 0.20}), 0.05);          // haunch
+  f = joined(f, rod(p, {0.185, 0.05, -0.20}, {0.185, 0.045, 0.11}, 0.052, 0.048), 0.05);  // hind foot
+  f = joined(f, rod(p, {0.090, 0.27, 0.20}, {0.085, 0.055, 0.25}, 0.062, 0.046), 0.05);   // foreleg
+  f = joined(f, rod(p, {0.085, 0.045, 0.25}, {0.085, 0.042, 0.32}, 0.046, 0.042), 0.04);  // paw
+  f = joined(f, ball(p, {0.0, 0.23, -0.46}, 0.088), 0.03);                                // tail
   double head = ellipsoid(p, {0.0, 0.60, 0.26}, {0.140, 0.135, 0.165});
-  head = joined(head, ball(p, {0.045, 0.555, 0.385}, 0.062), 0.07);                              // cheek
-  head = joined(head, ball(p, {0.0, 0.592, 0.432}, 0.026), 0.025);                               // nose
+  head = joined(head, ball(p, {0.045, 0.555, 0.385}, 0.062), 0.07);  // cheek
+  head = joined(head, ball(p, {0.0, 0.592, 0.432}, 0.026), 0.025);   // nose
   head = joined(head, eye_field(p), 0.008);
   head = joined(head, ear_field(p), 0.045);
   return joined(f, head, 0.09);
@@ -78,7 +79,8 @@ glm::dvec3 rabbit_color(const glm::dvec3& at) {
   glm::dvec3 color(0.78 + 0.22 * patch(p.y, 0.3));
   const auto paint = [&](const glm::dvec3& other, double share) { color += (other - color) * share; };
   paint({1.0, 1.0, 1.0}, patch(ball(p, {0.0, 0.23, -0.50}, 0.09), 0.02));
-  if (p.y > 0.74) paint({0.95, 0.60, 0.60}, patch(rod(p, {0.085, 0.78, 0.245}, {0.145, 1.02, 0.155}, 0.045, 0.045), 0.012));
+  if (p.y > 0.74)
+    paint({0.95, 0.60, 0.60}, patch(rod(p, {0.085, 0.78, 0.245}, {0.145, 1.02, 0.155}, 0.045, 0.045), 0.012));
   paint({0.9, 0.48, 0.5}, patch(ball(p, {0.0, 0.600, 0.450}, 0.022), 0.012));
   paint({0.03, 0.025, 0.04}, patch(eye_field(p), 0.010));
   return color;
@@ -102,13 +104,15 @@ Mesh rabbit_mesh() {
 Scene rabbits(const Parameters& parameters) {
   Scene scene;
   scene.clear = {0.01f, 0.012f, 0.02f, 1.0f};
-  scene.materials = {{"snow", {0.86f, 0.85f, 0.83f, 1.0f}}, {"sand", {0.76f, 0.62f, 0.46f, 1.0f}},
-                     {"slate", {0.50f, 0.52f, 0.58f, 1.0f}}, {"clay", {0.66f, 0.42f, 0.32f, 1.0f}}};
+  scene.materials = {{"snow", {0.86f, 0.85f, 0.83f, 1.0f}},
+                     {"sand", {0.76f, 0.62f, 0.46f, 1.0f}},
+                     {"slate", {0.50f, 0.52f, 0.58f, 1.0f}},
+                     {"clay", {0.66f, 0.42f, 0.32f, 1.0f}}};
   scene.meshes = {rabbit_mesh()};
   Pcg32 random(parameters.seed, 2);
   const uint32_t objects = parameters.objects_or(kObjects);
   // Seeds of a sunflower: evenly spread over a disc however many they are; the hill rises towards the middle.
-  const double spacing = 0.47, radius = spacing * std::sqrt(double(objects)), top = 0.42 * radius;
+  const double spacing = 0.45, radius = spacing * std::sqrt(double(objects)), top = 0.42 * radius;
   const auto on_hill = [&](double distance, double angle) {
     const double part = distance / radius;
     return glm::dvec3(distance * cosine(angle), top * (1.0 - part * part), distance * sine(angle));
@@ -117,18 +121,19 @@ Scene rabbits(const Parameters& parameters) {
     const double angle = 2.399963229728653 * i;
     const glm::dvec3 at = on_hill(spacing * std::sqrt(i + 0.5), angle);
     const double outward = 0.5 * kPi - angle + random.between(-0.9, 0.9);  // looking down the hill, more or less
-    scene.instances.push_back({0, random.below(4), placed(at, glm::dvec3(random.between(0.85, 1.1)), outward)});
+    const uint32_t material = random.below(4);
+    scene.instances.push_back({0, material, placed(at, glm::dvec3(random.between(0.92, 1.15)), outward)});
   }
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
   for (uint32_t i = 0; i < lights; ++i) {
-    const double distance = radius * 1.1 * std::sqrt(random.real()), angle = 2.0 * kPi * random.real();
+    const double distance = radius * 1.08 * std::sqrt((i + 0.5) / lights), angle = 2.399963229728653 * i + 1.0;
     const glm::dvec3 at = on_hill(distance, angle) + glm::dvec3(0.0, 0.9 + 0.8 * random.real(), 0.0) * reach;
     const double hue = 0.06 + 0.5 * random.real() * random.real() + (i % 4 == 0 ? 0.5 : 0.0);
-    scene.lights.push_back(point_light(at, color_of_hue(hue, 0.55) * random.between(0.5, 0.8), 2.4 * reach));
+    scene.lights.push_back(point_light(at, color_of_hue(hue, 0.55) * random.between(0.55, 0.85), 2.6 * reach));
   }
-  scene.camera.eye = glm::vec3(glm::dvec3(0.25, 0.75, 1.55) * radius);
-  scene.camera.target = glm::vec3(glm::dvec3(0.0, 0.22, 0.12) * radius);
+  scene.camera.eye = glm::vec3(glm::dvec3(0.25, 0.85, 1.35) * radius);
+  scene.camera.target = glm::vec3(glm::dvec3(0.0, 0.20, 0.16) * radius);
   scene.camera.fov_y_rad = 0.8f;
   scene.camera.near = 0.1f;
   scene.camera.far = float(10.0 * radius);

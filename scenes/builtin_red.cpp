@@ -5,8 +5,8 @@
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 
-// A canyon in red rock: one mesh of 2000 x 2000 vertices, terraced along a meandering river, under a faint ambient light,
-// point lights on the slopes and spot lights from above.
+// A canyon in red rock: one mesh of 2000 x 2000 vertices, terraced along a meandering river, under a faint ambient
+// light, point lights on the slopes and spot lights from above.
 namespace trueshade::builtin {
 namespace {
 
@@ -52,9 +52,11 @@ double rock_height(const Noise& noise, double x, double z) {
   const double hills = noise.at(x * 0.33, z * 0.33 + 20.0) * 0.6 + noise.at(x * 0.9 + 5.0, z * 0.9) * 0.25;
   const double mass = (wall * wall * (3.0 - 2.0 * wall)) * 5.0 + hills * (0.35 + 2.2 * wall);
   // Terraces: flat treads and steep risers, as layers of rock weather.
-  const double layer = mass * 1.7, tread = std::floor(layer), rise = clamp01((layer - tread - 0.62) * 2.63);
-  const double terraced = (tread + rise * rise * (3.0 - 2.0 * rise)) * (1.0 / 1.7);
-  const double detail = noise.at(x * 3.1, z * 3.1) * 0.10 + noise.at(x * 8.7, z * 8.7) * 0.035 + noise.at(x * 23.0, z * 23.0) * 0.012;
+  const double layer = mass * 1.5 + 1.6 * noise.at(x * 0.17 + 2.0, z * 0.17), tread = std::floor(layer),
+               rise = clamp01((layer - tread - 0.62) * 2.63);
+  const double terraced = (tread + rise * rise * (3.0 - 2.0 * rise)) * (1.0 / 1.5);
+  const double detail =
+      noise.at(x * 3.1, z * 3.1) * 0.10 + noise.at(x * 8.7, z * 8.7) * 0.035 + noise.at(x * 23.0, z * 23.0) * 0.012;
   return terraced * 0.8 + mass * 0.2 + detail;
 }
 
@@ -72,8 +74,13 @@ Mesh rock_mesh(const Noise& noise) {
     mesh.normal[size_t(k)].reserve(height.size());
   }
   const auto h = [&](int column, int row) {
-    return height[size_t(row < 0 ? 0 : row >= kSide ? kSide - 1 : row) * kSide +
-                  size_t(column < 0 ? 0 : column >= kSide ? kSide - 1 : column)];
+    return height[size_t(row < 0        ? 0
+                         : row >= kSide ? kSide - 1
+                                        : row) *
+                      kSide +
+                  size_t(column < 0        ? 0
+                         : column >= kSide ? kSide - 1
+                                           : column)];
   };
   for (int row = 0; row < kSide; ++row)
     for (int column = 0; column < kSide; ++column)
@@ -101,7 +108,7 @@ Light spot_light(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3&
 Scene red(const Parameters& parameters) {
   Scene scene;
   scene.clear = {0.035f, 0.014f, 0.03f, 1.0f};
-  scene.materials = {{"rock", {0.80f, 0.36f, 0.22f, 1.0f}}};
+  scene.materials = {{"rock", {0.80f, 0.44f, 0.31f, 1.0f}}};
   const Noise noise(parameters.seed);
   scene.meshes.push_back(rock_mesh(noise));
   scene.instances.push_back({});
@@ -113,19 +120,22 @@ Scene red(const Parameters& parameters) {
     if (i == 0) {
       Light ambient;
       ambient.type = LightType::ambient;
-      ambient.color = {0.05f, 0.05f, 0.08f};
+      ambient.color = {0.04f, 0.045f, 0.09f};
       scene.lights.push_back(ambient);
       continue;
     }
-    const double x = random.between(-0.48, 0.48) * kExtent, z = random.between(-0.48, 0.48) * kExtent;
+    const glm::dvec2 even = even_point(i);
+    const double x = (even.x - 0.5) * 0.96 * kExtent, z = (even.y - 0.5) * 0.96 * kExtent;
     const glm::dvec3 ground(x, rock_height(noise, x, z), z);
     const double pick = random.real();
-    const glm::dvec3 color = pick < 0.6 ? glm::dvec3(1.0, 0.72, 0.42) : pick < 0.85 ? glm::dvec3(0.45, 0.62, 1.0) : glm::dvec3(1.0, 0.32, 0.5);
+    const glm::dvec3 color = pick < 0.5    ? glm::dvec3(1.0, 0.72, 0.42)
+                             : pick < 0.85 ? glm::dvec3(0.45, 0.62, 1.0)
+                                           : glm::dvec3(1.0, 0.32, 0.5);
     if (i % 3 == 0) {
-      const glm::dvec3 above = ground + glm::dvec3(random.between(-2.0, 2.0), 5.0, random.between(-2.0, 2.0)) * reach;
-      scene.lights.push_back(spot_light(above, ground, color * 1.1, 12.0 * reach));
+      const glm::dvec3 above = ground + glm::dvec3{random.between(-2.0, 2.0), 5.0, random.between(-2.0, 2.0)} * reach;
+      scene.lights.push_back(spot_light(above, ground, color * 0.65, 12.0 * reach));
     } else {
-      scene.lights.push_back(point_light(ground + glm::dvec3(0.0, 1.3 * reach, 0.0), color * 0.8, 7.0 * reach));
+      scene.lights.push_back(point_light(ground + glm::dvec3(0.0, 1.3 * reach, 0.0), color * 0.5, 6.5 * reach));
     }
   }
   scene.camera.eye = {1.0f, 11.0f, 23.0f};

@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "scenes/scene.h"
@@ -25,8 +26,12 @@ struct Parameters {
   }
 };
 
-/// A point light of both light models: the linear window ends at `range`, the quadratic falloff is near 1/20 there.
+/// A point light of both light models: the linear window ends at `range`, the quadratic falloff is 1/12 there.
 Light point_light(const glm::dvec3& position, const glm::dvec3& color, double range);
+
+/// Point `index` of an endless sequence in the unit square that fills it evenly from the start (Martin Roberts, "The
+/// Unreasonable Effectiveness of Quasirandom Sequences", 2018: R2).
+glm::dvec2 even_point(uint32_t index);
 
 /// Saturated colour of a hue in turns (any real), red at 0, of largest channel 1 and smallest channel 1 - saturation.
 glm::dvec3 color_of_hue(double hue, double saturation);

@@ -3,8 +3,8 @@
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 
-// One sphere of 20,000 faces inside a shell of lights that overlap strongly: the worst case for culling by tiles, since a
-// pixel is lit by a third of all lights.
+// One sphere of 20,000 faces inside a shell of lights that overlap strongly: the worst case for culling by tiles, since
+// a pixel is lit by a third of all lights.
 namespace trueshade::builtin {
 
 Scene sphere(const Parameters& parameters) {
@@ -23,11 +23,14 @@ Scene sphere(const Parameters& parameters) {
     const double y = 1.0 - (2.0 * i + 1.0) / lights;
     const double turn_rad = 2.399963229728653 * i;
     const double ring = std::sqrt(1.0 - y * y);
-    const double height = (0.6 + 1.2 * random.real()) * reach;
+    const double height = (0.9 + 1.6 * random.real()) * reach;
     const glm::dvec3 direction(ring * cosine(turn_rad), y, ring * sine(turn_rad));
     const double hue = 0.55 + 0.35 * direction.x + 0.2 * direction.y + 0.08 * random.real();
-    const glm::dvec3 color = color_of_hue(hue, 0.85) * random.between(0.10, 0.17);
-    scene.lights.push_back(point_light(direction * (2.0 + height), color, 4.2 * reach));
+    // Every sixth is close and bright, so that the ball has spots; the others fill.
+    const bool is_spot = i % 6 == 0;
+    const glm::dvec3 color = color_of_hue(hue, is_spot ? 0.35 : 0.85) * (is_spot ? 0.75 : random.between(0.11, 0.21));
+    scene.lights.push_back(
+        point_light(direction * (2.0 + (is_spot ? 0.3 * reach : height)), color, (is_spot ? 3.0 : 6.0) * reach));
   }
   scene.camera.eye = {0.0f, 1.2f, 5.4f};
   scene.camera.fov_y_rad = 0.85f;

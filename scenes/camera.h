@@ -1,8 +1,7 @@
 #pragma once
 #include <array>
-#include <optional>
-
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace trueshade {
 
@@ -14,14 +13,14 @@ struct Camera {
   glm::vec3 eye{0.0f, 0.0f, 5.0f};  ///< world; also the viewer of specular terms
   glm::vec3 target{0.0f};
   glm::vec3 up{0.0f, 1.0f, 0.0f};
-  float fov_y_rad = 0.8f;           ///< full vertical angle, in (0, pi)
-  std::optional<float> fov_x_rad;   ///< full horizontal angle, in (0, pi); replaces fov_y_rad
-  float near = 0.1f, far = 1000.0f; ///< 0 < near < far
+  float fov_y_rad = 0.8f;                                ///< full vertical angle, in (0, pi)
+  std::optional<float> fov_x_rad;                        ///< full horizontal angle, in (0, pi); replaces fov_y_rad
+  float near = 0.1f, far = 1000.0f;                      ///< 0 < near < far
   std::optional<std::array<float, 16>> clip_from_world;  ///< column-major; replaces all but `eye`
 };
 
-/// Clip space (-w <= x, y, z <= w) from world space, in the operations of docs/arithmetic.md; `aspect` = width / height.
-/// `zero_to_one`: 0 <= z <= w instead. A matrix handed over by an engine is taken as it is.
+/// Clip space (-w <= x, y, z <= w) from world space, in the operations of docs/arithmetic.md; `aspect` = width /
+/// height. `zero_to_one`: 0 <= z <= w instead. A matrix handed over by an engine is taken as it is.
 Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one = false);
 
 /// a * b, each element ((a0*b0 + a1*b1) + a2*b2) + a3*b3.

@@ -1,7 +1,7 @@
+#include <zlib.h>
+
 #include <algorithm>
 #include <climits>
-
-#include <zlib.h>
 
 #include "core/error.h"
 #include "scenes/scene_files.h"
@@ -25,7 +25,9 @@ class Inflater {
     for (;;) {
       if (written == out.size()) {
         // The size a gzip file claims is not trusted; the buffer doubles as data really comes.
-        if (written > limit) throw Error(ErrorKind::limit, where_, "the content is over the limit", "at most " + std::to_string(limit) + " bytes");
+        if (written > limit)
+          throw Error(ErrorKind::limit, where_, "the content is over the limit",
+                      "at most " + std::to_string(limit) + " bytes");
         out.resize(size_t(std::min<uint64_t>(std::max<uint64_t>(2 * written, 1 << 16), limit + 1)));
       }
       stream_.next_in = const_cast<Bytef*>(compressed.data() + read);  // zlib's type; it does not write there
@@ -45,7 +47,9 @@ class Inflater {
                     short_of_data ? "the gzip stream ends early" : "the gzip stream is broken", "a whole .gz file");
       }
     }
-    if (written > limit) throw Error(ErrorKind::limit, where_, "the content is over the limit", "at most " + std::to_string(limit) + " bytes");
+    if (written > limit)
+      throw Error(ErrorKind::limit, where_, "the content is over the limit",
+                  "at most " + std::to_string(limit) + " bytes");
     out.resize(written);
     return out;
   }

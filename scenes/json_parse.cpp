@@ -1,8 +1,7 @@
 // The only file that names nlohmann's parser: its header costs seconds a compilation.
 #include <algorithm>
-#include <numeric>
-
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/error.h"
 #include "scenes/json_value.h"
@@ -95,7 +94,8 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool open(Value&& value) {
     Value& here = place_for_next();
     if (stack_.size() >= size_t(kMaxDepth))
-      refuse(place(stack_.size()), "arrays and objects are nested deeper than " + std::to_string(kMaxDepth), "nest less");
+      refuse(place(stack_.size()), "arrays and objects are nested deeper than " + std::to_string(kMaxDepth),
+             "nest less");
     here = std::move(value);
     stack_.push_back(&here);
     return true;
@@ -116,7 +116,8 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
 
 Value parse(std::string_view text, std::string_view where) {
   if (text.starts_with("\xEF\xBB\xBF"))
-    throw Error(ErrorKind::bad_input, std::string(where) + ": line 1, column 1", "the text starts with a byte order mark", "UTF-8 without one");
+    throw Error(ErrorKind::bad_input, std::string(where) + ": line 1, column 1",
+                "the text starts with a byte order mark", "UTF-8 without one");
   Builder builder(text, where);
   nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();

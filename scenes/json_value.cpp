@@ -4,11 +4,10 @@
 #include <charconv>
 #include <cmath>
 
-
 namespace trueshade::json {
 namespace {
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;  // in double: 1e18f is a little less
 
 std::string number_text(double value) {
   char buffer[32];
@@ -35,10 +34,14 @@ std::string shown(const Value& value) {
 void append_pointer(std::string& pointer, std::string_view key) {
   pointer += '/';
   for (const char c : key.substr(0, 80)) {
-    if (c == '~') pointer += "~0";
-    else if (c == '/') pointer += "~1";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) pointer += '?';  // an error is one line
-    else pointer += c;
+    if (c == '~')
+      pointer += "~0";
+    else if (c == '/')
+      pointer += "~1";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      pointer += '?';  // an error is one line
+    else
+      pointer += c;
   }
 }
 
@@ -66,7 +69,7 @@ double Node::number(double least, double most) const {
   return *d;
 }
 
-float Node::real(float least, float most) const { return float(number(double(least), double(most))); }
+float Node::real(double least, double most) const { return float(number(least, most)); }
 
 int64_t Node::integer(int64_t least, int64_t most) const {
   const double* d = std::get_if<double>(&value_->is);
@@ -83,21 +86,22 @@ const std::string& Node::string() const {
 const Array& Node::array(size_t least, size_t most) const {
   const auto* a = std::get_if<std::unique_ptr<Array>>(&value_->is);
   if (!a || (*a)->size() < least || (*a)->size() > most) {
-    const std::string count = least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+    const std::string count =
+        least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
     fail("found " + (a ? "an array of " + std::to_string((*a)->size()) : shown(*value_)), "an array of " + count);
   }
   return **a;
 }
 
-glm::vec3 Node::vec3(float least, float most) const {
+glm::vec3 Node::vec3(double least, double most) const {
   array(3, 3);
   return {element(0).real(least, most), element(1).real(least, most), element(2).real(least, most)};
 }
 
 glm::vec4 Node::color() const {
   const size_t count = array(3, 4).size();
-  return {element(0).real(0.0f, kLargest), element(1).real(0.0f, kLargest), element(2).real(0.0f, kLargest),
-          count == 4 ? element(3).real(0.0f, 1.0f) : 1.0f};
+  return {element(0).real(0.0, kLargest), element(1).real(0.0, kLargest), element(2).real(0.0, kLargest),
+          count == 4 ? element(3).real(0.0, 1.0) : 1.0f};
 }
 
 size_t Node::choice(std::span<const std::string_view> names) const {
@@ -140,9 +144,12 @@ void append_string(std::string& out, std::string_view text) {
   out += '"';
   for (const char c : text) {
     const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') (out += '\\') += c;
-    else if (byte < 0x20) ((out += "\\u00") += kHex[byte >> 4]) += kHex[byte & 15];
-    else out += c;
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (byte < 0x20)
+      ((out += "\\u00") += kHex[byte >> 4]) += kHex[byte & 15];
+    else
+      out += c;
   }
   out += '"';
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,9 +11,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include "core/error.h"
 
@@ -24,13 +23,15 @@ using Members = std::vector<std::pair<std::string, Value>>;  ///< in the order o
 
 /// One value of a text. Numbers are doubles: whole numbers are exact up to 2^53.
 struct Value {
-  std::variant<std::monostate, bool, double, std::unique_ptr<std::string>, std::unique_ptr<Array>, std::unique_ptr<Members>> is;
+  std::variant<std::monostate, bool, double, std::unique_ptr<std::string>, std::unique_ptr<Array>,
+               std::unique_ptr<Members>>
+      is;
 };
 
 inline constexpr int kMaxDepth = 64;  ///< of arrays and objects inside each other
 
-/// Reads a whole text. Error(bad_input) behind `where`: for what is not JSON with line and column; for a key given twice
-/// or deeper nesting than kMaxDepth with the pointer; for a byte order mark.
+/// Reads a whole text. Error(bad_input) behind `where`: for what is not JSON with line and column; for a key given
+/// twice or deeper nesting than kMaxDepth with the pointer; for a byte order mark.
 Value parse(std::string_view text, std::string_view where);
 
 /// The keys an object may have; a reader and its schema list the same (tests/scenes/schemas.cpp).
@@ -43,19 +44,22 @@ struct ObjectKeys {
 class Node {
  public:
   Node(const Value& value, std::string_view where) : value_(&value), where_(where) {}
-  Node(const Value& value, const Node& parent, std::string_view key) : value_(&value), parent_(&parent), where_(parent.where_), key_(key) {}
-  Node(const Value& value, const Node& parent, size_t index) : value_(&value), parent_(&parent), where_(parent.where_), index_(index) {}
+  Node(const Value& value, const Node& parent, std::string_view key)
+      : value_(&value), parent_(&parent), where_(parent.where_), key_(key) {}
+  Node(const Value& value, const Node& parent, size_t index)
+      : value_(&value), parent_(&parent), where_(parent.where_), index_(index) {}
 
   /// Throws `WHERE: POINTER: reason (remedy)`.
-  [[noreturn]] void fail(const std::string& reason, const std::string& remedy, ErrorKind kind = ErrorKind::bad_input) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& remedy,
+                         ErrorKind kind = ErrorKind::bad_input) const;
 
   bool boolean() const;
-  double number(double least, double most) const;          ///< both ends included
-  float real(float least, float most) const;               ///< number(), rounded to float
-  int64_t integer(int64_t least, int64_t most) const;      ///< a number without a fraction
+  double number(double least, double most) const;      ///< both ends included
+  float real(double least, double most) const;         ///< number(), rounded to float
+  int64_t integer(int64_t least, int64_t most) const;  ///< a number without a fraction
   const std::string& string() const;
-  glm::vec3 vec3(float least, float most) const;           ///< an array of 3
-  glm::vec4 color() const;                                 ///< 3 or 4 numbers, RGB in [0, 1e18], alpha in [0, 1], 1 if absent
+  glm::vec3 vec3(double least, double most) const;  ///< an array of 3
+  glm::vec4 color() const;                          ///< 3 or 4 numbers, RGB in [0, 1e18], alpha in [0, 1], 1 if absent
   const Array& array(size_t least, size_t most) const;
   bool is_array() const { return std::holds_alternative<std::unique_ptr<Array>>(value_->is); }
 
@@ -64,9 +68,11 @@ class Node {
 
   /// Fails unless this is an object with no other keys than these.
   void check_keys(const ObjectKeys& allowed) const;
-  std::optional<Node> find(std::string_view key) const;    ///< of an object
-  Node member(std::string_view key) const;                 ///< fails if it is absent
-  Node element(size_t index) const { return Node((*std::get<std::unique_ptr<Array>>(value_->is))[index], *this, index); }
+  std::optional<Node> find(std::string_view key) const;  ///< of an object
+  Node member(std::string_view key) const;               ///< fails if it is absent
+  Node element(size_t index) const {
+    return Node((*std::get<std::unique_ptr<Array>>(value_->is))[index], *this, index);
+  }
   const Value& value() const { return *value_; }
 
   std::string pointer() const;
@@ -82,7 +88,8 @@ class Node {
 /// Text of a value in canonical form: no white space, members in order, shortest numbers that read back the same.
 std::string text_of(const Value& value);
 
-/// Appends `/key` as RFC 6901 escapes it; control characters become '?' and a long key is cut, since an error is one line.
+/// Appends `/key` as RFC 6901 escapes it; control characters become '?' and a long key is cut, since an error is one
+/// line.
 void append_pointer(std::string& pointer, std::string_view key);
 
 /// Appends a string in quotes, escaped.

@@ -1,8 +1,7 @@
 #pragma once
 #include <cstdint>
-#include <limits>
-
 #include <glm/vec3.hpp>
+#include <limits>
 
 namespace trueshade {
 
@@ -11,13 +10,13 @@ enum class LightType : uint8_t { ambient, directional, point, spot };
 /// One light in world space. A light model reads the fields it names and no others.
 struct Light {
   LightType type = LightType::point;
-  glm::vec3 position{0.0f};             ///< scene units; point and spot
-  glm::vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit, the way the light travels; directional and spot
-  glm::vec3 color{1.0f};                ///< linear RGB times intensity; each in [0, 1e18]
+  glm::vec3 position{0.0f};                              ///< scene units; point and spot
+  glm::vec3 direction{0.0f, 0.0f, -1.0f};                ///< unit, the way the light travels; directional and spot
+  glm::vec3 color{1.0f};                                 ///< linear RGB times intensity; each in [0, 1e18]
   float range = std::numeric_limits<float>::infinity();  ///< scene units; a window falloff is 0 from here on
-  glm::vec3 attenuation{1.0f, 0.0f, 0.0f};  ///< k0, k1 [1/unit], k2 [1/unit^2]
-  float cone_rad = 3.14159265f;         ///< half angle of the fully lit cone; spot
-  float penumbra_rad = 0.0f;            ///< angle past cone_rad over which the light fades to 0; spot
+  glm::vec3 attenuation{1.0f, 0.0f, 0.0f};               ///< k0, k1 [1/unit], k2 [1/unit^2]
+  float cone_rad = 3.14159265f;                          ///< half angle of the fully lit cone; spot
+  float penumbra_rad = 0.0f;                             ///< angle past cone_rad over which the light fades to 0; spot
 };
 
 }  // namespace trueshade

@@ -24,7 +24,9 @@ class TextSource {
  public:
   TextSource(std::span<const uint8_t> file, const ply::Header& header, std::string_view where)
       : next_(reinterpret_cast<const char*>(file.data()) + header.bytes),
-        end_(reinterpret_cast<const char*>(file.data()) + file.size()), line_(header.lines + 1), where_(where) {}
+        end_(reinterpret_cast<const char*>(file.data()) + file.size()),
+        line_(header.lines + 1),
+        where_(where) {}
 
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const {
     throw Error(ErrorKind::bad_input, std::string(where_) + ": line " + std::to_string(line_), reason, remedy);
@@ -40,8 +42,10 @@ class TextSource {
       check(std::from_chars(first, last, whole), last, word);
       const int bits = int(8 * ply::bytes_of(type));
       const bool is_signed = type == Type::int8 || type == Type::int16 || type == Type::int32;
-      const int64_t least = is_signed ? -(int64_t(1) << (bits - 1)) : 0, most = (int64_t(1) << (is_signed ? bits - 1 : bits)) - 1;
-      if (whole < least || whole > most) fail("'" + std::string(word.substr(0, 40)) + "' does not fit its type", "a number in the type's range");
+      const int64_t least = is_signed ? -(int64_t(1) << (bits - 1)) : 0,
+                    most = (int64_t(1) << (is_signed ? bits - 1 : bits)) - 1;
+      if (whole < least || whole > most)
+        fail("'" + std::string(word.substr(0, 40)) + "' does not fit its type", "a number in the type's range");
       result = double(whole);
     } else if (type == Type::float32) {
       float single = 0.0f;  // straight to float: by way of double it could be rounded twice
@@ -76,7 +80,8 @@ class TextSource {
   }
 
   void skip_space() {
-    for (; next_ != end_ && (*next_ == ' ' || *next_ == '\t' || *next_ == '\r' || *next_ == '\n'); ++next_) line_ += *next_ == '\n';
+    for (; next_ != end_ && (*next_ == ' ' || *next_ == '\t' || *next_ == '\r' || *next_ == '\n'); ++next_)
+      line_ += *next_ == '\n';
   }
 
   std::string_view next_word() {
@@ -110,14 +115,22 @@ class BinarySource {
     next_ += count;
     if (swapped_) std::reverse(bytes, bytes + count);
     switch (type) {
-      case Type::int8: return as<int8_t>(bytes);
-      case Type::uint8: return as<uint8_t>(bytes);
-      case Type::int16: return as<int16_t>(bytes);
-      case Type::uint16: return as<uint16_t>(bytes);
-      case Type::int32: return as<int32_t>(bytes);
-      case Type::uint32: return as<uint32_t>(bytes);
-      case Type::float32: return double(as<float>(bytes));
-      case Type::float64: return as<double>(bytes);
+      case Type::int8:
+        return as<int8_t>(bytes);
+      case Type::uint8:
+        return as<uint8_t>(bytes);
+      case Type::int16:
+        return as<int16_t>(bytes);
+      case Type::uint16:
+        return as<uint16_t>(bytes);
+      case Type::int32:
+        return as<int32_t>(bytes);
+      case Type::uint32:
+        return as<uint32_t>(bytes);
+      case Type::float32:
+        return double(as<float>(bytes));
+      case Type::float64:
+        return as<double>(bytes);
     }
     return 0.0;  // unreachable
   }
@@ -127,7 +140,8 @@ class BinarySource {
   uint64_t left() const { return file_.size() - next_; }
 
   void finish() const {
-    if (left() != 0) fail(std::to_string(left()) + " bytes after the last element", "the counts of the header and the data to agree");
+    if (left() != 0)
+      fail(std::to_string(left()) + " bytes after the last element", "the counts of the header and the data to agree");
   }
 
  private:
@@ -146,7 +160,7 @@ class BinarySource {
 /// Where each property of a vertex goes: a stream of the mesh, or nowhere.
 struct Target {
   std::vector<float>* stream = nullptr;
-  double scale = 1.0;   ///< the value is divided by it
+  double scale = 1.0;  ///< the value is divided by it
   bool is_color = false;
 };
 
@@ -189,8 +203,9 @@ class Reader {
     uint64_t bytes = 0;
     for (const Property& p : element.properties) bytes += source_.least_bytes(p.count.value_or(p.type));
     if (element.count > 0 && (bytes == 0 || element.count > source_.left() / bytes))
-      source_.fail("element " + element.name + " says " + std::to_string(element.count) + " and the file is too short for them",
-                   "as many as the file holds");
+      source_.fail(
+          "element " + element.name + " says " + std::to_string(element.count) + " and the file is too short for them",
+          "as many as the file holds");
     if (element.name == "vertex" && element.count >= UINT32_MAX)
       source_.fail(std::to_string(element.count) + " vertices", "below 2^32");
   }
@@ -198,7 +213,8 @@ class Reader {
   uint64_t list_length(const Property& property) {
     const double length = source_.value(*property.count);
     if (length < 0.0 || uint64_t(length) > source_.left() / source_.least_bytes(property.type))
-      source_.fail("a list says " + std::to_string(int64_t(length)) + " and the file is too short for it", "as many as the file holds");
+      source_.fail("a list says " + std::to_string(int64_t(length)) + " and the file is too short for it",
+                   "as many as the file holds");
     return uint64_t(length);
   }
 
@@ -214,7 +230,9 @@ class Reader {
     size_t found = 0;
     for (const std::string_view name : names) found += find(element, name) != nullptr;
     if (found == 0 && !required) return false;
-    if (found != N) source_.fail("the vertices have only some of " + std::string(names[0]) + " to " + std::string(names[N - 1]), "all or none");
+    if (found != N)
+      source_.fail("the vertices have only some of " + std::string(names[0]) + " to " + std::string(names[N - 1]),
+                   "all or none");
     for (size_t k = 0; k < N; ++k) {
       targets[size_t(find(element, names[k]) - element.properties.data())] = {&streams[k], 1.0, false};
       streams[k].reserve(element.count);
@@ -230,9 +248,12 @@ class Reader {
       const Property* property = find(element, names[k]);
       if (!property) source_.fail("the vertices have only some of red, green, blue", "all or none");
       double scale = 1.0;
-      if (property->type == Type::uint8) scale = 255.0;
-      else if (property->type == Type::uint16) scale = 65535.0;
-      else if (ply::is_integer(property->type)) source_.fail("colours are of a signed or 32-bit type", "uchar, ushort, float or double");
+      if (property->type == Type::uint8)
+        scale = 255.0;
+      else if (property->type == Type::uint16)
+        scale = 65535.0;
+      else if (ply::is_integer(property->type))
+        source_.fail("colours are of a signed or 32-bit type", "uchar, ushort, float or double");
       targets[size_t(property - element.properties.data())] = {&mesh_.color[k], scale, true};
       mesh_.color[k].reserve(element.count);
     }
@@ -243,7 +264,8 @@ class Reader {
     std::vector<Target> targets(element.properties.size());
     assign<3>(element, targets, {"x", "y", "z"}, mesh_.position, true);
     has_normals_ = assign<3>(element, targets, {"nx", "ny", "nz"}, mesh_.normal, false);
-    assign<2>(element, targets, {"u", "v"}, mesh_.uv, false) || assign<2>(element, targets, {"s", "t"}, mesh_.uv, false) ||
+    assign<2>(element, targets, {"u", "v"}, mesh_.uv, false) ||
+        assign<2>(element, targets, {"s", "t"}, mesh_.uv, false) ||
         assign<2>(element, targets, {"texture_u", "texture_v"}, mesh_.uv, false);
     assign_colors(element, targets);
     for (uint64_t i = 0; i < element.count; ++i)
@@ -264,25 +286,31 @@ class Reader {
   void read_faces(const Element& element) {
     size_t list = element.properties.size();
     for (size_t p = 0; p < element.properties.size(); ++p)
-      if (element.properties[p].count && (element.properties[p].name == "vertex_indices" || element.properties[p].name == "vertex_index")) list = p;
+      if (element.properties[p].count &&
+          (element.properties[p].name == "vertex_indices" || element.properties[p].name == "vertex_index"))
+        list = p;
     if (list == element.properties.size() || !ply::is_integer(element.properties[list].type))
       source_.fail("the faces have no list of integers vertex_indices or vertex_index", "one such list");
     for (uint64_t face = 0; face < element.count; ++face)
       for (size_t p = 0; p < element.properties.size(); ++p) {
-        if (p == list) read_polygon(element.properties[p], face);
-        else skip(element.properties[p]);
+        if (p == list)
+          read_polygon(element.properties[p], face);
+        else
+          skip(element.properties[p]);
       }
   }
 
   void read_polygon(const Property& property, uint64_t face) {
     const uint64_t corners = list_length(property);
-    if (corners < 3) source_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners", "3 or more");
+    if (corners < 3)
+      source_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners", "3 or more");
     uint32_t first = 0, previous = 0;
     for (uint64_t i = 0; i < corners; ++i) {
       const double index = source_.value(property.type);
       if (!(index >= 0.0 && index < double(mesh_.vertex_count())))
-        source_.fail("face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) + " is beyond the vertices",
-                     "from 0 to below " + std::to_string(mesh_.vertex_count()));
+        source_.fail(
+            "face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) + " is beyond the vertices",
+            "from 0 to below " + std::to_string(mesh_.vertex_count()));
       const uint32_t corner = uint32_t(index);
       if (i == 0) first = corner;
       if (i >= 2) mesh_.indices.insert(mesh_.indices.end(), {first, previous, corner});

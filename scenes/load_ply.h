@@ -14,9 +14,9 @@ enum class MissingNormals : uint8_t {
 };
 
 /// Reads a PLY file (Greg Turk, "The PLY Polygon File Format", 1994): ascii, binary_little_endian, binary_big_endian.
-/// Element vertex: x y z, and where present nx ny nz, red green blue [alpha] (integers as value / maximum, floats as they
-/// are; taken as linear), u v (or s t, texture_u texture_v). Element face: the list vertex_indices or vertex_index;
-/// polygons become fans around their first vertex. Other elements and properties are skipped.
+/// Element vertex: x y z, and where present nx ny nz, red green blue [alpha] (integers as value / maximum, floats as
+/// they are; taken as linear), u v (or s t, texture_u texture_v). Element face: the list vertex_indices or
+/// vertex_index; polygons become fans around their first vertex. Other elements and properties are skipped.
 /// Error(bad_input): `WHERE: line N` in text, `WHERE: byte N` in binary data.
 Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, MissingNormals missing_normals);
 

@@ -19,7 +19,11 @@ glm::dvec3 vec(const std::array<std::vector<float>, 3>& streams, uint32_t vertex
 /// Grows patches over a mesh, each from a triangle beside the last.
 class PatchGrower {
  public:
-  explicit PatchGrower(const Mesh& mesh) : mesh_(mesh), used_(mesh.triangle_count()), in_patch_(mesh.vertex_count(), 0), listed_(mesh.triangle_count(), 0) {
+  explicit PatchGrower(const Mesh& mesh)
+      : mesh_(mesh),
+        used_(mesh.triangle_count()),
+        in_patch_(mesh.vertex_count(), 0),
+        listed_(mesh.triangle_count(), 0) {
     first_.assign(mesh.vertex_count() + 1, 0);
     for (const uint32_t v : mesh.indices) ++first_[v + 1];
     for (size_t v = 0; v < mesh.vertex_count(); ++v) first_[v + 1] += first_[v];
@@ -27,7 +31,8 @@ class PatchGrower {
     around_.resize(mesh.indices.size());
     for (size_t i = 0; i < mesh.indices.size(); ++i) around_[next[mesh.indices[i]]++] = uint32_t(i / 3);
     for (uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      centre_.push_back((vec(mesh.position, corner(t, 0)) + vec(mesh.position, corner(t, 1))) + vec(mesh.position, corner(t, 2)));
+      centre_.push_back((vec(mesh.position, corner(t, 0)) + vec(mesh.position, corner(t, 1))) +
+                        vec(mesh.position, corner(t, 2)));
   }
 
   std::vector<uint32_t> order() {
@@ -44,7 +49,6 @@ class PatchGrower {
     for (size_t k = 0; k < 3; ++k) count += in_patch_[corner(triangle, k)] != patch_;
     return count;
   }
-
 
   void take(uint32_t triangle) {
     used_[triangle] = true;
@@ -87,11 +91,11 @@ class PatchGrower {
 
   const Mesh& mesh_;
   std::vector<bool> used_;
-  std::vector<uint32_t> in_patch_;          // number of the patch a vertex was last taken into
-  std::vector<uint32_t> listed_;            // number of the patch a triangle was last a candidate of
-  std::vector<uint32_t> first_, around_;    // triangles around each vertex
+  std::vector<uint32_t> in_patch_;        // number of the patch a vertex was last taken into
+  std::vector<uint32_t> listed_;          // number of the patch a triangle was last a candidate of
+  std::vector<uint32_t> first_, around_;  // triangles around each vertex
   std::vector<uint32_t> candidates_, order_;
-  std::vector<glm::dvec3> centre_;          // of each triangle, times 3
+  std::vector<glm::dvec3> centre_;  // of each triangle, times 3
   uint32_t patch_ = 0;
   size_t vertices_ = 0;
 };
@@ -108,7 +112,7 @@ void reorder(std::array<std::vector<float>, N>& streams, const std::vector<uint3
 }
 
 struct Edge {
-  uint32_t low, high;      // vertices
+  uint32_t low, high;  // vertices
   uint32_t triangle;
   double length2;
 };

@@ -5,6 +5,8 @@ namespace trueshade {
 
 /// PCG-XSH-RR 64/32 (Melissa O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for
 /// Random Number Generation", 2014). Our own, since the standard's distributions differ between libraries.
+/// Draw twice in one expression only within braces: C++ leaves the order of arguments and operands to the compiler, and
+/// g++ and clang do differ.
 class Pcg32 {
  public:
   explicit Pcg32(uint64_t seed, uint64_t stream = 0) : increment_((stream << 1) | 1) {

@@ -29,13 +29,13 @@ struct GeometryState {
   Viewport viewport;
   float depth_near = 0.0f, depth_far = 1.0f;  ///< glDepthRange, each in [0, 1]
   DepthFunc depth_func = DepthFunc::less;
-  float clear_depth = 1.0f;                   ///< in [0, 1]
-  bool depth_clamp = false;                   ///< no near and far clipping; depth clamped to the range instead
+  float clear_depth = 1.0f;  ///< in [0, 1]
+  bool depth_clamp = false;  ///< no near and far clipping; depth clamped to the range instead
   CullFace cull_face = CullFace::none;
   FrontFace front_face = FrontFace::ccw;
   ClipOrigin clip_origin = ClipOrigin::lower_left;
   ClipDepth clip_depth = ClipDepth::negative_one_to_one;
-  Provoking provoking = Provoking::last;      ///< the vertex a flat attribute follows
+  Provoking provoking = Provoking::last;  ///< the vertex a flat attribute follows
   bool operator==(const GeometryState&) const = default;
 };
 
@@ -62,18 +62,18 @@ struct Pipeline {
   GBufferState gbuffer;
   LightModel light_model;
   Strategy strategy = Strategy::deferred_loop;
-  Format target = Format::rgba8;       ///< rgba8, rgba16f or rgba32f
+  Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
   bool operator==(const Pipeline&) const = default;
 };
 
 /// How a frame is computed. Never changes a pixel.
 struct Execution {
-  int threads = 0;            ///< 0: one a core; at most 1024
-  int tile = 64;              ///< pixels a side: 8, 16, 32, 48 or 64
+  int threads = 0;                 ///< 0: one a core; at most 1024
+  int tile = 64;                   ///< pixels a side: 8, 16, 32, 48 or 64
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
-  bool geometry_culling = true;    ///< cluster frustum, cone and hierarchical-depth culls
-  bool shuffle_tiles = false;      ///< tiles in a scrambled order; for tests of determinism
+  bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
+  bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
 };
 
 /// Throws Error(usage) naming the field and its range.

@@ -10,7 +10,8 @@ namespace {
 using Names = std::span<const std::string_view>;
 
 // Spelling of enumerators, in the order of their values.
-constexpr std::string_view kDepthFuncs[] = {"never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"};
+constexpr std::string_view kDepthFuncs[] = {"never",   "less",     "equal",  "lequal",
+                                            "greater", "notequal", "gequal", "always"};
 constexpr std::string_view kCullFaces[] = {"none", "front", "back", "front_and_back"};
 constexpr std::string_view kFrontFaces[] = {"ccw", "cw"};
 constexpr std::string_view kClipOrigins[] = {"lower_left", "upper_left"};
@@ -22,13 +23,16 @@ constexpr std::string_view kHalfRounds[] = {"toward_zero", "nearest"};
 constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic"};
 constexpr std::string_view kOrders[] = {"factored", "separate"};
 
-constexpr std::string_view kRootKeys[] = {"version", "preset", "width", "height", "geometry", "gbuffer", "light_model", "strategy", "target"};
-constexpr std::string_view kGeometryKeys[] = {"viewport", "depth_near", "depth_far", "depth_func", "clear_depth", "depth_clamp",
-                                              "cull_face", "front_face", "clip_origin", "clip_depth", "provoking"};
+constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",    "height", "geometry",
+                                          "gbuffer", "light_model", "strategy", "target"};
+constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "depth_far", "depth_func",
+                                              "clear_depth", "depth_clamp", "cull_face", "front_face",
+                                              "clip_origin", "clip_depth",  "provoking"};
 constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
 constexpr std::string_view kGBufferKeys[] = {"position", "normal", "albedo", "uv", "position_from_depth", "half_round"};
 constexpr std::string_view kPlaneKeys[] = {"format", "interpolation"};
-constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess", "specular_color", "falloff", "order", "alpha_from_albedo"};
+constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess",        "specular_color",
+                                                "falloff",     "order",           "alpha_from_albedo"};
 
 enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel };
 constexpr std::array<json::ObjectKeys, 6> kObjects{{{"", kRootKeys},
@@ -120,7 +124,7 @@ void write_light_model(std::string& out, const LightModel& m) {
 
 // --- Reading -------------------------------------------------------------------------------------------------------
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;
 
 void read(const json::Node& node, bool& value) { value = node.boolean(); }
 
@@ -133,7 +137,7 @@ void read_flag(const json::Node& object, std::string_view key, bool& value) {
   if (const auto node = object.find(key)) read(*node, value);
 }
 
-void read_real(const json::Node& object, std::string_view key, float& value, float least, float most) {
+void read_real(const json::Node& object, std::string_view key, float& value, double least, double most) {
   if (const auto node = object.find(key)) value = node->real(least, most);
 }
 
@@ -169,7 +173,8 @@ void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& pla
   const auto node = gbuffer.find(key);
   if (!node) return;
   node->check_keys(kObjects[kPlane]);
-  if (const auto format = node->find("format")) plane.format = read_format(*format, Names(kFormats).first(key == "albedo" ? 4 : 3));
+  if (const auto format = node->find("format"))
+    plane.format = read_format(*format, Names(kFormats).first(key == "albedo" ? 4 : 3));
   read_choice(*node, "interpolation", plane.interpolation, kInterpolations);
 }
 
@@ -233,7 +238,8 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   read_choice(node, "strategy", p.strategy, kStrategies);
   if (const auto target = node.find("target")) p.target = read_format(*target, kTargets);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
-    node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions", "give them different values");
+    node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions",
+              "give them different values");
   return p;
 }
 

@@ -16,10 +16,10 @@ std::optional<Type> type_from_name(std::string_view name) {
     Type type;
   };
   constexpr Spelling kSpellings[] = {
-      {"char", Type::int8},     {"uchar", Type::uint8},  {"short", Type::int16},    {"ushort", Type::uint16},
-      {"int", Type::int32},     {"uint", Type::uint32},  {"float", Type::float32},  {"double", Type::float64},
-      {"int8", Type::int8},     {"uint8", Type::uint8},  {"int16", Type::int16},    {"uint16", Type::uint16},
-      {"int32", Type::int32},   {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
+      {"char", Type::int8},   {"uchar", Type::uint8},   {"short", Type::int16},     {"ushort", Type::uint16},
+      {"int", Type::int32},   {"uint", Type::uint32},   {"float", Type::float32},   {"double", Type::float64},
+      {"int8", Type::int8},   {"uint8", Type::uint8},   {"int16", Type::int16},     {"uint16", Type::uint16},
+      {"int32", Type::int32}, {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
   for (const Spelling& s : kSpellings)
     if (s.name == name) return s.type;
   return std::nullopt;
@@ -41,9 +41,13 @@ class HeaderReader {
       const std::string_view keyword = words_[0];
       if (keyword == "comment" || keyword == "obj_info") continue;
       if (keyword == "end_header" && words_.size() == 1) break;
-      if (keyword == "element") read_element();
-      else if (keyword == "property") read_property();
-      else fail("'" + std::string(keyword.substr(0, 40)) + "' is no keyword of a PLY header", "comment, obj_info, element, property or end_header");
+      if (keyword == "element")
+        read_element();
+      else if (keyword == "property")
+        read_property();
+      else
+        fail("'" + std::string(keyword.substr(0, 40)) + "' is no keyword of a PLY header",
+             "comment, obj_info, element, property or end_header");
     }
     header_.bytes = position_;
     header_.lines = line_;
@@ -71,11 +75,16 @@ class HeaderReader {
   }
 
   void read_format() {
-    if (words_.size() != 3 || words_[0] != "format" || words_[2] != "1.0") fail("the second line is no format", "'format ascii 1.0' or alike");
-    if (words_[1] == "ascii") header_.encoding = Encoding::ascii;
-    else if (words_[1] == "binary_little_endian") header_.encoding = Encoding::little_endian;
-    else if (words_[1] == "binary_big_endian") header_.encoding = Encoding::big_endian;
-    else fail("the format is unknown", "ascii, binary_little_endian or binary_big_endian");
+    if (words_.size() != 3 || words_[0] != "format" || words_[2] != "1.0")
+      fail("the second line is no format", "'format ascii 1.0' or alike");
+    if (words_[1] == "ascii")
+      header_.encoding = Encoding::ascii;
+    else if (words_[1] == "binary_little_endian")
+      header_.encoding = Encoding::little_endian;
+    else if (words_[1] == "binary_big_endian")
+      header_.encoding = Encoding::big_endian;
+    else
+      fail("the format is unknown", "ascii, binary_little_endian or binary_big_endian");
   }
 
   void read_element() {
@@ -92,7 +101,8 @@ class HeaderReader {
   void read_property() {
     if (header_.elements.empty()) fail("a property before any element", "an element first");
     const bool list = words_.size() == 5 && words_[1] == "list";
-    if (!list && words_.size() != 3) fail("a property has a type and a name", "'property float x' or 'property list uchar int vertex_indices'");
+    if (!list && words_.size() != 3)
+      fail("a property has a type and a name", "'property float x' or 'property list uchar int vertex_indices'");
     Property property{std::string(words_.back()), type(words_[words_.size() - 2]), std::nullopt};
     if (list) {
       property.count = type(words_[2]);

@@ -60,9 +60,11 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits) {
     const Bytes text = read_user_file(spec, limits.json_bytes);
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits);
   } else if (is_geometry_name(spec)) {
-    scene = scene_of(mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));
+    scene = scene_of(
+        mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));
   } else {
-    throw Error(ErrorKind::bad_input, spec, "the ending names no scene or geometry format", "builtin:NAME, .json, .ply or .ply.gz");
+    throw Error(ErrorKind::bad_input, spec, "the ending names no scene or geometry format",
+                "builtin:NAME, .json, .ply or .ply.gz");
   }
   scene.spec = name_without_folder(spec);
   validate(scene, limits);

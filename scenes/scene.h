@@ -1,10 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <string>
-#include <vector>
-
 #include <glm/mat4x3.hpp>
 #include <glm/vec4.hpp>
+#include <string>
+#include <vector>
 
 #include "scenes/camera.h"
 #include "scenes/light.h"
@@ -19,8 +18,8 @@ struct Material {
 
 /// One drawing of a mesh. Geometry is stored once however often it is drawn.
 struct Instance {
-  uint32_t mesh = 0;      ///< index into Scene::meshes
-  uint32_t material = 0;  ///< index into Scene::materials
+  uint32_t mesh = 0;                    ///< index into Scene::meshes
+  uint32_t material = 0;                ///< index into Scene::materials
   glm::mat4x3 world_from_object{1.0f};  ///< affine: 4 columns of 3
 };
 
@@ -32,7 +31,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   Camera camera;
-  glm::vec4 clear{0.0f};  ///< linear RGBA of the target where nothing is drawn
+  glm::vec4 clear{0.0f};      ///< linear RGBA of the target where nothing is drawn
   std::string pipeline_text;  ///< JSON of the scene file's "pipeline", for pipeline_from_json(); empty if it has none
 
   uint64_t triangle_count() const;  ///< over all instances
@@ -51,8 +50,8 @@ struct SceneLimits {
 void validate(const Scene& scene, const SceneLimits& limits = {});
 
 /// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
-/// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of lights.
-/// Errors: bad_input with file and place; limit; io for a file that cannot be read.
+/// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of
+/// lights. Errors: bad_input with file and place; limit; io for a file that cannot be read.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {});
 
 /// SHA-256 over the loaded values (not over file bytes): meshes, materials, instances, lights, camera, clear colour.

@@ -10,7 +10,8 @@ namespace trueshade {
 
 Bounds bounds_of(const Scene& scene) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<glm::dvec3> low(scene.meshes.size(), glm::dvec3(kInfinity)), high(scene.meshes.size(), glm::dvec3(-kInfinity));
+  std::vector<glm::dvec3> low(scene.meshes.size(), glm::dvec3(kInfinity)),
+      high(scene.meshes.size(), glm::dvec3(-kInfinity));
   for (size_t m = 0; m < scene.meshes.size(); ++m)
     for (int k = 0; k < 3; ++k)
       for (const float p : scene.meshes[m].position[size_t(k)]) {
@@ -57,7 +58,8 @@ void add_ring(std::vector<Light>& lights, const LightRing& ring) {
     const double bright = 1.0 - ring.noise * random.real(), rise = 0.5 * ring.radius * ring.noise * random.real();
     Light light;
     light.position = glm::vec3(ring.centre + glm::dvec3(ring.radius * cosine(angle), rise, ring.radius * sine(angle)));
-    light.color = glm::vec3((glm::dvec3(ring.colors[first]) * (1.0 - part) + glm::dvec3(ring.colors[second]) * part) * (ring.intensity * bright));
+    light.color = glm::vec3((glm::dvec3(ring.colors[first]) * (1.0 - part) + glm::dvec3(ring.colors[second]) * part) *
+                            (ring.intensity * bright));
     light.range = ring.range;
     light.attenuation = ring.attenuation;
     lights.push_back(light);

@@ -24,7 +24,7 @@ struct LightRing {
   double radius = 1.0;
   std::span<const glm::vec3> colors;  ///< a ramp around the circle, from the first colour back to it
   double intensity = 1.0;
-  double noise = 0.0;                 ///< [0, 1]: share of brightness, and of `radius` / 2 in height, that is random
+  double noise = 0.0;  ///< [0, 1]: share of brightness, and of `radius` / 2 in height, that is random
   uint64_t seed = 0;
   float range = std::numeric_limits<float>::infinity();
   glm::vec3 attenuation{1.0f, 0.0f, 0.0f};

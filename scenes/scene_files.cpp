@@ -1,17 +1,17 @@
 #include "scenes/scene_files.h"
 
+#include <fcntl.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-
-#include <fcntl.h>
-#include <linux/openat2.h>
-#include <sys/stat.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include "core/error.h"
 
@@ -38,10 +38,12 @@ class Descriptor {
 Bytes content(int fd, uint64_t limit, const std::string& where) {
   struct stat status {};
   if (fstat(fd, &status) != 0) throw Error(ErrorKind::io, where, std::strerror(errno), "a file that can be read");
-  if (!S_ISREG(status.st_mode)) throw Error(ErrorKind::bad_input, where, "this is no regular file", "a file, no folder, pipe or device");
+  if (!S_ISREG(status.st_mode))
+    throw Error(ErrorKind::bad_input, where, "this is no regular file", "a file, no folder, pipe or device");
   const uint64_t size = uint64_t(status.st_size);
   if (size > limit)
-    throw Error(ErrorKind::limit, where, std::to_string(size) + " bytes are over the limit", "at most " + std::to_string(limit) + " bytes");
+    throw Error(ErrorKind::limit, where, std::to_string(size) + " bytes are over the limit",
+                "at most " + std::to_string(limit) + " bytes");
   Bytes bytes(size);
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t got = read(fd, bytes.data() + done, bytes.size() - done);
@@ -77,8 +79,10 @@ bool climbs_out(std::string_view path) {
   for (size_t start = 0; start <= path.size();) {
     const size_t end = std::min(path.find('/', start), path.size());
     const std::string_view step = path.substr(start, end - start);
-    if (step == "..") --depth;
-    else if (!step.empty() && step != ".") ++depth;
+    if (step == "..")
+      --depth;
+    else if (!step.empty() && step != ".")
+      ++depth;
     if (depth < 0) return true;
     start = end + 1;
   }
@@ -102,7 +106,8 @@ std::string relative_path_from_uri(std::string_view uri, std::string_view where)
   for (size_t i = 0; i < uri.size(); ++i) {
     char c = uri[i];
     if (c == '%') {
-      const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1, low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
+      const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1,
+                low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
       if (high < 0 || low < 0) fail("the path has a % without two hexadecimal digits");
       c = char(high * 16 + low);
       i += 2;
@@ -120,7 +125,9 @@ std::string relative_path_from_uri(std::string_view uri, std::string_view where)
 
 SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_path)) {
   folder_ = open(name_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-  if (folder_ < 0) throw Error(ErrorKind::io, scene_path, std::string("its folder: ") + std::strerror(errno), "a folder that can be read");
+  if (folder_ < 0)
+    throw Error(ErrorKind::io, scene_path, std::string("its folder: ") + std::strerror(errno),
+                "a folder that can be read");
 }
 
 SceneFolder::~SceneFolder() { close(folder_); }

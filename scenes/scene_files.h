@@ -13,8 +13,9 @@ using Bytes = std::vector<uint8_t>;
 /// Error(io) if it cannot be read, Error(bad_input) if it is no regular file, Error(limit) over `limit` bytes.
 Bytes read_user_file(const std::string& path, uint64_t limit);
 
-/// Path that a URI in a scene file stands for: percent-decoded and relative. Error(bad_input) behind `where` for a scheme,
-/// an absolute path, a backslash, NUL or other control character, a bad escape, or more `..` than folders before it.
+/// Path that a URI in a scene file stands for: percent-decoded and relative. Error(bad_input) behind `where` for a
+/// scheme, an absolute path, a backslash, NUL or other control character, a bad escape, or more `..` than folders
+/// before it.
 std::string relative_path_from_uri(std::string_view uri, std::string_view where);
 
 /// The folder of a scene file, held open: what is read lies beneath it, symbolic links followed.
@@ -25,8 +26,8 @@ class SceneFolder {
   SceneFolder(const SceneFolder&) = delete;
   SceneFolder& operator=(const SceneFolder&) = delete;
 
-  /// As read_user_file(), of `relative` (from relative_path_from_uri) beneath the folder; also Error(bad_input) if a link
-  /// leads out. `portable`: by resolved names instead of openat2(2), as on kernels before 5.6.
+  /// As read_user_file(), of `relative` (from relative_path_from_uri) beneath the folder; also Error(bad_input) if a
+  /// link leads out. `portable`: by resolved names instead of openat2(2), as on kernels before 5.6.
   Bytes read(const std::string& relative, uint64_t limit, std::string_view where, bool portable = false) const;
 
  private:

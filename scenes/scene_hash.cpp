@@ -24,7 +24,8 @@ class SceneHasher {
     uint32_t bits[1024];
     for (size_t first = 0; first < values.size(); first += std::size(bits)) {
       const size_t n = std::min(std::size(bits), values.size() - first);
-      for (size_t i = 0; i < n; ++i) bits[i] = std::bit_cast<uint32_t>(values[first + i] == 0.0f ? 0.0f : values[first + i]);
+      for (size_t i = 0; i < n; ++i)
+        bits[i] = std::bit_cast<uint32_t>(values[first + i] == 0.0f ? 0.0f : values[first + i]);
       sha_.update(bits, n * sizeof bits[0]);
     }
   }

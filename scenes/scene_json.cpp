@@ -1,10 +1,9 @@
 #include "scenes/scene_json.h"
 
 #include <array>
+#include <glm/mat3x3.hpp>
 #include <map>
 #include <tuple>
-
-#include <glm/mat3x3.hpp>
 
 #include "core/error.h"
 #include "scenes/builtin_scenes.h"
@@ -19,21 +18,24 @@
 namespace trueshade {
 namespace {
 
-constexpr float kLargest = 1e18f;
+constexpr double kLargest = 1e18;
 constexpr double kRadPerDeg = kPi / 180.0;
-constexpr float kSmallest = 1e-30f;  // of lengths that must be above 0
+constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kRootKeys[] = {"version", "camera", "clear", "materials", "objects", "lights", "pipeline"};
-constexpr std::string_view kCameraKeys[] = {"eye", "target", "up", "fov_deg", "fov_axis", "near", "far", "clip_from_world"};
+constexpr std::string_view kCameraKeys[] = {"eye",      "target", "up",  "fov_deg",
+                                            "fov_axis", "near",   "far", "clip_from_world"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
 constexpr std::string_view kMaterialKeys[] = {"name", "color"};
-constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",  "color",       "material",
+constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",      "color", "material",
                                             "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity"};
 constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity"};
 constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation"};
-constexpr std::string_view kSpotKeys[] = {"type", "position", "direction", "color", "intensity", "range", "attenuation", "cone_deg", "penumbra_deg"};
-constexpr std::string_view kRingKeys[] = {"type", "count", "center", "radius", "height", "colors", "noise", "seed", "intensity", "range", "attenuation"};
+constexpr std::string_view kSpotKeys[] = {"type",  "position",    "direction", "color",       "intensity",
+                                          "range", "attenuation", "cone_deg",  "penumbra_deg"};
+constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
+                                          "noise", "seed",  "intensity", "range",  "attenuation"};
 
 enum Object : size_t { kRoot, kCamera, kMaterial, kObject, kAmbient, kDirectional, kPoint, kSpot, kRing };
 constexpr std::array<json::ObjectKeys, 9> kObjects{{{"", kRootKeys},
@@ -53,7 +55,7 @@ glm::vec3 vec3_or(const json::Node& node, Key key, const glm::vec3& absent) {
   return found ? found->vec3(-kLargest, kLargest) : absent;
 }
 
-float real_or(const json::Node& node, Key key, float absent, float least, float most) {
+float real_or(const json::Node& node, Key key, float absent, double least, double most) {
   const auto found = node.find(key);
   return found ? found->real(least, most) : absent;
 }
@@ -104,7 +106,8 @@ glm::dmat3 read_rotation(const json::Node& object) {
     double q[4];
     for (size_t i = 0; i < 4; ++i) q[i] = quaternion->element(i).number(-2.0, 2.0);
     const double length = std::sqrt(((q[0] * q[0] + q[1] * q[1]) + q[2] * q[2]) + q[3] * q[3]);
-    if (!(std::fabs(length - 1.0) <= 0.00769)) quaternion->fail("the quaternion is not of unit length", "x, y, z, w of length 1");
+    if (!(std::fabs(length - 1.0) <= 0.00769))
+      quaternion->fail("the quaternion is not of unit length", "x, y, z, w of length 1");
     return rotation_of(q[0] / length, q[1] / length, q[2] / length, q[3] / length);
   }
   glm::dmat3 m(1.0);
@@ -125,10 +128,12 @@ glm::dmat3 read_rotation(const json::Node& object) {
 glm::mat4x3 read_transform(const json::Node& object) {
   glm::dvec3 scale(1.0);
   if (const auto node = object.find("scale"))
-    scale = node->is_array() ? glm::dvec3(node->vec3(-kLargest, kLargest)) : glm::dvec3(node->real(-kLargest, kLargest));
+    scale =
+        node->is_array() ? glm::dvec3(node->vec3(-kLargest, kLargest)) : glm::dvec3(node->real(-kLargest, kLargest));
   const glm::dmat3 rotation = read_rotation(object);
   const glm::vec3 position = vec3_or(object, "position", glm::vec3(0.0f));
-  return glm::mat4x3(glm::vec3(rotation[0] * scale.x), glm::vec3(rotation[1] * scale.y), glm::vec3(rotation[2] * scale.z), position);
+  return glm::mat4x3(glm::vec3(rotation[0] * scale.x), glm::vec3(rotation[1] * scale.y),
+                     glm::vec3(rotation[2] * scale.z), position);
 }
 
 /// Adds objects to a scene; each geometry file, generated mesh and colour once.
@@ -143,7 +148,8 @@ class ObjectReader {
       const json::Node node = list.element(i);
       node.check_keys(kObjects[kMaterial]);
       const std::string& name = node.member("name").string();
-      if (!named_.emplace(name, uint32_t(scene_.materials.size())).second) node.fail("a material of this name exists", "another name");
+      if (!named_.emplace(name, uint32_t(scene_.materials.size())).second)
+        node.fail("a material of this name exists", "another name");
       scene_.materials.push_back({name, node.member("color").color()});
     }
   }
@@ -160,7 +166,8 @@ class ObjectReader {
  private:
   uint32_t mesh(const json::Node& node) {
     const auto geometry = node.find("geometry"), generated = node.find("mesh"), normals = node.find("normals");
-    if (geometry.has_value() == generated.has_value()) node.fail("an object has 'geometry' or 'mesh', one of them", "name a file or a mesh of ours");
+    if (geometry.has_value() == generated.has_value())
+      node.fail("an object has 'geometry' or 'mesh', one of them", "name a file or a mesh of ours");
     if (generated) {
       if (normals) normals->fail("a mesh of ours has normals", "remove it");
       return generated_mesh(*generated);
@@ -199,7 +206,8 @@ class ObjectReader {
       return found->second;
     }
     const glm::vec4 rgba = color ? color->color() : glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
-    const auto [found, is_new] = colored_.emplace(std::tuple(rgba.x, rgba.y, rgba.z, rgba.w), uint32_t(scene_.materials.size()));
+    const auto [found, is_new] =
+        colored_.emplace(std::tuple(rgba.x, rgba.y, rgba.z, rgba.w), uint32_t(scene_.materials.size()));
     if (is_new) scene_.materials.push_back({"", rgba});
     return found->second;
   }
@@ -242,7 +250,8 @@ Light read_light(const json::Node& node, LightType type) {
   Light light;
   light.type = type;
   light.color = read_color(node);
-  if (type == LightType::directional || type == LightType::spot) light.direction = read_direction(node.member("direction"));
+  if (type == LightType::directional || type == LightType::spot)
+    light.direction = read_direction(node.member("direction"));
   if (type == LightType::ambient || type == LightType::directional) return light;
   light.position = node.member("position").vec3(-kLargest, kLargest);
   light.range = read_range(node);
@@ -286,8 +295,10 @@ void read_lights(const json::Node& list, std::vector<Light>& lights, const Scene
     const json::Node node = list.element(i);
     const size_t type = node.member("type").choice(kTypes);
     node.check_keys(kObjects[kAmbient + type]);
-    if (kAmbient + type == kRing) read_ring(node, lights, limits);
-    else lights.push_back(read_light(node, LightType(type)));
+    if (kAmbient + type == kRing)
+      read_ring(node, lights, limits);
+    else
+      lights.push_back(read_light(node, LightType(type)));
   }
 }
 
@@ -302,7 +313,8 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   root.member("version").integer(1, 1);
   Scene scene;
   if (const auto pipeline = root.find("pipeline")) {
-    pipeline_from_node(*pipeline, presets().front().pipeline);  // bad values are refused here, where the place is known
+    pipeline_from_node(*pipeline,
+                       presets().front().pipeline);  // bad values are refused here, where the place is known
     scene.pipeline_text = json::text_of(pipeline->value());
   }
   if (const auto clear = root.find("clear")) scene.clear = clear->color();

@@ -47,8 +47,8 @@ Mesh plane_mesh(int quads) {
 }
 
 Mesh sphere_mesh(int n) {
-  // The octahedron unfolds to a square of 2n x 2n quads; each point of the border meets its mirror image on the same side,
-  // and the four corners meet in one.
+  // The octahedron unfolds to a square of 2n x 2n quads; each point of the border meets its mirror image on the same
+  // side, and the four corners meet in one.
   Mesh mesh;
   mesh.name = "sphere";
   const int side = 2 * n + 1;

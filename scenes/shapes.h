@@ -1,15 +1,15 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <string>
-
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "scenes/mesh.h"
 
 // Meshes of the built-in scenes and of scene files' generators. Computed in double and rounded once to float; triangles
-// counter-clockwise seen from outside, in runs of neighbours that share at most 64 vertices (a cluster of the rasterizer).
+// counter-clockwise seen from outside, in runs of neighbours that share at most 64 vertices (a cluster of the
+// rasterizer).
 namespace trueshade {
 
 /// Quads along one side of a patch: 8 x 8 vertices, 98 triangles.

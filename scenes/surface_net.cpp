@@ -14,8 +14,12 @@ constexpr int kBlock = 4;  // nodes along a side of a block that is skipped toge
 class Net {
  public:
   Net(const Field& field, const glm::dvec3& low, const glm::ivec3& cells, double step)
-      : field_(field), low_(low), nodes_(cells + glm::ivec3(1)), step_(step),
-        value_(size_t(nodes_.x) * size_t(nodes_.y) * size_t(nodes_.z), 1.0f), vertex_(value_.size(), kNone) {}
+      : field_(field),
+        low_(low),
+        nodes_(cells + glm::ivec3(1)),
+        step_(step),
+        value_(size_t(nodes_.x) * size_t(nodes_.y) * size_t(nodes_.z), 1.0f),
+        vertex_(value_.size(), kNone) {}
 
   Mesh build() {
     sample();
@@ -32,7 +36,9 @@ class Net {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  size_t at(const glm::ivec3& n) const { return (size_t(n.z) * size_t(nodes_.y) + size_t(n.y)) * size_t(nodes_.x) + size_t(n.x); }
+  size_t at(const glm::ivec3& n) const {
+    return (size_t(n.z) * size_t(nodes_.y) + size_t(n.y)) * size_t(nodes_.x) + size_t(n.x);
+  }
   glm::dvec3 place(const glm::ivec3& n) const { return low_ + glm::dvec3(n) * step_; }
 
   /// Field values at the nodes. A block whose middle is farther from the surface than its corners keeps one sign.
@@ -75,7 +81,7 @@ class Net {
     const double slope2 = dot(slope, slope);
     if (slope2 > 0.0) p -= slope * (field_(p) / slope2);
     vertex_[at(cell)] = uint32_t(mesh_.vertex_count());
-    add_vertex(mesh_, p, unit(gradient(p)));
+    add_vertex(mesh_, p, unit(slope));  // the step is far shorter than the gradient takes to turn
   }
 
   glm::dvec3 gradient(const glm::dvec3& p) const {
@@ -102,8 +108,10 @@ class Net {
     uint32_t q[4] = {vertex_[at(node - s - t)], vertex_[at(node - t)], vertex_[at(node)], vertex_[at(node - s)]};
     if (!starts_inside) std::swap(q[1], q[3]);
     const bool cut_02 = distance2(q[0], q[2]) <= distance2(q[1], q[3]);
-    if (cut_02) add_quad(mesh_, q[0], q[1], q[2], q[3]);
-    else add_quad(mesh_, q[1], q[2], q[3], q[0]);
+    if (cut_02)
+      add_quad(mesh_, q[0], q[1], q[2], q[3]);
+    else
+      add_quad(mesh_, q[1], q[2], q[3], q[0]);
   }
 
   double distance2(uint32_t a, uint32_t b) const {

@@ -1,10 +1,9 @@
 #pragma once
 #include <cmath>
-
 #include <glm/vec3.hpp>
 
-// Angles and unit vectors by IEEE operations alone: libm's sin and cos differ between processors of one machine type, and
-// a scene made with them would have one hash per library. docs/arithmetic.md, section 1; tests/scenes/trig.cpp.
+// Angles and unit vectors by IEEE operations alone: libm's sin and cos differ between processors of one machine type,
+// and a scene made with them would have one hash per library. docs/arithmetic.md, section 1; tests/scenes/trig.cpp.
 namespace trueshade {
 
 inline constexpr double kPi = 3.14159265358979323846;

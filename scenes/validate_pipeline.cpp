@@ -26,7 +26,8 @@ void require_enumerator(Enum value, Enum last, const char* field) {
 }
 
 void require_format(Format format, std::initializer_list<Format> allowed, const char* field, const char* range) {
-  require(std::find(allowed.begin(), allowed.end(), format) != allowed.end(), field, std::string(info(format).name), range);
+  require(std::find(allowed.begin(), allowed.end(), format) != allowed.end(), field, std::string(info(format).name),
+          range);
 }
 
 void check_geometry(const GeometryState& g) {
@@ -45,11 +46,12 @@ void check_geometry(const GeometryState& g) {
 
 void check_gbuffer(const GBufferState& g) {
   constexpr const char* kFloats = "rgba32f, rgba16f or rgb16f";
-  require_format(g.position.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.position.format", kFloats);
+  require_format(g.position.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.position.format",
+                 kFloats);
   require_format(g.normal.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.normal.format", kFloats);
   require_format(g.uv.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.uv.format", kFloats);
-  require_format(g.albedo.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8}, "gbuffer.albedo.format",
-                 "rgba32f, rgba16f, rgb16f or rgba8");
+  require_format(g.albedo.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8},
+                 "gbuffer.albedo.format", "rgba32f, rgba16f, rgb16f or rgba8");
   for (const PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})
     require_enumerator(plane->interpolation, Interpolation::noperspective, "gbuffer: interpolation");
   require_enumerator(g.half_round, HalfRound::nearest, "gbuffer.half_round");
@@ -57,7 +59,8 @@ void check_gbuffer(const GBufferState& g) {
 
 void check_light_model(const LightModel& m) {
   require_real(m.shininess, 0.0f, 1e18f, "light_model.shininess", "0 to 1e18");
-  for (int k = 0; k < 3; ++k) require_real(m.specular_color[k], 0.0f, 1e18f, "light_model.specular_color", "each 0 to 1e18");
+  for (int k = 0; k < 3; ++k)
+    require_real(m.specular_color[k], 0.0f, 1e18f, "light_model.specular_color", "each 0 to 1e18");
   require_enumerator(m.falloff, Falloff::quadratic, "light_model.falloff");
   require_enumerator(m.order, TermOrder::separate, "light_model.order");
 }
@@ -71,7 +74,8 @@ void validate(const Pipeline& pipeline) {
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
-  require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target", "rgba8, rgba16f or rgba32f");
+  require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target",
+                 "rgba8, rgba16f or rgba32f");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

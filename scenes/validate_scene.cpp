@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
@@ -10,11 +11,15 @@ namespace {
 
 constexpr float kLargest = 1e18f;  // squares of lengths stay finite in float32
 
-/// One part of a scene being checked, named as its errors name it: `builtin:city: light 3`.
+/// One part of a scene being checked. Its name, such as `builtin:city: light 3`, is made only for an error: there may
+/// be millions of parts.
 struct Part {
-  std::string where;
+  const std::string& spec;
+  const char* kind;
+  std::optional<size_t> index;
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const {
-    throw Error(ErrorKind::bad_input, where, reason, remedy);
+    const std::string number = index ? " " + std::to_string(*index) : std::string();
+    throw Error(ErrorKind::bad_input, spec + ": " + kind + number, reason, remedy);
   }
   void require(bool holds, const char* reason, const char* remedy) const {
     if (!holds) fail(reason, remedy);
@@ -37,7 +42,8 @@ void check_mesh(const Mesh& mesh, const Part& part) {
     for (const std::vector<float>& stream : streams) {
       if (optional && streams[0].empty() && stream.empty()) continue;
       if (stream.size() != count) part.fail(std::string(name) + " streams differ in length", "one value a vertex");
-      if (!all_within(stream, kLargest)) part.fail(std::string(name) + " has a value that is not finite or over 1e18", "finite numbers");
+      if (!all_within(stream, kLargest))
+        part.fail(std::string(name) + " has a value that is not finite or over 1e18", "finite numbers");
     }
   };
   check(mesh.position, false, "position");
@@ -46,7 +52,8 @@ void check_mesh(const Mesh& mesh, const Part& part) {
   check(mesh.color, true, "color");
   part.require(mesh.indices.size() % 3 == 0, "the number of indices is no multiple of 3", "3 a triangle");
   for (const uint32_t index : mesh.indices)
-    if (index >= count) part.fail("index " + std::to_string(index) + " is beyond the vertices", "below " + std::to_string(count));
+    if (index >= count)
+      part.fail("index " + std::to_string(index) + " is beyond the vertices", "below " + std::to_string(count));
 }
 
 bool is_unit(const glm::vec3& v) {
@@ -55,14 +62,17 @@ bool is_unit(const glm::vec3& v) {
 }
 
 void check_light(const Light& light, const Part& part) {
-  part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number", "each channel in [0, 1e18]");
+  part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number",
+               "each channel in [0, 1e18]");
   if (light.type == LightType::ambient) return;
   if (light.type != LightType::point)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (light.type == LightType::directional) return;
-  part.require(within(light.position, -kLargest, kLargest), "the position is not finite or over 1e18", "finite numbers");
+  part.require(within(light.position, -kLargest, kLargest), "the position is not finite or over 1e18",
+               "finite numbers");
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");
-  part.require(within(light.attenuation, 0.0f, kLargest), "the attenuation is negative, over 1e18 or no number", "each in [0, 1e18]");
+  part.require(within(light.attenuation, 0.0f, kLargest), "the attenuation is negative, over 1e18 or no number",
+               "each in [0, 1e18]");
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
@@ -71,13 +81,14 @@ void check_light(const Light& light, const Part& part) {
 void check_camera(const Camera& camera, const Part& part) {
   part.require(within(camera.eye, -kLargest, kLargest), "the eye is not finite or over 1e18", "finite numbers");
   if (camera.clip_from_world) {
-    part.require(all_within(*camera.clip_from_world, 3e38f), "clip_from_world has a number that is not finite", "16 finite numbers");
+    part.require(all_within(*camera.clip_from_world, 3e38f), "clip_from_world has a number that is not finite",
+                 "16 finite numbers");
     return;
   }
   const float fov = camera.fov_x_rad.value_or(camera.fov_y_rad);
   part.require(fov > 0.0f && fov < 3.1415926f, "the field of view is out of range", "in (0, pi)");
-  part.require(camera.near > 0.0f && camera.far > camera.near && camera.far <= kLargest, "near and far are out of order",
-               "0 < near < far <= 1e18");
+  part.require(camera.near > 0.0f && camera.far > camera.near && camera.far <= kLargest,
+               "near and far are out of order", "0 < near < far <= 1e18");
   part.require(within(camera.target, -kLargest, kLargest) && within(camera.up, -kLargest, kLargest),
                "target or up is not finite or over 1e18", "finite numbers");
   const glm::dvec3 f(camera.target - camera.eye), up(camera.up);
@@ -88,7 +99,8 @@ void check_camera(const Camera& camera, const Part& part) {
 
 void check_instance(const Scene& scene, const Instance& instance, const Part& part) {
   part.require(instance.mesh < scene.meshes.size(), "the mesh index is beyond the meshes", "an existing mesh");
-  part.require(instance.material < scene.materials.size(), "the material index is beyond the materials", "an existing material");
+  part.require(instance.material < scene.materials.size(), "the material index is beyond the materials",
+               "an existing material");
   for (int column = 0; column < 4; ++column)
     part.require(within(instance.world_from_object[column], -kLargest, kLargest),
                  "the transform is not finite or over 1e18", "finite numbers");
@@ -96,26 +108,31 @@ void check_instance(const Scene& scene, const Instance& instance, const Part& pa
 
 void check_limit(const std::string& spec, const char* what, uint64_t count, uint64_t limit) {
   if (count > limit)
-    throw Error(ErrorKind::limit, spec, std::to_string(count) + " " + what + " are over the limit", "at most " + std::to_string(limit));
+    throw Error(ErrorKind::limit, spec, std::to_string(count) + " " + what + " are over the limit",
+                "at most " + std::to_string(limit));
 }
 
-bool is_color(const glm::vec4& color) { return within(glm::vec3(color), 0.0f, kLargest) && color.w >= 0.0f && color.w <= 1.0f; }
+bool is_color(const glm::vec4& color) {
+  return within(glm::vec3(color), 0.0f, kLargest) && color.w >= 0.0f && color.w <= 1.0f;
+}
 
 }  // namespace
 
 void validate(const Scene& scene, const SceneLimits& limits) {
   const std::string& spec = scene.spec;
-  const auto part = [&](const char* kind, size_t index) { return Part{spec + ": " + kind + " " + std::to_string(index)}; };
+  const auto part = [&](const char* kind, size_t index) { return Part{spec, kind, index}; };
   check_limit(spec, "lights", scene.lights.size(), limits.lights);
   check_limit(spec, "instances", scene.instances.size(), limits.instances);
   for (size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], part("mesh", i));
   for (size_t i = 0; i < scene.materials.size(); ++i)
-    part("material", i).require(is_color(scene.materials[i].base_color), "the base colour is out of range",
-                                "RGB in [0, 1e18], alpha in [0, 1]");
+    part("material", i)
+        .require(is_color(scene.materials[i].base_color), "the base colour is out of range",
+                 "RGB in [0, 1e18], alpha in [0, 1]");
   for (size_t i = 0; i < scene.instances.size(); ++i) check_instance(scene, scene.instances[i], part("instance", i));
   for (size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], part("light", i));
-  check_camera(scene.camera, Part{spec + ": camera"});
-  Part{spec + ": clear"}.require(is_color(scene.clear), "the colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  check_camera(scene.camera, Part{spec, "camera", {}});
+  Part{spec, "clear", {}}.require(is_color(scene.clear), "the colour is out of range",
+                                  "RGB in [0, 1e18], alpha in [0, 1]");
 }
 
 }  // namespace trueshade

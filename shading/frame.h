@@ -68,6 +68,6 @@ using Progress = std::function<void(int done, int total)>;
 Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {}, const Progress& progress = {});
 Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},
-                   std::span<const std::string> aovs = {});
+                   std::span<const std::string> aovs = {}, const Progress& progress = {});
 
 }  // namespace trueshade

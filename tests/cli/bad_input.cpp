@@ -83,7 +83,8 @@ TEST_CASE("a bad pipeline file is refused with its place") {
   std::ofstream(folder.path("p.json")) << R"({"version": 1, "geometry": {"depth_func": "lesser"}})";
   check_refused(run_command({"render", "builtin:cornell", "--pipeline", "p.json", "-o", "x.png"}, folder.path("")), 3,
                 "p.json: /geometry/depth_func");
-  check_refused(run_command({"render", "builtin:cornell", "--pipeline", "q.json", "-o", "x.png"}, folder.path("")), 5, "q.json");
+  check_refused(run_command({"render", "builtin:cornell", "--pipeline", "q.json", "-o", "x.png"}, folder.path("")), 5,
+                "q.json");
   CHECK(folder.entries() == std::vector<std::string>{"p.json"});
 }
 
@@ -111,8 +112,8 @@ TEST_CASE("a limit on file sizes ends a write in an error, not by a signal, and 
   const ScratchFolder folder;
   for (const char* name : {"x.png", "x.exr", "x.html"}) {
     std::ofstream(folder.path(name)) << "old";
-    const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "300x300", "-o", name}, folder.path(""),
-                                        "ulimit -f 4");
+    const Outcome outcome =
+        run_command({"render", "builtin:cornell", "--size", "300x300", "-o", name}, folder.path(""), "ulimit -f 4");
     check_refused(outcome, 5, name);
     std::ifstream file(folder.path(name));
     std::string text;
@@ -129,9 +130,10 @@ TEST_CASE("a full disk is exit 5 with nothing torn") {
   const ScratchFolder folder;
   for (const std::string name : {"x.png", "x.exr", "x.html"}) {
     // The folder is listed after the run, inside the mount: a temporary would show up in it.
-    const std::string line = "unshare -m sh -c 'mount -t tmpfs -o size=16k none " + folder.path("") +
-                             " && cd " + folder.path("") + " && \"" TRUESHADE_COMMAND "\" render builtin:cornell --size 500x500 -o " +
-                             name + " 2>/dev/null; code=$?; [ -z \"$(ls -A)\" ] && exit $code; exit 99'";
+    const std::string line = "unshare -m sh -c 'mount -t tmpfs -o size=16k none " + folder.path("") + " && cd " +
+                             folder.path("") +
+                             " && \"" TRUESHADE_COMMAND "\" render builtin:cornell --size 500x500 -o " + name +
+                             " 2>/dev/null; code=$?; [ -z \"$(ls -A)\" ] && exit $code; exit 99'";
     const int status = std::system(line.c_str());
     INFO(name);
     CHECK(WEXITSTATUS(status) == 5);

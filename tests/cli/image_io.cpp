@@ -51,7 +51,8 @@ TEST_CASE("a PNG of a float image is sRGB-encoded with linear alpha") {
   const std::string path = folder.path("srgb.png");
   // GL_RULES row 36, IEC 61966-2-1; then what numbers do not reach.
   const float inf = std::numeric_limits<float>::infinity();
-  const float values[] = {0.5f, 0.18f, 0.75f, 0.0031308f, 0.001f, 0.2140411f, -1.0f, inf, std::nanf(""), 0.0f, 1.0f, 2.0f};
+  const float values[] = {0.5f,  0.18f, 0.75f,         0.0031308f, 0.001f, 0.2140411f,
+                          -1.0f, inf,   std::nanf(""), 0.0f,       1.0f,   2.0f};
   const int codes[] = {188, 118, 225, 10, 3, 127, 0, 255, 0, 0, 255, 255};
   Image image(12, 1, Format::rgba32f);
   for (int x = 0; x < 12; ++x) {
@@ -124,7 +125,8 @@ TEST_CASE("an EXR holds colour and planes under their channel names, bit for bit
   CHECK(png.width == 5);
   CHECK(png.height == 70);
   CHECK(png.channels == std::vector<std::string>{"R uint8", "G uint8", "B uint8", "A uint8"});
-  CHECK(std::count(png.metadata.begin(), png.metadata.end(), Metadata::value_type{"trueshade:scene", "builtin:x"}) == 1);
+  CHECK(std::count(png.metadata.begin(), png.metadata.end(), Metadata::value_type{"trueshade:scene", "builtin:x"}) ==
+        1);
 }
 
 TEST_CASE("equal images are equal files") {

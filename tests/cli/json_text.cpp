@@ -11,9 +11,9 @@ TEST_CASE("strings become JSON whatever bytes they hold") {
   CHECK(json_string("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80") == "\"\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80\"");
   const std::string replaced = "\xef\xbf\xbd";
   CHECK(json_string("\xff") == '"' + replaced + '"');
-  CHECK(json_string("\xc0\x80") == '"' + replaced + replaced + '"');              // overlong
+  CHECK(json_string("\xc0\x80") == '"' + replaced + replaced + '"');                 // overlong
   CHECK(json_string("\xed\xa0\x80") == '"' + replaced + replaced + replaced + '"');  // a surrogate
-  CHECK(json_string("\xe2\x82") == '"' + replaced + replaced + '"');              // cut short
+  CHECK(json_string("\xe2\x82") == '"' + replaced + replaced + '"');                 // cut short
 }
 
 TEST_CASE("numbers become the shortest JSON that gives them back") {

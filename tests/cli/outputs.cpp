@@ -27,7 +27,8 @@ std::string output_of(const std::vector<std::string>& arguments, const std::stri
 
 TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata") {
   const ScratchFolder folder;
-  const std::string line = output_of({"render", "builtin:cornell", "--size", "61x47", "-o", "x.png", "--hash"}, folder.path(""));
+  const std::string line =
+      output_of({"render", "builtin:cornell", "--size", "61x47", "-o", "x.png", "--hash"}, folder.path(""));
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   const auto file = OIIO::ImageInput::open(folder.path("x.png"), &config);
@@ -55,9 +56,10 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
   REQUIRE(file);
   std::vector<std::string> names = file->spec().channelnames;
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"A", "B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "albedo.A", "albedo.B",
-                                          "albedo.G", "albedo.R", "depth.Z", "id.material", "id.object", "light.count",
-                                          "uv.X", "uv.Y"});
+  CHECK(names == std::vector<std::string>{"A",           "B",         "G",           "N.X",      "N.Y",
+                                          "N.Z",         "P.X",       "P.Y",         "P.Z",      "R",
+                                          "albedo.A",    "albedo.B",  "albedo.G",    "albedo.R", "depth.Z",
+                                          "id.material", "id.object", "light.count", "uv.X",     "uv.Y"});
   CHECK(file->spec().channelformat(file->spec().channelindex("R")) == OIIO::TypeDesc::HALF);
   CHECK(file->spec().channelformat(file->spec().channelindex("id.object")) == OIIO::TypeDesc::UINT32);
 }
@@ -71,8 +73,9 @@ TEST_CASE("equal images are equal files, however they were computed") {
                                                       {"--simd", "scalar", "--tile", "48"},
                                                       {"--simd", "scalar", "--no-light-culling"}};
   for (const std::vector<std::string>& way : ways) {
-    std::vector<std::string> arguments = {"render", "builtin:cornell", "--size", "100x75", "-o", "x.exr", "-o", "x.png",
-                                          "--aov", "depth,normal,light.count", "--hash"};
+    std::vector<std::string> arguments = {
+        "render", "builtin:cornell",          "--size", "100x75", "-o", "x.exr", "-o", "x.png",
+        "--aov",  "depth,normal,light.count", "--hash"};
     arguments.insert(arguments.end(), way.begin(), way.end());
     hashes.push_back(output_of(arguments, folder.path("")));
     exr.push_back(contents(folder.path("x.exr")));
@@ -86,11 +89,12 @@ TEST_CASE("equal images are equal files, however they were computed") {
   CHECK(folder.entries() == std::vector<std::string>{"x.exr", "x.png"});
 }
 
-TEST_CASE("--json prints one document with all there is to know") {
-  const std::string json = output_of({"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
+TEST_CASE("the answer in JSON is one document with all there is to know") {
+  const std::string json =
+      output_of({"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
   CHECK(json.find('\n') == json.size() - 1);
-  for (const char* key : {"\"scene\": {", "\"pipeline\": {", "\"execution\": {", "\"stats\": {", "\"hash\": \"sha256:", "\"files\": []",
-                          "\"covered_pixels\": ", "\"threads\": ", "\"name\": \"depth\""})
+  for (const char* key : {"\"scene\": {", "\"pipeline\": {", "\"execution\": {", "\"stats\": {", "\"hash\": \"sha256:",
+                          "\"files\": []", "\"covered_pixels\": ", "\"threads\": ", "\"name\": \"depth\""})
     CHECK(json.find(key) != std::string::npos);
 }
 
@@ -132,7 +136,8 @@ TEST_CASE("help, version and lists go to standard output") {
 
 TEST_CASE("info on a scene says what is in it") {
   const std::string text = output_of({"info", "builtin:cornell"});
-  for (const char* word : {"triangles drawn", "lights", "instances", "sha256:"}) CHECK(text.find(word) != std::string::npos);
+  for (const char* word : {"triangles drawn", "lights", "instances", "sha256:"})
+    CHECK(text.find(word) != std::string::npos);
 }
 
 }  // namespace

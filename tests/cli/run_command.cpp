@@ -24,7 +24,8 @@ std::string contents(const std::string& path) {
 
 }  // namespace
 
-Outcome run_command(const std::vector<std::string>& arguments, const std::string& folder, const std::string& shell_setup) {
+Outcome run_command(const std::vector<std::string>& arguments, const std::string& folder,
+                    const std::string& shell_setup) {
   const ScratchFolder logs;
   std::string line = "exec >" + quoted(logs.path("out")) + " 2>" + quoted(logs.path("err")) + "; cd " + quoted(folder) +
                      " && " + shell_setup + " && exec timeout 60 " + quoted(TRUESHADE_COMMAND);

@@ -10,7 +10,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `trueshade ARGUMENTS...` in `folder` with a time limit of 60 s. `shell_setup`: shell text before it, like `ulimit -f 8`.
+/// Runs `trueshade ARGUMENTS...` in `folder` with a time limit of 60 s. `shell_setup`: shell text before it, like
+/// `ulimit -f 8`.
 Outcome run_command(const std::vector<std::string>& arguments, const std::string& folder = ".",
                     const std::string& shell_setup = "true");
 

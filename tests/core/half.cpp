@@ -14,8 +14,7 @@ constexpr HalfRound kTruncate = HalfRound::toward_zero, kNearest = HalfRound::ne
 /// The value of a finite half by its definition (IEEE 754-2019, 3.4), in doubles, which hold all of them.
 double value_of(uint16_t half) {
   const int exponent = (half >> 10) & 31, fraction = half & 1023;
-  const double magnitude =
-      exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+  const double magnitude = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
   return (half & 0x8000) != 0 ? -magnitude : magnitude;
 }
 

@@ -1,0 +1,252 @@
+// Random frames against the scalar renderer of oracle/: what is seen, where, how deep, and every attribute.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "oracle/scalar_renderer.h"
+#include "tests/catch.hpp"
+#include "tests/raster/window_scene.h"
+
+using namespace trueshade;
+using namespace trueshade::testing;
+
+namespace {
+
+using Random = std::mt19937_64;
+
+double between(Random& random, double low, double high) {
+  return low + (high - low) * double(random() >> 11) * 0x1p-53;
+}
+template <typename T>
+T one_of(Random& random, std::initializer_list<T> values) {
+  return *(values.begin() + random() % values.size());
+}
+
+/// Meshes of random triangles and small grids, drawn by turned, scaled and mirrored instances.
+Scene random_scene(Random& random) {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[1].base_color = {0.5f, 0.25f, 2.0f, 0.75f};
+  for (int m = 0; m < 2; ++m) {
+    Mesh mesh;
+    const auto add_vertex = [&](double x, double y, double z) {
+      const double position[3] = {x, y, z};
+      for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(float(position[k]));
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k].push_back(float(between(random, -1, 1)));
+      for (size_t k = 0; k < 2; ++k) mesh.uv[k].push_back(float(between(random, -3, 5)));
+      for (size_t k = 0; k < 4; ++k) mesh.color[k].push_back(float(between(random, 0, 1)));
+    };
+    if (m == 0) {
+      for (int i = 0; i < 60; ++i)
+        add_vertex(between(random, -2, 2), between(random, -2, 2), between(random, -2, 2)),
+            mesh.indices.push_back(uint32_t(i));
+    } else {
+      for (uint32_t y = 0; y < 6; ++y)
+        for (uint32_t x = 0; x < 6; ++x) {
+          add_vertex(x * 0.6 - 1.5, y * 0.6 - 1.5, between(random, -0.4, 0.4));
+          if (x == 5 || y == 5) continue;
+          const uint32_t corner = y * 6 + x;
+          for (const uint32_t index : {corner, corner + 1, corner + 6, corner + 1, corner + 7, corner + 6})
+            mesh.indices.push_back(index);
+        }
+    }
+    scene.meshes.push_back(std::move(mesh));
+  }
+  for (uint32_t i = 0; i < 5; ++i) {
+    Instance instance;
+    instance.mesh = i % 2;
+    instance.material = uint32_t(random() % 2);
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) instance.world_from_object[c][r] = float(between(random, -1, 1) + (c == r ? 0.5 : 0));
+    for (int r = 0; r < 3; ++r) instance.world_from_object[3][r] = float(between(random, -2, 2));
+    scene.instances.push_back(instance);
+  }
+  scene.camera.eye = {float(between(random, -1, 1)), float(between(random, -1, 1)), float(between(random, 1, 6))};
+  // A perspective of random slant whose elements are floats: x, y and z mixed, w = distance along -z; or orthographic.
+  std::array<float, 16> m{};
+  const bool perspective = random() % 4 != 0;
+  for (size_t c = 0; c < 3; ++c)
+    for (size_t r = 0; r < 2; ++r)
+      m[4 * c + r] = float(between(random, -0.1, 0.1) + (c == r ? (perspective ? 1.3 : 0.4) : 0));
+  const float near = 0.5f, far = 9.0f, eye_z = scene.camera.eye.z;
+  m[10] = perspective ? -(far + near) / (far - near) : -2 / (far - near);
+  m[14] = perspective ? -2 * far * near / (far - near) - eye_z * m[10] : -(far + near) / (far - near) - eye_z * m[10];
+  m[11] = perspective ? -1.0f : 0.0f;
+  m[15] = perspective ? eye_z : 1.0f;
+  scene.camera.clip_from_world = m;
+  return scene;
+}
+
+Pipeline random_pipeline(Random& random) {
+  Pipeline pipeline = window_pipeline();
+  pipeline.width = int(20 + random() % 80);
+  pipeline.height = int(20 + random() % 80);
+  GeometryState& state = pipeline.geometry;
+  if (random() % 2 == 0)
+    state.viewport = {int(random() % 60) - 40, int(random() % 60) - 40, int(1 + random() % 150),
+                      int(1 + random() % 150)};
+  state.depth_near = one_of(random, {0.0f, 0.0f, 0.25f, 1.0f, 0.4f});
+  state.depth_far = one_of(random, {1.0f, 1.0f, 0.75f, 0.0f, 0.4f});
+  state.depth_func = DepthFunc(random() % 8);
+  state.clear_depth = one_of(random, {1.0f, 1.0f, 0.5f, 0.0f});
+  state.depth_clamp = random() % 3 == 0;
+  state.cull_face = CullFace(random() % 4);
+  if (random() % 2 == 0) state.cull_face = CullFace::none;
+  state.front_face = FrontFace(random() % 2);
+  state.clip_origin = ClipOrigin(random() % 2);
+  state.clip_depth = ClipDepth(random() % 2);
+  state.provoking = Provoking(random() % 2);
+  pipeline.gbuffer.position.interpolation = Interpolation(random() % 3);
+  pipeline.gbuffer.normal.interpolation = Interpolation(random() % 3);
+  pipeline.gbuffer.albedo.interpolation = Interpolation(random() % 3);
+  pipeline.gbuffer.uv.interpolation = Interpolation(random() % 3);
+  return pipeline;
+}
+
+struct Tally {
+  uint64_t pixels = 0, covered = 0, uncertain = 0, values = 0;
+};
+
+/// One value of the renderer's against the exact plane: within 1 ulp of the largest vertex value, and in the hull.
+void check_value(const oracle::ValueRange& range, float value) {
+  const double off = std::fabs(double((long double)(value)-range.value));
+  if (off <= range.ulp && double(value) >= range.lo && double(value) <= range.hi) return;
+  CAPTURE(value, double(range.value), range.ulp, range.lo, range.hi);
+  FAIL("an attribute is more than 1 ulp off or outside the range of its vertices");
+}
+
+void check_pixel(const oracle::ScalarFrame& frame, const oracle::Fragment& fragment, const Scene& scene,
+                 const Pipeline& pipeline, const Planes& planes, int x, int y) {
+  const size_t i = planes.index(x, y);
+  const oracle::DrawnTriangle& t = frame.triangles[fragment.window];
+  const double depth_off = std::fabs(double((long double)(planes.depth[i]) - fragment.depth));
+  CAPTURE(planes.depth[i], double(fragment.depth));
+  REQUIRE(depth_off <= std::max(0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth))));
+  if (fragment.depth_bound == 0) REQUIRE(planes.depth[i] == fragment.depth_code);
+  const GBufferState& g = pipeline.gbuffer;
+  for (size_t k = 0; k < 3; ++k) {
+    CAPTURE(k);
+    check_value(value_at(t, oracle::kPosition + k, g.position.interpolation, x, y), planes.position[i][k]);
+    check_value(value_at(t, oracle::kNormal + k, g.normal.interpolation, x, y), planes.normal[i][k]);
+  }
+  for (size_t k = 0; k < 2; ++k) check_value(value_at(t, oracle::kUv + k, g.uv.interpolation, x, y), planes.uv[i][k]);
+  const glm::vec4& base = scene.materials[scene.instances[fragment.instance].material].base_color;
+  for (size_t k = 0; k < 4; ++k) {  // the product with the base colour rounds once more, and rounding keeps order
+    oracle::ValueRange range = value_at(t, oracle::kAlbedo + k, g.albedo.interpolation, x, y);
+    const double factor = double(base[int(k)]);
+    range.value *= (long double)(factor);
+    range.ulp = range.ulp * factor + 0x1p-24 * std::fabs(double(range.value));
+    range.lo = double(float(range.lo * factor)), range.hi = double(float(range.hi * factor));
+    check_value(range, planes.albedo[i][k]);
+  }
+}
+
+void check_frame(const oracle::ScalarFrame& frame, const Scene& scene, const Pipeline& pipeline, const Planes& planes,
+                 Tally& tally) {
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      CAPTURE(x, y);
+      const std::vector<oracle::Fragment>& fragments = frame.at(x, y);
+      const oracle::Visible seen = visible_fragment(fragments, pipeline.geometry);
+      const uint32_t object = planes.object[planes.index(x, y)];
+      ++tally.pixels;
+      if (!seen.certain) {
+        ++tally.uncertain;
+        const bool known = object == 0 || std::any_of(fragments.begin(), fragments.end(),
+                                                      [&](const auto& f) { return f.instance + 1 == object; });
+        REQUIRE(known);
+        continue;
+      }
+      REQUIRE(object == (seen.fragment ? fragments[*seen.fragment].instance + 1 : 0));
+      if (!seen.fragment) continue;
+      ++tally.covered;
+      check_pixel(frame, fragments[*seen.fragment], scene, pipeline, planes, x, y);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Random frames equal the scalar renderer's: surfaces exactly, values within 1 ulp and in their hull") {
+  Random random(31);
+  const std::vector<Execution> all = executions();
+  Tally tally;
+  for (int i = 0; i < 300; ++i) {
+    const Scene scene = random_scene(random);
+    const Pipeline pipeline = random_pipeline(random);
+    const oracle::ScalarFrame frame = oracle::scalar_frame(scene, pipeline);
+    const Execution& execution = all[size_t(i) % all.size()];
+    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
+    check_frame(frame, scene, pipeline, drawn(scene, pipeline, execution), tally);
+  }
+  INFO(tally.covered << " covered of " << tally.pixels << ", " << tally.uncertain << " uncertain");
+  CHECK(tally.covered > tally.pixels / 20);
+  CHECK(tally.uncertain < tally.pixels / 200);  // nearly all under depth clamp, where z / w reaches 2^100 at a cut
+}
+
+TEST_CASE("Random frames are the same on every SIMD target, tile size and thread count, with and without culling") {
+  Random random(32);
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = random_scene(random);
+    const Pipeline pipeline = random_pipeline(random);
+    Execution plain;
+    plain.simd = "scalar";
+    plain.geometry_culling = false;
+    const Planes expected = drawn(scene, pipeline, plain);
+    for (Execution execution : executions())
+      for (const bool culling : {false, true}) {
+        execution.geometry_culling = culling;
+        execution.shuffle_tiles = culling;
+        INFO("frame " << i << ", " << named(execution) << ", culling " << culling << ", " << pipeline_json(pipeline));
+        REQUIRE(drawn(scene, pipeline, execution) == expected);
+      }
+  }
+}
+
+TEST_CASE("Random frames do not depend on which vertex a triangle names first") {
+  Random random(34);
+  const std::vector<Execution> all = executions();
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = random_scene(random);
+    Pipeline pipeline = random_pipeline(random);
+    GBufferState& g = pipeline.gbuffer;
+    for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})  // flat means another vertex then
+      if (plane->interpolation == Interpolation::flat) plane->interpolation = Interpolation::smooth;
+    const Execution& execution = all[size_t(i) % all.size()];
+    const Planes expected = drawn(scene, pipeline, execution);
+    for (Mesh& mesh : scene.meshes)
+      for (size_t t = 0; t < mesh.indices.size(); t += 3)
+        std::rotate(mesh.indices.begin() + int64_t(t), mesh.indices.begin() + int64_t(t + 1 + random() % 2),
+                    mesh.indices.begin() + int64_t(t + 3));
+    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
+    REQUIRE(drawn(scene, pipeline, execution) == expected);
+  }
+}
+
+TEST_CASE("Random frames move with their viewport by (64, 32) pixels and keep every bit") {
+  Random random(33);
+  const std::vector<Execution> all = executions();
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = random_scene(random);
+    Pipeline here = random_pipeline(random);
+    const Viewport viewport = here.geometry.viewport;
+    if (viewport.width == 0) here.geometry.viewport = {0, 0, here.width, here.height};
+    Pipeline there = here;
+    there.width += 64;
+    there.height += 32;
+    there.geometry.viewport.x += 64;
+    there.geometry.viewport.y += 32;
+    const Execution& execution = all[size_t(i) % all.size()];
+    const Planes a = drawn(scene, here, execution), b = drawn(scene, there, execution);
+    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(here));
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const size_t p = a.index(x, y), q = b.index(x + 64, y + 32);
+        REQUIRE(a.object[p] == b.object[q]);
+        REQUIRE(a.depth[p] == b.depth[q]);
+        REQUIRE(a.position[p] == b.position[q]);
+        REQUIRE(a.normal[p] == b.normal[q]);
+        REQUIRE(a.albedo[p] == b.albedo[q]);
+        REQUIRE(a.uv[p] == b.uv[q]);
+      }
+  }
+}

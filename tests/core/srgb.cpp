@@ -1,0 +1,40 @@
+#include "core/srgb.h"
+
+#include <cmath>
+
+#include "tests/catch.hpp"
+
+namespace trueshade {
+namespace {
+
+/// IEC 61966-2-1, the other way round than core/srgb.h has it, in long double.
+int code_by_pow(float linear) {
+  const long double x = linear;
+  const long double srgb = x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L;
+  return int(std::floor(srgb * 255.0L + 0.5L));
+}
+
+TEST_CASE("sRGB codes are the nearest ones, to the float at which each begins") {
+  for (size_t k = 0; k < kSrgbCodeStarts.size(); ++k) {
+    auto value = float(kSrgbCodeStarts[k]);
+    for (int step = 0; step < 8; ++step) value = std::nextafter(value, 0.0f);
+    for (int step = 0; step < 16; ++step, value = std::nextafter(value, 1.0f))
+      if (int(srgb8_from_linear(value)) != code_by_pow(value)) FAIL("code " << k << " at " << value);
+  }
+  for (int i = 0; i <= 1 << 18; ++i) {
+    const float value = float(i) * 0x1p-18f;
+    if (int(srgb8_from_linear(value)) != code_by_pow(value)) FAIL("at " << value);
+  }
+}
+
+TEST_CASE("GL_RULES row 36: sRGB codes") {
+  CHECK(int(srgb8_from_linear(0.5f)) == 188);
+  CHECK(int(srgb8_from_linear(0.18f)) == 118);
+  CHECK(int(srgb8_from_linear(0.75f)) == 225);
+  CHECK(int(srgb8_from_linear(0.0031308f)) == 10);
+  CHECK(int(srgb8_from_linear(0.001f)) == 3);
+  CHECK(int(srgb8_from_linear(0.2140411f)) == 127);
+}
+
+}  // namespace
+}  // namespace trueshade

@@ -1,0 +1,154 @@
+#include <cmath>
+#include <limits>
+
+#include "expect_error.h"
+#include "scenes/presets.h"
+
+namespace trueshade {
+namespace {
+
+std::string refusal(const std::string& text) {
+  return error_of(ErrorKind::bad_input, [&] { pipeline_from_json(text, "p.json", {}); });
+}
+
+Pipeline strange_pipeline() {
+  Pipeline p = *preset_pipeline("touchdesigner");
+  p.width = 65536;
+  p.height = 1;
+  p.geometry = {{-3, 4, 5, 6},
+                0.25f,
+                0.1f,
+                DepthFunc::gequal,
+                0.3f,
+                true,
+                CullFace::front,
+                FrontFace::cw,
+                ClipOrigin::upper_left,
+                ClipDepth::zero_to_one,
+                Provoking::first};
+  p.gbuffer.normal = {Format::rgb16f, Interpolation::noperspective};
+  p.gbuffer.uv.interpolation = Interpolation::flat;
+  p.gbuffer.position_from_depth = true;
+  p.gbuffer.half_round = HalfRound::nearest;
+  p.light_model.shininess = 0.1f;
+  p.light_model.specular_color = {1e-20f, 1.0f / 3.0f, 1e18f};
+  p.target = Format::rgba16f;
+  return p;
+}
+
+TEST_CASE("presets are found by name, valid, and named after themselves") {
+  CHECK(preset_pipeline("many-lights") == Pipeline{});
+  CHECK_FALSE(preset_pipeline("nonesuch"));
+  for (const Preset& row : presets()) {
+    CHECK(std::string(row.name) == row.pipeline.preset);
+    CHECK_NOTHROW(validate(row.pipeline));
+  }
+}
+
+TEST_CASE("a pipeline's text reads back as the same pipeline over any base, and writes the same text") {
+  for (const Pipeline& p : {Pipeline{}, *preset_pipeline("touchdesigner"), strange_pipeline()})
+    for (const Pipeline& base : {Pipeline{}, strange_pipeline()}) {
+      const Pipeline again = pipeline_from_json(pipeline_json(p), "p.json", base);
+      CHECK(again == p);
+      CHECK(pipeline_json(again) == pipeline_json(p));
+    }
+}
+
+TEST_CASE("the text of the default pipeline stays as it is") {
+  CHECK(pipeline_json({}) ==
+        R"({"version":1,"preset":"many-lights","width":800,"height":800,"geometry":{"viewport":{"x":0,"y":0,"width":0,)"
+        R"("height":0},"depth_near":0,"depth_far":1,"depth_func":"less","clear_depth":1,"depth_clamp":false,)"
+        R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
+        R"("provoking":"last"},"gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
+        R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
+        R"({"format":"rgba32f","interpolation":"smooth"},"position_from_depth":false,"half_round":"toward_zero"},)"
+        R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
+        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false},"strategy":"deferred-loop",)"
+        R"("target":"rgba8"})");
+}
+
+TEST_CASE("keys present replace, a preset replaces all, whatever their order") {
+  Pipeline base;
+  base.width = 5;
+  CHECK(pipeline_from_json("{}", "p", base) == base);
+  base.light_model.shininess = 7.0f;
+  CHECK(pipeline_from_json(R"({"light_model": {"shininess": 7}})", "p", base) == base);
+  const Pipeline p = pipeline_from_json(R"({"width": 9, "preset": "touchdesigner"})", "p", base);
+  CHECK(p.width == 9);
+  CHECK(p.light_model == preset_pipeline("touchdesigner")->light_model);
+}
+
+TEST_CASE("bad pipelines are refused at their pointer") {
+  const char* const cases[][2] = {
+      {R"([])", "p.json: found an array (an object)"},
+      {R"({"colour": 1})", "p.json: /colour: this key is unknown"},
+      {R"({"version": 2})", "p.json: /version: found 2"},
+      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner)"},
+      {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 65536)"},
+      {R"({"width": 65537})", "p.json: /width: found 65537"},
+      {R"({"width": 1.5})", "p.json: /width: found 1.5"},
+      {R"({"width": "800"})", "p.json: /width: found \"800\""},
+      {R"({"height": null})", "p.json: /height: found null"},
+      {R"({"geometry": {"viewport": {"w": 3}}})", "p.json: /geometry/viewport/w: this key is unknown"},
+      {R"({"geometry": {"viewport": {"width": -1}}})", "p.json: /geometry/viewport/width: found -1"},
+      {R"({"geometry": {"depth_near": 1.25}})", "p.json: /geometry/depth_near: found 1.25 (a number from 0 to 1)"},
+      {R"({"geometry": {"depth_func": "LESS"}})", "p.json: /geometry/depth_func: found \"LESS\" (one of never less"},
+      {R"({"geometry": {"depth_clamp": 1}})", "p.json: /geometry/depth_clamp: found 1 (true or false)"},
+      {R"({"gbuffer": {"position": "rgba32f"}})", "p.json: /gbuffer/position: found \"rgba32f\" (an object)"},
+      {R"({"gbuffer": {"position": {"format": "rgba8"}}})", "p.json: /gbuffer/position/format: found \"rgba8\""},
+      {R"({"gbuffer": {"albedo": {"format": "d32f"}}})", "p.json: /gbuffer/albedo/format: found \"d32f\""},
+      {R"({"gbuffer": {"position_from_depth": true}, "geometry": {"depth_near": 1}})",
+       "p.json: position_from_depth with depth_near = depth_far"},
+      {R"({"light_model": {"shininess": -1}})", "p.json: /light_model/shininess: found -1"},
+      {R"({"light_model": {"specular_color": [1, 1]}})",
+       "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
+      {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
+      {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
+      {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
+      {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
+  };
+  for (const auto& [text, start] : cases) CHECK_STARTS_WITH(refusal(text), start);
+}
+
+template <typename Change>
+std::string invalid(const Change& change) {
+  Pipeline p;
+  change(p);
+  return error_of(ErrorKind::usage, [&] { validate(p); });
+}
+
+TEST_CASE("pipelines out of range are named by field") {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 65536");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.height = 65537; }), "height: 65537");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.target = Format::r32ui; }), "target: r32ui");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }),
+                    "gbuffer.normal.format: rgba8");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
+                    "light_model.specular_color");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) {
+                      p.gbuffer.position_from_depth = true;
+                      p.geometry.depth_near = 1.0f;
+                    }),
+                    "gbuffer.position_from_depth");
+}
+
+TEST_CASE("executions out of range are named by field") {
+  const auto invalid_run = [](Execution e) { return error_of(ErrorKind::usage, [&] { validate(e); }); };
+  CHECK_NOTHROW(validate(Execution{}));
+  Execution e;
+  e.threads = -1;
+  CHECK_STARTS_WITH(invalid_run(e), "threads: -1 is out of range (0 to 1024");
+  e = {};
+  e.tile = 24;
+  CHECK_STARTS_WITH(invalid_run(e), "tile: 24");
+  e = {};
+  e.simd = "mmx";
+  CHECK_STARTS_WITH(invalid_run(e), "simd: 'mmx'");
+}
+
+}  // namespace
+}  // namespace trueshade

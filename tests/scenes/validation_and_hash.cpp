@@ -1,0 +1,71 @@
+#include <cmath>
+#include <functional>
+
+#include "expect_error.h"
+#include "scenes/builtin.h"
+
+namespace trueshade {
+namespace {
+
+template <typename Change>
+std::string invalid(const Change& change, ErrorKind kind = ErrorKind::bad_input, const SceneLimits& limits = {}) {
+  Scene scene = builtin_scene("cornell");
+  change(scene);
+  return error_of(kind, [&] { validate(scene, limits); });
+}
+
+TEST_CASE("scenes out of range are refused with the part's name") {
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[1].position[2][5] = NAN; }), "builtin:cornell: mesh 1: position");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[1].normal[0].pop_back(); }),
+                    "builtin:cornell: mesh 1: normal streams differ");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[0].indices[4] = 225; }), "builtin:cornell: mesh 0: index 225");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[0].indices.pop_back(); }),
+                    "builtin:cornell: mesh 0: the number of indices");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].mesh = 2; }), "builtin:cornell: instance 3: the mesh index");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
+                    "builtin:cornell: instance 3: the transform");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].base_color.x = -1.0f; }), "builtin:cornell: material 2");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].color.z = 2e18f; }), "builtin:cornell: light 7: the colour");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].range = 0.0f; }), "builtin:cornell: light 7: the range");
+  CHECK_STARTS_WITH(invalid([](Scene& s) {
+                      s.lights[7].type = LightType::spot, s.lights[7].direction = {1, 1, 0};
+                    }),
+                    "builtin:cornell: light 7: the direction");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.camera.fov_y_rad = 3.15f; }),
+                    "builtin:cornell: camera: the field of view");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.camera.up = {0, 0, 2}; }), "builtin:cornell: camera: eye, target and up");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.clear.w = 1.5f; }), "builtin:cornell: clear");
+  SceneLimits limits;
+  limits.lights = 11;
+  CHECK_STARTS_WITH(invalid([](Scene&) {}, ErrorKind::limit, limits), "builtin:cornell: 12 lights are over the limit");
+}
+
+TEST_CASE("the scene hash follows every value and no name") {
+  const Scene scene = builtin_scene("cornell");
+  const std::string hash = scene_hash(scene);
+  const std::function<void(Scene&)> changes[] = {
+      [](Scene& s) { s.meshes[1].position[0][3] += 1.0f; },
+      [](Scene& s) { s.meshes[1].normal[1][0] = 0.5f; },
+      [](Scene& s) { std::swap(s.meshes[0].indices[0], s.meshes[0].indices[1]); },
+      [](Scene& s) { s.materials[0].base_color.w = 0.5f; },
+      [](Scene& s) { s.instances[2].material = 1; },
+      [](Scene& s) { s.instances[6].world_from_object[3].x += 0.25f; },
+      [](Scene& s) { s.lights[3].range *= 2.0f; },
+      [](Scene& s) { std::swap(s.lights[2], s.lights[3]); },
+      [](Scene& s) { s.lights.pop_back(); },
+      [](Scene& s) { s.camera.near = 0.2f; },
+      [](Scene& s) { s.camera.fov_x_rad = s.camera.fov_y_rad; },
+      [](Scene& s) { s.clear.y = 0.5f; }};
+  for (const auto& change : changes) {
+    Scene other = scene;
+    change(other);
+    CHECK(scene_hash(other) != hash);
+  }
+  Scene renamed = scene;
+  renamed.spec = renamed.meshes[0].name = renamed.materials[0].name = "other";
+  renamed.clear.x = -0.0f;  // equal to what it was
+  CHECK(scene_hash(renamed) == hash);
+}
+
+}  // namespace
+}  // namespace trueshade
