@@ -126,12 +126,15 @@ class LightSum {
     if (!exact_ && (view_undefined_ || h2.low() <= 0)) undefined = undefined || h2.value == 0 || view_undefined_;
     Bounded n_h = positive(dot(a_, normal_, unit(a_, half)));
     if (h2.value == 0) n_h = {0, exact_ ? 0.0 : 1.0};
+    double low = std::max(0.0, n_h.low()), high = n_h.high();
     if (model_.renormalize) {  // of unit vectors, whatever was rounded: |N||H| <= 1 and a few roundings
       const double top = 1 + 16 * a_.roundoff;
-      if (n_h.high() > top) n_h.error = std::max(top - n_h.value, n_h.value);
+      high = std::min(high, top);
+      if (n_h.value > high) n_h.value = high;
+      low = std::min(low, n_h.value);
     }
-    if (!exact_ && model_.shininess == 0 && n_h.low() <= 0) undefined = true;
-    return power(a_, n_h, double(model_.shininess));
+    if (!exact_ && model_.shininess == 0 && low <= 0) undefined = true;
+    return power(a_, low, n_h.value, high, double(model_.shininess));
   }
 
   const ShadedSurface& surface_;
