@@ -13,10 +13,11 @@ namespace trueshade {
 struct DriverFrame {
   struct Pass {
     std::string name;
-    double ms = 0;
+    double ms = 0;  ///< median of the frames after the first, which pays for compiling; of the first where it took long
   };
   oracle::Capture capture;
-  int subpixel_bits = 0;  ///< GL_SUBPIXEL_BITS
+  int subpixel_bits = 0;    ///< GL_SUBPIXEL_BITS
+  int timed_frames = 0;     ///< how many the median is of
   std::vector<Pass> passes;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
 };

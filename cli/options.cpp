@@ -164,9 +164,14 @@ GlslFilesOptions finished(GlslFilesOptions options) {
   return options;
 }
 
-CLI::App* add_validate(CLI::App& app, ValidationOptions& options, std::optional<std::string>& size) {
+/// Option values of validate as text.
+struct ValidationTexts {
+  std::optional<std::string> size, subpixel_bits;
+};
+
+CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
-  add_pipeline_options(command, options, size);
+  add_pipeline_options(command, options, texts.size);
   command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
   command->add_option("--gbuffer", options.gbuffer_file,
                       "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
@@ -174,6 +179,8 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, std::optional<
   command->add_option("--profile", options.profile,
                       "Hold the driver to this profile instead of what OpenGL promises of any: " +
                           joined(oracle::profile_names()));
+  command->add_option("--subpixel-bits", texts.subpixel_bits,
+                      "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   command->add_flag("--quick", options.quick, "Do not look for the tightest profile that explains the image");
   command->add_flag("--json", options.json, "Print all of it as one JSON document");
   command->add_option("-o,--output", options.report, "Report to write, .html");
@@ -182,9 +189,10 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, std::optional<
   return command;
 }
 
-ValidationOptions finished(ValidationOptions options, const std::optional<std::string>& size) {
+ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
   constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
-  if (size) options.size = size_from_text(*size);
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
   if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
     throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
@@ -224,14 +232,14 @@ Command command_from_arguments(int count, const char* const* arguments) {
   ListOptions list;
   GlslFilesOptions glsl;
   ValidationOptions validation;
-  std::optional<std::string> validation_size;
+  ValidationTexts validation_texts;
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl);
-  const CLI::App* validate_command = add_validate(app, validation, validation_size);
+  const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate"};
   if (count > 1 && arguments[1][0] != '-' &&
       std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
@@ -251,7 +259,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (render_command->parsed()) return finished(std::move(render), texts);
   if (info_command->parsed()) return info;
   if (glsl_command->parsed()) return finished(std::move(glsl));
-  if (validate_command->parsed()) return finished(std::move(validation), validation_size);
+  if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   return list;
 }
 

@@ -53,6 +53,7 @@ struct GlslFilesOptions {
 struct ValidationOptions : PipelineOptions {
   std::string driver = "default";      ///< default, llvmpipe or softpipe; not read where there is a capture
   std::optional<std::string> profile;  ///< what to hold the driver to; nothing: what OpenGL promises of any
+  std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
   std::optional<std::string> report;   ///< .html
   bool quick = false;                  ///< do not look for the tightest profile

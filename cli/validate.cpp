@@ -27,9 +27,10 @@ void draw_here(const ValidationOptions& options, const Scene& scene, Validation&
   DriverFrame frame = drawn_by_driver(options.driver, scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
+  v.timed_frames = frame.timed_frames;
   v.notes = std::move(frame.notes);
   // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
-  v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
+  if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
 }
 
 void read_files(const ValidationOptions& options, Validation& v) {
@@ -37,8 +38,8 @@ void read_files(const ValidationOptions& options, Validation& v) {
   const Image& plane = v.capture.planes.front().image;
   if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
   store_as(v.pipeline, options.gbuffer_file, v.capture);
-  if (!options.profile)
-    v.notes.push_back("a file does not tell its driver's subpixel bits: held to OpenGL's least, 4");
+  if (!options.profile && !options.subpixel_bits)
+    v.notes.push_back("a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
 }  // namespace
@@ -49,6 +50,7 @@ bool judge_opengl(const ValidationOptions& options) {
   Validation v;
   v.pipeline = pipeline_of(options, scene);
   if (options.profile) v.profile = *oracle::profile_named(*options.profile);
+  if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty()) draw_here(options, scene, v);
     else read_files(options, v);

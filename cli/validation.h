@@ -16,6 +16,7 @@ struct Validation {
   oracle::Profile profile;                ///< what the capture was held to
   oracle::Verdict verdict;
   std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
+  int timed_frames = 0;                   ///< whose median the passes are
   std::vector<std::string> notes;         ///< what a reader must know before the figures
   double draw_ms = 0, judge_ms = 0;       ///< wall time, upload and reading files included
 };

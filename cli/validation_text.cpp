@@ -100,6 +100,7 @@ std::string validation_text(const Validation& v) {
   for (const std::string& note : v.notes) lines += row("note", note);
   std::string times;
   for (const DriverFrame::Pass& pass : v.passes) times += pass.name + ' ' + real(pass.ms, "%.1f") + " ms, ";
+  if (v.timed_frames > 1) times += "(median of " + std::to_string(v.timed_frames) + " frames) ";
   lines += row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
   for (size_t i = 0; i < v.verdict.stages.size(); ++i) lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
   lines += '\n';
@@ -115,7 +116,7 @@ std::string validation_json(const Validation& v) {
   json.put("version", kVersion);
   json.put_raw("pipeline", pipeline_json(v.pipeline));
   if (v.capture.color.width > 0) json.put("hash", "sha256:" + image_hash(v.capture.color));
-  json.put("subpixel_bits", v.profile.subpixel_bits).put_raw("passes", passes.text()).put_raw("notes", notes.text());
+  json.put("subpixel_bits", v.profile.subpixel_bits).put_raw("passes", passes.text()).put("timed_frames", v.timed_frames).put_raw("notes", notes.text());
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));
   return json.text() + '\n';
 }

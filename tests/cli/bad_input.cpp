@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/catch.hpp"
+#include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/scratch_folder.h"
 
@@ -12,17 +13,6 @@ namespace trueshade {
 namespace {
 
 using Arguments = std::vector<std::string>;
-
-/// `err` is one line `trueshade: error: ...(REMEDY)` with `about` in it.
-void check_refused(const Outcome& outcome, int exit_code, const std::string& about) {
-  INFO("exit code " << outcome.exit_code << ", said: " << outcome.err);
-  CHECK(outcome.exit_code == exit_code);
-  CHECK(outcome.out.empty());
-  CHECK(outcome.err.starts_with("trueshade: error: "));
-  CHECK(outcome.err.ends_with(")\n"));
-  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
-  CHECK(outcome.err.find(about) != std::string::npos);
-}
 
 void check_render_refused(const Arguments& options, int exit_code, const std::string& about) {
   const ScratchFolder folder;

@@ -1,0 +1,155 @@
+// `trueshade validate` as people run it: on this machine's driver, on captures, on captures that are wrong.
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/image_io.h"
+#include "tests/catch.hpp"
+#include "tests/cli/refused.h"
+#include "tests/cli/run_command.h"
+#include "tests/cli/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+constexpr int kNoDriver = 7;
+
+/// Our own frame of builtin:cornell as c.exr (target and planes) and c.png.
+void write_capture(const ScratchFolder& folder) {
+  const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "200x150", "-o", "c.exr", "-o", "c.png", "--aov",
+                                       "depth,position,normal,albedo,uv,id.object,id.material,light.count"},
+                                      folder.path(""));
+  REQUIRE(outcome.exit_code == 0);
+}
+
+Outcome judged(const ScratchFolder& folder, const Arguments& options) {
+  Arguments arguments = {"validate", "builtin:cornell", "--quick"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return run_command(arguments, folder.path(""));
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// c.exr again as `name`, with `change` made to a plane.
+template <typename Change>
+void write_changed(const ScratchFolder& folder, const std::string& name, const std::string& plane, Change change) {
+  std::vector<NamedImage> planes = read_planes(folder.path("c.exr"));
+  for (NamedImage& p : planes)
+    if (p.name == plane) change(p.image);
+  const NamedImage color = planes.front();
+  planes.erase(planes.begin());
+  write_image(folder.path(name), color.image, planes, {});
+}
+
+void set_float(Image& image, int x, int y, int channel, float value) {
+  std::memcpy(image.texel(x, y) + 4 * channel, &value, sizeof value);
+}
+
+}  // namespace
+
+TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
+  for (const char* driver : {"llvmpipe", "softpipe"})
+    for (const char* scene : {"builtin:city", "builtin:sphere", "builtin:cornell"})
+      for (const char* preset : {"many-lights", "touchdesigner"}) {
+        if (driver == std::string("softpipe") && scene == std::string("builtin:city")) continue;  // 12 s of 757 lights a pixel
+        INFO(scene << ' ' << preset << ' ' << driver);
+        const Outcome outcome =
+            run_command({"validate", scene, "--preset", preset, "--driver", driver, "--size", "200x150", "--quick"});
+        if (outcome.exit_code == kNoDriver) {
+          check_refused(outcome, kNoDriver, "OpenGL");
+          WARN("SKIPPED: " << outcome.err);
+          break;
+        }
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.exit_code == 0);
+        CHECK(has(outcome.out, driver));
+        CHECK(has(outcome.out, "every pixel is explained"));
+        CHECK_FALSE(has(outcome.out, "not what chance makes"));
+      }
+}
+
+TEST_CASE("a driver's report and JSON name the driver and the tightest profile") {
+  const ScratchFolder folder;
+  const Outcome outcome = run_command({"validate", "builtin:cornell", "--driver", "llvmpipe", "--size", "200x150", "--json", "-o", "v.html"},
+                                      folder.path(""));
+  if (outcome.exit_code == kNoDriver) {
+    WARN("SKIPPED: " << outcome.err);
+    CHECK(folder.entries().empty());
+    return;
+  }
+  CHECK(outcome.exit_code == 0);
+  CHECK(has(outcome.out, "\"driver\":\"Mesa"));
+  CHECK(has(outcome.out, "\"known_as\":\"mesa-llvmpipe"));
+  CHECK(has(outcome.out, "\"violations\":"));
+  CHECK(folder.entries() == Arguments{"v.html"});
+}
+
+TEST_CASE("our own frame is a capture like any other, and explained") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  for (const Arguments& files : {Arguments{"--gbuffer", "c.exr"}, Arguments{"--gbuffer", "c.exr", "--image", "c.png"},
+                                 Arguments{"--gbuffer", "c.exr", "--image", "c.exr", "--size", "200x150"},
+                                 Arguments{"--gbuffer", "c.exr", "--profile", "ideal"}}) {
+    const Outcome outcome = judged(folder, files);
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(has(outcome.out, "lighting: 30000 pixels"));
+  }
+}
+
+TEST_CASE("one wrong value in a capture is found at its pixel") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  const auto check_found = [&folder](const Arguments& files, const std::string& place) {
+    const Outcome outcome = judged(folder, files);
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK(has(outcome.out, place));
+    CHECK(has(outcome.out, "in no legal set"));
+  };
+  write_changed(folder, "color.exr", "color", [](Image& i) { set_float(i, 100, 70, 1, 1.0f); });
+  check_found({"--gbuffer", "color.exr"}, "100,70     VIOLATION  color.G gave 255");
+  write_changed(folder, "normal.exr", "normal", [](Image& i) { set_float(i, 90, 60, 0, 0.25f); });
+  check_found({"--gbuffer", "normal.exr"}, "90,60      VIOLATION");
+  write_changed(folder, "depth.exr", "depth", [](Image& i) { set_float(i, 80, 50, 0, 0.5f); });
+  check_found({"--gbuffer", "depth.exr", "-o", "v.html"}, "80,50      VIOLATION  depth");
+  std::vector<NamedImage> picture = read_planes(folder.path("c.png"));
+  for (int k = 0; k < 3; ++k) picture[0].image.texel(120, 80)[k] = 0;
+  write_image(folder.path("hole.png"), picture[0].image, {}, {});
+  check_found({"--gbuffer", "c.exr", "--image", "hole.png"}, "120,80     VIOLATION  color");
+  check_found({"--gbuffer", "c.exr", "--preset", "touchdesigner"}, "VIOLATION");
+}
+
+TEST_CASE("captures that cannot be judged are refused, and nothing is left behind") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  const std::vector<NamedImage> planes = read_planes(folder.path("c.exr"));
+  write_image(folder.path("bare.exr"), planes[0].image, {{planes[1]}}, {});  // the target and depth alone
+  write_image(folder.path("small.png"), Image(20, 15, Format::rgba8), {}, {});
+  write_changed(folder, "grey.exr", "albedo", [](Image& i) { set_float(i, 3, 4, 0, 0.5f); });  // between two codes
+  std::ofstream(folder.path("torn.exr"), std::ios::binary) << std::ifstream(folder.path("c.exr"), std::ios::binary).rdbuf();
+  std::filesystem::resize_file(folder.path("torn.exr"), 20000);
+  const auto before = folder.entries();
+  const auto check = [&folder](Arguments options, int exit_code, const std::string& about) {
+    options.insert(options.end(), {"-o", "v.html"});
+    check_refused(judged(folder, options), exit_code, about);
+  };
+  check({"--gbuffer", "bare.exr"}, 3, "plane normal");
+  check({"--gbuffer", "torn.exr"}, 3, "torn.exr");
+  check({"--gbuffer", "c.png"}, 3, "c.png");
+  check({"--gbuffer", "grey.exr"}, 3, "albedo at 3,4");
+  check({"--gbuffer", "c.exr", "--image", "small.png"}, 3, "20x15");
+  check({"--gbuffer", "c.exr", "--size", "100x100"}, 3, "200x150");
+  check({"--gbuffer", "absent.exr"}, 5, "absent.exr");
+  check({"--image", "c.png"}, 2, "--gbuffer");
+  check({"--gbuffer", "c.exr", "--profile", "voodoo"}, 2, "voodoo");
+  check({"--driver", "glide"}, 2, "glide");
+  check({"--subpixel-bits", "3"}, 2, "--subpixel-bits");
+  check_refused(judged(folder, {"--gbuffer", "c.exr", "-o", "v.txt"}), 2, "v.txt");
+  check_refused(run_command({"validate"}), 2, "SCENE");
+  CHECK(folder.entries() == before);
+}
+
+}  // namespace trueshade
