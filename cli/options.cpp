@@ -83,8 +83,6 @@ void check_outputs(const RenderOptions& options) {
     if (!path.ends_with(".png") && !path.ends_with(".exr") && !path.ends_with(".html"))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
   }
-  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
-    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   if (!options.aovs.empty() && !exr && !options.json)
     throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
 }

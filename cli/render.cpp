@@ -104,6 +104,8 @@ void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
   const Scene scene = load_scene(options.scene);
+  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
+    throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}, {}};
   draw(options, result);
   result.image_hash = image_hash(result.frame.color);

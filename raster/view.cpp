@@ -71,7 +71,7 @@ InstanceTransform instance_transform(const Matrix4& clip_from_world, const glm::
 }
 
 Viewport whole_or_set(const Viewport& v, int width, int height) {
-  return v.width == 0 && v.height == 0 ? Viewport{v.x, v.y, width, height} : v;
+  return v.width == 0 && v.height == 0 ? Viewport{0, 0, width, height} : v;
 }
 
 // The picture fills the viewport, so its shape is the viewport's.

@@ -18,7 +18,7 @@ enum class Interpolation : uint8_t { smooth, flat, noperspective };
 enum class Provoking : uint8_t { last, first };
 enum class Strategy : uint8_t { deferred_loop };  ///< spelled `deferred-loop` outside C++
 
-/// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image.
+/// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image, whatever x and y.
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const Viewport&) const = default;
