@@ -48,6 +48,7 @@ void execute(const Command& command) {
   if (const auto* options = std::get_if<RenderOptions>(&command)) return render(*options);
   if (const auto* options = std::get_if<InfoOptions>(&command)) return print_info(*options);
   if (const auto* options = std::get_if<ListOptions>(&command)) return print_list(*options);
+  if (const auto* options = std::get_if<GlslFilesOptions>(&command)) return write_glsl(*options);
   print(std::get<PrintText>(command).text);
 }
 
