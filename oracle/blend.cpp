@@ -161,9 +161,24 @@ Rgba blended_values(const BlendState& state, Profile profile, Format format, con
     in.destination[c] = flush(in.destination[c]);
     in.constant[c] = flush(in.constant[c]);
   }
+  const auto is = [](const BlendTerm& t, BlendFactor src, BlendFactor dst) {
+    return takes_factors(t) && t.src == src && t.dst == dst;
+  };
   Rgba out;
   for (size_t c = 0; c < 4; ++c) {
     const BlendTerm &term = c == 3 ? state.alpha : state.rgb, &other = c == 3 ? state.rgb : state.alpha;
+    const auto copies = [&](BlendFactor src, BlendFactor dst, BlendEquation difference) {
+      return flush.on && is(term, src, dst) && is(other, src, dst) &&
+             (term.equation == BlendEquation::add || term.equation == difference);
+    };
+    if (copies(BlendFactor::one, BlendFactor::zero, BlendEquation::subtract)) {  // no arithmetic, so nothing flushes
+      out[c] = source[c];
+      continue;
+    }
+    if (copies(BlendFactor::zero, BlendFactor::one, BlendEquation::reverse_subtract)) {
+      out[c] = stored[c];
+      continue;
+    }
     out[c] = blended_value(term, c, in, zero_source(term) && (!whole || zero_source(other)),
                            zero_destination(term) && (!whole || zero_destination(other)),
                            whole && same(term) && same(other), flush);

@@ -24,6 +24,7 @@ HWY_INLINE VF greater(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
 /// What the equations read: values, or 8-bit codes with `one` = 255.
 struct BlendInputs {
   VF source[4], destination[4], constant[4], one;
+  VF source_alpha;  ///< source[3] as factors read it
 };
 
 HWY_INLINE VF factor_value(BlendFactor factor, int c, const BlendInputs& in) {
@@ -41,9 +42,9 @@ HWY_INLINE VF factor_value(BlendFactor factor, int c, const BlendInputs& in) {
     case BlendFactor::one_minus_dst_color:
       return hn::Sub(in.one, in.destination[c]);
     case BlendFactor::src_alpha:
-      return in.source[3];
+      return in.source_alpha;
     case BlendFactor::one_minus_src_alpha:
-      return hn::Sub(in.one, in.source[3]);
+      return hn::Sub(in.one, in.source_alpha);
     case BlendFactor::dst_alpha:
       return in.destination[3];
     case BlendFactor::one_minus_dst_alpha:
@@ -57,7 +58,7 @@ HWY_INLINE VF factor_value(BlendFactor factor, int c, const BlendInputs& in) {
     case BlendFactor::one_minus_constant_alpha:
       return hn::Sub(in.one, in.constant[3]);
     case BlendFactor::src_alpha_saturate:
-      return c == 3 ? in.one : lesser(in.source[3], hn::Sub(in.one, in.destination[3]));
+      return c == 3 ? in.one : lesser(in.source_alpha, hn::Sub(in.one, in.destination[3]));
   }
   return in.one;
 }
@@ -69,12 +70,13 @@ struct BlendPlan {
     bool drop_source, drop_destination;  ///< a zero factor: no product, for 0 * inf would be NaN
   } rgb, alpha;
   bool factored;  ///< (S op D) * factor
-  bool flushes;   ///< denormal operands and results count as 0, their sign kept
+  bool flushes;   ///< denormal operands and results of arithmetic count as 0, their sign kept
+  bool copies;    ///< where one term is dropped the other has no product either: no arithmetic, nothing to flush
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
 };
 
 inline BlendPlan blend_plan(const BlendState& state, Profile profile, Format format) {
-  BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false};
+  BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false, false};
   for (BlendPlan::Group* group : {&plan.rgb, &plan.alpha}) {
     BlendTerm& term = group->term;
     if (term.equation == BlendEquation::min || term.equation == BlendEquation::max)
@@ -86,6 +88,8 @@ inline BlendPlan blend_plan(const BlendState& state, Profile profile, Format for
   plan.flushes = format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
   // llvmpipe works on whole RGBA vectors: it leaves a product out, or factors, only where both groups allow it.
   plan.factored = plan.rgb.term.src == plan.rgb.term.dst && plan.alpha.term.src == plan.alpha.term.dst;
+  const BlendFactor kept = plan.rgb.drop_source ? plan.rgb.term.dst : plan.rgb.term.src;
+  plan.copies = kept == BlendFactor::one && kept == (plan.rgb.drop_source ? plan.alpha.term.dst : plan.alpha.term.src);
   plan.rgb.drop_source = plan.alpha.drop_source = plan.rgb.drop_source && plan.alpha.drop_source;
   plan.rgb.drop_destination = plan.alpha.drop_destination = plan.rgb.drop_destination && plan.alpha.drop_destination;
   return plan;
@@ -114,8 +118,9 @@ HWY_INLINE VF combined(BlendEquation equation, VF source, VF destination) {
 }
 
 HWY_INLINE VF scaled(const BlendPlan& plan, VF x, BlendFactor factor, int c, const BlendInputs& in) {
-  if (factor == BlendFactor::one) return x;
-  return flushed(plan, hn::Mul(x, flushed(plan, factor_value(factor, c, in))));
+  const VF operand = flushed(plan, x);
+  if (factor == BlendFactor::one) return operand;
+  return flushed(plan, hn::Mul(operand, flushed(plan, factor_value(factor, c, in))));
 }
 
 /// Channel c in float32: fl(fl(S Sf) op fl(D Df)).
@@ -125,15 +130,19 @@ HWY_INLINE VF blended_values(const BlendPlan& plan, int c, const BlendInputs& in
   const VF zero = hn::Zero(DF());
   if (group.drop_source && group.drop_destination) return zero;
   if (plan.factored) {
-    const VF whole = flushed(plan, combined(term.equation, in.source[c], in.destination[c]));
-    return scaled(plan, whole, term.src, c, in);
+    const VF source = flushed(plan, in.source[c]), destination = flushed(plan, in.destination[c]);
+    return scaled(plan, combined(term.equation, source, destination), term.src, c, in);
   }
   if (group.drop_destination) {
     const VF source = scaled(plan, in.source[c], term.src, c, in);
-    return term.equation == BlendEquation::reverse_subtract ? hn::Sub(zero, source) : source;
+    if (term.equation == BlendEquation::reverse_subtract) return hn::Sub(zero, source);
+    return plan.copies ? in.source[c] : source;
   }
   const VF destination = scaled(plan, in.destination[c], term.dst, c, in);
-  if (group.drop_source) return term.equation == BlendEquation::subtract ? hn::Sub(zero, destination) : destination;
+  if (group.drop_source) {
+    if (term.equation == BlendEquation::subtract) return hn::Sub(zero, destination);
+    return plan.copies ? in.destination[c] : destination;
+  }
   return flushed(plan, combined(term.equation, scaled(plan, in.source[c], term.src, c, in), destination));
 }
 

@@ -59,6 +59,7 @@ void blend_unorm8(const BlendState& state, Profile profile, const float* const s
       load_codes(state, source, stored, i, in);
     else
       load_values(state, true, source, stored, i, in);
+    in.source_alpha = in.source[3];
     VF out[4];
     for (int c = 0; c < 4; ++c) {
       if (!state.enabled)
@@ -82,9 +83,7 @@ void blend_floating(const BlendState& state, const BlendTarget& target, const fl
   BlendInputs in;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     load_values(state, false, source, stored, i, in);
-    if (state.enabled)
-      for (VF* operands : {in.source, in.destination, in.constant})
-        for (int c = 0; c < 4; ++c) operands[c] = flushed(plan, operands[c]);
+    in.source_alpha = flushed(plan, in.source[3]);
     VF out[4];
     for (int c = 0; c < 4; ++c) {
       const VF value = state.enabled ? blended_values(plan, c, in) : in.source[c];
