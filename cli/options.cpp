@@ -53,6 +53,12 @@ Size size_from_text(const std::string& text) {
   return {int(*width), int(*height)};
 }
 
+Profile profile_from_text(const std::string& text) {
+  const std::optional<Profile> profile = profile_from_name(text);
+  if (!profile) throw usage("--profile", "there is no profile '" + text + "'", "one of: " + joined(kProfileNames));
+  return *profile;
+}
+
 Format target_from_text(const std::string& text) {
   constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
   if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
@@ -89,7 +95,7 @@ void check_outputs(const RenderOptions& options) {
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, target, aov, threads, tile;
+  std::optional<std::string> size, target, profile, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -111,6 +117,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
                      "JSON file of values that replace the preset's and the scene's");
   render->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
   render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
+  render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
@@ -126,6 +133,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.target) options.target = target_from_text(*texts.target);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);

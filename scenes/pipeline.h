@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/format.h"
+#include "core/numeric_profile.h"
 #include "scenes/light_model.h"
 
 namespace trueshade {
@@ -63,6 +64,7 @@ struct Pipeline {
   LightModel light_model;
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
+  Profile profile = Profile::ideal;
   bool operator==(const Pipeline&) const = default;
 };
 
