@@ -27,11 +27,15 @@ const Loaded& loaded(const std::string& spec) {
   return *slot;
 }
 
-void draw(benchmark::State& state, const std::string& spec, const std::string& preset, int width, int height) {
+struct Size {
+  int width, height;
+};
+
+void draw(benchmark::State& state, const std::string& spec, const std::string& preset, Size size) {
   const Loaded& in = loaded(spec);
   Pipeline pipeline = *preset_pipeline(preset);
-  pipeline.width = width;
-  pipeline.height = height;
+  pipeline.width = size.width;
+  pipeline.height = size.height;
   Execution one_thread;
   one_thread.threads = 1;
   if (image_hash(render_frame(in.prepared, pipeline, one_thread).color) != image_hash(render_frame(in.prepared, pipeline).color)) {
@@ -57,9 +61,9 @@ void draw(benchmark::State& state, const std::string& spec, const std::string& p
 
 int main(int argc, char** argv) {
   for (const char* scene : {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"})
-    for (const auto& [width, height] : {std::pair(800, 800), std::pair(1920, 1080)})
-      benchmark::RegisterBenchmark((std::string(scene) + " many-lights " + std::to_string(width) + "x" + std::to_string(height)).c_str(),
-                                   [=](benchmark::State& state) { draw(state, scene, "many-lights", width, height); })
+    for (const Size size : {Size{800, 800}, Size{1920, 1080}})
+      benchmark::RegisterBenchmark((std::string(scene) + " many-lights " + std::to_string(size.width) + "x" + std::to_string(size.height)).c_str(),
+                                   [=](benchmark::State& state) { draw(state, scene, "many-lights", size); })
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
   benchmark::Initialize(&argc, argv);

@@ -9,6 +9,7 @@ namespace trueshade {
 void render(const RenderOptions& options);
 void print_info(const InfoOptions& options);
 void print_list(const ListOptions& options);
+void write_glsl(const GlslFilesOptions& options);
 
 /// Writes text to standard output and flushes it. Error(io) where that fails, say on a full disk.
 void print(std::string_view text);

@@ -16,7 +16,10 @@ namespace {
 
 constexpr int kOurFault = 70;  // sysexits.h: EX_SOFTWARE
 
-int say(const std::string& message, int exit_code) {
+/// An error is one line, and does nothing to a terminal, whatever a file's name or a key holds.
+int say(std::string message, int exit_code) {
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   std::fprintf(stderr, "trueshade: error: %s\n", message.c_str());
   return exit_code;
 }
@@ -48,6 +51,7 @@ void execute(const Command& command) {
   if (const auto* options = std::get_if<RenderOptions>(&command)) return render(*options);
   if (const auto* options = std::get_if<InfoOptions>(&command)) return print_info(*options);
   if (const auto* options = std::get_if<ListOptions>(&command)) return print_list(*options);
+  if (const auto* options = std::get_if<GlslFilesOptions>(&command)) return write_glsl(*options);
   print(std::get<PrintText>(command).text);
 }
 

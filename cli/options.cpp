@@ -142,6 +142,19 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   return options;
 }
 
+CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options) {
+  CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
+  glsl->add_option("--preset", options.preset, "Row of numbers, as for render")->required();
+  glsl->add_option("-o,--output", options.folder, "Folder for the files; made if it is not there")->required();
+  return glsl;
+}
+
+GlslFilesOptions finished(GlslFilesOptions options) {
+  if (!preset_pipeline(options.preset))
+    throw usage("--preset", "there is no preset '" + options.preset + "'", "`trueshade list` names them");
+  return options;
+}
+
 /// CLI11's message without the line breaks that some have.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -167,12 +180,14 @@ Command command_from_arguments(int count, const char* const* arguments) {
   RenderTexts texts;
   InfoOptions info;
   ListOptions list;
+  GlslFilesOptions glsl;
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
-  constexpr std::string_view kCommands[] = {"render", "info", "list"};
+  const CLI::App* glsl_command = add_glsl(app, glsl);
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl"};
   if (count > 1 && arguments[1][0] != '-' &&
       std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
     throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
@@ -190,6 +205,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   }
   if (render_command->parsed()) return finished(std::move(render), texts);
   if (info_command->parsed()) return info;
+  if (glsl_command->parsed()) return finished(std::move(glsl));
   return list;
 }
 

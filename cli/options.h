@@ -39,12 +39,18 @@ struct ListOptions {
   bool json = false;
 };
 
+/// `trueshade glsl`
+struct GlslFilesOptions {
+  std::string preset;  ///< name of a row
+  std::string folder;  ///< made if it is not there
+};
+
 /// `--help` and `--version`: what to print.
 struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ListOptions, PrintText>;
+using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

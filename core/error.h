@@ -12,6 +12,7 @@ enum class ErrorKind : int {
   limit = 4,        ///< well formed, but over a stated limit
   io = 5,           ///< reading or writing failed
   out_of_memory = 6,
+  no_gl_driver = 7,  ///< no OpenGL on this machine, or not enough of it
 };
 
 /// A fault in what the user gave us: a file, a scene, an option. Bugs in our own code assert instead.

@@ -75,9 +75,9 @@ VertexValues cut_original_edge(const VertexValues& a, const VertexValues& b, siz
 
 /// In double, from inside to outside; for edges that an earlier cut made, and for the guard box.
 VertexValues cut_rounded(const VertexValues& in, const VertexValues& out, double d_in, double d_out, size_t count) {
-  const double t = d_in / (d_in - d_out);
+  const double t = d_in / (d_in - d_out), s = d_out / (d_out - d_in);
   VertexValues v{};
-  for (size_t k = 0; k < count; ++k) v[k] = in[k] + (out[k] - in[k]) * t;
+  for (size_t k = 0; k < count; ++k) v[k] = k < 4 ? in[k] * s + out[k] * t : in[k] + (out[k] - in[k]) * t;
   return v;
 }
 
@@ -123,7 +123,9 @@ std::vector<PolygonVertex> cut_guard(const std::vector<PolygonVertex>& polygon, 
     const double da = bound * a[3] - sign * a[axis], db = bound * b[3] - sign * b[axis];
     if (da >= 0) result.push_back(polygon[i]);
     if ((da >= 0) == (db >= 0)) continue;
-    result.push_back({da >= 0 ? cut_rounded(a, b, da, db, count) : cut_rounded(b, a, db, da, count), {-1, -1}});
+    VertexValues v = da >= 0 ? cut_rounded(a, b, da, db, count) : cut_rounded(b, a, db, da, count);
+    v[axis] = sign * (bound * v[3]);
+    result.push_back({v, {-1, -1}});
   }
   return result;
 }

@@ -13,9 +13,6 @@ using Vector = std::array<Real, 3>;
 
 Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vector unit(const Vector& v) {
   const Real length = std::sqrt(dot(v, v));
   if (length == 0) return v;
@@ -23,10 +20,8 @@ Vector unit(const Vector& v) {
 }
 Vector vector_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-Real& at(std::array<Real, 16>& m, size_t row, size_t column) { return m[4 * column + row]; }
-
 /// Where every rounding is part of the definition: docs/arithmetic.md sections 1 and 2.
-float affine(const float row[4], float x, float y, float z) {
+float affine(const std::array<float, 4>& row, float x, float y, float z) {
   return ((row[0] * x + row[1] * y) + row[2] * z) + row[3];
 }
 
@@ -34,23 +29,10 @@ float component(const std::vector<float>& stream, uint32_t vertex, float absent)
   return stream.empty() ? absent : stream[vertex];
 }
 
-/// RN32 of the inverse transpose of the linear part, times v, made unit length in float.
-void world_normal(const Instance& instance, const float v[3], float out[3]) {
-  std::array<std::array<double, 3>, 3> a{};  // columns
-  for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) a[size_t(c)][size_t(r)] = double(instance.world_from_object[c][r]);
-  const auto cross_f64 = [](const std::array<double, 3>& p, const std::array<double, 3>& q) {
-    return std::array<double, 3>{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-  };
-  const std::array<double, 3> cofactor[3] = {cross_f64(a[1], a[2]), cross_f64(a[2], a[0]), cross_f64(a[0], a[1])};
-  const double det = (a[0][0] * cofactor[0][0] + a[0][1] * cofactor[0][1]) + a[0][2] * cofactor[0][2];
+/// The matrix times v, made unit length in float.
+void world_normal(const std::array<std::array<float, 3>, 3>& rows, const float v[3], float out[3]) {
   float n[3];
-  for (size_t r = 0; r < 3; ++r) {
-    // Column c of the inverse transpose is a_{c+1} x a_{c+2} over the determinant.
-    float m[3];
-    for (size_t c = 0; c < 3; ++c) m[c] = float(det == 0 ? cofactor[c][r] : cofactor[c][r] / det);
-    n[r] = (m[0] * v[0] + m[1] * v[1]) + m[2] * v[2];
-  }
+  for (size_t r = 0; r < 3; ++r) n[r] = (rows[r][0] * v[0] + rows[r][1] * v[1]) + rows[r][2] * v[2];
   const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2];
   const float scale = l2 > 0 ? 1.0f / std::sqrt(l2) : 0.0f;
   for (size_t r = 0; r < 3; ++r) out[r] = n[r] * scale;
@@ -99,40 +81,6 @@ Fragment fragment_of(const DrawnTriangle& t, uint32_t index, const GeometryState
 
 }  // namespace
 
-Matrix4 projection_of(const Camera& camera, const GeometryState& state, int width, int height) {
-  Matrix4 result{};
-  if (camera.clip_from_world) {
-    for (size_t i = 0; i < 16; ++i) result[i] = double((*camera.clip_from_world)[i]);
-    return result;
-  }
-  const Vector eye = vector_of(camera.eye);
-  const Vector f = unit(difference(vector_of(camera.target), eye)), s = unit(cross(f, vector_of(camera.up)));
-  const Vector u = cross(s, f);
-  std::array<Real, 16> view{}, projection{};
-  const Vector rows[3] = {s, u, {-f[0], -f[1], -f[2]}};
-  for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 3; ++c) at(view, r, c) = rows[r][c];
-    at(view, r, 3) = -dot(rows[r], eye);
-  }
-  at(view, 3, 3) = 1;
-  const Viewport viewport = resolved_viewport(state, width, height);
-  const Real aspect = Real(viewport.width) / viewport.height, near = camera.near, far = camera.far;
-  const Real g = 1 / std::tan(Real(camera.fov_y_rad) / 2);
-  const bool zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
-  at(projection, 0, 0) = g / aspect;
-  at(projection, 1, 1) = g;
-  at(projection, 2, 2) = (zero_to_one ? far : far + near) / (near - far);
-  at(projection, 2, 3) = (zero_to_one ? 1 : 2) * far * near / (near - far);
-  at(projection, 3, 2) = -1;
-  for (size_t r = 0; r < 4; ++r)
-    for (size_t c = 0; c < 4; ++c) {
-      Real sum = 0;
-      for (size_t k = 0; k < 4; ++k) sum += at(projection, r, k) * at(view, k, c);
-      result[4 * c + r] = double(sum);
-    }
-  return result;
-}
-
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
                            uint32_t vertex) {
   const Mesh& mesh = scene.meshes[instance.mesh];
@@ -140,25 +88,10 @@ VertexValues vertex_values(const Scene& scene, const Instance& instance, const M
   for (size_t k = 0; k < 3; ++k) object[k] = mesh.position[k][vertex];
   for (size_t k = 0; k < 3; ++k) normal[k] = component(mesh.normal[k], vertex, 0.0f);
   VertexValues out{};
-  for (size_t r = 0; r < 4; ++r) {
-    float row[4];
-    for (int c = 0; c < 4; ++c) {
-      double sum = 0;
-      for (int k = 0; k < 4; ++k) {
-        const double b = k < 3 ? double(instance.world_from_object[c][k]) : (c == 3 ? 1.0 : 0.0);
-        const double product = clip_from_world[size_t(4 * k) + r] * b;
-        sum = k == 0 ? product : sum + product;
-      }
-      row[c] = float(sum);
-    }
-    out[kClip + r] = double(affine(row, object[0], object[1], object[2]));
-  }
-  for (int r = 0; r < 3; ++r) {
-    const float row[4] = {instance.world_from_object[0][r], instance.world_from_object[1][r],
-                          instance.world_from_object[2][r], instance.world_from_object[3][r]};
-    out[kPosition + size_t(r)] = double(affine(row, object[0], object[1], object[2]));
-  }
-  world_normal(instance, normal, unit_normal);
+  const InstanceRows rows = instance_rows(instance, clip_from_world);
+  for (size_t r = 0; r < 4; ++r) out[kClip + r] = double(affine(rows.clip[r], object[0], object[1], object[2]));
+  for (size_t r = 0; r < 3; ++r) out[kPosition + r] = double(affine(rows.world[r], object[0], object[1], object[2]));
+  world_normal(rows.normal, normal, unit_normal);
   for (size_t k = 0; k < 3; ++k) out[kNormal + k] = double(unit_normal[k]);
   // The base colour multiplies after interpolation: these are the vertex colours alone.
   for (size_t k = 0; k < 4; ++k) out[kAlbedo + k] = double(component(mesh.color[k], vertex, 1.0f));

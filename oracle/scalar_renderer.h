@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracle/exact_coverage.h"
+#include "oracle/matrices.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
@@ -72,9 +73,6 @@ struct Surface {
 
 /// Sum of the lights as real numbers: docs/arithmetic.md section 8 without its roundings.
 std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model);
-
-/// clip_from_world as real numbers; the camera's matrix where it has one.
-Matrix4 projection_of(const Camera& camera, const GeometryState& state, int width, int height);
 
 /// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,

@@ -144,7 +144,9 @@ int add_crossing(ClippedPolygon& polygon, int from, int to, Plane plane, const C
     made.edges = edge >= 0 ? uint8_t(1 << edge) : uint8_t(0);
     const double da = distance(p, in.c), db = distance(p, out.c);
     made.t = da / (da - db);
-    for (int i = 0; i < 4; ++i) made.c[i] = in.c[i] + (out.c[i] - in.c[i]) * made.t;
+    const double s = db / (db - da);  // 1 - t would lose a small share, and w of the corner with it
+    for (int i = 0; i < 4; ++i) made.c[i] = in.c[i] * s + out.c[i] * made.t;
+    if (plane >= kRight) made.c[p.axis] = -p.sign * (p.w_factor * made.c[3]);  // on the box, whatever x and y cancelled
   }
   polygon.all[polygon.made] = made;
   return polygon.made++;

@@ -70,16 +70,21 @@ InstanceTransform instance_transform(const Matrix4& clip_from_world, const glm::
   return out;
 }
 
+Viewport whole_or_set(const Viewport& v, int width, int height) {
+  return v.width == 0 && v.height == 0 ? Viewport{v.x, v.y, width, height} : v;
+}
+
+// The picture fills the viewport, so its shape is the viewport's.
 Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
-  return clip_from_world(scene.camera, double(pipeline.width) / double(pipeline.height),
+  const Viewport v = whole_or_set(pipeline.geometry.viewport, pipeline.width, pipeline.height);
+  return clip_from_world(scene.camera, double(v.width) / double(v.height),
                          pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
 }
 
 }  // namespace
 
 WindowTransform window_transform(const GeometryState& state, int width, int height) {
-  Viewport v = state.viewport;
-  if (v.width == 0 && v.height == 0) v = {v.x, v.y, width, height};
+  const Viewport v = whole_or_set(state.viewport, width, height);
   WindowTransform out;
   out.upper_left = state.clip_origin == ClipOrigin::upper_left;
   out.scale[0] = 128 * int64_t(v.width);

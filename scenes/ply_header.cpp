@@ -8,6 +8,7 @@
 namespace trueshade::ply {
 namespace {
 
+constexpr size_t kMaxParts = 256;  // elements, and properties of one: names are compared pairwise
 constexpr size_t kMaxLine = 4096;  // bytes; a file that is no PLY must not be searched for line ends to its end
 
 std::optional<Type> type_from_name(std::string_view name) {
@@ -59,6 +60,12 @@ class HeaderReader {
     throw Error(ErrorKind::bad_input, std::string(where_) + ": line " + std::to_string(line_), reason, remedy);
   }
 
+  void check_room(size_t parts, const char* what) const {
+    if (parts < kMaxParts) return;
+    throw Error(ErrorKind::limit, std::string(where_) + ": line " + std::to_string(line_),
+                std::string("there are too many ") + what, "at most " + std::to_string(kMaxParts));
+  }
+
   void next_line() {
     ++line_;
     const size_t end = text_.substr(0, position_ + kMaxLine).find('\n', position_);
@@ -89,6 +96,7 @@ class HeaderReader {
 
   void read_element() {
     if (words_.size() != 3) fail("an element has a name and a count", "'element vertex 8'");
+    check_room(header_.elements.size(), "elements");
     Element element{std::string(words_[1]), 0, {}};
     const char* end = words_[2].data() + words_[2].size();
     const auto [stop, code] = std::from_chars(words_[2].data(), end, element.count);
@@ -100,6 +108,7 @@ class HeaderReader {
 
   void read_property() {
     if (header_.elements.empty()) fail("a property before any element", "an element first");
+    check_room(header_.elements.back().properties.size(), "properties of one element");
     const bool list = words_.size() == 5 && words_[1] == "list";
     if (!list && words_.size() != 3)
       fail("a property has a type and a name", "'property float x' or 'property list uchar int vertex_indices'");

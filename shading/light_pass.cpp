@@ -172,7 +172,8 @@ Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
 }
 
 // Lights that may reach the box, ascending. Dropped only if the least squared distance, with slack for its six roundings,
-// is past the light's cut: then the kernel's own d2 is past it at every pixel.
+// is past the light's cut: then the kernel's own d2 is past it at every pixel. A light without a cut is never dropped:
+// to pixels whose positions are infinite (a half plane overflowed) every distance is, and ambient light is there too.
 template <class Candidate>
 void reaching_lights(const LightTable& lights, const Box& box, size_t count, const Candidate& candidate, std::vector<uint32_t>& out) {
   for (size_t k = 0; k < count; ++k) {
@@ -183,7 +184,8 @@ void reaching_lights(const LightTable& lights, const Box& box, size_t count, con
       const float gap = std::max(std::max(box.low[c] - place, place - box.high[c]), 0.0f);
       d2 += gap * gap;
     }
-    if (lights.type[light] == LightType::ambient || !(d2 * (1.0f - 0x1p-20f) >= lights.cut2[light])) out.push_back(light);
+    const float cut2 = lights.cut2[light];
+    if (cut2 == std::numeric_limits<float>::infinity() || !(d2 * (1.0f - 0x1p-20f) >= cut2)) out.push_back(light);
   }
 }
 
@@ -191,7 +193,7 @@ void reaching_lights(const LightTable& lights, const Box& box, size_t count, con
 void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
   const DF d;
   const size_t lanes = hn::Lanes(d);
-  const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f);
+  const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f), inf = hn::Set(d, std::numeric_limits<float>::infinity());
   alignas(64) float reach[HWY_MAX_BYTES / sizeof(float)];
   for (size_t i = 0; i < lights.size(); i += lanes) {
     VF d2 = zero;
@@ -202,7 +204,8 @@ void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vec
       const VF gap = hn::IfThenElseZero(hn::Gt(outside, zero), outside);
       d2 = hn::Add(d2, hn::Mul(gap, gap));
     }
-    const MF out_of_reach = hn::Ge(hn::Mul(d2, slack), hn::LoadU(d, &lights.cut2[i]));
+    const VF cut2 = hn::LoadU(d, &lights.cut2[i]);
+    const MF out_of_reach = hn::And(hn::Ge(hn::Mul(d2, slack), cut2), hn::Lt(cut2, inf));
     if (hn::AllTrue(d, out_of_reach)) continue;
     hn::Store(hn::IfThenElse(out_of_reach, zero, hn::Set(d, 1.0f)), d, reach);
     for (size_t k = 0; k < lanes && i + k < lights.size(); ++k)

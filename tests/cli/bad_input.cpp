@@ -69,6 +69,8 @@ TEST_CASE("scenes that are not there or not right are refused with their place")
   check_refused(run_command({"render", "builtin:atlantis", "--hash"}), 3, "atlantis");
   check_refused(run_command({"render", "builtin:city,lights=x", "--hash"}), 3, "lights");
   check_refused(run_command({"render", "absent.json", "--hash"}, folder.path("")), 5, "absent.json");
+  check_refused(run_command({"render", "two\nlines\x1b[2J.json", "--hash"}, folder.path("")), 5, "two?lines?[2J.json");
+  check_refused(run_command({"render", "builtin:two\nlines", "--hash"}), 3, "builtin:two?lines");
   std::ofstream(folder.path("key.json")) << R"({"version": 1, "objects": [], "lamps": []})";
   check_refused(run_command({"render", "key.json", "-o", "x.png"}, folder.path("")), 3, "key.json: /lamps");
   std::ofstream(folder.path("torn.json")) << R"({"version": 1, )";

@@ -234,6 +234,26 @@ TEST_CASE("Clip coordinates that no camera makes are cut as exact integers say")
   CHECK(tally.samples > tally.shapes);
 }
 
+TEST_CASE("The box far away cuts triangles of any size and any range of w, and what lies inside it stays") {
+  // Each second triangle has the first one's coverage, in coordinates so large, or of a w so small, that the cut at the
+  // box must neither lose w to rounding nor leave its corner off the box.
+  const std::vector<ClipTriangle> plain[] = {
+      {triangle({{-8, -8, 0, 1}}, {{8, -8, 0, 1}}, {{0, 8, 0, 1}})},
+      {triangle({{0, 0, 0, 1}}, {{20, -10, 0, 1}}, {{20, 10, 0, 1}})}};
+  const std::vector<ClipTriangle> huge[] = {
+      {triangle({{-1e30f, -1e30f, 0, 1}}, {{1e30f, -1e30f, 0, 1}}, {{0, 1e30f, 0, 1}})},
+      {triangle({{0, 0, 0, 1e25f}}, {{2, -1, 0, 1e-10f}}, {{2, 1, 0, 1e-10f}})}};
+  for (const Execution& execution : executions())
+    for (size_t i = 0; i < std::size(plain); ++i) {
+      std::vector<uint16_t> expected(16 * 16), counts(16 * 16);
+      count_coverage(plain[i], {}, 16, 16, execution, expected);
+      count_coverage(huge[i], {}, 16, 16, execution, counts);
+      INFO(named(execution) << ", triangle " << i);
+      CHECK(std::count(expected.begin(), expected.end(), 1) > 16);
+      CHECK(counts == expected);
+    }
+}
+
 TEST_CASE("Where two triangles lie on both sides of their edge no pixel is hit twice and none on the edge is missed") {
   // By the definition of watertight alone, without the oracle: corners on whole subpixels, so that the test can judge
   // sides and samples in integers by itself.

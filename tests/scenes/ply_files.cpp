@@ -173,6 +173,21 @@ TEST_CASE("bad text files are refused with the line") {
   CHECK_STARTS_WITH(refusal(std::string("ply\n") + std::string(100000, 'x')), "m.ply: line 2: the header has no end");
 }
 
+TEST_CASE("a header of too many elements or properties is refused before names are compared for hours") {
+  const auto header = [](int elements, int properties) {
+    std::string text = "ply\nformat ascii 1.0\n";
+    for (int e = 0; e < elements; ++e) {
+      text += "element e" + std::to_string(e) + " 0\n";
+      for (int p = 0; p < properties; ++p) text += "property char p" + std::to_string(p) + "\n";
+    }
+    return bytes_of(text + "end_header\n");
+  };
+  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { mesh_from_ply(header(200000, 0), "m.ply", MissingNormals::flat); }),
+                    "m.ply: line 259: there are too many elements");
+  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { mesh_from_ply(header(1, 200000), "m.ply", MissingNormals::flat); }),
+                    "m.ply: line 260: there are too many properties");
+}
+
 TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
   const Mesh mesh = read(replaced(kQuad, "1 0 0\n1 1 0\n", "+1\t0 0 1 1.0e0 0\r\n"));
   CHECK(mesh.position[0] == std::vector<float>{0, 1, 1, 0, 1, 0});

@@ -308,6 +308,43 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Row 55: lights without a range light surfaces whose stored or squared position overflows, culled or not") {
+  Random random(550);
+  for (const bool overflow_of_half : {true, false}) {
+    Scene scene = sheet(random);
+    Light ambient, directional;
+    ambient.type = LightType::ambient;
+    directional.type = LightType::directional;
+    directional.direction = {0, 0, -1};
+    scene.lights = {ambient, directional, random_light(random)};
+    Pipeline pipeline = loop_pipeline("many-lights");
+    if (overflow_of_half) {  // 1e5 is infinite in a half
+      pipeline.gbuffer.position.format = Format::rgb16f;
+      pipeline.gbuffer.half_round = HalfRound::nearest;
+      for (glm::vec3* place : {&scene.camera.eye, &scene.camera.target, &scene.instances[0].world_from_object[3]})
+        *place += glm::vec3(1e5f, 1e5f, 1e5f);
+    } else {  // a sheet of 2e20 a side, seen by a matrix of its size
+      for (int axis = 0; axis < 3; ++axis) scene.instances[0].world_from_object[axis][axis] = 1e18f;
+      for (auto& stream : scene.meshes[0].position)
+        for (float& value : stream) value = value * 100 + 1000;
+      scene.camera.clip_from_world = {5e-21f, 0, 0, 0, 0, 5e-21f, 0, 0, 0, 0, 1e-22f, 0, -5, -5, 0, 1};
+    }
+    Execution brute;
+    brute.light_culling = false;
+    const Result expected = render(scene, pipeline, brute);
+    REQUIRE(expected.covered(30, 20));
+    float red;
+    std::memcpy(&red, expected.frame.color.texel(30, 20), sizeof red);
+    REQUIRE(red > 0);
+    for (const std::string_view simd : simd_targets()) {
+      Execution execution;
+      execution.simd = simd;
+      INFO(overflow_of_half << " " << simd);
+      CHECK(render(scene, pipeline, execution).frame.color.texels == expected.frame.color.texels);
+    }
+  }
+}
+
 TEST_CASE(
     "Row 52: attenuation (1, 0.14, 0.07) at distance 2 is 0x3F241A42 give or take an ulp, a directional light has "
     "none") {

@@ -1,0 +1,277 @@
+#include "oracle/gl/designs.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "oracle/exact_coverage.h"
+#include "oracle/gl/designs_glsl.h"
+#include "oracle/gl/geometry_state.h"
+#include "oracle/gl/light_tiles.h"
+#include "oracle/gl/objects.h"
+#include "oracle/gl/pass_timer.h"
+#include "oracle/gl/read_back.h"
+#include "oracle/gl/scene_buffers.h"
+#include "oracle/gl/surface_uniforms.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+std::string_view name_of(GlDesign design) {
+  switch (design) {
+    case GlDesign::deferred_loop:
+      return "deferred-loop";
+    case GlDesign::deferred_volumes:
+      return "deferred-volumes";
+    case GlDesign::tiled:
+      return "tiled";
+    case GlDesign::forward_plus:
+      return "forward-plus";
+    case GlDesign::forward_loop:
+      return "forward-loop";
+    case GlDesign::forward_multipass:
+      return "forward-multipass";
+  }
+  return {};
+}
+
+struct GlPeer::Work {
+  GlRenderer& renderer;
+  const Pipeline pipeline;
+  const GlDesign design;
+  const int tile;
+  const GlslOptions options;
+  const std::vector<GlslPlane> planes;  ///< of the G-buffer; none in forward designs
+  Viewport viewport{};
+  GlProgram geometry, lighting, base, depth_only;
+  std::vector<GlTexture> textures;
+  GlTexture depth, color;
+  GlTarget geometry_target, light_target, forward_target;
+  GlVertexArray none;
+  GlTexelBuffer tile_ranges, tile_records;
+  std::vector<float> depths;  ///< read back, row 0 at the bottom
+
+  Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size);
+  const Scene& scene() { return renderer.buffers().scene(); }
+  GlFrame draw(bool read_back);
+
+ private:
+  void draw_gbuffer();
+  void draw_depth();
+  void bin_lights();
+  void begin_forward();
+  void use_lighting();
+  void light_deferred();
+  void draw_volumes();
+  void draw_multipass();
+};
+
+namespace {
+
+GlslOptions lean_options(const GlRenderer& renderer) {
+  GlDraw draw;
+  draw.planes = false;
+  GlslOptions options = renderer.shader_options(draw);
+  options.products = true;
+  return options;
+}
+
+}  // namespace
+
+GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
+    : renderer(r),
+      pipeline(design_pipeline(p, d)),
+      design(d),
+      tile(tile_size),
+      options(lean_options(r)),
+      planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
+  renderer.context().make_current();
+  check_limits(renderer.context(), pipeline, pipeline.width, pipeline.height);
+  viewport = resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height);
+  const DesignShaders text = lighting_shaders(pipeline, options, design);
+  lighting = make_program(name_of(design), text.vert, text.frag);
+  const GlslShaders judge = shaders_of(pipeline, options);
+  if (!is_forward(design)) geometry = make_program("geometry", judge.geometry_vert, judge.geometry_frag);
+  if (design == GlDesign::forward_plus)
+    depth_only = make_program("depth", judge.geometry_vert, empty_fragment_text(options.version));
+  if (design == GlDesign::deferred_volumes)
+    base = make_program("base", judge.light_vert, base_fragment_text(pipeline, options));
+
+  std::vector<GLuint> names;
+  for (const GlslPlane& plane : planes) {
+    textures.push_back(make_texture(plane.format, pipeline.width, pipeline.height));
+    names.push_back(textures.back());
+  }
+  depth = make_texture(Format::d32f, pipeline.width, pipeline.height);
+  color = make_texture(pipeline.target, pipeline.width, pipeline.height);
+  const std::array<GLuint, 1> target{color};
+  geometry_target = make_target(names, depth);
+  light_target = make_target(target, 0);
+  forward_target = make_target(target, depth);
+  if (!geometry_target.complete || !forward_target.complete)
+    throw std::runtime_error("the driver cannot render to the planes of this design");
+  none = make_vertex_array();
+  renderer.buffers().upload_instances(pipeline);
+}
+
+void GlPeer::Work::draw_gbuffer() {
+  glBindFramebuffer(GL_FRAMEBUFFER, geometry_target.framebuffer);
+  glDepthMask(GL_TRUE);
+  constexpr std::array<float, 4> kZero{};
+  constexpr std::array<GLuint, 4> kNone{};
+  for (size_t i = 0; i < planes.size(); ++i) {
+    if (planes[i].format == Format::r32ui)
+      glClearBufferuiv(GL_COLOR, GLint(i), kNone.data());
+    else
+      glClearBufferfv(GL_COLOR, GLint(i), kZero.data());
+  }
+  glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
+  set_geometry_state(pipeline.geometry, viewport, 0, 0);
+  glUseProgram(geometry);
+  renderer.buffers().draw_instances();
+}
+
+void GlPeer::Work::draw_depth() {
+  glBindFramebuffer(GL_FRAMEBUFFER, geometry_target.framebuffer);
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
+  set_geometry_state(pipeline.geometry, viewport, 0, 0);
+  glUseProgram(depth_only);
+  renderer.buffers().draw_instances();
+}
+
+void GlPeer::Work::bin_lights() {
+  depths.resize(size_t(pipeline.width) * size_t(pipeline.height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, geometry_target.framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, pipeline.width, pipeline.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  const LightTiles tiles = light_tiles(scene(), pipeline, depths, tile);
+  std::vector<uint32_t> ranges;
+  ranges.reserve(2 * tiles.first.size());
+  for (size_t i = 0; i < tiles.first.size(); ++i) ranges.insert(ranges.end(), {tiles.first[i], tiles.count[i]});
+  tile_ranges = make_index_buffer(ranges);
+  tile_records = make_texel_buffer(tiles.records);
+}
+
+/// Binds whatever the lighting program reads; samplers it does not have are no harm.
+void GlPeer::Work::use_lighting() {
+  glUseProgram(lighting);
+  int unit = bind_surface(lighting, planes, textures, depth, scene(), pipeline, 0, 0);
+  if (is_binned(design)) {
+    bind_texture(lighting, "tiles", unit++, GL_TEXTURE_BUFFER, tile_ranges.texture);
+    bind_texture(lighting, "records", unit, GL_TEXTURE_BUFFER, tile_records.texture);
+    set_uniform(lighting, "tile_size", tile);
+    set_uniform(lighting, "columns", (pipeline.width + tile - 1) / tile);
+    set_uniform(lighting, "image_size", std::array<float, 2>{float(pipeline.width), float(pipeline.height)});
+  } else {
+    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline.light_model));
+    set_uniform(lighting, "light_count", int(scene().lights.size()));
+  }
+}
+
+void GlPeer::Work::light_deferred() {
+  set_image_state(pipeline.width, pipeline.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, light_target.framebuffer);
+  const glm::vec4& clear = scene().clear;
+  glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{clear.r, clear.g, clear.b, clear.a}.data());
+  if (design == GlDesign::deferred_volumes) return draw_volumes();
+  use_lighting();
+  glBindVertexArray(none);
+  const int columns = (pipeline.width + tile - 1) / tile, rows = (pipeline.height + tile - 1) / tile;
+  if (design == GlDesign::tiled)
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, columns * rows);
+  else
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// The paper's state: front faces culled, no depth test, depth clamp, so that a box around the eye lights what it
+/// should.
+void GlPeer::Work::draw_volumes() {
+  glUseProgram(base);
+  bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
+  glBindVertexArray(none);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  GeometryState state = pipeline.geometry;
+  state.cull_face = CullFace::front;
+  state.front_face = FrontFace::ccw;
+  state.depth_clamp = true;
+  set_geometry_state(state, viewport, 0, 0);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+  use_lighting();
+  const Matrix4 clip = projection_of(scene().camera, pipeline.geometry, pipeline.width, pipeline.height);
+  std::array<float, 16> columns{};
+  for (size_t i = 0; i < 16; ++i) columns[i] = float(clip[i]);
+  glUniformMatrix4fv(glGetUniformLocation(lighting, "clip_from_world"), 1, GL_FALSE, columns.data());
+  glBindVertexArray(none);
+  glDrawArraysInstanced(GL_TRIANGLES, 0, 36, GLsizei(scene().lights.size()));
+}
+
+void GlPeer::Work::begin_forward() {
+  glBindFramebuffer(GL_FRAMEBUFFER, forward_target.framebuffer);
+  set_geometry_state(pipeline.geometry, viewport, 0, 0);
+  const glm::vec4& clear = scene().clear;
+  glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{clear.r, clear.g, clear.b, clear.a}.data());
+  if (design != GlDesign::forward_plus) glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
+  use_lighting();
+  if (design == GlDesign::forward_plus) {
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+  }
+}
+
+/// The first light stores depth and colour, the others add where the depth is the one stored.
+void GlPeer::Work::draw_multipass() {
+  const int lights = int(scene().lights.size());
+  for (int i = lights == 0 ? -1 : 0; i < std::max(lights, 0); ++i) {
+    set_uniform(lighting, "light", i);
+    renderer.buffers().draw_instances();
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+  }
+}
+
+GlFrame GlPeer::Work::draw(bool read_back) {
+  renderer.context().make_current();
+  GlFrame frame;
+  frame.capture.driver = renderer.context().info().line();
+  PassTimer timer(frame.passes);
+  if (!is_forward(design)) {
+    draw_gbuffer();
+    timer.end("geometry");
+  }
+  if (design == GlDesign::forward_plus) {
+    draw_depth();
+    timer.end("depth");
+  }
+  if (is_binned(design)) {
+    bin_lights();
+    timer.end("binning");
+  }
+  if (is_forward(design)) {
+    begin_forward();
+    if (design == GlDesign::forward_multipass)
+      draw_multipass();
+    else
+      renderer.buffers().draw_instances();
+    timer.end("forward");
+  } else {
+    light_deferred();
+    timer.end("lights");
+  }
+  if (read_back) frame.capture.color = read_texture(color, pipeline.target, 0, 0, pipeline.width, pipeline.height);
+  check_gl(name_of(design));
+  return frame;
+}
+
+GlPeer::GlPeer(GlRenderer& renderer, const Pipeline& pipeline, GlDesign design, int tile)
+    : work_(std::make_unique<Work>(renderer, pipeline, design, tile)) {}
+GlPeer::~GlPeer() = default;
+
+GlFrame GlPeer::draw(bool read_back) { return work_->draw(read_back); }
+
+}  // namespace trueshade::oracle

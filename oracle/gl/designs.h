@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "oracle/gl/renderer.h"
+
+namespace trueshade::oracle {
+
+/// Ways to draw many lights with OpenGL, for benchmarks beside us: the same picture up to rounding.
+enum class GlDesign {
+  deferred_loop,      ///< one full-screen pass that sums all lights
+  deferred_volumes,   ///< one additive box a light, blended into the target
+  tiled,              ///< thin G-buffer (position from depth, half normal), lists by tile within its depth bounds
+  forward_plus,       ///< depth first, then the scene again with the tiles' lists, depth EQUAL
+  forward_loop,       ///< the scene once, all lights in each fragment
+  forward_multipass,  ///< the scene once a light
+};
+inline constexpr std::array kGlDesigns{GlDesign::deferred_loop, GlDesign::deferred_volumes,
+                                       GlDesign::tiled,         GlDesign::forward_plus,
+                                       GlDesign::forward_loop,  GlDesign::forward_multipass};
+
+/// As bench names them: "deferred-loop" and so on.
+std::string_view name_of(GlDesign design);
+
+/// One design, ready: programs linked, textures there, matrices uploaded. draw() does a frame's work and no more.
+/// A pipeline that draws what lies behind (depth function, culling, viewport) is taken as it is.
+class GlPeer {
+ public:
+  /// Borrows the renderer, which must outlive it. `tile`: pixels a side of the designs that bin lights.
+  GlPeer(GlRenderer& renderer, const Pipeline& pipeline, GlDesign design, int tile = 32);
+  ~GlPeer();
+
+  /// A frame: the target is read back where asked for, after the last pass's time was taken. No planes.
+  GlFrame draw(bool read_back);
+
+ private:
+  struct Work;  ///< one design's programs, textures and passes
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "oracle/gl/designs.h"
+
+namespace trueshade::oracle {
+
+/// The planes a design stores: tiled has a thin G-buffer, forward designs none that are read.
+Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design);
+
+/// Vertex and fragment shader of the pass that lights: over the image, over boxes, over tiles, or over the scene.
+struct DesignShaders {
+  std::string vert, frag;
+};
+DesignShaders lighting_shaders(const Pipeline& pipeline, const GlslOptions& options, GlDesign design);
+
+/// Writes black and the pixel's alpha where there is a surface: what deferred_volumes blends onto.
+std::string base_fragment_text(const Pipeline& pipeline, const GlslOptions& options);
+
+/// Depth alone.
+std::string empty_fragment_text(int version);
+
+inline bool is_forward(GlDesign design) {
+  return design == GlDesign::forward_plus || design == GlDesign::forward_loop || design == GlDesign::forward_multipass;
+}
+inline bool is_binned(GlDesign design) { return design == GlDesign::tiled || design == GlDesign::forward_plus; }
+
+}  // namespace trueshade::oracle

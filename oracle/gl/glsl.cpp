@@ -1,0 +1,216 @@
+#include "oracle/gl/glsl.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+
+namespace trueshade::oracle {
+
+namespace {
+
+std::string qualifier(Interpolation interpolation) {
+  switch (interpolation) {
+    case Interpolation::smooth:
+      return "smooth";
+    case Interpolation::flat:
+      return "flat";
+    case Interpolation::noperspective:
+      return "noperspective";
+  }
+  return {};
+}
+
+bool has_ids(const std::vector<GlslPlane>& planes) {
+  return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
+}
+
+std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
+  std::string text = glsl_header(options.version, "geometry pass: stores the surface, one plane an attachment");
+  text += varyings_text(pipeline, options, "in");
+  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
+  for (size_t i = 0; i < planes.size(); ++i)
+    text += "layout(location = " + std::to_string(i) + ") out " +
+            (planes[i].format == Format::r32ui ? "uint " : "vec4 ") + planes[i].output + ";\n";
+  text += "\nvoid main() {\n";
+  for (const GlslPlane& plane : planes) {
+    text += "  " + plane.output + " = ";
+    if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
+    if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
+    if (plane.name == "albedo") text += "color * base;\n";
+    if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
+    if (plane.name == "id.object") text += "ids.x;\n";
+    if (plane.name == "id.material") text += "ids.y;\n";
+    if (plane.name == "id.primitive") text += "uint(gl_PrimitiveID) + 1u;\n";
+  }
+  return text + "}\n";
+}
+
+/// `vec3 P` from its plane, or from the stored depth as docs/arithmetic.md section 7 says.
+std::string position_text(const GBufferState& g) {
+  if (!g.position_from_depth) return "  vec3 P = texelFetch(position_plane, pixel, 0).xyz;\n";
+  return R"(  float depth = texelFetch(depth_plane, pixel, 0).x;
+  vec3 ndc = vec3((gl_FragCoord.xy - ndc_from_window.xy) * ndc_from_window.zw - ndc_origin,
+                  (depth - depth_to_ndc.x) * depth_to_ndc.y);
+  vec4 h = ((world_from_clip[0] * ndc.x + world_from_clip[1] * ndc.y) + world_from_clip[2] * ndc.z) + world_from_clip[3];
+  vec3 P = h.xyz * (1.0 / h.w);
+)";
+}
+
+std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
+  const LightModel& model = pipeline.light_model;
+  std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
+  text += surface_uniforms_text(pipeline, options);
+  text += "uniform samplerBuffer lights;  // " + std::to_string(texels_per_light(model)) +
+          " texels a light\n"
+          "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
+  text += light_function_text(model, options);
+  text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
+  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += " +
+          lit_call_text(model, "lights", "i") + ";\n";
+  text += std::string("  target = vec4(sum, ") + (model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n}\n";
+  return text;
+}
+
+}  // namespace
+
+std::string glsl_header(int version, std::string_view purpose) {
+  return "#version " + std::to_string(version) + " core\n// Trueshade, " + std::string(purpose) + ".\n";
+}
+
+std::string glsl_float(float value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", double(value));
+  std::string literal = text;
+  if (literal.find_first_of(".e") == std::string::npos) literal += ".0";
+  return literal;
+}
+
+std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& options) {
+  const GBufferState& g = pipeline.gbuffer;
+  const auto renderable = [&](Format f) { return f == Format::rgb16f && !options.rgb16f ? Format::rgba16f : f; };
+  std::vector<GlslPlane> planes;
+  const auto add = [&](const char* name, const char* word, Format format) {
+    planes.push_back({name, std::string("out_") + word, std::string(word) + "_plane", renderable(format)});
+  };
+  if (!g.position_from_depth) add("position", "position", g.position.format);
+  add("normal", "normal", g.normal.format);
+  add("albedo", "albedo", g.albedo.format);
+  if (options.uv) add("uv", "uv", g.uv.format);
+  const bool w = info(planes[0].format).channels == 4;
+  if (options.ids || !w) add("id.object", "object", Format::r32ui);
+  if (options.ids) {
+    add("id.material", "material", Format::r32ui);
+    if (options.primitive) add("id.primitive", "primitive", Format::r32ui);
+  }
+  return planes;
+}
+
+const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes) {
+  if (info(planes[0].format).channels == 4) return planes[0];  // position or normal, whose w is 1
+  for (const GlslPlane& plane : planes)
+    if (plane.name == "id.object") return plane;
+  assert(false);  // planes_of() adds it where the first plane has no w
+  return planes[0];
+}
+
+int texels_per_light(const LightModel& model) { return model.falloff == Falloff::quadratic ? 3 : 2; }
+
+std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction) {
+  const GBufferState& g = pipeline.gbuffer;
+  std::string text;
+  const auto declare = [&](Interpolation interpolation, const char* type, const char* name) {
+    text += qualifier(interpolation) + ' ' + direction + ' ' + type + ' ' + name + ";\n";
+  };
+  if (!g.position_from_depth) declare(g.position.interpolation, "vec3", "world_position");
+  declare(g.normal.interpolation, "vec3", "world_normal");
+  declare(g.albedo.interpolation, "vec4", "color");
+  declare(Interpolation::flat, "vec4", "base");
+  if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
+  return text;
+}
+
+std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options) {
+  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
+  std::string text;
+  for (const GlslPlane& plane : planes)
+    if (plane.name == "position" || plane.name == "normal" || plane.name == "albedo")
+      text += "uniform sampler2D " + plane.sampler + ";\n";
+  const GlslPlane& coverage = coverage_plane(planes);
+  if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
+  if (pipeline.gbuffer.position_from_depth)
+    text +=
+        "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
+        "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
+  return text + "uniform vec3 eye;\n";
+}
+
+std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options) {
+  const GlslPlane coverage = coverage_plane(planes_of(pipeline, options));
+  const bool ids = coverage.format == Format::r32ui;
+  return "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n  if (texelFetch(" + coverage.sampler +
+         (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
+         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
+         "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
+         surface_text(pipeline.light_model);
+}
+
+std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
+  const std::string n = std::to_string(texels_per_light(model));
+  std::string text = "lit(P, N, V, albedo.rgb";
+  for (int i = 0; i < texels_per_light(model); ++i)
+    text +=
+        ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");
+  return text + ")";
+}
+
+std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
+  std::string text = glsl_header(options.version, "geometry pass: matrices are rows, rounded once from double");
+  text += R"(layout(location = 0) in vec3 object_position;
+layout(location = 1) in vec3 object_normal;
+layout(location = 2) in vec4 vertex_color;  // 1 where the mesh has none
+layout(location = 3) in vec2 vertex_uv;
+layout(location = 4) in vec4 clip_from_object[4];
+layout(location = 8) in vec4 world_from_object[3];
+layout(location = 11) in vec3 normal_from_object[3];  // inverse transpose
+layout(location = 14) in vec4 base_color;
+layout(location = 15) in uvec2 instance_ids;
+)";
+  text += varyings_text(pipeline, options, "out");
+  if (options.version >= 400) text += "precise gl_Position;\n";
+  text += R"(
+float affine(vec4 row, vec3 p) { return ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w; }
+float linear(vec3 row, vec3 v) { return (row.x * v.x + row.y * v.y) + row.z * v.z; }
+
+void main() {
+  vec3 p = object_position;
+  gl_Position = vec4(affine(clip_from_object[0], p), affine(clip_from_object[1], p), affine(clip_from_object[2], p),
+                     affine(clip_from_object[3], p));
+  vec3 n = vec3(linear(normal_from_object[0], object_normal), linear(normal_from_object[1], object_normal),
+                linear(normal_from_object[2], object_normal));
+  float n2 = linear(n, n);
+  world_normal = n * (n2 > 0.0 ? 1.0 / sqrt(n2) : 0.0);
+  color = vertex_color;
+  base = base_color;
+)";
+  if (!pipeline.gbuffer.position_from_depth)
+    text +=
+        "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
+        "affine(world_from_object[2], p));\n";
+  if (options.uv) text += "  texcoord = vertex_uv;\n";
+  if (has_ids(planes_of(pipeline, options))) text += "  ids = instance_ids;\n";
+  return text + "}\n";
+}
+
+std::string fullscreen_vertex_text(int version) {
+  return glsl_header(version, "one triangle over the whole image, drawn with 3 vertices and no buffer") + R"(
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
+)";
+}
+
+GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {
+  return {vertex_text(pipeline, options), geometry_fragment_text(pipeline, options),
+          fullscreen_vertex_text(options.version), light_fragment_text(pipeline, options)};
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,67 @@
+#pragma once
+// A pipeline as GLSL: the text the judge compiles is the text `trueshade glsl` writes. Nothing here calls OpenGL.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/pipeline.h"
+
+namespace trueshade::oracle {
+
+/// What the text depends on beside the pipeline. As it stands: the judge's shaders on a driver of OpenGL 4.5.
+struct GlslOptions {
+  int version = 450;      ///< 450 or 330; 330 cannot forbid contraction of the position
+  bool ids = true;        ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
+  bool primitive = true;  ///< of ids, id.primitive too
+  bool uv = true;         ///< plane uv
+  bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
+  bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
+  bool ambient = true, directional = true;  ///< light types the loop knows beside point
+};
+
+/// A plane of the G-buffer: colour attachment i of the geometry pass is the i-th of planes_of().
+struct GlslPlane {
+  std::string name;     ///< as --aov names it
+  std::string output;   ///< of the geometry pass's fragment shader
+  std::string sampler;  ///< of the light pass
+  Format format;
+  bool operator==(const GlslPlane&) const = default;
+};
+
+/// The planes of a pipeline in attachment order.
+std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& options);
+
+/// The plane whose texel tells whether a surface was drawn: its w (1, cleared to 0) or, for ids, the number itself.
+const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
+
+/// Four shaders that draw a frame. The files of `trueshade glsl` have these names.
+struct GlslShaders {
+  std::string geometry_vert, geometry_frag, light_vert, light_frag;
+  bool operator==(const GlslShaders&) const = default;
+};
+GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
+
+/// A light is this many RGBA32F texels in `lights`: (position or -direction, type), (colour, range), and with a
+/// quadratic falloff (k0, k1, k2, 0). Types: 0 ambient, 1 directional, 2 point or spot.
+int texels_per_light(const LightModel& model);
+
+// Parts that the peers' shaders are made of too.
+
+std::string glsl_header(int version, std::string_view purpose);
+std::string glsl_float(float value);  ///< a literal that reads back as the same float
+/// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
+std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
+std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
+std::string fullscreen_vertex_text(int version);
+/// `vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color[, vec3 k])`: what one light adds.
+std::string light_function_text(const LightModel& model, const GlslOptions& options);
+/// Samplers and uniforms that read_surface_text() reads, without those of the lights.
+std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
+/// Discards pixels without a surface; then `vec3 P, N, V` and `vec4 albedo` of the pixel, from the planes.
+std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options);
+/// `vec3 N, V` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
+std::string surface_text(const LightModel& model);
+/// `lit(...)` of the light whose first texel in `buffer` is at `index` times texels_per_light().
+std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,65 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "oracle/capture.h"
+#include "oracle/gl/context.h"
+#include "oracle/gl/glsl.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// What to draw beside the pipeline, and what to read back. None of it changes a pixel, but for `lights`.
+struct GlDraw {
+  bool planes = true;            ///< read every plane back, depth and ids among them; otherwise the target alone
+  int lights = -1;               ///< only the first so many; -1: all. So the target after each light can be had
+  int shift_x = 0, shift_y = 0;  ///< the picture moved by whole pixels, >= 0, and read back from there
+  const GlslShaders* shaders = nullptr;  ///< instead of shaders_of(pipeline, shader_options)
+  GlslOptions shader_options;            ///< of `shaders`
+};
+
+struct GlPass {
+  std::string name;
+  double ms = 0;  ///< wall time up to glFinish
+};
+
+struct GlFrame {
+  Capture capture;
+  std::vector<GlPass> passes;
+  std::vector<std::string> notes;  ///< where the driver could not do what the pipeline says, and what was done instead
+};
+
+class SceneBuffers;
+struct Targets;
+struct Programs;
+
+/// A scene on a driver. Meshes are uploaded once, frames of any pipeline drawn from them.
+/// Borrows both, which must outlive it unchanged; to be used on one thread at a time.
+class GlRenderer {
+ public:
+  /// `rotation`: 0, 1 or 2, the vertex each triangle starts with. Changes what a flat attribute follows, nothing else.
+  GlRenderer(const GlContext& context, const Scene& scene, int rotation = 0);
+  ~GlRenderer();
+
+  /// The options whose shaders draw() makes for itself: all planes, or what the light pass reads alone.
+  GlslOptions shader_options(const GlDraw& draw) const;
+
+  /// Throws Error(limit or no_gl_driver) where the driver cannot draw this: image too large, no clip control.
+  GlFrame draw(const Pipeline& pipeline, const GlDraw& draw = {});
+
+  const GlContext& context() const { return *context_; }
+  SceneBuffers& buffers() { return *buffers_; }
+
+ private:
+  const GlContext* context_;
+  std::unique_ptr<SceneBuffers> buffers_;
+  std::unique_ptr<Targets> targets_;    ///< of the last frame, kept while size and formats stay
+  std::unique_ptr<Programs> programs_;  ///< of the last frame, kept while the text stays
+  bool rgb16f_, primitive_ids_;
+
+  const Programs& programs(const GlslShaders& text);
+  const Targets& targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw);
+};
+
+}  // namespace trueshade::oracle

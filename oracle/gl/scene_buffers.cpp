@@ -1,0 +1,155 @@
+#include "oracle/gl/scene_buffers.h"
+
+#include <algorithm>
+#include <array>
+
+#include "oracle/gl/glsl.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr GLuint kPosition = 0, kNormal = 1, kColor = 2, kUv = 3, kInstance = 4, kIds = 15;  // as in vertex_text()
+constexpr int kInstanceFloats = 4 * 4 + 3 * 4 + 3 * 3 + 4;  // clip rows, world rows, normal rows, base colour
+
+struct InstanceRecord {
+  std::array<float, kInstanceFloats> values;
+  std::array<uint32_t, 2> ids;
+};
+
+/// Vertex attributes of a mesh side by side, as GPUs like them: position, normal, then colour and uv if there are any.
+std::vector<float> interleaved(const Mesh& mesh) {
+  std::vector<float> out;
+  const size_t floats = 6 + (mesh.has_color() ? 4 : 0) + (mesh.has_uv() ? 2 : 0);
+  out.reserve(floats * mesh.vertex_count());
+  for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+    for (const auto& stream : mesh.position) out.push_back(stream[v]);
+    for (const auto& stream : mesh.normal) out.push_back(stream.empty() ? 0.0f : stream[v]);
+    if (mesh.has_color())
+      for (const auto& stream : mesh.color) out.push_back(stream[v]);
+    if (mesh.has_uv())
+      for (const auto& stream : mesh.uv) out.push_back(stream[v]);
+  }
+  return out;
+}
+
+std::vector<uint32_t> rotated(const std::vector<uint32_t>& indices, int rotation) {
+  std::vector<uint32_t> out(indices.size());
+  for (size_t i = 0; i < indices.size(); ++i) out[i] = indices[i - i % 3 + (i + size_t(rotation)) % 3];
+  return out;
+}
+
+const void* byte_offset(size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+void vertex_attribute(GLuint index, int components, size_t floats, size_t stride_floats) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, GLsizei(stride_floats * sizeof(float)),
+                        byte_offset(floats * sizeof(float)));
+}
+
+/// Points the per-instance attributes at a run's first record. An offset, because GL before 4.2 has no base instance.
+void point_at_instances(uint32_t first) {
+  const size_t start = size_t(first) * sizeof(InstanceRecord);
+  size_t floats = 0;
+  GLuint index = kInstance;
+  for (const int components : {4, 4, 4, 4, 4, 4, 4, 3, 3, 3, 4}) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, GLsizei(sizeof(InstanceRecord)),
+                          byte_offset(start + floats * sizeof(float)));
+    glVertexAttribDivisor(index++, 1);
+    floats += size_t(components);
+  }
+  glEnableVertexAttribArray(kIds);
+  glVertexAttribIPointer(kIds, 2, GL_UNSIGNED_INT, GLsizei(sizeof(InstanceRecord)),
+                         byte_offset(start + kInstanceFloats * sizeof(float)));
+  glVertexAttribDivisor(kIds, 1);
+}
+
+}  // namespace
+
+std::vector<float> light_records(const Scene& scene, const LightModel& model) {
+  const auto texels = size_t(texels_per_light(model));
+  std::vector<float> out;
+  out.reserve(4 * texels * scene.lights.size());
+  for (const Light& light : scene.lights) {
+    const bool directional = light.type == LightType::directional;
+    const glm::vec3 place = directional ? -light.direction : light.position;
+    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : 2.0f;
+    out.insert(out.end(), {place.x, place.y, place.z, type});
+    out.insert(out.end(), {light.color.r, light.color.g, light.color.b, light.range});
+    if (texels == 3) out.insert(out.end(), {light.attenuation.x, light.attenuation.y, light.attenuation.z, 0.0f});
+  }
+  return out;
+}
+
+SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene) {
+  for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    if (runs_.empty() || runs_.back().mesh != scene.instances[i].mesh) runs_.push_back({scene.instances[i].mesh, i, 0});
+    ++runs_.back().count;
+  }
+}
+
+SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& mesh, int rotation) const {
+  MeshBuffers out;
+  out.array = make_vertex_array();
+  glBindVertexArray(out.array);
+  const size_t stride = 6 + (mesh.has_color() ? 4 : 0) + (mesh.has_uv() ? 2 : 0);
+  out.vertices = make_buffer(GL_ARRAY_BUFFER, std::span<const float>(interleaved(mesh)));
+  vertex_attribute(kPosition, 3, 0, stride);
+  vertex_attribute(kNormal, 3, 3, stride);
+  if (mesh.has_color()) vertex_attribute(kColor, 4, 6, stride);
+  if (mesh.has_uv()) vertex_attribute(kUv, 2, mesh.has_color() ? 10 : 6, stride);
+  const std::vector<uint32_t> turned = rotation == 0 ? std::vector<uint32_t>{} : rotated(mesh.indices, rotation);
+  out.indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const uint32_t>(rotation == 0 ? mesh.indices : turned));
+  out.index_count = GLsizei(mesh.indices.size());
+  return out;
+}
+
+bool SceneBuffers::has_type(LightType type) const {
+  return std::any_of(scene_->lights.begin(), scene_->lights.end(), [type](const Light& l) { return l.type == type; });
+}
+
+void SceneBuffers::upload_instances(const Pipeline& pipeline) {
+  const Matrix4 clip = projection_of(scene_->camera, pipeline.geometry, pipeline.width, pipeline.height);
+  std::vector<InstanceRecord> records;
+  records.reserve(scene_->instances.size());
+  for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
+    const Instance& instance = scene_->instances[i];
+    const InstanceRows rows = instance_rows(instance, clip);
+    InstanceRecord record{};
+    auto next = record.values.begin();
+    for (const auto& row : rows.clip) next = std::copy(row.begin(), row.end(), next);
+    for (const auto& row : rows.world) next = std::copy(row.begin(), row.end(), next);
+    for (const auto& row : rows.normal) next = std::copy(row.begin(), row.end(), next);
+    const glm::vec4& base = scene_->materials[instance.material].base_color;
+    for (const float channel : {base.r, base.g, base.b, base.a}) *next++ = channel;
+    record.ids = {i + 1, instance.material + 1};
+    records.push_back(record);
+  }
+  instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
+}
+
+void SceneBuffers::draw_instances() const {
+  // Constant values of the attributes a mesh may lack.
+  glVertexAttrib4f(kColor, 1, 1, 1, 1);
+  glVertexAttrib2f(kUv, 0, 0);
+  for (const InstanceRun& run : runs_) {
+    const MeshBuffers& mesh = meshes_[run.mesh];
+    glBindVertexArray(mesh.array);
+    glBindBuffer(GL_ARRAY_BUFFER, instances_);
+    point_at_instances(run.first);
+    glDrawElementsInstanced(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr, GLsizei(run.count));
+  }
+}
+
+GLuint SceneBuffers::light_texels(const LightModel& model) {
+  if (light_layout_ != texels_per_light(model)) {
+    lights_ = make_texel_buffer(light_records(*scene_, model));
+    light_layout_ = texels_per_light(model);
+  }
+  return lights_.texture;
+}
+
+}  // namespace trueshade::oracle

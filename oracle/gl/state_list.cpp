@@ -1,0 +1,156 @@
+#include "oracle/gl/state_list.h"
+
+#include <vector>
+
+namespace trueshade::oracle {
+
+namespace {
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+std::string array_of(const std::vector<std::string>& lines) {
+  std::string text = "[";
+  for (const std::string& line : lines) text += (text.size() == 1 ? "\n    " : ",\n    ") + line;
+  return text + (lines.empty() ? "]" : "\n  ]");
+}
+
+std::string calls(std::vector<std::string> lines) {
+  for (std::string& line : lines) line = quoted(line);
+  return array_of(lines);
+}
+
+std::string gl_name(Format format) {
+  switch (format) {
+    case Format::rgba8:
+      return "GL_RGBA8";
+    case Format::rgb16f:
+      return "GL_RGB16F";
+    case Format::rgba16f:
+      return "GL_RGBA16F";
+    case Format::rgba32f:
+      return "GL_RGBA32F";
+    case Format::rgb32f:
+      return "GL_RGB32F";
+    case Format::rg32f:
+      return "GL_RG32F";
+    case Format::r32ui:
+      return "GL_R32UI";
+    case Format::d32f:
+      return "GL_DEPTH_COMPONENT32F";
+  }
+  return {};
+}
+
+std::string gl_name(DepthFunc func) {
+  constexpr const char* kNames[] = {"GL_NEVER",   "GL_LESS",     "GL_EQUAL",  "GL_LEQUAL",
+                                    "GL_GREATER", "GL_NOTEQUAL", "GL_GEQUAL", "GL_ALWAYS"};
+  return kNames[size_t(func)];
+}
+
+std::string culling_call(CullFace face) {
+  switch (face) {
+    case CullFace::none:
+      return "glDisable(GL_CULL_FACE)";
+    case CullFace::front:
+      return "glEnable(GL_CULL_FACE); glCullFace(GL_FRONT)";
+    case CullFace::back:
+      return "glEnable(GL_CULL_FACE); glCullFace(GL_BACK)";
+    case CullFace::front_and_back:
+      return "glEnable(GL_CULL_FACE); glCullFace(GL_FRONT_AND_BACK)";
+  }
+  return {};
+}
+
+std::vector<std::string> geometry_calls(const Pipeline& pipeline) {
+  const GeometryState& g = pipeline.geometry;
+  Viewport v = g.viewport;
+  if (v.width == 0 && v.height == 0) v = {v.x, v.y, pipeline.width, pipeline.height};
+  const auto number = [](int value) { return std::to_string(value); };
+  return {"glDisable(GL_DITHER)",
+          "glDisable(GL_BLEND)",
+          "glDisable(GL_MULTISAMPLE)",
+          "glDisable(GL_FRAMEBUFFER_SRGB)",
+          "glViewport(" + number(v.x) + ", " + number(v.y) + ", " + number(v.width) + ", " + number(v.height) + ")",
+          "glDepthRange(" + glsl_float(g.depth_near) + ", " + glsl_float(g.depth_far) + ")",
+          "glEnable(GL_DEPTH_TEST); glDepthMask(GL_TRUE); glDepthFunc(" + gl_name(g.depth_func) + ")",
+          std::string(g.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)",
+          culling_call(g.cull_face),
+          std::string("glFrontFace(") + (g.front_face == FrontFace::ccw ? "GL_CCW)" : "GL_CW)"),
+          std::string("glClipControl(") +
+              (g.clip_origin == ClipOrigin::upper_left ? "GL_UPPER_LEFT, " : "GL_LOWER_LEFT, ") +
+              (g.clip_depth == ClipDepth::zero_to_one ? "GL_ZERO_TO_ONE)" : "GL_NEGATIVE_ONE_TO_ONE)"),
+          std::string("glProvokingVertex(") +
+              (g.provoking == Provoking::last ? "GL_LAST_VERTEX_CONVENTION)" : "GL_FIRST_VERTEX_CONVENTION)")};
+}
+
+std::string attachments(const std::vector<GlslPlane>& planes) {
+  std::vector<std::string> lines;
+  for (size_t i = 0; i < planes.size(); ++i)
+    lines.push_back("{\"attachment\": \"GL_COLOR_ATTACHMENT" + std::to_string(i) +
+                    "\", \"plane\": " + quoted(planes[i].name) + ", \"format\": " + quoted(gl_name(planes[i].format)) +
+                    ", \"output\": " + quoted(planes[i].output) + ", \"sampler\": " + quoted(planes[i].sampler) +
+                    ", \"clear\": 0}");
+  return array_of(lines);
+}
+
+std::string attributes() {
+  return calls(
+      {"0 object_position: vec3", "1 object_normal: vec3", "2 vertex_color: vec4, 1 where the mesh has none",
+       "3 vertex_uv: vec2, 0 where the mesh has none",
+       "4 to 7 clip_from_object: rows of projection * view * world_from_object in double, rounded to float once; "
+       "divisor 1",
+       "8 to 10 world_from_object: rows; divisor 1",
+       "11 to 13 normal_from_object: rows of the inverse transpose of its linear part; divisor 1",
+       "14 base_color: vec4; divisor 1", "15 instance_ids: uvec2, object + 1 and material + 1; divisor 1"});
+}
+
+std::string uniforms(const Pipeline& pipeline) {
+  std::vector<std::string> lines{"lights: samplerBuffer over GL_RGBA32F, light_layout says what a light is",
+                                 "light_count: int", "eye: vec3, the camera's position in the world"};
+  if (pipeline.gbuffer.position_from_depth) {
+    lines.push_back("depth_plane: sampler2D, the depth attachment");
+    lines.push_back("world_from_clip: mat4, inverse of projection * view in double, rounded to float once");
+    lines.push_back("ndc_from_window: vec4, viewport x, y, 2 / width, 2 / height (GL_UPPER_LEFT: -2 / height)");
+    lines.push_back("ndc_origin: vec2, 1, 1 (GL_UPPER_LEFT: 1, -1)");
+    lines.push_back("depth_to_ndc: vec2, t, 1 / s of window z = s * ndc z + t");
+  }
+  return calls(lines);
+}
+
+std::string light_layout(const LightModel& model) {
+  std::vector<std::string> texels{
+      "x, y, z: position (directional: minus the direction it travels); "
+      "w: 0 ambient, 1 directional, 2 point or spot",
+      "r, g, b: linear colour times intensity; a: range"};
+  if (texels_per_light(model) == 3) texels.push_back("k0, k1, k2, 0: attenuation");
+  return calls(texels);
+}
+
+}  // namespace
+
+std::string state_list(const Pipeline& pipeline, const GlslOptions& options) {
+  const std::vector<GlslPlane> planes = planes_of(pipeline, options);
+  std::string pipeline_text = pipeline_json(pipeline);
+  while (!pipeline_text.empty() && pipeline_text.back() == '\n') pipeline_text.pop_back();
+  const auto entry = [](const char* key, const std::string& value) {
+    return "  " + quoted(key) + ": " + value + ",\n";
+  };
+  return "{\n" + entry("pipeline", pipeline_text) +
+         entry("geometry_shaders", "[\"geometry.vert\", \"geometry.frag\"]") +
+         entry("geometry_attachments", attachments(planes)) +
+         entry("geometry_depth", "{\"format\": \"GL_DEPTH_COMPONENT32F\", \"clear\": " +
+                                     glsl_float(pipeline.geometry.clear_depth) + "}") +
+         entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
+         entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
+         entry("light_shaders", "[\"light.vert\", \"light.frag\"]") +
+         entry("light_target",
+               "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
+         entry("light_state",
+               calls({"glDisable(GL_DEPTH_TEST)", "glDisable(GL_CULL_FACE)", "glDisable(GL_BLEND)",
+                      "glDisable(GL_DITHER)", "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE)",
+                      "glViewport over the whole image", "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"})) +
+         entry("light_uniforms", uniforms(pipeline)) + "  \"light_layout\": " + light_layout(pipeline.light_model) +
+         "\n}\n";
+}
+
+}  // namespace trueshade::oracle
