@@ -1,0 +1,91 @@
+#pragma once
+// Numbers as an unknown but legal float32 arithmetic may compute them: the real value and how far off the computed one
+// can be. The propagation rule of GL_RULES section 6, whose per-operation errors are those of GLSL 4.60, 4.7.1.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trueshade::oracle {
+
+/// Relative errors of one arithmetic's operations. GLSL 4.60, 4.7.1: + - * are correctly rounded, the rounding mode
+/// undefined, hence one ulp = 2^-23; a / b 2.5 ulp; inversesqrt 2 ulp; sqrt is 1 / inversesqrt.
+struct Arithmetic {
+  double roundoff = 0x1p-23;           ///< of + - *
+  double divide = 2.5 * 0x1p-23;
+  double inverse_sqrt = 2 * 0x1p-23;
+  double square_root = 4.5 * 0x1p-23;
+  bool exact_pow = false;              ///< powered in double and rounded once (docs/arithmetic.md section 9)
+};
+
+/// Below this a float may have been flushed to zero: 2^-126.
+inline constexpr double kSmallestFloat = 0x1p-126;
+
+/// The real result, and a bound on |computed - value|.
+struct Bounded {
+  double value = 0, error = 0;
+  double low() const { return value - error; }
+  double high() const { return value + error; }
+};
+using Bounded3 = std::array<Bounded, 3>;
+
+/// One rounding of a result that inherits `error`.
+inline Bounded rounded(double value, double error, double relative) {
+  return {value, error + relative * (std::fabs(value) + error) + kSmallestFloat};
+}
+
+inline Bounded sum(const Arithmetic& a, const Bounded& x, const Bounded& y) {
+  return rounded(x.value + y.value, x.error + y.error, a.roundoff);
+}
+inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& y) {
+  return rounded(x.value - y.value, x.error + y.error, a.roundoff);
+}
+inline Bounded product(const Arithmetic& a, const Bounded& x, const Bounded& y) {
+  return rounded(x.value * y.value,
+                 std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error, a.roundoff);
+}
+
+/// x / y: |x/y - (x+dx)/(y+dy)| <= (dx + |x/y| dy) / (|y| - dy). Infinite error where y may be 0.
+inline Bounded quotient(const Arithmetic& a, const Bounded& x, const Bounded& y) {
+  const double room = std::fabs(y.value) - y.error;
+  if (!(room > 0)) return {0, HUGE_VAL};
+  const double q = x.value / y.value;
+  return rounded(q, (x.error + std::fabs(q) * y.error) / room, a.divide);
+}
+
+/// Three products and two sums in any order, contracted or not: a product passes at most three roundings.
+inline Bounded dot(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
+  Bounded r;
+  double magnitude = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    r.value += x[k].value * y[k].value;
+    r.error += std::fabs(x[k].value) * y[k].error + std::fabs(y[k].value) * x[k].error + x[k].error * y[k].error;
+    magnitude += std::fabs(x[k].value * y[k].value);
+  }
+  r.error += 3 * a.roundoff * (magnitude + r.error) + 3 * kSmallestFloat;
+  return r;
+}
+
+/// 1 / sqrt(x), x >= 0: derivative -x^(-3/2) / 2, largest at the low end. Infinite error where x may be 0.
+inline Bounded inverse_sqrt(const Arithmetic& a, const Bounded& x) {
+  if (!(x.low() > 0)) return {x.value > 0 ? 1 / std::sqrt(x.value) : 0, HUGE_VAL};
+  const double low_root = std::sqrt(x.low());
+  return rounded(1 / std::sqrt(x.value), x.error / (2 * x.low() * low_root), a.inverse_sqrt);
+}
+
+/// sqrt(x), x >= 0: |sqrt(x+e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
+inline Bounded square_root(const Arithmetic& a, const Bounded& x) {
+  const double root = std::sqrt(std::max(0.0, x.value));
+  const double inherited = root > 0 ? std::min(x.error / root, std::sqrt(x.error)) : std::sqrt(x.error);
+  return rounded(root, inherited, a.square_root);
+}
+
+/// max(x, 0): does not round, never moves values apart.
+inline Bounded positive(const Bounded& x) {
+  return x.value > 0 ? x : Bounded{0, std::max(0.0, x.high())};
+}
+
+/// x^s for 0 <= low <= x <= high, s >= 0, as exp2(s * log2 x) may be computed. log2 errs by 3 ulp outside [0.5, 2], by 2^-21 inside;
+/// the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one rounding.
+Bounded power(const Arithmetic& a, double low, double x, double high, double s);
+
+}  // namespace trueshade::oracle

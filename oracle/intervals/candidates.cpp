@@ -1,0 +1,154 @@
+#include "oracle/intervals/candidates.h"
+
+#include <algorithm>
+
+#include "core/fp_env.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr uint32_t kChunk = 8192;   // triangles a piece of work
+constexpr size_t kBatch = 64;       // pieces of work between merges: bounds the memory of entries not yet pruned
+
+struct Entry {
+  uint32_t pixel;
+  Candidate candidate;
+};
+
+struct Work {
+  uint32_t instance, first, last;
+};
+
+void key_range(const GeometryState& state, const Range& z, double order, Candidate& c) {
+  switch (state.depth_func) {
+    case DepthFunc::less:
+    case DepthFunc::lequal:
+      c.low = z.low, c.middle = z.value, c.high = z.high;
+      return;
+    case DepthFunc::greater:
+    case DepthFunc::gequal:
+      c.low = -z.high, c.middle = -z.value, c.high = -z.low;
+      return;
+    case DepthFunc::always:
+      c.low = c.middle = c.high = -order;
+      return;
+    case DepthFunc::equal:
+    case DepthFunc::notequal:
+    case DepthFunc::never:
+      c.low = c.middle = c.high = 0;
+      c.certain = false;
+      return;
+  }
+}
+
+/// Whether near and far, which float arithmetic places with an error, may cut here after all.
+bool near_a_limit(const GeometryState& state, const Range& z) {
+  if (state.depth_clamp) return false;
+  const double near = double(state.depth_near), far = double(state.depth_far);
+  return z.low <= std::min(near, far) || z.high >= std::max(near, far);
+}
+
+void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect, std::vector<Entry>& out) {
+  const GeometryState& state = p.pipeline().geometry;
+  double largest = 0;
+  for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const WindowVertex& v : piece.v)
+    for (size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], v.low[k]), high[k] = std::max(high[k], v.high[k]);
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    if (y + 0.5 < low[1] || y + 0.5 > high[1]) continue;
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      if (x + 0.5 < low[0] || x + 0.5 > high[0]) continue;
+      const Coverage cover = coverage_at(piece, p.profile(), state.clip_origin, x + 0.5, y + 0.5);
+      if (cover.cover == Cover::no) continue;
+      const SurfacePoint point(piece, p.profile(), p.viewport(), x + 0.5, y + 0.5);
+      const Range z = stored_depth(point, state, p.profile(), largest);
+      Candidate c = base;
+      c.cut = piece.cut || piece.leaves_view;
+      c.certain = cover.cover == Cover::certain && point.bounded();
+      c.chance_other = float(cover.chance_other);
+      c.nominal = cover.nominal;
+      if (!p.profile().exact_planes && near_a_limit(state, z)) c.certain = false, c.cut = true, c.chance_other = 0.5f;
+      key_range(state, z, order, c);
+      out.push_back({uint32_t(y) * uint32_t(p.width()) + uint32_t(x), c});
+    }
+  }
+}
+
+void scan(const Projector& projector, const Work& work, double order, std::vector<Entry>& out) {
+  std::vector<Piece> pieces;
+  PixelRect rect;
+  for (uint32_t t = work.first; t < work.last; ++t) {
+    if (!projector.near_pixels(work.instance, t, rect)) continue;
+    projector.pieces(work.instance, t, pieces);
+    Candidate base;
+    base.instance = work.instance;
+    base.triangle = t;
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      base.piece = uint8_t(k);
+      add_piece(projector, pieces[k], base, order + (t - work.first), rect, out);
+    }
+  }
+}
+
+std::vector<Work> work_of(const Scene& scene) {
+  std::vector<Work> work;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const auto count = uint32_t(scene.meshes[scene.instances[i].mesh].triangle_count());
+    for (uint32_t t = 0; t < count; t += kChunk) work.push_back({i, t, std::min(count, t + kChunk)});
+  }
+  return work;
+}
+
+}  // namespace
+
+double clear_key(const GeometryState& state) {
+  switch (state.depth_func) {
+    case DepthFunc::less:
+    case DepthFunc::lequal: return double(state.clear_depth);
+    case DepthFunc::greater:
+    case DepthFunc::gequal: return -double(state.clear_depth);
+    case DepthFunc::never: return -HUGE_VAL;
+    default: return HUGE_VAL;
+  }
+}
+
+CandidateMap find_candidates(const Projector& projector, int threads) {
+  const size_t pixels = size_t(projector.width()) * size_t(projector.height());
+  const GeometryState& state = projector.pipeline().geometry;
+  const double clear = clear_key(state);
+  const bool equal_passes = state.depth_func == DepthFunc::lequal || state.depth_func == DepthFunc::gequal;
+  std::vector<double> bound(pixels, clear);
+  const std::vector<Work> work = work_of(projector.scene());
+  std::vector<Entry> entries;
+  double order = 0;
+  for (size_t from = 0; from < work.size(); from += kBatch) {
+    const size_t count = std::min(kBatch, work.size() - from);
+    std::vector<std::vector<Entry>> found(count);
+    std::vector<double> starts(count);
+    for (size_t k = 0; k < count; ++k) starts[k] = order, order += work[from + k].last - work[from + k].first;
+    parallel_for(int(count), threads, [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], found[size_t(k)]); });
+    for (const std::vector<Entry>& list : found)
+      for (Entry e : list) {
+        double& limit = bound[e.pixel];
+        if (e.candidate.low > limit || (e.candidate.low == clear && !equal_passes)) continue;
+        if (e.candidate.high > clear || (e.candidate.high == clear && !equal_passes)) e.candidate.certain = false;
+        if (e.candidate.certain) limit = std::min(limit, e.candidate.high);
+        entries.push_back(e);
+      }
+  }
+  CandidateMap map;
+  map.first.assign(pixels + 1, 0);
+  const auto kept = [&](const Entry& e) { return e.candidate.low <= bound[e.pixel]; };
+  for (const Entry& e : entries)
+    if (kept(e)) ++map.first[e.pixel + 1];
+  for (size_t i = 0; i < pixels; ++i) map.first[i + 1] += map.first[i];
+  map.list.resize(map.first[pixels]);
+  std::vector<uint32_t> next(map.first.begin(), map.first.end() - 1);
+  for (const Entry& e : entries)
+    if (kept(e)) map.list[next[e.pixel]++] = e.candidate;
+  return map;
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,26 @@
+#pragma once
+// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
+// "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+#include "oracle/capture.h"
+#include "oracle/intervals/profile.h"
+#include "oracle/intervals/verdict.h"
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has)
+/// against the surfaces each pixel may show. A pixel must equal one candidate in all planes together, or the clear values
+/// where nothing is sure to cover it. An edge shared by two triangles has exactly one owner: where triangles that meet
+/// about a sample close around it, the clear value and what is behind them are not legal.
+/// Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
+/// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+
+/// The target against the lights summed over the capture's own planes, in double, with the error bound of GL_RULES
+/// section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or depth tell where
+/// there is a surface. light.count, where captured, must be one the comparisons allow.
+/// Throws Error(bad_input) naming the plane that is missing or of another size.
+StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+
+}  // namespace trueshade::oracle

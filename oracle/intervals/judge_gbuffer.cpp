@@ -1,0 +1,256 @@
+#include "core/error.h"
+#include "core/fp_env.h"
+#include "oracle/intervals/candidates.h"
+#include "oracle/intervals/judge.h"
+#include "oracle/intervals/patch.h"
+#include "oracle/intervals/tally.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+struct AttributePlane {
+  const char* name;
+  PlaneView view;
+  size_t first;      ///< index in VertexValues
+  int count;         ///< channels interpolated; those after them are constants
+  double rest[2];    ///< channels 2 and 3 where they are not interpolated
+  Interpolation interpolation;
+};
+
+class GBufferJudge {
+ public:
+  GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+      : projector_(scene, pipeline, profile), pipeline_(pipeline), profile_(profile), depth_(plane_of(capture, pipeline, "depth")),
+        object_(plane_of(capture, pipeline, "id.object")), material_(plane_of(capture, pipeline, "id.material")) {
+    const GBufferState& g = pipeline.gbuffer;
+    const AttributePlane all[] = {
+        {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
+        {"normal", plane_of(capture, pipeline, "normal"), kNormal, 3, {0, 1}, g.normal.interpolation},
+        {"albedo", plane_of(capture, pipeline, "albedo"), kAlbedo, 4, {0, 0}, g.albedo.interpolation},
+        {"uv", plane_of(capture, pipeline, "uv"), kUv, 2, {0, 1}, g.uv.interpolation}};
+    for (const AttributePlane& p : all)
+      if (p.view && !(g.position_from_depth && p.first == kPosition)) planes_.push_back(p);
+    if (planes_.empty() && !depth_ && !object_ && !material_)
+      throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane", "capture depth, position, normal, albedo, uv or ids");
+    candidates_ = find_candidates(projector_);
+  }
+
+  void judge_row(int y_top, RowTally& row) const {
+    for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y_top, row);
+  }
+
+ private:
+  size_t pixel_of(int x, int y_top) const {
+    return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
+  }
+
+  bool is_clear(int x, int y) const {
+    if (object_ && object_.stored(x, y, 0) != 0) return false;
+    if (material_ && material_.stored(x, y, 0) != 0) return false;
+    if (depth_ && depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth)) return false;
+    for (const AttributePlane& p : planes_)
+      for (int c = 0; c < p.view.channels; ++c)
+        if (p.view.stored(x, y, c) != 0) return false;
+    return true;
+  }
+
+  Match match(const Candidate& c, int x, int y_top, bool& bounded) const {
+    Match m;
+    const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
+    const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
+    const Instance& instance = projector_.scene().instances[c.instance];
+    const auto identifier = [&](const PlaneView& view, const char* name, double expected) {
+      if (view && view.stored(x, y_top, 0) != expected)
+        m.note(name, 0, {expected, expected, expected}, view.stored(x, y_top, 0), 1);
+    };
+    identifier(object_, "id.object", c.instance + 1.0);
+    identifier(material_, "id.material", instance.material + 1.0);
+    if (!m.legal && object_) return m;
+    std::vector<Piece> pieces;
+    projector_.pieces(c.instance, c.triangle, pieces);
+    const Piece& piece = pieces[c.piece];
+    const SurfacePoint point(piece, profile_, projector_.viewport(), sx, sy);
+    bounded = point.bounded();
+    if (depth_) {
+      double largest = 0;
+      for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
+      m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest), depth_.stored(x, y_top, 0), pixel, profile_);
+    }
+    if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
+    const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
+    const Material& material = projector_.scene().materials[instance.material];
+    for (const AttributePlane& p : planes_)
+      for (int k = 0; k < p.view.channels; ++k) {
+        const double stored = p.view.stored(x, y_top, k);
+        if (k >= p.count) {
+          if (stored != p.rest[k - 2]) m.note(p.name, k, {p.rest[k - 2], p.rest[k - 2], p.rest[k - 2]}, stored, 1);
+          continue;
+        }
+        Range range = value_of(point, piece, values, p, k);
+        if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
+        m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
+      }
+    return m;
+  }
+
+  Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p, int k) const {
+    const size_t index = p.first + size_t(k);
+    if (p.interpolation == Interpolation::flat) {
+      const size_t corner = pipeline_.geometry.provoking == Provoking::last ? 2 : 0;
+      const double v = values.value[corner][index], e = values.error[corner][index];
+      return {v, v - e, v + e};
+    }
+    std::array<double, 3> value{}, error{};
+    piece_values(piece, values, index, value, error);
+    return point.attribute(value, error, p.interpolation);
+  }
+
+  /// Times the material's base colour: one more product.
+  Range tinted(const Range& r, double tint) const {
+    if (profile_.exact_planes) {
+      const auto times = [&](double v) { return double(float(float(v) * float(tint))); };
+      const Range f{double(float(r.value)), double(float(r.low)), double(float(r.high))};
+      if (tint >= 0) return {times(f.value), std::min(times(f.low), times(f.value)), std::max(times(f.high), times(f.value))};
+      return {times(f.value), times(f.high), times(f.low)};
+    }
+    const double a = r.low * tint, b = r.high * tint;
+    const double v = profile_.arithmetic.roundoff * std::max(std::fabs(a), std::fabs(b)) + kSmallestFloat;
+    return {r.value * tint, std::min(a, b) - v, std::max(a, b) + v};
+  }
+
+  /// Candidates that may be seen, the nominal one first.
+  std::vector<const Candidate*> legal_candidates(std::span<const Candidate> all, const Candidate*& nominal, bool& certain) const;
+  void judge_pixel(int x, int y_top, RowTally& row) const;
+  PixelClass class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const;
+
+  Projector projector_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  PlaneView depth_, object_, material_;
+  std::vector<AttributePlane> planes_;
+  CandidateMap candidates_;
+};
+
+std::string name_of(const Candidate* c) {
+  if (c == nullptr) return "nothing drawn";
+  return "instance " + std::to_string(c->instance) + ", triangle " + std::to_string(c->triangle);
+}
+
+/// Whether `later` loses to `earlier`, which is sure to be drawn first with the very same depth.
+bool ruled_out(const Projector& p, const Candidate& earlier, const Candidate& later, bool last_wins) {
+  const Candidate &winner = last_wins ? later : earlier, &loser = last_wins ? earlier : later;
+  if (!winner.certain) return false;
+  const bool points = winner.low == winner.high && loser.low == loser.high && winner.low == loser.low;
+  return points || (p.clip_of(earlier.instance, earlier.triangle) == p.clip_of(later.instance, later.triangle) && earlier.piece == later.piece);
+}
+
+std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
+                                                             bool& certain) const {
+  const DepthFunc func = pipeline_.geometry.depth_func;
+  const bool last_wins = func == DepthFunc::lequal || func == DepthFunc::gequal;
+  std::vector<const Candidate*> legal;
+  certain = false;
+  double bound = HUGE_VAL;
+  for (const Candidate& c : all)
+    if (c.certain) certain = true, bound = std::min(bound, c.high);
+  for (size_t i = 0; i < all.size(); ++i) {
+    bool out = all[i].low > bound;
+    // Ties matter only between candidates that are both in front.
+    for (size_t j = 0; j < all.size() && !out; ++j) {
+      if (i == j || all[j].low > bound || all[j].low > all[i].high || all[i].low > all[j].high) continue;
+      const bool earlier = j < i;
+      if (earlier != last_wins) out = ruled_out(projector_, all[std::min(i, j)], all[std::max(i, j)], last_wins);
+    }
+    if (!out) legal.push_back(&all[i]);
+  }
+  nominal = nullptr;
+  for (const Candidate* c : legal) {
+    if (!c->nominal && !c->certain) continue;
+    if (nominal == nullptr || c->middle < nominal->middle || (last_wins && c->middle == nominal->middle)) nominal = c;
+  }
+  std::stable_sort(legal.begin(), legal.end(), [&](const Candidate* a, const Candidate* b) {
+    if ((a == nominal) != (b == nominal)) return a == nominal;
+    return a->middle < b->middle;
+  });
+  return legal;
+}
+
+PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
+  if (seen == nominal) return !bounded ? PixelClass::undefined : m.second ? PixelClass::store_2 : PixelClass::exact;
+  const bool doubt = (seen != nullptr && !seen->certain) || (nominal != nullptr && !nominal->certain);
+  if (!doubt) return PixelClass::depth_tie;
+  const bool cut = (seen != nullptr && !seen->certain && seen->cut) || (nominal != nullptr && !nominal->certain && nominal->cut);
+  return cut ? PixelClass::clip : PixelClass::edge;
+}
+
+/// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or of two
+/// depths spread evenly over [a0, a1] and [b0, b1] the farther comes first, which is overlap^2 / 2 over both widths.
+double chance_of_other(const std::vector<const Candidate*>& legal, const Candidate* nominal) {
+  double same = nominal != nullptr ? 1 - double(nominal->chance_other) : 1;
+  for (const Candidate* c : legal) {
+    if (c == nominal) continue;
+    double before = 1;
+    if (nominal != nullptr) {
+      const double overlap = std::max(0.0, std::min(nominal->high, c->high) - std::max(nominal->low, c->low));
+      const double widths = (nominal->high - nominal->low) * (c->high - c->low);
+      before = c->middle < nominal->middle ? 1 : widths > 0 ? std::min(0.5, overlap * overlap / (2 * widths)) : 0.5;
+    }
+    same *= 1 - before * (c->nominal ? 1 : double(c->chance_other));
+  }
+  return 1 - same;
+}
+
+void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
+  const std::span<const Candidate> all = candidates_.at(pixel_of(x, y_top));
+  const Candidate* nominal = nullptr;
+  bool certain = false;
+  const std::vector<const Candidate*> legal = legal_candidates(all, nominal, certain);
+  if (nominal != nullptr) ++row.covered;
+  const bool clear_legal = !certain;
+  if (legal.size() + (clear_legal ? 1 : 0) > 1) {
+    const Candidate* first = nominal != nullptr ? nominal : legal.front();
+    row.may_be_other(uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
+  }
+  const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
+  if (is_clear(x, y_top)) {
+    Match none;
+    const bool hidden = !clear_legal || patch_key(projector_, all, sx, sy) < HUGE_VAL;
+    if (hidden) none.note("id.object", 0, {1, 1, 1}, 0, 1);
+    row.take(x, y_top, hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal), none, name_of(nominal));
+    return;
+  }
+  Match closest;
+  bool first = true;
+  std::optional<double> patch;
+  for (const Candidate* c : legal) {
+    bool bounded = true;
+    Match m = match(*c, x, y_top, bounded);
+    if (m.legal && c != nominal) {
+      if (!patch) patch = patch_key(projector_, all, sx, sy);
+      if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch}, c->middle, 1);
+    }
+    if (m.legal) {
+      row.take(x, y_top, class_of(m, bounded, c, nominal), m, name_of(c));
+      return;
+    }
+    if (first || m.excess < closest.excess) closest = m;
+    first = false;
+  }
+  if (legal.empty()) closest.note("id.object", 0, {0, 0, 0}, object_ ? object_.stored(x, y_top, 0) : 1, 1);
+  closest.choices.clear();
+  closest.stored_values = 0;
+  row.take(x, y_top, PixelClass::violation, closest, name_of(legal.empty() ? nullptr : legal.front()));
+}
+
+}  // namespace
+
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture) {
+  const Profile p = resolved(profile, pipeline);
+  const GBufferJudge judge(scene, pipeline, p, capture);
+  std::vector<RowTally> rows(size_t(pipeline.height));
+  parallel_for(pipeline.height, 0, [&](int y) { judge.judge_row(y, rows[size_t(y)]); });
+  return verdict_of("gbuffer", p, pipeline.width, pipeline.height, rows);
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,48 @@
+#pragma once
+// What is known of the implementation that drew an image: the knobs of GL_RULES section 0 as values. A tighter profile
+// allows fewer values; `unknown` allows whatever OpenGL allows.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "oracle/intervals/bounded.h"
+
+namespace trueshade::oracle {
+
+enum class SnapRule : uint8_t {
+  nearest,      ///< round(w * 2^b), ties to even, of a coordinate that float errors may have moved
+  nearest_0_6,  ///< either neighbour within 0.6 of 2^-b (D3D11.3 functional spec, 3.2.4.1)
+  toward_zero,  ///< floor(w * 2^b): a wrong guess to be told apart when a profile is inferred
+  unstated,     ///< anywhere within half of 2^-b: finer grids, or none at all, lie inside
+};
+enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
+enum class FillRule : uint8_t { left_low, left_high, unstated };  ///< which horizontal edge is in; GL window, y up
+enum class HalfStore : uint8_t { toward_zero, nearest, either };
+
+struct Profile {
+  std::string name = "unknown";
+  int subpixel_bits = 4;                         ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
+  SnapRule snap = SnapRule::unstated;
+  FillRule fill = FillRule::unstated;
+  PlaneOrigin plane_origin = PlaneOrigin::either;
+  bool exact_vertices = false;  ///< clip coordinates and vertex attributes are those of docs/arithmetic.md, bit for bit
+  bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
+  bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
+  double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
+  HalfStore half = HalfStore::either;
+  double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
+  Arithmetic arithmetic;
+};
+
+/// Names: unknown, d3d-class, mesa-llvmpipe-22.3, ideal. Nothing for others.
+std::optional<Profile> profile_named(std::string_view name);
+std::span<const std::string_view> profile_names();
+
+/// Ideal's half mode follows the pipeline; the others' is their own.
+const char* text(SnapRule rule);
+const char* text(PlaneOrigin origin);
+const char* text(HalfStore store);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,34 @@
+#pragma once
+// The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of GL_RULES section 6 on what legal
+// float arithmetic makes of the sum.
+#include <vector>
+
+#include "oracle/intervals/bounded.h"
+#include "scenes/light_model.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// A texel of the G-buffer as the light pass reads it.
+struct ShadedSurface {
+  Bounded3 position, normal;
+  std::array<Bounded, 4> albedo;
+};
+
+/// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.
+struct OtherBranch {
+  std::array<double, 3> change{};
+};
+
+struct LitRange {
+  Bounded3 color;                      ///< the nominal branches, all lights summed
+  std::vector<OtherBranch> branches;
+  bool undefined = false;              ///< normalize(0), 0^0: any value is legal
+  int lights_low = 0, lights_high = 0; ///< lights in range and facing: light.count may be any number between
+};
+
+/// Lights in any order: sum of the errors, and (N - 1) v sum |c_i| for the N - 1 additions.
+///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
+LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model, const Arithmetic& arithmetic, bool exact);
+
+}  // namespace trueshade::oracle

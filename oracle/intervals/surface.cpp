@@ -1,0 +1,228 @@
+#include "oracle/intervals/surface.h"
+
+#include <limits>
+
+namespace trueshade::oracle {
+
+namespace {
+
+double float_spacing(double magnitude) {
+  const auto m = float(magnitude);
+  return double(std::nextafter(m, std::numeric_limits<float>::infinity())) - double(m);
+}
+
+constexpr Range kAnything{0, -HUGE_VAL, HUGE_VAL};
+
+}  // namespace
+
+SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y)
+    : piece_(piece), profile_(profile) {
+  const auto& v = piece.v;
+  double reach[2] = {0, 0};
+  for (const WindowVertex& p : v)
+    for (size_t k = 0; k < 2; ++k) reach[k] = std::max(reach[k], p.plane_reach[k]);
+  const bool points = reach[0] == 0 && reach[1] == 0;
+  std::array<double, 3> edge{};
+  const auto edges_at = [&](double px, double py, std::array<double, 3>& e) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Pair &a = v[(i + 1) % 3].plane, &b = v[(i + 2) % 3].plane;
+      e[i] = (a[0] - px) * (b[1] - py) - (a[1] - py) * (b[0] - px);
+    }
+  };
+  edges_at(x, y, edge);
+  area_ = (v[1].plane[0] - v[0].plane[0]) * (v[2].plane[1] - v[0].plane[1]) -
+          (v[1].plane[1] - v[0].plane[1]) * (v[2].plane[0] - v[0].plane[0]);
+  for (size_t i = 0; i < 3; ++i) {
+    const Pair &a = v[(i + 1) % 3].plane, &b = v[(i + 2) % 3].plane;
+    dx_[i] = (a[1] - b[1]) / area_;
+    dy_[i] = (b[0] - a[0]) / area_;
+    span_x_ = std::max(span_x_, std::fabs(a[0] - b[0]));
+    span_y_ = std::max(span_y_, std::fabs(a[1] - b[1]));
+    lambda_[0][i] = edge[i] / area_;
+  }
+  if (area_ == 0) {
+    bounded_ = false;
+    return;
+  }
+  condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
+  reach_x_ = std::max(std::abs(double(viewport.x)), std::abs(double(viewport.x) + viewport.width));
+  reach_y_ = std::max(std::abs(double(viewport.y)), std::abs(double(viewport.y) + viewport.height));
+  if (points) return;
+
+  // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's reach.
+  std::array<double, 3> change{};
+  double area_change = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const WindowVertex &a = v[(i + 1) % 3], &b = v[(i + 2) % 3];
+    const auto moved = [&](size_t p, size_t q, double other_p, double other_q) {
+      return std::fabs(a.plane[p] - other_p) * b.plane_reach[q] + std::fabs(b.plane[q] - other_q) * a.plane_reach[p] +
+             a.plane_reach[p] * b.plane_reach[q];
+    };
+    change[i] = moved(0, 1, x, y) + moved(1, 0, y, x);
+    area_change += change[i];
+  }
+  const double smallest_area = std::fabs(area_) - area_change;
+  if (!(smallest_area > 0)) {
+    bounded_ = false;
+    return;
+  }
+  double shift[2] = {0, 0};
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t k = 0; k < 2; ++k) shift[k] += (std::fabs(edge[i]) + change[i]) / smallest_area * v[i].plane_reach[k];
+  points_ = 5;
+  for (size_t corner = 1; corner < 5; ++corner) {
+    const double qx = ((corner & 1) != 0 ? 1 : -1) * shift[0], qy = ((corner & 2) != 0 ? 1 : -1) * shift[1];
+    for (size_t i = 0; i < 3; ++i) lambda_[corner][i] = lambda_[0][i] + qx * dx_[i] + qy * dy_[i];
+  }
+}
+
+double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
+  const double v = profile_.arithmetic.roundoff;
+  double gx = 0, gy = 0, largest = 0, spread = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    gx += dx_[i] * n[i];
+    gy += dy_[i] * n[i];
+    largest = std::max(largest, std::fabs(n[i]));
+    spread = std::max(spread, std::fabs(n[i] - n[(i + 1) % 3]));
+  }
+  gx = std::fabs(gx), gy = std::fabs(gy);
+  const double anchored = gx * reach_x_ + gy * reach_y_;
+  const double sums_x = 2 * spread * span_y_ / std::fabs(area_), sums_y = 2 * spread * span_x_ / std::fabs(area_);  // G
+  const double det = 3 * condition_ * v + profile_.arithmetic.divide + v;
+  const double setup = (4 * v * sums_x + gx * det) * span_x_ + (4 * v * sums_y + gy * det) * span_y_;
+  return setup + 10 * v * anchored + 4 * v * largest;
+}
+
+Range SurfacePoint::affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const {
+  Range r;
+  double inherited = 0;
+  for (size_t k = 0; k < size_t(points_); ++k) {
+    double at = value[0], carried = 0;  // from differences, so that constants stay constant
+    for (size_t i = 0; i < 3; ++i) {
+      at += lambda_[k][i] * (value[i] - value[0]);
+      carried += std::fabs(lambda_[k][i]) * error[i];
+    }
+    if (k == 0) r = {at, at, at};
+    r.low = std::min(r.low, at), r.high = std::max(r.high, at);
+    inherited = std::max(inherited, carried);
+  }
+  const double more = inherited + plane_error(value);
+  return {r.value, r.low - more, r.high + more};
+}
+
+Range SurfacePoint::depth() const {
+  std::array<double, 3> z{}, error{};
+  for (size_t i = 0; i < 3; ++i) z[i] = piece_.v[i].z, error[i] = piece_.v[i].z_error;
+  if (!bounded_) return {z[0], -HUGE_VAL, HUGE_VAL};
+  if (!profile_.exact_planes) return affine(z, error);
+  double at = z[0], largest = 1;
+  for (size_t i = 0; i < 3; ++i) {
+    at += lambda_[0][i] * (z[i] - z[0]);
+    largest = std::max(largest, std::fabs(z[i]));
+  }
+  // The stated formula has some ten roundings in double (docs/arithmetic.md section 5).
+  return {at, at - largest * 0x1p-47, at + largest * 0x1p-47};
+}
+
+Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
+                              Interpolation interpolation) const {
+  const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
+  if (!bounded_) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  const bool smooth = interpolation == Interpolation::smooth;
+  if (!smooth && !profile_.exact_planes) return affine(value, error);
+
+  Range r;
+  double inherited = 0, least_divisor = HUGE_VAL, u_scale = 0;
+  for (const WindowVertex& p : piece_.v) u_scale = std::max(u_scale, p.u);
+  for (size_t k = 0; k < size_t(points_); ++k) {
+    double n = 0, d = 0, carried = 0, u_moves = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const double u = smooth ? piece_.v[i].u : 1;
+      n += lambda_[k][i] * u * (value[i] - value[0]);
+      d += lambda_[k][i] * u;
+      carried += std::fabs(lambda_[k][i]) * u * error[i];
+      if (smooth) u_moves += std::fabs(lambda_[k][i]) * piece_.v[i].u_error;
+    }
+    if (!(d - u_moves > 0)) return kAnything;
+    const double at = value[0] + n / d;
+    double moved = carried;
+    if (smooth)
+      for (size_t i = 0; i < 3; ++i) moved += std::fabs(lambda_[k][i]) * piece_.v[i].u_error * std::fabs(value[i] - at);
+    if (k == 0) r = {at, at, at};
+    r.low = std::min(r.low, at), r.high = std::max(r.high, at);
+    inherited = std::max(inherited, moved / (d - u_moves));
+    least_divisor = std::min(least_divisor, d - u_moves);
+  }
+  const double largest = std::max(std::fabs(low), std::fabs(high));
+  if (profile_.exact_planes) {
+    const double ulp = low == high ? 0 : float_spacing(largest);
+    return {std::clamp(r.value, low, high), std::max(low, r.value - ulp), std::min(high, r.value + ulp)};
+  }
+  std::array<double, 3> n{}, u{};
+  for (size_t i = 0; i < 3; ++i) u[i] = piece_.v[i].u, n[i] = value[i] * u[i];
+  const double d_error = plane_error(u);
+  if (!(least_divisor - d_error > 0)) return kAnything;
+  const double v = profile_.arithmetic.roundoff;
+  double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) + (profile_.arithmetic.divide + 2 * v) * largest;
+  return {r.value, r.low - more, r.high + more};
+}
+
+TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle) {
+  const Scene& scene = projector.scene();
+  const Instance& drawn = scene.instances[instance];
+  const Mesh& mesh = scene.meshes[drawn.mesh];
+  TriangleValues t;
+  for (size_t i = 0; i < 3; ++i) {
+    const uint32_t vertex = mesh.indices[3 * size_t(triangle) + i];
+    t.value[i] = vertex_values(scene, drawn, projector.clip_from_world(), vertex);
+    if (projector.profile().exact_vertices) continue;
+    // Five roundings theirs (products, sums, the matrix element), four ours, per term of the sums.
+    const double step = 5 * projector.profile().arithmetic.roundoff + 4 * 0x1p-24;
+    for (size_t r = 0; r < 3; ++r) {
+      double size = std::fabs(double(drawn.world_from_object[3][int(r)]));
+      for (size_t c = 0; c < 3; ++c)
+        size += std::fabs(double(drawn.world_from_object[int(c)][int(r)]) * double(mesh.position[c][vertex]));
+      t.error[i][kPosition + r] = step * size;
+    }
+    // Of a normal m n of length l, each component errs by step * sum|m||n| before it is made unit: twice that over l
+    // after, and the root's own error. sum|m||n| <= l * (ratio of the matrix's largest to smallest stretch).
+    double longest = 0, shortest = HUGE_VAL;
+    for (int c = 0; c < 3; ++c) {
+      double length = 0;
+      for (int r = 0; r < 3; ++r) length += double(drawn.world_from_object[c][r]) * double(drawn.world_from_object[c][r]);
+      longest = std::max(longest, std::sqrt(length)), shortest = std::min(shortest, std::sqrt(length));
+    }
+    const double ratio = shortest > 0 ? longest / shortest : HUGE_VAL;
+    const Arithmetic& a = projector.profile().arithmetic;
+    for (size_t k = 0; k < 3; ++k)
+      t.error[i][kNormal + k] = 2 * std::sqrt(3.0) * step * ratio + 3 * a.roundoff + a.inverse_sqrt;
+  }
+  return t;
+}
+
+void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
+                  std::array<double, 3>& error) {
+  for (size_t i = 0; i < 3; ++i) {
+    const auto& w = piece.v[i].weight;
+    value[i] = error[i] = 0;
+    if (!piece.cut) {
+      value[i] = values.value[i][index], error[i] = values.error[i][index];
+      continue;
+    }
+    for (size_t k = 0; k < 3; ++k) value[i] += w[k] * values.value[k][index], error[i] += w[k] * values.error[k][index];
+    if (w[0] < 1 && w[1] < 1 && w[2] < 1 && error[i] > 0) error[i] += 4 * 0x1p-23 * std::fabs(value[i]);
+  }
+}
+
+Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest) {
+  const double near = double(state.depth_near), far = double(state.depth_far), low = std::min(near, far), high = std::max(near, far);
+  Range z = point.depth();
+  if (!profile.exact_planes) {
+    const double ulp = profile.arithmetic.roundoff * largest;  // storing rounds once more
+    return {std::clamp(z.value, low, high), std::clamp(z.low - ulp, low, high), std::clamp(z.high + ulp, low, high)};
+  }
+  const auto code = [&](double v) { return double(float(std::clamp(v, low, high))); };
+  return {code(z.value), code(z.low), code(z.high)};
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,66 @@
+#pragma once
+// What a piece's planes may give at a sample: depth and attributes as ranges (GL_RULES section 9, "plane origin").
+#include <array>
+
+#include "oracle/intervals/store.h"
+#include "oracle/intervals/window.h"
+#include "oracle/scalar_renderer.h"
+
+namespace trueshade::oracle {
+
+/// The planes of one piece about one sample.
+///
+/// Moving vertices v_i by d_i is moving the sample: the plane through (v_i + d_i, z_i) has at p the value that the plane
+/// through (v_i, z_i) has at p - sum(b_i d_i), b_i the barycentrics of p in the moved triangle. So the values that all
+/// vertices of the box allow are those of one plane over a box about p of half width sum |b_i| max|d_i|, with
+/// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine functions is monotone along every line where its divisor keeps its sign: the
+/// extremes are at the box's corners.
+///
+/// Float planes a0 + gx x + gy y, |x| <= X, |y| <= Y in pixels, add, with v the roundoff and N the largest vertex value:
+///   setup      gx = (dN1 dy2 - dN2 dy1) / det: 4 v G + |gx| (3 K v + divide + v), G and K the same sums with | | in
+///              place of - over |det|; it acts over the triangle's own extent, since a0 is made from the same gx
+///   anchor     a0 = N - gx x - gy y: 3 v (|gx| X + |gy| Y) + 2 v N
+///   evaluation 3 v (|gx| X + |gy| Y) + 2 v |a0|, |a0| <= N + |gx| X + |gy| Y
+///   stepping from a tile's corner to its pixels: 2 v (|gx| X + |gy| Y)
+/// and a perspective quotient N / D adds (dN + |a| dD) / D and the division.
+class SurfacePoint {
+ public:
+  SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y);
+
+  /// False where the box allows a triangle without area: its planes are then anything (UNDEFINED).
+  bool bounded() const { return bounded_; }
+
+  /// Window depth before any clamp.
+  Range depth() const;
+
+  /// value, error: at the three vertices of the piece.
+  Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error, Interpolation interpolation) const;
+
+ private:
+  double plane_error(const std::array<double, 3>& vertex) const;
+  Range affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const;
+
+  const Piece& piece_;
+  const Profile& profile_;
+  bool bounded_ = true;
+  int points_ = 1;                          ///< 1 where the vertices are points, 5 otherwise
+  std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
+  std::array<double, 3> dx_{}, dy_{};       ///< their gradients, 1/pixel
+  double reach_x_ = 0, reach_y_ = 0;        ///< X, Y
+  double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
+};
+
+/// Attributes of the vertices of a triangle as floats and how far a legal vertex shader may be off.
+struct TriangleValues {
+  std::array<VertexValues, 3> value{}, error{};
+};
+TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
+
+/// Of attribute `index` at the vertices of a piece: convex combinations by their weights.
+void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
+                  std::array<double, 3>& error);
+
+/// Depth as the depth buffer may hold it: clamped to the depth range, rounded to float.
+Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,67 @@
+#pragma once
+// Building a verdict: rows are judged apart and added up in order.
+#include <algorithm>
+
+#include "core/image.h"
+#include "oracle/capture.h"
+#include "oracle/intervals/store.h"
+#include "oracle/intervals/verdict.h"
+#include "scenes/pipeline.h"
+
+namespace trueshade::oracle {
+
+/// A plane of the capture, with what its format means for a store. Values of unorm planes are codes.
+struct PlaneView {
+  const Image* image = nullptr;
+  int channels = 0;
+  NumberClass number_class = NumberClass::floating;
+  int bytes = 4;
+
+  PlaneView() = default;
+  explicit PlaneView(const Image* i);
+  explicit operator bool() const { return image != nullptr; }
+  double stored(int x, int y, int channel) const;  ///< y from the top
+  bool quantised() const { return number_class == NumberClass::unorm || bytes == 2; }
+};
+
+/// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
+PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
+
+/// How one pixel fares against one surface.
+struct Match {
+  bool legal = true;
+  bool second = false;     ///< some channel took a neighbour that is not the nominal one
+  double worst_error = 0;  ///< float channels: |given - value| / bound
+  double excess = 0;       ///< of the worst channel outside its range
+  const char* plane = "";
+  int channel = 0;
+  LegalTexel legal_value;
+  double given = 0;
+  std::vector<StoreChoice> choices;
+  uint64_t stored_values = 0;
+
+  /// Judges one channel.
+  void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored, uint32_t pixel,
+                  const Profile& profile);
+  void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
+};
+
+/// One row's share of a verdict.
+struct RowTally {
+  std::vector<PixelClass> classes;
+  uint64_t covered = 0, ambiguous = 0, stored_values = 0;
+  double predicted_other = 0, worst_error = 0;
+  std::vector<SurfaceChoice> surface_choices;
+  std::vector<StoreChoice> choices;
+  std::vector<WorstPixel> worst;
+
+  void may_be_other(uint64_t surface, double chance);
+  void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+};
+
+/// The profile as it applies: `ideal` follows the pipeline's half_round.
+Profile resolved(const Profile& profile, const Pipeline& pipeline);
+
+StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height, std::vector<RowTally>& rows);
+
+}  // namespace trueshade::oracle

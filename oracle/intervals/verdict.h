@@ -1,0 +1,72 @@
+#pragma once
+// What a judgement says. Coordinates count from the top left, as image viewers do.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trueshade::oracle {
+
+/// Why a pixel is what it is (GL_RULES section 7). The image passes where no pixel is a violation.
+enum class PixelClass : uint8_t {
+  exact,      ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
+  store_2,    ///< the nominal surface, some channel stored as another legal neighbour
+  edge,       ///< another surface, whose edge the profile allows on either side of the sample
+  depth_tie,  ///< another surface, whose depth the profile cannot tell from the nominal one's
+  clip,       ///< another surface, at an edge made by clipping
+  branch,     ///< a comparison in the shader may go either way
+  tex,        ///< a texture lookup has several legal results; no preset of today has a texture
+  undefined,  ///< OpenGL gives the value no meaning: normalize(0), a triangle that may have no area
+  violation,  ///< in no legal set
+};
+inline constexpr size_t kPixelClasses = 9;
+std::string_view text(PixelClass c);
+
+/// A pixel worth looking at: what was legal, and what was given. Violations first, farthest outside first.
+struct WorstPixel {
+  int x = 0, y = 0;
+  PixelClass pixel_class = PixelClass::violation;
+  std::string plane;  ///< plane and channel that do not fit the likeliest surface: `normal.Y`, `color.R`
+  double low = 0, high = 0, nominal = 0, given = 0;  ///< unorm8 in codes
+  double excess = 0;  ///< how far outside, in units of the last place of the format or of the range, whichever is more
+  std::string note;   ///< the surface meant: `instance 3, triangle 17`, or `nothing drawn`
+};
+
+/// A channel whose rounding could go either way: kept for the tests of the whole image.
+struct StoreChoice {
+  uint32_t pixel;   ///< y * width + x, y from the top
+  float value;      ///< the real value before the store: equal values are one choice, however many pixels have them
+  float chance;     ///< predicted that the second neighbour is taken
+  int8_t side;      ///< where the nearest threshold lies: -1 below, 1 above
+  int8_t taken;     ///< 0: the nominal one; -1, 1: the one below, above
+};
+
+/// A pixel with more than one legal surface or branch.
+struct SurfaceChoice {
+  uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle move together
+  float chance;      ///< predicted that another is shown
+};
+
+struct StageVerdict {
+  std::string stage, profile;
+  int width = 0, height = 0;
+  std::vector<PixelClass> classes;                ///< row 0 at the top
+  std::array<uint64_t, kPixelClasses> counts{};   ///< by class
+  uint64_t covered = 0;                           ///< pixels where a surface is nominally seen
+  uint64_t ambiguous = 0;                         ///< pixels with more than one legal surface or branch
+  double predicted_other = 0;                     ///< expected number of edge + depth_tie + clip + branch pixels
+  uint64_t stored_values = 0;                     ///< unorm and half channels judged
+  std::vector<SurfaceChoice> surface_choices;     ///< of the ambiguous pixels
+  std::vector<StoreChoice> choices;               ///< those of them with two likely values, or that took a second one
+  double worst_error = 0;                         ///< float planes: largest |given - value| / bound
+  std::vector<WorstPixel> worst;                  ///< at most 32
+
+  uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
+  bool passes() const { return count(PixelClass::violation) == 0; }
+  uint64_t explained() const {
+    return count(PixelClass::edge) + count(PixelClass::depth_tie) + count(PixelClass::clip) + count(PixelClass::branch);
+  }
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,162 @@
+// Images drawn by legal means of every kind must be accepted; and the bound of lighting must hold without being slack.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <iostream>
+
+#include "oracle/intervals/judge.h"
+#include "oracle/intervals/shading.h"
+#include "scenes/shapes.h"
+#include "tests/intervals/loose_renderer.h"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+using trueshade::testing::Liberties;
+
+namespace {
+
+/// A few boxes and balls before the camera, small triangles and large, with lights among them.
+Scene random_scene(Pcg32& random) {
+  Scene scene;
+  scene.spec = "random";
+  scene.meshes = {cube_mesh(), sphere_mesh(2), plane_mesh(2)};
+  for (int k = 0; k < 3; ++k) scene.materials.push_back({"", {random.between(0, 1), random.between(0, 1), random.between(0, 1), 1}});
+  const uint32_t objects = 2 + random.below(5);
+  for (uint32_t i = 0; i < objects; ++i) {
+    Instance instance{random.below(3), random.below(3), {}};
+    const auto coordinate = [&](double reach) { return random.between(-reach, reach); };
+    instance.world_from_object = placed({coordinate(1.5), coordinate(1), coordinate(1.5)},
+                                        {random.between(0.2, 1.5), random.between(0.2, 1.5), random.between(0.2, 1.5)}, random.between(0, 6));
+    scene.instances.push_back(instance);
+  }
+  const uint32_t lights = random.below(6);
+  for (uint32_t i = 0; i < lights; ++i) {
+    Light light;
+    light.type = random.below(5) == 0 ? LightType::directional : LightType::point;
+    light.position = {random.between(-2, 2), random.between(-2, 2), random.between(-1, 4)};
+    light.direction = {0.0f, -0.6f, -0.8f};
+    light.color = {random.between(0, 0.6), random.between(0, 0.6), random.between(0, 0.6)};
+    light.range = float(random.between(1, 6));
+    light.attenuation = {1.0f, float(random.between(0, 1)), float(random.between(0, 1))};
+    scene.lights.push_back(light);
+  }
+  scene.camera.eye = {random.between(-0.5, 0.5), random.between(-0.5, 1), 5};
+  scene.camera.target = {0.0f, 0.0f, 0.0f};
+  scene.camera.near = 1.0f;
+  scene.camera.far = 20.0f;
+  return scene;
+}
+
+Pipeline random_pipeline(Pcg32& random) {
+  Pipeline p;
+  p.width = 32;
+  p.height = 24;
+  constexpr float shininess[] = {1, 8, 32, 64, 7.5f};
+  p.light_model.shininess = shininess[random.below(5)];
+  p.light_model.renormalize = random.below(2) == 0;
+  p.light_model.specular_masked = random.below(2) == 0;
+  p.light_model.falloff = random.below(2) == 0 ? Falloff::linear_range : Falloff::quadratic;
+  p.light_model.order = random.below(2) == 0 ? TermOrder::factored : TermOrder::separate;
+  p.target = random.below(2) == 0 ? Format::rgba8 : Format::rgba32f;
+  return p;
+}
+
+Liberties random_liberties(Pcg32& random) {
+  constexpr int bits[] = {8, 9, 10, 12, 0};
+  Liberties l;
+  l.any_rounding = random.below(4) != 0;
+  l.subpixel_bits = bits[random.below(5)];
+  l.snapped_planes = random.below(2) == 0;
+  l.turn_ties = random.below(2) == 0;
+  l.any_neighbour = random.below(2) == 0;
+  l.reverse_lights = random.below(2) == 0;
+  return l;
+}
+
+/// How many of `count` legal images are rejected.
+int rejected(int count, uint64_t first_seed) {
+  Profile unknown;
+  unknown.subpixel_bits = 8;
+  int alarms = 0;
+  for (int i = 0; i < count; ++i) {
+    Pcg32 random(first_seed + uint64_t(i));
+    const Scene scene = random_scene(random);
+    const Pipeline pipeline = random_pipeline(random);
+    const Liberties liberties = random_liberties(random);
+    const Capture capture = testing::loose_frame(scene, pipeline, liberties, first_seed + uint64_t(i));
+    const StageVerdict stages[] = {judge_gbuffer(scene, pipeline, unknown, capture), judge_lighting(scene, pipeline, unknown, capture)};
+    bool alarm = false;
+    for (const StageVerdict& v : stages) {
+      if (v.passes()) continue;
+      alarm = true;
+      const WorstPixel& w = v.worst.front();
+      UNSCOPED_INFO("image " << first_seed + uint64_t(i) << " bits " << liberties.subpixel_bits << " snapped " << liberties.snapped_planes << ", "
+                             << v.stage << " " << v.count(PixelClass::violation) << " px, (" << w.x << ", " << w.y << ") " << w.plane << " ["
+                             << w.low << ", " << w.high << "] given " << w.given << " " << w.note);
+    }
+    alarms += alarm ? 1 : 0;
+  }
+  return alarms;
+}
+
+}  // namespace
+
+TEST_CASE("Of three hundred legal images none is rejected") { CHECK(rejected(300, 1) == 0); }
+
+TEST_CASE("Of ten thousand legal images at most one is rejected", "[long]") { CHECK(rejected(10000, 1000) <= 1); }
+
+// GL_RULES row 57: 256 x 128 pixels, N lights, shininess s. Arithmetic as llvmpipe's (to nearest) keeps within a fifth of
+// the bound; arithmetic that errs as far as GLSL lets it stays inside.
+TEST_CASE("The bound on lighting holds for N lights and shininess s, and is within reach") {
+  for (const int count : {1, 8, 64, 256})
+    for (const float s : {8.0f, 64.0f, 256.0f}) {
+      Pcg32 random(uint64_t(count) * 1000 + uint64_t(s));
+      Scene scene;
+      scene.camera.eye = {0.0f, 0.0f, 4.0f};
+      for (int i = 0; i < count; ++i) {
+        Light light;
+        light.position = {random.between(-3, 3), random.between(-3, 3), random.between(0.5, 4)};
+        light.color = glm::vec3(float(1.0 / count)) * glm::vec3(random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1));
+        light.range = float(random.between(3, 9));
+        scene.lights.push_back(light);
+      }
+      LightModel model;
+      model.shininess = s;
+      const Arithmetic spec;
+      double nearest_ratio = 0, loose_ratio = 0, largest_bound = 0;
+      int branches = 0;
+      for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 256; ++x) {
+          const double u = (x + 0.5) / 128 - 1, v = (y + 0.5) / 64 - 1;
+          const float position[3] = {float(2 * u), float(v), float(0.3 * std::sin(4 * u) * std::cos(3 * v))};
+          const float normal[3] = {float(-0.6 * std::cos(4 * u) * std::cos(3 * v)), float(0.9 * std::sin(4 * u) * std::sin(3 * v)), 1};
+          const float albedo[3] = {0.5f, 0.75f, 0.25f};
+          ShadedSurface surface;
+          for (size_t k = 0; k < 3; ++k) {
+            surface.position[k] = {double(position[k]), 0};
+            surface.normal[k] = {double(normal[k]), 0};
+            surface.albedo[k] = {double(albedo[k]), 0};
+          }
+          const LitRange range = lit_range(surface, scene, model, spec, false);
+          if (!range.branches.empty()) {
+            ++branches;
+            continue;
+          }
+          for (const bool any : {false, true}) {
+            testing::LooseFloat f(uint64_t(y) * 256 + uint64_t(x), any);
+            float color[3];
+            testing::loose_light(f, scene, model, any && (x & 1) != 0, position, normal, albedo, color);
+            double& ratio = any ? loose_ratio : nearest_ratio;
+            for (size_t k = 0; k < 3; ++k) {
+              ratio = std::max(ratio, std::fabs(double(color[k]) - range.color[k].value) / range.color[k].error);
+              largest_bound = std::max(largest_bound, range.color[k].error);
+            }
+          }
+        }
+      std::printf("N %3d s %3.0f: error / bound %.3f to nearest, %.3f at liberty; largest bound %.2e, %d px ambiguous\n", count, double(s),
+                  nearest_ratio, loose_ratio, largest_bound, branches);
+      CAPTURE(count, s);
+      CHECK(nearest_ratio <= 0.2);
+      CHECK(loose_ratio <= 1);
+      CHECK(branches <= 64);
+    }
+}
