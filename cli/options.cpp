@@ -53,8 +53,8 @@ Size size_from_text(const std::string& text) {
   return {int(*width), int(*height)};
 }
 
-Profile profile_from_text(const std::string& text) {
-  const std::optional<Profile> profile = profile_from_name(text);
+NumericProfile profile_from_text(const std::string& text) {
+  const std::optional<NumericProfile> profile = profile_from_name(text);
   if (!profile) throw usage("--profile", "there is no profile '" + text + "'", "one of: " + joined(kProfileNames));
   return *profile;
 }

@@ -20,7 +20,7 @@ struct RenderOptions {
   std::optional<std::string> pipeline_file;
   std::optional<Size> size;
   std::optional<Format> target;
-  std::optional<Profile> profile;
+  std::optional<NumericProfile> profile;
   std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
   std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;

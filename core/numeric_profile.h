@@ -12,16 +12,16 @@ namespace trueshade {
 ///   mesa_llvmpipe_22_3: that driver's, on a CPU with FMA, for stores and fetches, blending, and snapping and filling
 ///   of
 ///                       triangles wholly inside the viewport. docs/arithmetic.md section 11 says what is not promised
-enum class Profile : uint8_t { ideal, mesa_llvmpipe_22_3 };
+enum class NumericProfile : uint8_t { ideal, mesa_llvmpipe_22_3 };
 
 /// As on the command line and in JSON, in the order of the values.
 inline constexpr std::string_view kProfileNames[] = {"ideal", "mesa-llvmpipe-22.3"};
 
-constexpr std::string_view profile_name(Profile profile) { return kProfileNames[size_t(profile)]; }
+constexpr std::string_view profile_name(NumericProfile profile) { return kProfileNames[size_t(profile)]; }
 
-constexpr std::optional<Profile> profile_from_name(std::string_view name) {
+constexpr std::optional<NumericProfile> profile_from_name(std::string_view name) {
   for (size_t i = 0; i < std::size(kProfileNames); ++i)
-    if (kProfileNames[i] == name) return Profile(i);
+    if (kProfileNames[i] == name) return NumericProfile(i);
   return std::nullopt;
 }
 

@@ -143,7 +143,7 @@ Rgba blended_codes(const BlendState& state, const Rgba& source, const Rgba& stor
   return out;
 }
 
-Rgba blended_values(const BlendState& state, Profile profile, Format format, const Rgba& source, const Rgba& stored) {
+Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source, const Rgba& stored) {
   Operands<float> in{source, stored, state.constant, 1.0f};
   const bool unorm = format == Format::rgba8;
   for (size_t c = 0; unorm && c < 4; ++c) {
@@ -154,7 +154,7 @@ Rgba blended_values(const BlendState& state, Profile profile, Format format, con
   const auto zero_source = [](const BlendTerm& t) { return takes_factors(t) && t.src == BlendFactor::zero; };
   const auto zero_destination = [](const BlendTerm& t) { return takes_factors(t) && t.dst == BlendFactor::zero; };
   const auto same = [](const BlendTerm& t) { return !takes_factors(t) || t.src == t.dst; };
-  const bool whole = profile == Profile::mesa_llvmpipe_22_3;  // RGBA at once: what one group needs, both do
+  const bool whole = profile == NumericProfile::mesa_llvmpipe_22_3;  // RGBA at once: what one group needs, both do
   const Flush flush{whole && format == Format::rgba32f};
   for (size_t c = 0; c < 4; ++c) {
     in.source[c] = flush(in.source[c]);
@@ -188,10 +188,10 @@ Rgba blended_values(const BlendState& state, Profile profile, Format format, con
 
 }  // namespace
 
-Rgba blended_pixel(const BlendState& state, Profile profile, Format format, HalfRound half_round, const Rgba& source,
+Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round, const Rgba& source,
                    const Rgba& stored) {
   const bool unorm = format == Format::rgba8;
-  const bool codes = unorm && profile != Profile::ideal;
+  const bool codes = unorm && profile != NumericProfile::ideal;
   Rgba out = !state.enabled ? source
              : codes        ? blended_codes(state, source, stored)
                             : blended_values(state, profile, format, source, stored);

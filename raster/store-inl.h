@@ -53,13 +53,13 @@ HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
 
 /// The float that a shader reads from code k: the nearest to k / 255, or llvmpipe's k * RN(1 / 255), which differs in 126
 /// of the 256 codes.
-HWY_INLINE VF unorm8_value(VF code, Profile profile) {
+HWY_INLINE VF unorm8_value(VF code, NumericProfile profile) {
   const DF d;
-  return profile == Profile::ideal ? hn::Div(code, hn::Set(d, 255.0f)) : hn::Mul(code, hn::Set(d, 1.0f / 255.0f));
+  return profile == NumericProfile::ideal ? hn::Div(code, hn::Set(d, 255.0f)) : hn::Mul(code, hn::Set(d, 1.0f / 255.0f));
 }
 
 /// What reading back gives after storing x in a channel of `format`.
-HWY_INLINE VF stored_value(VF x, Format format, HalfRound mode, Profile profile) {
+HWY_INLINE VF stored_value(VF x, Format format, HalfRound mode, NumericProfile profile) {
   switch (format) {
     case Format::rgba8: return unorm8_value(unorm8_code(x), profile);
     case Format::rgb16f:

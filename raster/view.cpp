@@ -84,7 +84,7 @@ Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
 
 }  // namespace
 
-WindowTransform window_transform(const GeometryState& state, int width, int height, Profile profile) {
+WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile) {
   const Viewport v = whole_or_set(state.viewport, width, height);
   WindowTransform out;
   out.upper_left = state.clip_origin == ClipOrigin::upper_left;
@@ -94,7 +94,7 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   out.offset[1] = 256 * int64_t(v.y) + 128 * int64_t(v.height);
   // Far beyond what a driver takes, float32 could lose whole pixels, which bins of clusters do not allow for.
   constexpr int64_t kFloatSnapLimit = int64_t(1) << 25;  // 2^17 pixels
-  out.float_snap = profile == Profile::mesa_llvmpipe_22_3;
+  out.float_snap = profile == NumericProfile::mesa_llvmpipe_22_3;
   for (int axis = 0; axis < 2; ++axis)
     out.float_snap = out.float_snap && std::max(std::abs(out.scale[axis]), std::abs(out.offset[axis])) <= kFloatSnapLimit;
   for (int axis = 0; axis < 2; ++axis) {

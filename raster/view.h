@@ -32,13 +32,13 @@ struct InstanceTransform {
 /// Everything of a frame that the geometry pass reads, made once a frame.
 struct View {
   int width, height;
-  Profile profile;
+  NumericProfile profile;
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
 };
 
-WindowTransform window_transform(const GeometryState& state, int width, int height, Profile profile = Profile::ideal);
+WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile = NumericProfile::ideal);
 View make_view(const Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

@@ -64,7 +64,7 @@ struct Pipeline {
   LightModel light_model;
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
-  Profile profile = Profile::ideal;
+  NumericProfile profile = NumericProfile::ideal;
   bool operator==(const Pipeline&) const = default;
 };
 

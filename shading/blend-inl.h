@@ -75,7 +75,7 @@ struct BlendPlan {
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
 };
 
-inline BlendPlan blend_plan(const BlendState& state, Profile profile, Format format) {
+inline BlendPlan blend_plan(const BlendState& state, NumericProfile profile, Format format) {
   BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false, false};
   for (BlendPlan::Group* group : {&plan.rgb, &plan.alpha}) {
     BlendTerm& term = group->term;
@@ -84,7 +84,7 @@ inline BlendPlan blend_plan(const BlendState& state, Profile profile, Format for
     group->drop_source = term.src == BlendFactor::zero;
     group->drop_destination = term.dst == BlendFactor::zero;
   }
-  if (profile == Profile::ideal) return plan;
+  if (profile == NumericProfile::ideal) return plan;
   plan.flushes = format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
   // llvmpipe works on whole RGBA vectors: it leaves a product out, or factors, only where both groups allow it.
   plan.factored = plan.rgb.term.src == plan.rgb.term.dst && plan.alpha.term.src == plan.alpha.term.dst;

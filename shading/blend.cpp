@@ -48,13 +48,13 @@ HWY_INLINE void load_values(const BlendState& state, bool unorm, const float* co
 }
 
 /// Fixed point: `ideal` blends values and rounds once, except that light upon light adds codes; llvmpipe blends codes.
-void blend_unorm8(const BlendState& state, Profile profile, const float* const source[4], float* const stored[4],
+void blend_unorm8(const BlendState& state, NumericProfile profile, const float* const source[4], float* const stored[4],
                   size_t count) {
   const DF d;
   const BlendPlan plan = blend_plan(state, profile, Format::rgba8);
   BlendInputs in;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const bool codes = profile != Profile::ideal;
+    const bool codes = profile != NumericProfile::ideal;
     if (codes)
       load_codes(state, source, stored, i, in);
     else

@@ -10,7 +10,7 @@ namespace trueshade {
 /// What the blender of a colour attachment depends on beside the pixels.
 struct BlendTarget {
   Format format = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
-  Profile profile = Profile::ideal;
+  NumericProfile profile = NumericProfile::ideal;
   HalfRound half_round = HalfRound::toward_zero;
 };
 

@@ -24,7 +24,7 @@ using Rgba = trueshade::testing::Rgba;
 namespace {
 
 using Random = std::mt19937_64;
-constexpr Profile kMesa = Profile::mesa_llvmpipe_22_3;
+constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 /// A texture of our values, by glTexSubImage2D: halves are exact, so how the driver would convert does not matter.

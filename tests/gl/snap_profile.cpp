@@ -103,8 +103,8 @@ Differences compare(Kind kind, const Window& window, int triangles, uint64_t see
     for (int i = 0; i < kBatch; ++i) batch.push_back(triangle_inside(kind, window, random));
     const std::vector<uint16_t> gl = counted_by_gl(program, batch, window);
     std::vector<uint16_t> mesa(gl.size()), ideal(gl.size());
-    count_coverage(batch, {}, window.width, window.height, {}, mesa, Profile::mesa_llvmpipe_22_3);
-    count_coverage(batch, {}, window.width, window.height, {}, ideal, Profile::ideal);
+    count_coverage(batch, {}, window.width, window.height, {}, mesa, NumericProfile::mesa_llvmpipe_22_3);
+    count_coverage(batch, {}, window.width, window.height, {}, ideal, NumericProfile::ideal);
     for (size_t i = 0; i < gl.size(); ++i) {
       found.covered += gl[i];
       found.mesa += gl[i] != mesa[i] ? 1 : 0;

@@ -33,7 +33,7 @@ Pipeline strange_pipeline() {
   p.light_model.shininess = 0.1f;
   p.light_model.specular_color = {1e-20f, 1.0f / 3.0f, 1e18f};
   p.target = Format::rgba16f;
-  p.profile = Profile::mesa_llvmpipe_22_3;
+  p.profile = NumericProfile::mesa_llvmpipe_22_3;
   return p;
 }
 

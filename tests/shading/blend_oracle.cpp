@@ -18,7 +18,7 @@ namespace {
 
 using Random = std::mt19937_64;
 constexpr Format kTargets[] = {Format::rgba8, Format::rgba16f, Format::rgba32f};
-constexpr Profile kProfiles[] = {Profile::ideal, Profile::mesa_llvmpipe_22_3};
+constexpr NumericProfile kProfiles[] = {NumericProfile::ideal, NumericProfile::mesa_llvmpipe_22_3};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 float uniform(Random& random, float low, float high) {
@@ -85,7 +85,7 @@ void compare_all(size_t pixels, Random& random, std::string_view simd) {
     for (size_t s = 0; s < kBlendFactors; ++s)
       for (size_t d = 0; d < kBlendFactors; ++d)
         for (const Format format : kTargets)
-          for (const Profile profile : kProfiles) {
+          for (const NumericProfile profile : kProfiles) {
             const BlendTerm term{BlendEquation(e), BlendFactor(s), BlendFactor(d)};
             BlendState state = blending(term);
             if (random() % 2) state.alpha = random_term(random);
@@ -146,7 +146,7 @@ size_t wrong_triples(const BlendTerm& term, size_t stride, std::string_view simd
       source.set(i, {s, s, s, a});
       stored.set(i, {d, d, d, float(t & 255)});
     }
-    blend(blending(term), {Format::rgba8, Profile::mesa_llvmpipe_22_3}, source, stored, simd);
+    blend(blending(term), {Format::rgba8, NumericProfile::mesa_llvmpipe_22_3}, source, stored, simd);
     for (size_t i = 0; i < kChunk; ++i) {
       const int s = int(triple[i] & 255), a = int(triple[i] >> 8) & 255, d = int(triple[i] >> 16);
       const Rgba found = stored.at(i);

@@ -16,13 +16,13 @@ using enum BlendEquation;
 
 namespace {
 
-constexpr Profile kMesa = Profile::mesa_llvmpipe_22_3;
-constexpr Profile kProfiles[] = {Profile::ideal, kMesa};
+constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
+constexpr NumericProfile kProfiles[] = {NumericProfile::ideal, kMesa};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 constexpr BlendTerm kReplace{}, kAlpha{add, src_alpha, one_minus_src_alpha};
 
-BlendTarget to(Format format, Profile profile, HalfRound round = HalfRound::toward_zero) {
+BlendTarget to(Format format, NumericProfile profile, HalfRound round = HalfRound::toward_zero) {
   return {format, profile, round};
 }
 
@@ -40,7 +40,7 @@ uint32_t half_bits(float x) { return half_from_float(x, HalfRound::toward_zero);
 template <typename Body>
 void on_every_target(const Body& body) {
   for (const std::string_view simd : simd_targets())
-    for (const Profile profile : kProfiles) {
+    for (const NumericProfile profile : kProfiles) {
       INFO(simd << ", " << profile_name(profile));
       body(simd, profile);
     }
@@ -59,7 +59,7 @@ void on_every_simd(const Body& body) {
 TEST_CASE("Row 32: stores of 8 bits round ties of the float product to even") {
   const float halves[] = {.5f, 1.5f, 2.5f, 126.5f, 127.5f, 128.5f, 253.5f, 254.5f};
   const float codes[] = {0, 2, 2, 126, 128, 128, 254, 254};
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     for (size_t i = 0; i < std::size(halves); ++i)
       for (const BlendState& state : {BlendState{}, blending(kReplace)})
         CHECK(red(state, to(Format::rgba8, profile), grey(halves[i] / 255.0f), grey(77), simd) == codes[i]);
@@ -69,7 +69,7 @@ TEST_CASE("Row 32: stores of 8 bits round ties of the float product to even") {
 TEST_CASE(
     "Row 33: 8-bit stores of NaN, infinities, -0, 2 and -1 are 0, 255, 0, 0, 255 and 0, and never fall as x rises") {
   const float given[] = {kNan, kInf, -kInf, -0.0f, 2, -1}, codes[] = {0, 255, 0, 0, 255, 0};
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     for (size_t i = 0; i < std::size(given); ++i)
       CHECK(red({}, to(Format::rgba8, profile), grey(given[i]), grey(77), simd) == codes[i]);
     // Every 1,021st float of [0, 1], and both sides of each tie.
@@ -94,7 +94,7 @@ TEST_CASE("Row 33 over all floats in [0, 1]: 8-bit stores never fall", "[long]")
     for (uint32_t from = 0; from <= 0x3F800000; from += uint32_t(4 * kChunk)) {
       for (size_t i = 0; i < 4 * kChunk; ++i)
         source.plane[i / kChunk][i % kChunk] = std::bit_cast<float>(std::min(from + uint32_t(i), 0x3F800000u));
-      blend({}, to(Format::rgba8, Profile::ideal), source, stored, simd);
+      blend({}, to(Format::rgba8, NumericProfile::ideal), source, stored, simd);
       for (size_t i = 0; i < 4 * kChunk; ++i) {
         const float code = stored.plane[i / kChunk][i % kChunk];
         rises = rises && code >= last;
@@ -110,7 +110,7 @@ TEST_CASE("Row 34: half stores truncate, and keep -0, infinity and denormals") {
   const float given[] = {1 + 1.5f * 0x1p-11f, .3f, 65520, 8.9406967e-8f, -0.0f, kInf};
   const uint32_t truncated[] = {0x3C00, 0x34CC, 0x7BFF, 0x0001, 0x8000, 0x7C00};
   const uint32_t nearest[] = {0x3C01, 0x34CD, 0x7C00, 0x0002, 0x8000, 0x7C00};
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     for (size_t i = 0; i < std::size(given); ++i)
       for (const BlendState& state : {BlendState{}, blending(kReplace)}) {
         INFO(given[i]);
@@ -127,7 +127,7 @@ TEST_CASE("Row 38: code 3 reads as 3C40C0C1, by llvmpipe as 3C40C0C2; the two di
     for (size_t k = 0; k < 256; ++k) codes.set(k, grey(float(k)));
     const FpScope fp;
     const SimdScope scope(simd);
-    fetch_pixels(to(Format::rgba8, Profile::ideal), codes.read().data(), ideal.write().data(), 256);
+    fetch_pixels(to(Format::rgba8, NumericProfile::ideal), codes.read().data(), ideal.write().data(), 256);
     fetch_pixels(to(Format::rgba8, kMesa), codes.read().data(), mesa.write().data(), 256);
     CHECK(std::bit_cast<uint32_t>(ideal.at(3)[0]) == 0x3C40C0C1);
     CHECK(std::bit_cast<uint32_t>(mesa.at(3)[0]) == 0x3C40C0C2);
@@ -143,7 +143,7 @@ TEST_CASE("Row 38: code 3 reads as 3C40C0C1, by llvmpipe as 3C40C0C2; the two di
 TEST_CASE("Rows 39 to 41: alpha blending, alpha light and a source between two codes differ between the profiles") {
   on_every_simd([&](std::string_view simd) {
     const auto both = [&](const BlendTerm& term, const Rgba& source, float stored) {
-      return std::array{red(blending(term), to(Format::rgba8, Profile::ideal), source, grey(stored), simd),
+      return std::array{red(blending(term), to(Format::rgba8, NumericProfile::ideal), source, grey(stored), simd),
                         red(blending(term), to(Format::rgba8, kMesa), source, grey(stored), simd)};
     };
     const auto codes = [](float s, float a) { return Rgba{s / 255, s / 255, s / 255, a / 255}; };
@@ -154,7 +154,7 @@ TEST_CASE("Rows 39 to 41: alpha blending, alpha light and a source between two c
 }
 
 TEST_CASE("Rows 42 to 46: what is clamped, the saturating factor, least and greatest") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     const BlendTarget unorm = to(Format::rgba8, profile), half = to(Format::rgba16f, profile),
                       full = to(Format::rgba32f, profile);
     // 42: the source
@@ -180,7 +180,7 @@ TEST_CASE("Rows 42 to 46: what is clamped, the saturating factor, least and grea
 }
 
 TEST_CASE("Row 47: two products and a sum are three roundings") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     const float value = red(blending(kAlpha), to(Format::rgba32f, profile), {.45f, .45f, .45f, .39f}, grey(.24f), simd);
     CHECK(std::bit_cast<uint32_t>(value) == 0x3EA4D014);
   });
@@ -188,7 +188,7 @@ TEST_CASE("Row 47: two products and a sum are three roundings") {
 
 TEST_CASE(
     "A zero factor drops its term, of NaN or infinity too; MIN and MAX take the destination where the source is NaN") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     const BlendTarget full = to(Format::rgba32f, profile);
     const BlendTerm drop_source{add, zero, one};
     CHECK(red(blending(drop_source), full, grey(kNan), grey(1), simd) == 1);
@@ -201,7 +201,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Row 49: sums in half floats stop at 2048 + 1, hold at 65504, and drift down when truncated") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     const BlendState light = blending(kAccumulate);
     for (const HalfRound round : {HalfRound::toward_zero, HalfRound::nearest}) {
       const BlendTarget half = to(Format::rgba16f, profile, round);
@@ -216,7 +216,7 @@ TEST_CASE("Row 49: sums in half floats stop at 2048 + 1, hold at 65504, and drif
 }
 
 TEST_CASE("Row 50: 64 lights of a quarter of a code each leave 0 when blended, 16 when summed first") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     float code = 0, sum = 0;
     for (int i = 0; i < 64; ++i) {
       code = red(blending(kAccumulate), to(Format::rgba8, profile), grey(.25f / 255), grey(code), simd);
@@ -228,7 +228,7 @@ TEST_CASE("Row 50: 64 lights of a quarter of a code each leave 0 when blended, 1
 }
 
 TEST_CASE("Masked channels keep what they have, and factors still read them") {
-  on_every_target([&](std::string_view simd, Profile profile) {
+  on_every_target([&](std::string_view simd, NumericProfile profile) {
     BlendState state = blending({add, one, dst_alpha});
     state.mask = {true, false, true, false};
     CHECK(blend(state, to(Format::rgba32f, profile), {1, 2, 3, 4}, {10, 20, 30, .5f}, simd) == Rgba{6, 20, 18, .5f});

@@ -17,7 +17,7 @@ using namespace trueshade::testing;
 
 namespace {
 
-constexpr Profile kMesa = Profile::mesa_llvmpipe_22_3;
+constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
 
 /// 256 squares of 16 x 16 pixels, square k of albedo k / 255.
 Scene ramp() {
@@ -36,7 +36,7 @@ Scene ramp() {
 }
 
 /// An ambient light alone, so that the target holds the albedo as the light pass fetched it.
-std::vector<float> fetched(Profile profile, const Execution& execution) {
+std::vector<float> fetched(NumericProfile profile, const Execution& execution) {
   Scene scene = ramp();
   Light light;
   light.type = LightType::ambient;
@@ -60,7 +60,7 @@ TEST_CASE(
     "profile") {
   for (const Execution& execution : executions()) {
     INFO(named(execution));
-    const std::vector<float> ideal = fetched(Profile::ideal, execution), mesa = fetched(kMesa, execution);
+    const std::vector<float> ideal = fetched(NumericProfile::ideal, execution), mesa = fetched(kMesa, execution);
     int different = 0;
     for (size_t k = 0; k < 256; ++k) {
       CHECK(ideal[k] == float(double(k) / 255.0));
@@ -101,7 +101,7 @@ TEST_CASE("The profile's snapping is float32's with one fused multiply-add, on e
     CHECK(counts == first);
   }
   std::vector<uint16_t> ideal(800 * 600);
-  count_coverage(triangles, {}, 800, 600, {}, ideal, Profile::ideal);
+  count_coverage(triangles, {}, 800, 600, {}, ideal, NumericProfile::ideal);
   CHECK(ideal != first);
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("Factors, equations and profiles are spelled as the enumerators") {
   CHECK(kBlendFactorNames[size_t(BlendFactor::dst_color)] == "dst_color");
   CHECK(kBlendEquationNames[size_t(BlendEquation::reverse_subtract)] == "reverse_subtract");
   CHECK(kBlendEquationNames[size_t(BlendEquation::max)] == "max");
-  for (const Profile profile : {Profile::ideal, kMesa}) CHECK(profile_from_name(profile_name(profile)) == profile);
+  for (const NumericProfile profile : {NumericProfile::ideal, kMesa}) CHECK(profile_from_name(profile_name(profile)) == profile);
   CHECK(profile_name(kMesa) == "mesa-llvmpipe-22.3");
   CHECK(!profile_from_name("mesa"));
 }
