@@ -54,6 +54,12 @@ Size size_from_text(const std::string& text) {
   return {int(*width), int(*height)};
 }
 
+NumericProfile profile_from_text(const std::string& text) {
+  const std::optional<NumericProfile> profile = profile_from_name(text);
+  if (!profile) throw usage("--profile", "there is no profile '" + text + "'", "one of: " + joined(kProfileNames));
+  return *profile;
+}
+
 Format target_from_text(const std::string& text) {
   constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
   if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
@@ -84,15 +90,13 @@ void check_outputs(const RenderOptions& options) {
     if (!path.ends_with(".png") && !path.ends_with(".exr") && !path.ends_with(".html"))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
   }
-  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
-    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   if (!options.aovs.empty() && !exr && !options.json)
     throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
 }
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, target, aov, threads, tile;
+  std::optional<std::string> size, target, profile, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -119,6 +123,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
+  render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
@@ -139,6 +144,7 @@ void check_preset(const std::optional<std::string>& preset) {
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.target) options.target = target_from_text(*texts.target);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
@@ -176,7 +182,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   command->add_option("--gbuffer", options.gbuffer_file,
                       "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
   command->add_option("--image", options.image_file, "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
-  command->add_option("--profile", options.profile,
+  command->add_option("--profile", options.held_to,
                       "Hold the driver to this profile instead of what OpenGL promises of any: " +
                           joined(oracle::profile_names()));
   command->add_option("--subpixel-bits", texts.subpixel_bits,
@@ -196,8 +202,8 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   check_preset(options.preset);
   if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
     throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
-  if (options.profile && !oracle::profile_named(*options.profile))
-    throw usage("--profile", "there is no profile '" + *options.profile + "'", "one of: " + joined(oracle::profile_names()));
+  if (options.held_to && !oracle::profile_named(*options.held_to))
+    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(oracle::profile_names()));
   if (options.gbuffer_file.empty() && !options.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   if (options.report && !options.report->ends_with(".html"))

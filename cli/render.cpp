@@ -8,6 +8,7 @@
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
+#include "core/error.h"
 #include "core/image_io.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -70,6 +71,8 @@ void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
   const Scene scene = load_scene(options.scene);
+  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
+    throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}, {}};
   draw(options, result);
   result.image_hash = image_hash(result.frame.color);

@@ -38,7 +38,7 @@ void read_files(const ValidationOptions& options, Validation& v) {
   const Image& plane = v.capture.planes.front().image;
   if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
   store_as(v.pipeline, options.gbuffer_file, v.capture);
-  if (!options.profile && !options.subpixel_bits)
+  if (!options.held_to && !options.subpixel_bits)
     v.notes.push_back("a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
@@ -49,7 +49,7 @@ bool judge_opengl(const ValidationOptions& options) {
   const Scene scene = load_scene(options.scene);
   Validation v;
   v.pipeline = pipeline_of(options, scene);
-  if (options.profile) v.profile = *oracle::profile_named(*options.profile);
+  if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty()) draw_here(options, scene, v);

@@ -8,7 +8,7 @@ install(TARGETS trueshade_flags trueshade_core trueshade_scenes trueshade_raster
 install(TARGETS trueshade_image_io EXPORT trueshade_image_io)
 install(TARGETS trueshade)
 foreach(header
-  core/error.h core/format.h core/fp_env.h core/half.h core/image.h core/image_io.h core/sha256.h
+  core/error.h core/format.h core/fp_env.h core/half.h core/image.h core/image_io.h core/numeric_profile.h core/sha256.h
   scenes/builtin.h scenes/camera.h scenes/light.h scenes/light_model.h scenes/mesh.h scenes/pipeline.h scenes/presets.h
   scenes/scene.h raster/simd_target.h shading/frame.h)
   get_filename_component(folder ${header} DIRECTORY)

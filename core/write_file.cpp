@@ -43,12 +43,18 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-/// A file under a name of its own beside `path`; removed on destruction unless it took the name of `path`.
+std::string temporary_name(const std::string& path, int attempt) {
+  return folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+}
+
+/// A file in the folder of `path`, without a name where the file system can do that, so that not even a killed process
+/// leaves it behind; else under a name of its own. Removed on destruction unless it took the name of `path`.
 class Temporary {
  public:
   explicit Temporary(const std::string& path) : path_(path) {
+    descriptor_ = open(folder_of(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
-      name_ = folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+      name_ = temporary_name(path, attempt);
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
       if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail(path, "create a file in its folder", errno);
     }
@@ -72,6 +78,7 @@ class Temporary {
   /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
   void take_name() {
     if (fsync(descriptor_) != 0 && errno != EINVAL) fail(path_, "write to disk", errno);
+    if (name_.empty()) give_name();
     const int closed = close(descriptor_);
     descriptor_ = -1;
     if (closed != 0) fail(path_, "write", errno);
@@ -86,6 +93,18 @@ class Temporary {
   }
 
  private:
+  /// A file without a name cannot replace one; for the moment between this and rename it has a temporary's.
+  void give_name() {
+    const std::string self = "/proc/self/fd/" + std::to_string(descriptor_);
+    for (int attempt = 0; name_.empty(); ++attempt) {
+      const std::string name = temporary_name(path_, attempt);
+      if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0)
+        name_ = name;
+      else if (errno != EEXIST || attempt == 1000)
+        fail(path_, "create a file in its folder", errno);
+    }
+  }
+
   std::string path_, name_;
   int descriptor_ = -1;
 };

@@ -44,7 +44,7 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
   __int128 total = 0;
   int signs = 0;
   const int corners = out.polygon.corners;
-  Placed placed[12];
+  Placed placed[ClippedPolygon::kCorners];
   for (int i = 0; i < corners; ++i) {
     const std::optional<Placed> at = place(out.polygon.at(i), t, origin_x, origin_y);
     if (!at) return {};

@@ -9,7 +9,7 @@ namespace trueshade {
 
 /// What is left of a triangle that needs care, as the fan of its clipped polygon, snapped exactly.
 struct CarefulPieces {
-  static constexpr int kMax = 10;
+  static constexpr int kMax = ClippedPolygon::kCorners - 2;
   struct Piece {
     WindowTriangle triangle;
     uint8_t corner[3];  ///< indices into ClippedPolygon::all

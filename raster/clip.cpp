@@ -154,11 +154,17 @@ int add_crossing(ClippedPolygon& polygon, int from, int to, Plane plane, const C
 
 void cut(ClippedPolygon& polygon, Plane plane, const ClipVertex v[3], const WindowTransform& t) {
   const PlaneTerms p = terms(plane, t);
-  uint8_t kept[12];
+  uint8_t kept[ClippedPolygon::kCorners];
   int count = 0;
   for (int i = 0; i < polygon.corners; ++i) {
     const int from = polygon.corner[i], to = polygon.corner[(i + 1) % polygon.corners];
     const bool from_in = inside(p, polygon.all[from].c), to_in = inside(p, polygon.all[to].c);
+    // A convex polygon gains one corner a cut. Should roundings of the far-away box ever make it less than convex, the
+    // triangle is dropped rather than memory harmed.
+    if (count + 2 > ClippedPolygon::kCorners || polygon.made == ClippedPolygon::kMax) {
+      polygon.corners = 0;
+      return;
+    }
     if (from_in) kept[count++] = uint8_t(from);
     if (from_in != to_in) kept[count++] = uint8_t(add_crossing(polygon, from, to, plane, v, t));
   }

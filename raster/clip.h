@@ -23,10 +23,10 @@ struct ClipCorner {
 
 /// A triangle's part inside near, far and w > 0, convex, corners in the triangle's order.
 struct ClippedPolygon {
-  static constexpr int kMax = 24;
+  static constexpr int kMax = 24, kCorners = 12;
   ClipCorner all[kMax];  ///< every corner that came about, cut away or not
   int made = 0;
-  uint8_t corner[12];    ///< indices into `all`
+  uint8_t corner[kCorners];    ///< indices into `all`
   int corners = 0;       ///< 0: nothing is left; otherwise 3 to 10
 
   const ClipCorner& at(int i) const { return all[corner[i]]; }

@@ -51,8 +51,8 @@ void count_batch(const Batch& batch, const GeometryState& state, const WindowTra
 }
 
 void count_coverage_simd(std::span<const ClipTriangle> triangles, const GeometryState& state, int width, int height, int tile,
-                         std::span<uint16_t> counts) {
-  const WindowTransform t = window_transform(state, width, height);
+                         NumericProfile profile, std::span<uint16_t> counts) {
+  const WindowTransform t = window_transform(state, width, height, profile);
   std::vector<uint16_t> tile_counts(size_t(tile) * size_t(tile));
   for (int ty = 0; ty < height; ty += tile) {
     for (int tx = 0; tx < width; tx += tile) {
@@ -83,10 +83,10 @@ namespace trueshade {
 HWY_EXPORT(count_coverage_simd);
 
 void count_coverage(std::span<const ClipTriangle> triangles, const GeometryState& state, int width, int height, const Execution& execution,
-                    std::span<uint16_t> counts) {
+                    std::span<uint16_t> counts, NumericProfile profile) {
   const FpScope fp;
   const SimdScope simd(execution.simd);
-  HWY_DYNAMIC_DISPATCH(count_coverage_simd)(triangles, state, width, height, execution.tile, counts);
+  HWY_DYNAMIC_DISPATCH(count_coverage_simd)(triangles, state, width, height, execution.tile, profile, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

@@ -1,5 +1,6 @@
 #include "raster/snap.h"
 
+#include <bit>
 #include <cmath>
 
 #include "raster/fixed_point.h"
@@ -30,7 +31,24 @@ int compare_products(double x, int64_t a, double w, int64_t b) {
   return (left > right) - (left < right);
 }
 
+// fl32(a * b + c), rounded once. The product is exact in a double; the sum is rounded to odd, which a second rounding to
+// 24 bits does not disturb (Boldo and Melquiond, "Emulation of a FMA and correctly rounded sums", 2008).
+float fused_multiply_add(float a, float b, float c) {
+  const double product = double(a) * double(b), sum = product + double(c);
+  const double c_part = sum - product, error = (product - (sum - c_part)) + (double(c) - c_part);
+  const uint64_t bits = std::bit_cast<uint64_t>(sum);
+  if (error == 0.0 || error != error || (bits & 1) != 0) return float(sum);
+  return float(std::bit_cast<double>((error > 0.0) == (sum > 0.0) ? bits + 1 : bits - 1));
+}
+
 }  // namespace
+
+std::optional<int64_t> float_snapped(const WindowTransform& t, int axis, float coordinate, float w) {
+  const float pixels = fused_multiply_add(coordinate * (1.0f / w), t.half_size[axis], t.center[axis]);
+  const double from_center = double((pixels - 0.5f) * 256.0f);
+  if (!(std::abs(from_center) < double(kWideLimit))) return std::nullopt;
+  return int64_t(std::nearbyint(from_center)) + 128;
+}
 
 std::optional<int64_t> snapped_quotient(double x, double w, int64_t scale) {
   const double estimate = (x / w) * double(scale);

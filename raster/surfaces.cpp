@@ -285,7 +285,7 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
     if (info(group[g].plane.format).bytes_per_channel == 4) continue;
     for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
       for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
-        hn::Store(stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round), d, out.plane[c] + i);
+        hn::Store(stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round, in.view.profile), d, out.plane[c] + i);
   }
 }
 

@@ -68,13 +68,44 @@ HWY_INLINE V64 round_near_ties(V64 estimate, V64 rounded, V64 coordinate, V64 w,
   return hn::Load(d, r);
 }
 
+/// fl32(a * b + c), rounded once; snap.cpp says how.
+HWY_INLINE V32 fused_multiply_add(V32 a, V32 b, V32 c) {
+  const D64 d;
+  const D32 df;
+  const hn::RebindToSigned<D64> di;
+  const V64 product = hn::Mul(hn::PromoteTo(d, a), hn::PromoteTo(d, b)), wide_c = hn::PromoteTo(d, c);
+  const V64 sum = hn::Add(product, wide_c), c_part = hn::Sub(sum, product);
+  const V64 error = hn::Add(hn::Sub(product, hn::Sub(sum, c_part)), hn::Sub(wide_c, c_part)), zero = hn::Zero(d);
+  const auto bits = hn::BitCast(di, sum), one = hn::Set(di, 1);
+  const auto larger = hn::Gt(hn::Mul(hn::IfThenElse(hn::Gt(error, zero), hn::Set(d, 1.0), hn::Set(d, -1.0)), sum), zero);
+  const auto odd = hn::IfThenElse(hn::RebindMask(di, larger), hn::Add(bits, one), hn::Sub(bits, one));
+  const auto moves = hn::And(hn::RebindMask(di, hn::Or(hn::Lt(error, zero), hn::Gt(error, zero))),
+                             hn::Eq(hn::And(bits, one), hn::Zero(di)));
+  return hn::DemoteTo(df, hn::BitCast(d, hn::IfThenElse(moves, odd, bits)));
+}
+
+/// Window coordinate in 1/256 pixel as llvmpipe 22.3 rounds it: float_snapped() for vectors.
+HWY_INLINE V64 float_snap(V64 coordinate, V64 w, const WindowTransform& t, int axis) {
+  const D64 d;
+  const D32 df;
+  const V32 ndc = hn::Mul(hn::DemoteTo(df, coordinate), hn::Div(hn::Set(df, 1.0f), hn::DemoteTo(df, w)));
+  const V32 pixels = fused_multiply_add(ndc, hn::Set(df, t.half_size[axis]), hn::Set(df, t.center[axis]));
+  const V32 from_center = hn::Mul(hn::Sub(pixels, hn::Set(df, 0.5f)), hn::Set(df, 256.0f));
+  return hn::Add(hn::Round(hn::PromoteTo(d, from_center)), hn::Set(d, 128.0));
+}
+
 /// One axis of the window position, relative to `origin`; `fits` loses the lanes that do not fit the vector path.
 template <class M>
 HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTransform& t, int axis, int32_t origin, M& fits) {
   const D64 d;
   const V64 estimate = hn::Mul(hn::Mul(coordinate, u), hn::Set(d, double(t.scale[axis])));
-  const V64 rounded = round_near_ties(estimate, hn::Round(estimate), coordinate, w, t.scale[axis]);
-  const V64 window = hn::Add(rounded, hn::Set(d, double(t.offset[axis])));
+  V64 window;
+  if (t.float_snap) {
+    window = float_snap(coordinate, w, t, axis);
+  } else {
+    const V64 rounded = round_near_ties(estimate, hn::Round(estimate), coordinate, w, t.scale[axis]);
+    window = hn::Add(rounded, hn::Set(d, double(t.offset[axis])));
+  }
   const V64 limit = hn::Set(d, double(kVectorLimit));
   // The estimate is bounded too: a far-away viewport must not bring a badly rounded quotient back into range.
   const auto small = hn::And(hn::Lt(hn::Abs(window), limit), hn::Lt(hn::Abs(estimate), hn::Add(limit, limit)));

@@ -1,6 +1,7 @@
 #include "raster/view.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "scenes/camera.h"
 
@@ -71,7 +72,7 @@ InstanceTransform instance_transform(const Matrix4& clip_from_world, const glm::
 }
 
 Viewport whole_or_set(const Viewport& v, int width, int height) {
-  return v.width == 0 && v.height == 0 ? Viewport{v.x, v.y, width, height} : v;
+  return v.width == 0 && v.height == 0 ? Viewport{0, 0, width, height} : v;
 }
 
 // The picture fills the viewport, so its shape is the viewport's.
@@ -83,7 +84,7 @@ Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
 
 }  // namespace
 
-WindowTransform window_transform(const GeometryState& state, int width, int height) {
+WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile) {
   const Viewport v = whole_or_set(state.viewport, width, height);
   WindowTransform out;
   out.upper_left = state.clip_origin == ClipOrigin::upper_left;
@@ -91,6 +92,15 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   out.scale[1] = (out.upper_left ? -128 : 128) * int64_t(v.height);
   out.offset[0] = 256 * int64_t(v.x) + 128 * int64_t(v.width);
   out.offset[1] = 256 * int64_t(v.y) + 128 * int64_t(v.height);
+  // Far beyond what a driver takes, float32 could lose whole pixels, which bins of clusters do not allow for.
+  constexpr int64_t kFloatSnapLimit = int64_t(1) << 25;  // 2^17 pixels
+  out.float_snap = profile == NumericProfile::mesa_llvmpipe_22_3;
+  for (int axis = 0; axis < 2; ++axis)
+    out.float_snap = out.float_snap && std::max(std::abs(out.scale[axis]), std::abs(out.offset[axis])) <= kFloatSnapLimit;
+  for (int axis = 0; axis < 2; ++axis) {
+    out.half_size[axis] = float(out.scale[axis]) / 256.0f;
+    out.center[axis] = float(out.offset[axis]) / 256.0f;
+  }
   out.zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
   // + 0 turns -0 into 0: no stored depth is -0, so minima and maxima have one answer on every SIMD target.
   const double n = double(state.depth_near + 0.0f), f = double(state.depth_far + 0.0f);
@@ -109,7 +119,8 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
 
 View make_view(const Scene& scene, const Pipeline& pipeline) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
-  View view{pipeline.width, pipeline.height, window_transform(pipeline.geometry, pipeline.width, pipeline.height), {},
+  View view{pipeline.width, pipeline.height, pipeline.profile,
+            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile), {},
             inverse_rows(clip)};
   view.instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)

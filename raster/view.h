@@ -18,6 +18,8 @@ struct WindowTransform {
   bool depth_clamp;
   bool upper_left;             ///< turns facing and the inclusive horizontal edge
   int x0, y0, x1, y1;          ///< pixels that may be drawn: viewport and image, half open, y up
+  bool float_snap = false;     ///< llvmpipe's: x_px = fma(x * (1 / w), half_size, center), x_fx = RNE((x_px - 0.5) * 256)
+  float half_size[2], center[2];  ///< pixels
 };
 
 /// One instance as the vertex stage wants it (f32, row-major).
@@ -30,12 +32,13 @@ struct InstanceTransform {
 /// Everything of a frame that the geometry pass reads, made once a frame.
 struct View {
   int width, height;
+  NumericProfile profile;
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
 };
 
-WindowTransform window_transform(const GeometryState& state, int width, int height);
+WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile = NumericProfile::ideal);
 View make_view(const Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

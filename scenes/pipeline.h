@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/format.h"
+#include "core/numeric_profile.h"
 #include "scenes/light_model.h"
 
 namespace trueshade {
@@ -18,7 +19,7 @@ enum class Interpolation : uint8_t { smooth, flat, noperspective };
 enum class Provoking : uint8_t { last, first };
 enum class Strategy : uint8_t { deferred_loop };  ///< spelled `deferred-loop` outside C++
 
-/// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image.
+/// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image, whatever x and y.
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const Viewport&) const = default;
@@ -63,6 +64,7 @@ struct Pipeline {
   LightModel light_model;
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
+  NumericProfile profile = NumericProfile::ideal;
   bool operator==(const Pipeline&) const = default;
 };
 

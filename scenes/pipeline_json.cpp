@@ -24,7 +24,7 @@ constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic"};
 constexpr std::string_view kOrders[] = {"factored", "separate"};
 
 constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",    "height", "geometry",
-                                          "gbuffer", "light_model", "strategy", "target"};
+                                          "gbuffer", "light_model", "strategy", "target", "profile"};
 constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "depth_far", "depth_func",
                                               "clear_depth", "depth_clamp", "cull_face", "front_face",
                                               "clip_origin", "clip_depth",  "provoking"};
@@ -216,6 +216,7 @@ std::string pipeline_json(const Pipeline& pipeline) {
     write_light_model(w.key("light_model"), pipeline.light_model);
     w.put("strategy", pipeline.strategy, kStrategies);
     w.put("target", info(pipeline.target).name);
+    w.put("profile", pipeline.profile, kProfileNames);
   }
   return out;
 }
@@ -237,6 +238,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);
   read_choice(node, "strategy", p.strategy, kStrategies);
   if (const auto target = node.find("target")) p.target = read_format(*target, kTargets);
+  read_choice(node, "profile", p.profile, kProfileNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
     node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions",
               "give them different values");

@@ -97,6 +97,29 @@ void check_camera(const Camera& camera, const Part& part) {
                "a target away from the eye and an up that is not along the view");
 }
 
+/// Largest |x|, |y|, |z| of each mesh's vertices.
+std::vector<glm::dvec3> mesh_reaches(const Scene& scene) {
+  std::vector<glm::dvec3> reaches;
+  for (const Mesh& mesh : scene.meshes) {
+    glm::dvec3 reach(0.0);
+    for (size_t c = 0; c < 3; ++c)
+      for (const float x : mesh.position[c]) reach[int(c)] = std::max(reach[int(c)], std::abs(double(x)));
+    reaches.push_back(reach);
+  }
+  return reaches;
+}
+
+/// World positions stay within 1e18, so that no squared distance overflows: a bound over the mesh's box, which may refuse
+/// a little less than the limit.
+void check_world_reach(const Instance& instance, const glm::dvec3& reach, const Part& part) {
+  const glm::mat4x3& m = instance.world_from_object;
+  for (int row = 0; row < 3; ++row) {
+    double far = std::abs(double(m[3][row]));
+    for (int c = 0; c < 3; ++c) far += std::abs(double(m[c][row])) * reach[c];
+    part.require(far <= double(kLargest), "the transform takes vertices beyond 1e18", "a smaller scale");
+  }
+}
+
 void check_instance(const Scene& scene, const Instance& instance, const Part& part) {
   part.require(instance.mesh < scene.meshes.size(), "the mesh index is beyond the meshes", "an existing mesh");
   part.require(instance.material < scene.materials.size(), "the material index is beyond the materials",
@@ -128,7 +151,11 @@ void validate(const Scene& scene, const SceneLimits& limits) {
     part("material", i)
         .require(is_color(scene.materials[i].base_color), "the base colour is out of range",
                  "RGB in [0, 1e18], alpha in [0, 1]");
-  for (size_t i = 0; i < scene.instances.size(); ++i) check_instance(scene, scene.instances[i], part("instance", i));
+  const std::vector<glm::dvec3> reaches = mesh_reaches(scene);
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    check_instance(scene, scene.instances[i], part("instance", i));
+    check_world_reach(scene.instances[i], reaches[scene.instances[i].mesh], part("instance", i));
+  }
   for (size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], part("light", i));
   check_camera(scene.camera, Part{spec, "camera", {}});
   Part{spec, "clear", {}}.require(is_color(scene.clear), "the colour is out of range",

@@ -1,5 +1,7 @@
 #include "shading/frame.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -106,6 +108,19 @@ std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution)
   return order;
 }
 
+// Refused before anything is allocated: more bytes than half of the machine's memory would end in the system killing us.
+void check_memory(const Pipeline& pipeline, const Execution& execution, std::span<const std::string> aovs) {
+  const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
+  uint64_t texel = uint64_t(info(pipeline.target).bytes_per_texel());
+  for (const std::string& name : aovs) texel += uint64_t(info(aov_format(name, pipeline.gbuffer)).bytes_per_texel());
+  const uint64_t tiles = pixels / uint64_t(execution.tile * execution.tile) + 1;
+  const uint64_t need = pixels * texel + tiles * (sizeof(TileCounts) + 3 * sizeof(uint64_t));
+  const uint64_t have = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
+  if (need > have / 2)
+    throw Error(ErrorKind::limit, "size", "the image and its planes need " + std::to_string(need >> 20) + " MiB, over half of this machine's memory",
+                "a smaller size or fewer planes");
+}
+
 void check_aovs(std::span<const std::string> names) {
   for (const std::string& name : names) {
     if (std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames)) continue;
@@ -158,6 +173,7 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   validate(pipeline);
   validate(execution);
   check_aovs(aovs);
+  check_memory(pipeline, execution, aovs);
   const FpScope fp;
   const SimdScope simd(execution.simd);
   const double start = now_ms();

@@ -90,7 +90,6 @@ void zero_to_one(Scene& s, Pipeline& p) {
 void half_base(Scene&, Pipeline& p) { p.gbuffer.normal.format = p.gbuffer.position.format = Format::rgba16f; }
 void half_nearest_mode(Scene&, Pipeline& p) { p.gbuffer.half_round = HalfRound::nearest; }
 void position_as_half(Scene&, Pipeline& p) { p.gbuffer.position.format = Format::rgba16f; }
-void upper_left(Scene&, Pipeline& p) { p.geometry.clip_origin = ClipOrigin::upper_left; }
 void float_target(Scene&, Pipeline& p) { p.target = Format::rgba32f; }
 
 /// Every object drawn twice, the second time in another material: exact ties everywhere.
@@ -120,6 +119,11 @@ Camera moved_in_window(const Scene& scene, const Pipeline& p, double pixels) {
   camera.clip_from_world.emplace();
   for (size_t i = 0; i < 16; ++i) (*camera.clip_from_world)[i] = float(m[i]);
   return camera;
+}
+void as_matrix(Scene& s, Pipeline& p) { s.camera = moved_in_window(s, p, 0); }
+/// Mirrored, to be turned back: the edges that were at the bottom are at the top when samples are given out.
+void mirrored(Scene& s, Pipeline&) {
+  for (size_t c = 0; c < 4; ++c) (*s.camera.clip_from_world)[4 * c + 1] *= -1;
 }
 void half_a_pixel(Scene& s, Pipeline& p) { s.camera = moved_in_window(s, p, 0.5); }
 void field_of_view(Scene& s, Pipeline&) { s.camera.fov_y_rad *= 1.001f; }
@@ -302,7 +306,7 @@ constexpr Mutant kMutants[] = {
     {"light missing", kNone, nullptr, light_missing, nullptr},
     {"one light twice", kNone, nullptr, light_twice, nullptr},
     {"last quarter of the lights dropped", kNone, nullptr, last_lights_dropped, nullptr},
-    {"lights in another order", Latitude::always_legal, nullptr, lights_reversed, nullptr},
+    {"lights in another order", Latitude::always_legal, float_target, lights_reversed, nullptr},
     {"falloff off by 1%", kNone, nullptr, falloff_one_percent, nullptr},
     {"range squared", kNone, nullptr, range_squared, nullptr},
     {"range halved", kNone, nullptr, range_halved, nullptr},
@@ -329,7 +333,7 @@ constexpr Mutant kMutants[] = {
     {"clip depth zero to one", kStated, nullptr, zero_to_one, nullptr},
     {"half stores rounded to nearest", kStated, half_base, half_nearest_mode, nullptr},
     {"position through half floats", kNone, nullptr, position_as_half, half_as_float},
-    {"fill rule: top edges instead of bottom ones", kStated, nullptr, upper_left, upside_down},
+    {"fill rule: top edges instead of bottom ones", kStated, as_matrix, mirrored, upside_down},
     {"unorm store truncates", kStated, nullptr, float_target, truncated_codes},
     {"window moved by half a pixel", kNone, nullptr, half_a_pixel, nullptr},
     {"field of view off by 0.1%", kNone, nullptr, field_of_view, nullptr},

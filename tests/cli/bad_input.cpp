@@ -38,6 +38,7 @@ TEST_CASE("options out of range are refused by name") {
   check_render_refused({"--tile", "24"}, 2, "tile");
   check_render_refused({"--simd", "mmx"}, 2, "--simd");
   check_render_refused({"--target", "rgb565"}, 2, "--target");
+  check_render_refused({"--profile", "mesa"}, 2, "--profile");
   check_render_refused({"--preset", "fewer-lights"}, 2, "--preset");
   check_render_refused({"--aov", "depht", "-o", "x.exr"}, 2, "depht");
   check_render_refused({"--aov", "depth,depth", "-o", "x.exr"}, 2, "twice");

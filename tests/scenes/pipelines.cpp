@@ -33,6 +33,7 @@ Pipeline strange_pipeline() {
   p.light_model.shininess = 0.1f;
   p.light_model.specular_color = {1e-20f, 1.0f / 3.0f, 1e18f};
   p.target = Format::rgba16f;
+  p.profile = NumericProfile::mesa_llvmpipe_22_3;
   return p;
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"({"format":"rgba32f","interpolation":"smooth"},"position_from_depth":false,"half_round":"toward_zero"},)"
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
         R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false},"strategy":"deferred-loop",)"
-        R"("target":"rgba8"})");
+        R"("target":"rgba8","profile":"ideal"})");
 }
 
 TEST_CASE("keys present replace, a preset replaces all, whatever their order") {
@@ -105,6 +106,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
       {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
       {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
+      {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
   };
   for (const auto& [text, start] : cases) CHECK_STARTS_WITH(refusal(text), start);

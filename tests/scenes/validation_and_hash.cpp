@@ -24,6 +24,10 @@ TEST_CASE("scenes out of range are refused with the part's name") {
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].mesh = 2; }), "builtin:cornell: instance 3: the mesh index");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
                     "builtin:cornell: instance 3: the transform");
+  CHECK_STARTS_WITH(invalid([](Scene& s) {
+                      s.meshes[s.instances[3].mesh].position[1][0] = 1e12f, s.instances[3].world_from_object[1].y = 1e7f;
+                    }),
+                    "builtin:cornell: instance 3: the transform takes vertices beyond 1e18");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].base_color.x = -1.0f; }), "builtin:cornell: material 2");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].color.z = 2e18f; }), "builtin:cornell: light 7: the colour");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].range = 0.0f; }), "builtin:cornell: light 7: the range");

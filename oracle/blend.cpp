@@ -1,0 +1,215 @@
+#include "oracle/blend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace trueshade::oracle {
+namespace {
+
+/// Nearest integer to 255 x, ties to even, by remainders rather than by a rounding mode; the product is a float's.
+int code_of(float x) {
+  if (!(x > 0.0f)) return 0;
+  if (x >= 1.0f) return 255;
+  const double product = double(x * 255.0f);
+  const int below = int(product);
+  const double rest = product - double(below);
+  return rest > 0.5 || (rest == 0.5 && below % 2 != 0) ? below + 1 : below;
+}
+
+float unit(float x) { return x >= 1.0f ? 1.0f : x > 0.0f ? x : 0.0f; }
+
+/// The half float next to x, toward zero or nearest, as the multiple of its unit in the last place.
+float half_of(float x, HalfRound round) {
+  if (std::isnan(x) || std::isinf(x)) return x;
+  const double magnitude = std::fabs(double(x));
+  int exponent = 0;
+  std::frexp(magnitude, &exponent);  // magnitude in [2^(exponent - 1), 2^exponent)
+  const double ulp = std::ldexp(1.0, std::max(exponent - 11, -24));
+  double units = std::floor(magnitude / ulp);
+  const double rest = magnitude / ulp - units;
+  if (round == HalfRound::nearest && (rest > 0.5 || (rest == 0.5 && std::fmod(units, 2.0) != 0.0))) units += 1.0;
+  double result = units * ulp;
+  if (result > 65504.0) result = round == HalfRound::nearest ? std::numeric_limits<double>::infinity() : 65504.0;
+  return float(std::copysign(result, double(x)));
+}
+
+/// Factors and operands are of any number; T is float for values, int for codes (whose one is 255).
+template <typename T>
+struct Operands {
+  std::array<T, 4> source, destination, constant;
+  T one;
+
+  T factor(BlendFactor f, size_t c) const {
+    const auto inverse = [this](T x) { return T(one - x); };
+    switch (f) {
+      case BlendFactor::zero:
+        return T(0);
+      case BlendFactor::one:
+        return one;
+      case BlendFactor::src_color:
+        return source[c];
+      case BlendFactor::one_minus_src_color:
+        return inverse(source[c]);
+      case BlendFactor::dst_color:
+        return destination[c];
+      case BlendFactor::one_minus_dst_color:
+        return inverse(destination[c]);
+      case BlendFactor::src_alpha:
+        return source[3];
+      case BlendFactor::one_minus_src_alpha:
+        return inverse(source[3]);
+      case BlendFactor::dst_alpha:
+        return destination[3];
+      case BlendFactor::one_minus_dst_alpha:
+        return inverse(destination[3]);
+      case BlendFactor::constant_color:
+        return constant[c];
+      case BlendFactor::one_minus_constant_color:
+        return inverse(constant[c]);
+      case BlendFactor::constant_alpha:
+        return constant[3];
+      case BlendFactor::one_minus_constant_alpha:
+        return inverse(constant[3]);
+      case BlendFactor::src_alpha_saturate:
+        break;
+    }
+    if (c == 3) return one;
+    const T rest = inverse(destination[3]);
+    return source[3] < rest ? source[3] : rest;
+  }
+};
+
+bool takes_factors(const BlendTerm& term) { return term.equation < BlendEquation::min; }
+
+int code_product(int a, int b) {
+  const int t = a * b + ((a * b) >> 8);
+  return (t + 128) >> 8;
+}
+
+int blended_code(const BlendTerm& term, size_t c, const Operands<int>& in) {
+  const int s = in.source[c], d = in.destination[c];
+  if (term.equation == BlendEquation::min) return s < d ? s : d;
+  if (term.equation == BlendEquation::max) return s > d ? s : d;
+  const int a = code_product(s, in.factor(term.src, c)), b = code_product(d, in.factor(term.dst, c));
+  const int sum = term.equation == BlendEquation::add        ? a + b
+                  : term.equation == BlendEquation::subtract ? a - b
+                                                             : b - a;
+  return sum < 0 ? 0 : sum > 255 ? 255 : sum;
+}
+
+/// As a CPU that counts denormals as zeros gives it.
+struct Flush {
+  bool on;
+  float operator()(float x) const { return on && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x; }
+};
+
+/// An absent term is none at all, not a zero: NaN * 0 must not come in, nor -0 go out.
+float blended_value(const BlendTerm& term, size_t c, const Operands<float>& in, bool drop_source, bool drop_destination,
+                    bool factored, Flush flush) {
+  const float s = in.source[c], d = in.destination[c];
+  if (term.equation == BlendEquation::min) return s < d ? s : d;
+  if (term.equation == BlendEquation::max) return s > d ? s : d;
+  if (factored && !drop_source) {
+    const float whole = term.equation == BlendEquation::add        ? s + d
+                        : term.equation == BlendEquation::subtract ? s - d
+                                                                   : d - s;
+    return flush(flush(whole) * flush(in.factor(term.src, c)));
+  }
+  std::optional<float> a, b;
+  if (!drop_source) a = flush(s * flush(in.factor(term.src, c)));
+  if (!drop_destination) b = flush(d * flush(in.factor(term.dst, c)));
+  if (!a && !b) return 0.0f;
+  switch (term.equation) {
+    case BlendEquation::add:
+      return a && b ? flush(*a + *b) : a ? *a : *b;
+    case BlendEquation::subtract:
+      return b ? flush(a.value_or(0.0f) - *b) : *a;
+    default:
+      return a ? flush(b.value_or(0.0f) - *a) : *b;
+  }
+}
+
+Rgba blended_codes(const BlendState& state, const Rgba& source, const Rgba& stored) {
+  Operands<int> in{{}, {}, {}, 255};
+  Rgba out;
+  for (size_t c = 0; c < 4; ++c) {
+    in.source[c] = code_of(source[c]);
+    in.destination[c] = int(stored[c]);
+    in.constant[c] = code_of(state.constant[c]);
+  }
+  for (size_t c = 0; c < 4; ++c) out[c] = float(blended_code(c == 3 ? state.alpha : state.rgb, c, in));
+  return out;
+}
+
+Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source, const Rgba& stored) {
+  Operands<float> in{source, stored, state.constant, 1.0f};
+  const bool unorm = format == Format::rgba8;
+  for (size_t c = 0; unorm && c < 4; ++c) {
+    in.source[c] = unit(source[c]);
+    in.destination[c] = stored[c] / 255.0f;
+    in.constant[c] = unit(state.constant[c]);
+  }
+  const auto zero_source = [](const BlendTerm& t) { return takes_factors(t) && t.src == BlendFactor::zero; };
+  const auto zero_destination = [](const BlendTerm& t) { return takes_factors(t) && t.dst == BlendFactor::zero; };
+  const auto same = [](const BlendTerm& t) { return !takes_factors(t) || t.src == t.dst; };
+  const bool whole = profile == NumericProfile::mesa_llvmpipe_22_3;  // RGBA at once: what one group needs, both do
+  const Flush flush{whole && format == Format::rgba32f};
+  for (size_t c = 0; c < 4; ++c) {
+    in.source[c] = flush(in.source[c]);
+    in.destination[c] = flush(in.destination[c]);
+    in.constant[c] = flush(in.constant[c]);
+  }
+  const auto is = [](const BlendTerm& t, BlendFactor src, BlendFactor dst) {
+    return takes_factors(t) && t.src == src && t.dst == dst;
+  };
+  Rgba out;
+  for (size_t c = 0; c < 4; ++c) {
+    const BlendTerm &term = c == 3 ? state.alpha : state.rgb, &other = c == 3 ? state.rgb : state.alpha;
+    const auto copies = [&](BlendFactor src, BlendFactor dst, BlendEquation difference) {
+      return flush.on && is(term, src, dst) && is(other, src, dst) &&
+             (term.equation == BlendEquation::add || term.equation == difference);
+    };
+    if (copies(BlendFactor::one, BlendFactor::zero, BlendEquation::subtract)) {  // no arithmetic, so nothing flushes
+      out[c] = source[c];
+      continue;
+    }
+    if (copies(BlendFactor::zero, BlendFactor::one, BlendEquation::reverse_subtract)) {
+      out[c] = stored[c];
+      continue;
+    }
+    out[c] = blended_value(term, c, in, zero_source(term) && (!whole || zero_source(other)),
+                           zero_destination(term) && (!whole || zero_destination(other)),
+                           whole && same(term) && same(other), flush);
+  }
+  return out;
+}
+
+}  // namespace
+
+Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round, const Rgba& source,
+                   const Rgba& stored) {
+  const bool unorm = format == Format::rgba8;
+  const bool codes = unorm && profile != NumericProfile::ideal;
+  Rgba out = !state.enabled ? source
+             : codes        ? blended_codes(state, source, stored)
+                            : blended_values(state, profile, format, source, stored);
+  for (size_t c = 0; c < 4; ++c) {
+    const BlendTerm& term = c == 3 ? state.alpha : state.rgb;
+    if (!state.mask[c]) {
+      out[c] = stored[c];
+      continue;
+    }
+    const bool accumulates = unorm && !codes && state.enabled && term == kAccumulate;
+    if (accumulates)
+      out[c] = std::fmin(255.0f, stored[c] + float(code_of(source[c])));
+    else if (unorm && !(codes && state.enabled))
+      out[c] = float(code_of(out[c]));
+    else if (format == Format::rgba16f)
+      out[c] = half_of(out[c], half_round);
+  }
+  return out;
+}
+
+}  // namespace trueshade::oracle

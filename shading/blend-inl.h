@@ -1,0 +1,167 @@
+// OpenGL blending for vectors: a lane is a pixel. Included once per SIMD target. docs/arithmetic.md sections 10 and 11.
+// Sources: OpenGL 4.6 core, 17.3.6; Mesa 22.3's lp_bld_blend.c and lp_bld_blend_aos.c, and measurement (GL_RULES 4).
+#if defined(TRUESHADE_SHADING_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_SHADING_BLEND_INL_H_
+#undef TRUESHADE_SHADING_BLEND_INL_H_
+#else
+#define TRUESHADE_SHADING_BLEND_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "core/blend_state.h"
+#include "core/numeric_profile.h"
+#include "raster/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Compares, not Min and Max: where one side is NaN the second is taken, as by x86's minps, on every target.
+HWY_INLINE VF lesser(VF a, VF b) { return hn::IfThenElse(hn::Lt(a, b), a, b); }
+HWY_INLINE VF greater(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
+
+/// What the equations read: values, or 8-bit codes with `one` = 255.
+struct BlendInputs {
+  VF source[4], destination[4], constant[4], one;
+  VF source_alpha;  ///< source[3] as factors read it
+};
+
+HWY_INLINE VF factor_value(BlendFactor factor, int c, const BlendInputs& in) {
+  switch (factor) {
+    case BlendFactor::zero:
+      return hn::Zero(DF());
+    case BlendFactor::one:
+      return in.one;
+    case BlendFactor::src_color:
+      return in.source[c];
+    case BlendFactor::one_minus_src_color:
+      return hn::Sub(in.one, in.source[c]);
+    case BlendFactor::dst_color:
+      return in.destination[c];
+    case BlendFactor::one_minus_dst_color:
+      return hn::Sub(in.one, in.destination[c]);
+    case BlendFactor::src_alpha:
+      return in.source_alpha;
+    case BlendFactor::one_minus_src_alpha:
+      return hn::Sub(in.one, in.source_alpha);
+    case BlendFactor::dst_alpha:
+      return in.destination[3];
+    case BlendFactor::one_minus_dst_alpha:
+      return hn::Sub(in.one, in.destination[3]);
+    case BlendFactor::constant_color:
+      return in.constant[c];
+    case BlendFactor::one_minus_constant_color:
+      return hn::Sub(in.one, in.constant[c]);
+    case BlendFactor::constant_alpha:
+      return in.constant[3];
+    case BlendFactor::one_minus_constant_alpha:
+      return hn::Sub(in.one, in.constant[3]);
+    case BlendFactor::src_alpha_saturate:
+      return c == 3 ? in.one : lesser(in.source_alpha, hn::Sub(in.one, in.destination[3]));
+  }
+  return in.one;
+}
+
+/// What a state comes to under a profile, decided once for all pixels.
+struct BlendPlan {
+  struct Group {
+    BlendTerm term;
+    bool drop_source, drop_destination;  ///< a zero factor: no product, for 0 * inf would be NaN
+  } rgb, alpha;
+  bool factored;  ///< (S op D) * factor
+  bool flushes;   ///< denormal operands and results of arithmetic count as 0, their sign kept
+  bool copies;    ///< where one term is dropped the other has no product either: no arithmetic, nothing to flush
+  const Group& group(int c) const { return c == 3 ? alpha : rgb; }
+};
+
+inline BlendPlan blend_plan(const BlendState& state, NumericProfile profile, Format format) {
+  BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false, false};
+  for (BlendPlan::Group* group : {&plan.rgb, &plan.alpha}) {
+    BlendTerm& term = group->term;
+    if (term.equation == BlendEquation::min || term.equation == BlendEquation::max)
+      term.src = term.dst = BlendFactor::one;
+    group->drop_source = term.src == BlendFactor::zero;
+    group->drop_destination = term.dst == BlendFactor::zero;
+  }
+  if (profile == NumericProfile::ideal) return plan;
+  plan.flushes = format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
+  // llvmpipe works on whole RGBA vectors: it leaves a product out, or factors, only where both groups allow it.
+  plan.factored = plan.rgb.term.src == plan.rgb.term.dst && plan.alpha.term.src == plan.alpha.term.dst;
+  const BlendFactor kept = plan.rgb.drop_source ? plan.rgb.term.dst : plan.rgb.term.src;
+  plan.copies = kept == BlendFactor::one && kept == (plan.rgb.drop_source ? plan.alpha.term.dst : plan.alpha.term.src);
+  plan.rgb.drop_source = plan.alpha.drop_source = plan.rgb.drop_source && plan.alpha.drop_source;
+  plan.rgb.drop_destination = plan.alpha.drop_destination = plan.rgb.drop_destination && plan.alpha.drop_destination;
+  return plan;
+}
+
+HWY_INLINE VF flushed(const BlendPlan& plan, VF x) {
+  if (!plan.flushes) return x;
+  const DF d;
+  return hn::IfThenElse(hn::Lt(hn::Abs(x), hn::Set(d, 0x1p-126f)), hn::And(x, hn::Set(d, -0.0f)), x);
+}
+
+HWY_INLINE VF combined(BlendEquation equation, VF source, VF destination) {
+  switch (equation) {
+    case BlendEquation::add:
+      return hn::Add(source, destination);
+    case BlendEquation::subtract:
+      return hn::Sub(source, destination);
+    case BlendEquation::reverse_subtract:
+      return hn::Sub(destination, source);
+    case BlendEquation::min:
+      return lesser(source, destination);
+    case BlendEquation::max:
+      return greater(source, destination);
+  }
+  return destination;
+}
+
+HWY_INLINE VF scaled(const BlendPlan& plan, VF x, BlendFactor factor, int c, const BlendInputs& in) {
+  const VF operand = flushed(plan, x);
+  if (factor == BlendFactor::one) return operand;
+  return flushed(plan, hn::Mul(operand, flushed(plan, factor_value(factor, c, in))));
+}
+
+/// Channel c in float32: fl(fl(S Sf) op fl(D Df)).
+HWY_INLINE VF blended_values(const BlendPlan& plan, int c, const BlendInputs& in) {
+  const BlendPlan::Group& group = plan.group(c);
+  const BlendTerm& term = group.term;
+  const VF zero = hn::Zero(DF());
+  if (group.drop_source && group.drop_destination) return zero;
+  if (plan.factored) {
+    const VF source = flushed(plan, in.source[c]), destination = flushed(plan, in.destination[c]);
+    return scaled(plan, combined(term.equation, source, destination), term.src, c, in);
+  }
+  if (group.drop_destination) {
+    const VF source = scaled(plan, in.source[c], term.src, c, in);
+    if (term.equation == BlendEquation::reverse_subtract) return hn::Sub(zero, source);
+    return plan.copies ? in.source[c] : source;
+  }
+  const VF destination = scaled(plan, in.destination[c], term.dst, c, in);
+  if (group.drop_source) {
+    if (term.equation == BlendEquation::subtract) return hn::Sub(zero, destination);
+    return plan.copies ? in.destination[c] : destination;
+  }
+  return flushed(plan, combined(term.equation, scaled(plan, in.source[c], term.src, c, in), destination));
+}
+
+/// llvmpipe's product of two 8-bit codes: 24 of 65,536 are not RN(a b / 255).
+HWY_INLINE VF code_product(VF a, VF b) {
+  const DI di;
+  const auto exact = hn::ConvertTo(di, hn::Mul(a, b));
+  const auto t = hn::Add(exact, hn::ShiftRight<8>(exact));
+  return hn::ConvertTo(DF(), hn::ShiftRight<8>(hn::Add(t, hn::Set(di, 128))));
+}
+
+/// Channel c in 8-bit codes, each product rounded, sums held to [0, 255].
+HWY_INLINE VF blended_codes(const BlendPlan& plan, int c, const BlendInputs& in) {
+  const BlendTerm& term = plan.group(c).term;
+  const VF source = code_product(in.source[c], factor_value(term.src, c, in));
+  const VF destination = code_product(in.destination[c], factor_value(term.dst, c, in));
+  return greater(lesser(combined(term.equation, source, destination), in.one), hn::Zero(DF()));
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
