@@ -255,8 +255,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
     app.parse(count, arguments);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
-    return PrintText{
-        (chosen.empty() ? app : *chosen[0]).help(chosen.empty() ? "" : "trueshade " + chosen[0]->get_name())};
+    return PrintText{chosen.empty() ? app.help() : chosen[0]->help("trueshade")};
   } catch (const CLI::CallForVersion& version) {
     return PrintText{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {

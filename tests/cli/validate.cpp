@@ -86,6 +86,14 @@ TEST_CASE("a driver's report and JSON name the driver and the tightest profile")
   CHECK(folder.entries() == Arguments{"v.html"});
 }
 
+TEST_CASE("without a driver validate is exit 7, says what to install, and leaves nothing behind") {
+  const ScratchFolder folder;
+  check_refused(run_command({"validate", "builtin:cornell", "--size", "50x50", "-o", "v.html"}, folder.path(""),
+                            "export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"),
+                kNoDriver, "OpenGL");
+  CHECK(folder.entries().empty());
+}
+
 TEST_CASE("our own frame is a capture like any other, and explained") {
   const ScratchFolder folder;
   write_capture(folder);
@@ -149,6 +157,7 @@ TEST_CASE("captures that cannot be judged are refused, and nothing is left behin
   check({"--subpixel-bits", "3"}, 2, "--subpixel-bits");
   check_refused(judged(folder, {"--gbuffer", "c.exr", "-o", "v.txt"}), 2, "v.txt");
   check_refused(run_command({"validate"}), 2, "SCENE");
+  CHECK(has(run_command({"validate", "--help"}).out, "trueshade validate [OPTIONS] SCENE"));
   CHECK(folder.entries() == before);
 }
 
