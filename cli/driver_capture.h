@@ -16,14 +16,14 @@ struct DriverFrame {
     double ms = 0;  ///< median of the frames after the first, which pays for compiling; of the first where it took long
   };
   oracle::Capture capture;
-  int subpixel_bits = 0;    ///< GL_SUBPIXEL_BITS
-  int timed_frames = 0;     ///< how many the median is of
+  int subpixel_bits = 0;  ///< GL_SUBPIXEL_BITS
+  int timed_frames = 0;   ///< how many the median is of
   std::vector<Pass> passes;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
 };
 
-/// Draws with the driver of that name (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a build
-/// without OpenGL. This header is all the command sees of OpenGL.
+/// Draws with the driver of that name (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a
+/// build without OpenGL. This header is all the command sees of OpenGL.
 DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

@@ -179,19 +179,23 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
   add_pipeline_options(command, options, texts.size);
   command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
-  command->add_option("--gbuffer", options.gbuffer_file,
-                      "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
-  command->add_option("--image", options.image_file, "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
-  command->add_option("--profile", options.held_to,
-                      "Hold the driver to this profile instead of what OpenGL promises of any: " +
-                          joined(oracle::profile_names()));
-  command->add_option("--subpixel-bits", texts.subpixel_bits,
-                      "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
+  command->add_option(
+      "--gbuffer", options.gbuffer_file,
+      "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
+  command->add_option("--image", options.image_file,
+                      "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
+  command->add_option(
+      "--profile", options.held_to,
+      "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::profile_names()));
+  command->add_option(
+      "--subpixel-bits", texts.subpixel_bits,
+      "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   command->add_flag("--quick", options.quick, "Do not look for the tightest profile that explains the image");
   command->add_flag("--json", options.json, "Print all of it as one JSON document");
   command->add_option("-o,--output", options.report, "Report to write, .html");
-  command->footer("Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
-                  "others as for trueshade.");
+  command->footer(
+      "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
+      "others as for trueshade.");
   return command;
 }
 
@@ -203,7 +207,8 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
     throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
   if (options.held_to && !oracle::profile_named(*options.held_to))
-    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(oracle::profile_names()));
+    throw usage("--profile", "there is no profile '" + *options.held_to + "'",
+                "one of: " + joined(oracle::profile_names()));
   if (options.gbuffer_file.empty() && !options.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   if (options.report && !options.report->ends_with(".html"))
@@ -230,7 +235,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
   app.footer(
-      "Exit codes: 0 ok, 1 a violation was found, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 out "
+      "Exit codes: 0 ok, 1 a violation was found, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 "
+      "out "
       "of memory, 7 no OpenGL driver, 70 our fault.");
   RenderOptions render;
   RenderTexts texts;

@@ -25,8 +25,8 @@ struct PipelineOptions {
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html
-  std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
-  std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
+  std::vector<std::string> aovs;     ///< planes for .exr outputs, each one of aov_names()
+  std::string simd = "best";         ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
 };
@@ -52,12 +52,12 @@ struct GlslFilesOptions {
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
-  std::string driver = "default";      ///< default, llvmpipe or softpipe; not read where there is a capture
-  std::optional<std::string> held_to;  ///< what profile to hold the driver to; nothing: what OpenGL promises of any
-  std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
+  std::string driver = "default";        ///< default, llvmpipe or softpipe; not read where there is a capture
+  std::optional<std::string> held_to;    ///< what profile to hold the driver to; nothing: what OpenGL promises of any
+  std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
-  std::optional<std::string> report;   ///< .html
-  bool quick = false;                  ///< do not look for the tightest profile
+  std::optional<std::string> report;     ///< .html
+  bool quick = false;                    ///< do not look for the tightest profile
   bool json = false;
 };
 

@@ -39,7 +39,8 @@ void read_files(const ValidationOptions& options, Validation& v) {
   if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
   store_as(v.pipeline, options.gbuffer_file, v.capture);
   if (!options.held_to && !options.subpixel_bits)
-    v.notes.push_back("a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
+    v.notes.push_back(
+        "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
 }  // namespace
@@ -52,8 +53,10 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.draw_ms = timed([&] {
-    if (options.gbuffer_file.empty()) draw_here(options, scene, v);
-    else read_files(options, v);
+    if (options.gbuffer_file.empty())
+      draw_here(options, scene, v);
+    else
+      read_files(options, v);
   });
   v.judge_ms = timed([&] {
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick});

@@ -13,7 +13,7 @@ namespace trueshade {
 struct Validation {
   Pipeline pipeline;
   oracle::Capture capture;
-  oracle::Profile profile;                ///< what the capture was held to
+  oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
   std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
   int timed_frames = 0;                   ///< whose median the passes are

@@ -64,8 +64,9 @@ bool store(double value, Format format, bool from_half, uint8_t* texel) {
   return std::isnan(number) || float_from_half(half) == number;
 }
 
-/// The format of a plane of `channels` components whose pipeline format is `wanted`: formats of four components that files
-/// hold without the constant fourth have a twin of three; uv has two, and gets the constants that OpenGL reads for the rest.
+/// The format of a plane of `channels` components whose pipeline format is `wanted`: formats of four components that
+/// files hold without the constant fourth have a twin of three; uv has two, and gets the constants that OpenGL reads
+/// for the rest.
 Format format_for(Format wanted, int channels) {
   if (channels == 3 && wanted == Format::rgba32f) return Format::rgb32f;
   if (channels == 3 && wanted == Format::rgba16f) return Format::rgb16f;
@@ -80,8 +81,10 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   const FormatInfo to = info(format);
   const bool pads_uv = name == "uv" && from.channels == 2;
   if (from.channels != to.channels && !pads_uv)
-    throw bad_capture(where, name + " has " + std::to_string(from.channels) + " channels, and " + std::string(info(wanted).name) + " has " +
-                                 std::to_string(to.channels), "write all of R G B A");
+    throw bad_capture(where,
+                      name + " has " + std::to_string(from.channels) + " channels, and " +
+                          std::string(info(wanted).name) + " has " + std::to_string(to.channels),
+                      "write all of R G B A");
   const bool half = from.bytes_per_channel == 2;
   if (half && to.number_class == NumberClass::floating && to.bytes_per_channel == 4)
     throw bad_capture(where, name + " is stored as half, and the pipeline's as " + std::string(info(wanted).name),
@@ -92,8 +95,9 @@ Image converted(const std::string& where, const std::string& name, const Image& 
       for (int k = 0; k < to.channels; ++k) {
         const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? 1.0 : 0.0;
         if (!store(value, format, half, image.texel(x, y) + k * to.bytes_per_channel))
-          throw bad_capture(where, name + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " + std::to_string(value) +
-                                       ", which " + std::string(to.name) + " does not hold",
+          throw bad_capture(where,
+                            name + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " +
+                                std::to_string(value) + ", which " + std::string(to.name) + " does not hold",
                             "name the plane's format in --pipeline, or capture before it is converted");
       }
   return image;
@@ -101,7 +105,8 @@ Image converted(const std::string& where, const std::string& name, const Image& 
 
 void check_kind(const std::string& file, const std::vector<NamedImage>& planes) {
   if (planes.size() == 1 && planes[0].name == "color")
-    throw bad_capture(file, "there is no G-buffer in it", "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
+    throw bad_capture(file, "there is no G-buffer in it",
+                      "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
 }
 
 }  // namespace
@@ -112,29 +117,37 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
   std::vector<NamedImage> planes = read_planes(gbuffer_file);
   check_kind(gbuffer_file, planes);
   for (NamedImage& plane : planes) {
-    if (plane.name == "color") capture.color = std::move(plane.image);
-    else capture.planes.push_back(std::move(plane));
+    if (plane.name == "color")
+      capture.color = std::move(plane.image);
+    else
+      capture.planes.push_back(std::move(plane));
   }
   if (image_file.empty()) return capture;
   std::vector<NamedImage> picture = read_planes(image_file);
-  if (picture.front().name != "color") throw bad_capture(image_file, "it has no channels R G B A", "give the lit picture");
+  if (picture.front().name != "color")
+    throw bad_capture(image_file, "it has no channels R G B A", "give the lit picture");
   capture.driver += " and " + image_file;
   capture.color = std::move(picture.front().image);
   const Image& plane = capture.planes.front().image;
   if (capture.color.width != plane.width || capture.color.height != plane.height)
-    throw bad_capture(image_file, "it is " + size_text(capture.color.width, capture.color.height) + ", and the G-buffer " +
-                                      size_text(plane.width, plane.height), "capture both at one size");
+    throw bad_capture(image_file,
+                      "it is " + size_text(capture.color.width, capture.color.height) + ", and the G-buffer " +
+                          size_text(plane.width, plane.height),
+                      "capture both at one size");
   return capture;
 }
 
 void store_as(const Pipeline& pipeline, const std::string& where, oracle::Capture& capture) {
   const Image& first = capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
-    throw bad_capture(where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
-                      "give the capture's size, or none");
+    throw bad_capture(
+        where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
+        "give the capture's size, or none");
   if (capture.color.width > 0) {
     if (capture.color.format == Format::rgba8 && pipeline.target != Format::rgba8)
-      throw bad_capture(where, "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits", "give it as an EXR");
+      throw bad_capture(where,
+                        "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits",
+                        "give it as an EXR");
     capture.color = converted(where, "color", capture.color, pipeline.target);
   }
   for (NamedImage& plane : capture.planes)

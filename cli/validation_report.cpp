@@ -19,12 +19,20 @@ using oracle::WorstPixel;
 using Rgb = std::array<uint8_t, 3>;
 
 /// A colour a class, in the order of PixelClass: rare classes are the bright ones.
-constexpr std::array<Rgb, kPixelClasses> kClassColors{{{38, 44, 56}, {66, 92, 140}, {255, 180, 84}, {86, 208, 255}, {181, 132, 255},
-                                                       {120, 220, 120}, {90, 160, 160}, {160, 160, 160}, {255, 40, 80}}};
+constexpr std::array<Rgb, kPixelClasses> kClassColors{{{38, 44, 56},
+                                                       {66, 92, 140},
+                                                       {255, 180, 84},
+                                                       {86, 208, 255},
+                                                       {181, 132, 255},
+                                                       {120, 220, 120},
+                                                       {90, 160, 160},
+                                                       {160, 160, 160},
+                                                       {255, 40, 80}}};
 
-constexpr const char* kTableStyle = "<style>table.wide { max-width: none; } .wide td, .wide th { padding: 5px 14px 5px 0; text-align: left; "
-                                    "font-weight: 400; } .wide th { color: var(--quiet); } i.key { display: inline-block; width: 12px; "
-                                    "height: 12px; border-radius: 3px; margin-right: 8px; } .bad { color: #ff5c7a; }</style>\n";
+constexpr const char* kTableStyle =
+    "<style>table.wide { max-width: none; } .wide td, .wide th { padding: 5px 14px 5px 0; text-align: left; "
+    "font-weight: 400; } .wide th { color: var(--quiet); } i.key { display: inline-block; width: 12px; "
+    "height: 12px; border-radius: 3px; margin-right: 8px; } .bad { color: #ff5c7a; }</style>\n";
 
 std::string number(double value, const char* format = "%.9g") {
   char text[32];
@@ -46,14 +54,15 @@ Image class_map(const StageVerdict& s) {
     for (int x = 0; x < s.width; ++x) paint(x, y, class_at(x, y));
   for (int y = 0; y < s.height; ++y)
     for (int x = 0; x < s.width; ++x)
-      for (int k = 0; k < 9 && class_at(x, y) == PixelClass::violation; ++k) paint(x + k % 3 - 1, y + k / 3 - 1, PixelClass::violation);
+      for (int k = 0; k < 9 && class_at(x, y) == PixelClass::violation; ++k)
+        paint(x + k % 3 - 1, y + k / 3 - 1, PixelClass::violation);
   return map;
 }
 
 std::string key(PixelClass c) {
   const Rgb& rgb = kClassColors[size_t(c)];
-  return "<i class=key style=\"background: rgb(" + std::to_string(rgb[0]) + ' ' + std::to_string(rgb[1]) + ' ' + std::to_string(rgb[2]) +
-         ")\"></i>" + std::string(text(c));
+  return "<i class=key style=\"background: rgb(" + std::to_string(rgb[0]) + ' ' + std::to_string(rgb[1]) + ' ' +
+         std::to_string(rgb[2]) + ")\"></i>" + std::string(text(c));
 }
 
 std::string counts_table(const StageVerdict& s) {
@@ -69,8 +78,8 @@ std::string counts_table(const StageVerdict& s) {
 std::string aggregates_table(const std::vector<AggregateTest>& tests) {
   std::string html = "<table class=wide><tr><th>test of the whole image<th>found<th>expected<th>sigma<th>\n";
   for (const AggregateTest& t : tests)
-    html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.6g") + "<td>" + (t.one_sided ? "at most " : "") +
-            number(t.expected, "%.6g") + "<td>" + number(t.sigma, "%.3g") + "<td>" +
+    html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.6g") + "<td>" +
+            (t.one_sided ? "at most " : "") + number(t.expected, "%.6g") + "<td>" + number(t.sigma, "%.3g") + "<td>" +
             (t.passes() ? "as chance makes it" : "<span class=bad>not what chance makes</span>") + '\n';
   return html + "</table>\n";
 }
@@ -78,44 +87,55 @@ std::string aggregates_table(const std::vector<AggregateTest>& tests) {
 std::string worst_table(const StageVerdict& s) {
   if (s.worst.empty()) return "";
   std::string html = "<h2>Worst pixels of " + escaped(s.stage) +
-                     "</h2>\n<table class=wide><tr><th>x, y from the top left<th>class<th>channel<th>gave<th>legal<th>nominal<th>surface\n";
+                     "</h2>\n<table class=wide><tr><th>x, y from the top "
+                     "left<th>class<th>channel<th>gave<th>legal<th>nominal<th>surface\n";
   for (const WorstPixel& w : s.worst) {
-    html += "<tr><td>" + std::to_string(w.x) + ", " + std::to_string(w.y) + "<td>" + key(w.pixel_class) + "<td>" + escaped(w.plane);
-    if (w.plane.empty()) html += "<td><td><td>";
-    else html += "<td>" + number(w.given) + "<td>" + number(w.low) + " \xe2\x80\xa6 " + number(w.high) + "<td>" + number(w.nominal);
+    html += "<tr><td>" + std::to_string(w.x) + ", " + std::to_string(w.y) + "<td>" + key(w.pixel_class) + "<td>" +
+            escaped(w.plane);
+    if (w.plane.empty())
+      html += "<td><td><td>";
+    else
+      html += "<td>" + number(w.given) + "<td>" + number(w.low) + " \xe2\x80\xa6 " + number(w.high) + "<td>" +
+              number(w.nominal);
     html += "<td>" + escaped(w.note) + '\n';
   }
   return html + "</table>\n";
 }
 
 std::string stage_part(const StageVerdict& s, const std::vector<AggregateTest>& tests) {
-  return "<h2>Stage " + escaped(s.stage) + "</h2>\n<div class=pictures>" + figure(class_map(s), "Classes", "a colour each; violations enlarged") +
-         "<div>" + counts_table(s) + "<p class=quiet>" + std::to_string(s.explained()) + " pixels show another surface or branch than the nominal one; " +
-         number(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible.</p></div></div>\n" + aggregates_table(tests) +
+  return "<h2>Stage " + escaped(s.stage) + "</h2>\n<div class=pictures>" +
+         figure(class_map(s), "Classes", "a colour each; violations enlarged") + "<div>" + counts_table(s) +
+         "<p class=quiet>" + std::to_string(s.explained()) +
+         " pixels show another surface or branch than the nominal one; " + number(s.predicted_other, "%.1f") +
+         " predicted, " + std::to_string(s.ambiguous) + " possible.</p></div></div>\n" + aggregates_table(tests) +
          worst_table(s);
 }
 
 std::string inference_part(const oracle::Verdict& v) {
   if (!v.inferred) return "";
-  std::string html = "<h2>Tightest profile that explains it</h2>\n<p>" + escaped(tightest_line(*v.inferred)) +
-                     "</p>\n<details><summary>What was tried</summary><table class=wide><tr><th>knob<th>guess<th>pixels against it\n";
+  std::string html =
+      "<h2>Tightest profile that explains it</h2>\n<p>" + escaped(tightest_line(*v.inferred)) +
+      "</p>\n<details><summary>What was tried</summary><table class=wide><tr><th>knob<th>guess<th>pixels against it\n";
   for (const oracle::Hypothesis& h : v.inferred->tried)
-    html += "<tr><td>" + escaped(h.knob) + "<td>" + escaped(h.value) + "<td>" + grouped(std::to_string(h.violations)) + '\n';
+    html += "<tr><td>" + escaped(h.knob) + "<td>" + escaped(h.value) + "<td>" + grouped(std::to_string(h.violations)) +
+            '\n';
   return html + "</table></details>\n";
 }
 
 std::string heading(const Validation& v) {
   const std::string size = std::to_string(v.pipeline.width) + " \xc3\x97 " + std::to_string(v.pipeline.height);
-  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=quiet>" + escaped(v.verdict.driver) + "<br>preset " +
-                     escaped(v.pipeline.preset) + ", " + size + " pixels, " + std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion +
-                     "<br>held to " + escaped(profile_line(v.profile)) + "</p>\n";
+  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=quiet>" + escaped(v.verdict.driver) +
+                     "<br>preset " + escaped(v.pipeline.preset) + ", " + size + " pixels, " +
+                     std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion + "<br>held to " +
+                     escaped(profile_line(v.profile)) + "</p>\n";
   for (const std::string& note : v.notes) html += "<p class=quiet>" + escaped(note) + "</p>\n";
   html += "<div class=facts>" + fact(grouped(std::to_string(v.verdict.violations())), "pixels in no legal set");
   for (const StageVerdict& s : v.verdict.stages)
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage);
   for (const DriverFrame::Pass& pass : v.passes) html += fact(number(pass.ms, "%.1f") + " ms", pass.name);
   html += fact(number(v.judge_ms / 1000, "%.1f") + " s", "judging");
-  return html + "</div>\n<p" + (v.verdict.violations() > 0 ? " class=bad" : "") + ">Verdict: " + escaped(conclusion(v.verdict)) + ".</p>\n";
+  return html + "</div>\n<p" + (v.verdict.violations() > 0 ? " class=bad" : "") +
+         ">Verdict: " + escaped(conclusion(v.verdict)) + ".</p>\n";
 }
 
 }  // namespace
@@ -123,9 +143,11 @@ std::string heading(const Validation& v) {
 std::string validation_page(const Validation& v) {
   std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v);
   if (v.capture.color.width > 0)
-    html += figure(v.capture.color, "Image", "as the driver stored it, <code>sha256:" + image_hash(v.capture.color) + "</code>");
+    html += figure(v.capture.color, "Image",
+                   "as the driver stored it, <code>sha256:" + image_hash(v.capture.color) + "</code>");
   for (size_t i = 0; i < v.verdict.stages.size(); ++i) html += stage_part(v.verdict.stages[i], v.verdict.aggregates[i]);
-  return html + inference_part(v.verdict) + "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
+  return html + inference_part(v.verdict) +
+         "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
          escaped(pipeline_json(v.pipeline)) + "</pre></details>\n" + std::string(kPageEnd);
 }
 

@@ -38,7 +38,8 @@ std::string class_rows(const StageVerdict& s) {
   for (size_t c = 0; c < kPixelClasses; ++c) {
     if (s.counts[c] == 0 && PixelClass(c) != PixelClass::violation) continue;
     const double share = 100.0 * double(s.counts[c]) / double(s.classes.size());
-    lines += "  " + left(std::string(text(PixelClass(c))), 10) + right(std::to_string(s.counts[c]), 10) + right(real(share, "%.4f"), 10) + " %\n";
+    lines += "  " + left(std::string(text(PixelClass(c))), 10) + right(std::to_string(s.counts[c]), 10) +
+             right(real(share, "%.4f"), 10) + " %\n";
   }
   return lines;
 }
@@ -46,25 +47,29 @@ std::string class_rows(const StageVerdict& s) {
 std::string aggregate_rows(const std::vector<AggregateTest>& tests) {
   std::string lines;
   for (const AggregateTest& t : tests)
-    lines += "  " + left(t.name, 18) + " found " + real(t.observed) + (t.one_sided ? ", at most " : ", expected ") + real(t.expected) +
-             " (sigma " + real(t.sigma, "%.3g") + ")" + (t.passes() ? "\n" : ", NOT what chance makes\n");
+    lines += "  " + left(t.name, 18) + " found " + real(t.observed) + (t.one_sided ? ", at most " : ", expected ") +
+             real(t.expected) + " (sigma " + real(t.sigma, "%.3g") + ")" +
+             (t.passes() ? "\n" : ", NOT what chance makes\n");
   return lines;
 }
 
 std::string worst_row(const WorstPixel& w) {
   return "  " + left(std::to_string(w.x) + ',' + std::to_string(w.y), 11) + left(std::string(text(w.pixel_class)), 11) +
-         (w.plane.empty() ? "" : w.plane + " gave " + real(w.given, "%.9g") + ", legal " + real(w.low, "%.9g") + " .. " + real(w.high, "%.9g") +
-                                     ", nominal " + real(w.nominal, "%.9g")) +
+         (w.plane.empty() ? ""
+                          : w.plane + " gave " + real(w.given, "%.9g") + ", legal " + real(w.low, "%.9g") + " .. " +
+                                real(w.high, "%.9g") + ", nominal " + real(w.nominal, "%.9g")) +
          (w.note.empty() ? "" : (w.plane.empty() ? "" : "; ") + w.note) + '\n';
 }
 
 std::string stage_text(const StageVerdict& s, const std::vector<AggregateTest>& tests) {
   constexpr size_t kShown = 8;
-  std::string lines = "\n" + s.stage + ": " + std::to_string(s.classes.size()) + " pixels, " + std::to_string(s.covered) + " with a surface\n";
+  std::string lines = "\n" + s.stage + ": " + std::to_string(s.classes.size()) + " pixels, " +
+                      std::to_string(s.covered) + " with a surface\n";
   lines += class_rows(s);
-  lines += "  other surfaces or branches: " + std::to_string(s.explained()) + " seen, " + real(s.predicted_other, "%.1f") + " predicted, " +
-           std::to_string(s.ambiguous) + " possible\n";
-  if (s.worst_error > 0) lines += "  largest error of a float channel: " + real(s.worst_error, "%.3f") + " of its bound\n";
+  lines += "  other surfaces or branches: " + std::to_string(s.explained()) + " seen, " +
+           real(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible\n";
+  if (s.worst_error > 0)
+    lines += "  largest error of a float channel: " + real(s.worst_error, "%.3f") + " of its bound\n";
   lines += aggregate_rows(tests);
   if (!s.worst.empty()) lines += "  worst pixels (x,y from the top left):\n";
   for (size_t i = 0; i < std::min(kShown, s.worst.size()); ++i) lines += "  " + worst_row(s.worst[i]);
@@ -74,8 +79,8 @@ std::string stage_text(const StageVerdict& s, const std::vector<AggregateTest>& 
 }  // namespace
 
 std::string profile_line(const oracle::Profile& p) {
-  return p.name + ": " + std::to_string(p.subpixel_bits) + " subpixel bits, " + oracle::text(p.snap) + "; planes " + oracle::text(p.plane_origin) +
-         "; half " + oracle::text(p.half) + "; unorm within " + real(p.unorm_reach);
+  return p.name + ": " + std::to_string(p.subpixel_bits) + " subpixel bits, " + oracle::text(p.snap) + "; planes " +
+         oracle::text(p.plane_origin) + "; half " + oracle::text(p.half) + "; unorm within " + real(p.unorm_reach);
 }
 
 std::string tightest_line(const oracle::Inference& inferred) {
@@ -84,25 +89,28 @@ std::string tightest_line(const oracle::Inference& inferred) {
 
 std::string conclusion(const oracle::Verdict& v) {
   const uint64_t violations = v.violations();
-  if (violations > 0) return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set";
+  if (violations > 0)
+    return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set";
   return std::string("every pixel is explained") + (v.suspicious() ? ", yet the image is not what chance makes" : "");
 }
 
 double exact_share(const StageVerdict& stage) {
-  return double(stage.count(PixelClass::exact) + stage.count(PixelClass::store_2)) / double(std::max<size_t>(stage.classes.size(), 1));
+  return double(stage.count(PixelClass::exact) + stage.count(PixelClass::store_2)) /
+         double(std::max<size_t>(stage.classes.size(), 1));
 }
 
 std::string validation_text(const Validation& v) {
   std::string lines = row("scene", v.verdict.scene);
-  lines += row("pipeline", v.pipeline.preset + ", " + std::to_string(v.pipeline.width) + 'x' + std::to_string(v.pipeline.height) + ", " +
-                               std::string(info(v.pipeline.target).name));
+  lines += row("pipeline", v.pipeline.preset + ", " + std::to_string(v.pipeline.width) + 'x' +
+                               std::to_string(v.pipeline.height) + ", " + std::string(info(v.pipeline.target).name));
   lines += row("driver", v.verdict.driver) + row("profile", profile_line(v.profile));
   for (const std::string& note : v.notes) lines += row("note", note);
   std::string times;
   for (const DriverFrame::Pass& pass : v.passes) times += pass.name + ' ' + real(pass.ms, "%.1f") + " ms, ";
   if (v.timed_frames > 1) times += "(median of " + std::to_string(v.timed_frames) + " frames) ";
   lines += row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
-  for (size_t i = 0; i < v.verdict.stages.size(); ++i) lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
+  for (size_t i = 0; i < v.verdict.stages.size(); ++i)
+    lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
   lines += '\n';
   if (v.verdict.inferred) lines += row("tightest", tightest_line(*v.verdict.inferred));
   return lines + row("verdict", conclusion(v.verdict));
@@ -110,13 +118,17 @@ std::string validation_text(const Validation& v) {
 
 std::string validation_json(const Validation& v) {
   JsonArray passes, notes;
-  for (const DriverFrame::Pass& pass : v.passes) passes.add_raw(JsonObject().put("name", pass.name).put("ms", pass.ms).text());
+  for (const DriverFrame::Pass& pass : v.passes)
+    passes.add_raw(JsonObject().put("name", pass.name).put("ms", pass.ms).text());
   for (const std::string& note : v.notes) notes.add_raw(json_string(note));
   JsonObject json;
   json.put("version", kVersion);
   json.put_raw("pipeline", pipeline_json(v.pipeline));
   if (v.capture.color.width > 0) json.put("hash", "sha256:" + image_hash(v.capture.color));
-  json.put("subpixel_bits", v.profile.subpixel_bits).put_raw("passes", passes.text()).put("timed_frames", v.timed_frames).put_raw("notes", notes.text());
+  json.put("subpixel_bits", v.profile.subpixel_bits)
+      .put_raw("passes", passes.text())
+      .put("timed_frames", v.timed_frames)
+      .put_raw("notes", notes.text());
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));
   return json.text() + '\n';
 }

@@ -11,7 +11,8 @@ std::vector<std::string> exr_channels_of(std::string_view plane, int components)
   if (name == "uv") return {"uv.X", "uv.Y"};
   if (components == 1) return {name};
   std::vector<std::string> names;
-  for (int channel = 0; channel < components; ++channel) names.push_back((name.empty() ? name : name + '.') + "RGBA"[channel]);
+  for (int channel = 0; channel < components; ++channel)
+    names.push_back((name.empty() ? name : name + '.') + "RGBA"[channel]);
   return names;
 }
 

@@ -16,7 +16,8 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;  ///< key, va
 ///   EXR: single part, ZIP; `color` as R G B A (half stays half, unorm as RN(k/255)); each aov under its channel names
 ///        (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X.., id.object, ...); PNG ignores `aovs`.
 /// Date and software fields are constant, so equal images are equal files.
-void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs, const Metadata& metadata);
+void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
+                 const Metadata& metadata);
 
 /// The bytes write_image would write to a .png.
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata);
@@ -33,12 +34,12 @@ struct ImageFileInfo {
 /// Header of a PNG or EXR file. Error(io) if it cannot be read, Error(bad_input) if it is neither.
 ImageFileInfo read_image_info(const std::string& path);
 
-/// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B A),
-/// depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever are there.
-/// Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f where a plane
-/// has so few components; halves of those are widened), 8 bits RGBA of a PNG. Memory grows with the rows decoded.
-/// Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no plane at all.
-/// Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
+/// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
+/// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
+/// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
+/// where a plane has so few components; halves of those are widened), 8 bits RGBA of a PNG. Memory grows with the rows
+/// decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no plane at
+/// all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
 std::vector<NamedImage> read_planes(const std::string& path);
 
 }  // namespace trueshade

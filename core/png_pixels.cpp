@@ -77,7 +77,11 @@ void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint
     const int left = i < kTexelBytes ? 0 : row[i - kTexelBytes];
     const int up = above == nullptr ? 0 : above[i];
     const int corner = i < kTexelBytes || above == nullptr ? 0 : above[i - kTexelBytes];
-    const int guess = filter == 1 ? left : filter == 2 ? up : filter == 3 ? (left + up) / 2 : filter == 4 ? paeth(left, up, corner) : 0;
+    const int guess = filter == 1   ? left
+                      : filter == 2 ? up
+                      : filter == 3 ? (left + up) / 2
+                      : filter == 4 ? paeth(left, up, corner)
+                                    : 0;
     row[i] = uint8_t(row[i] + guess);
   }
 }
@@ -97,7 +101,8 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
   for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
     const size_t length = word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
-    if (crc32(0, type.data(), uInt(4 + length)) != word_at(bytes, at + 8 + length)) throw refused(where, "a checksum of it is wrong");
+    if (crc32(0, type.data(), uInt(4 + length)) != word_at(bytes, at + 8 + length))
+      throw refused(where, "a checksum of it is wrong");
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
       check_kind(where, data);

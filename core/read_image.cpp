@@ -30,7 +30,8 @@ constexpr int kMaxSide = 16384;
 constexpr int kRowsAtOnce = 64;  // a multiple of the rows an EXR compresses together
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kExr = "\x76\x2f\x31\x01";
 
-Error bad_image(const std::string& path, const std::string& reason, const std::string& remedy = "write the file again") {
+Error bad_image(const std::string& path, const std::string& reason,
+                const std::string& remedy = "write the file again") {
   return {ErrorKind::bad_input, path, reason, remedy};
 }
 
@@ -81,7 +82,8 @@ class ExrFile {
   /// Rows [first, end) of all channels, each in its own type.
   void read(int first, int end, std::vector<uint8_t>& rows) {
     rows.resize(size_t(end - first) * size_t(spec_.width) * spec_.pixel_bytes(true));
-    if (!file_->read_scanlines(0, 0, first, end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data())) throw failure();
+    if (!file_->read_scanlines(0, 0, first, end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data()))
+      throw failure();
   }
 
  private:
@@ -127,10 +129,12 @@ struct PlaneLayout {
   std::string_view name;
   int least, most;
 };
-constexpr PlaneLayout kPlanes[] = {{"color", 3, 4}, {"depth", 1, 1}, {"position", 3, 3}, {"normal", 3, 3}, {"albedo", 3, 4},
-                                   {"uv", 2, 2}, {"id.object", 1, 1}, {"id.material", 1, 1}, {"light.count", 1, 1}};
+constexpr PlaneLayout kPlanes[] = {{"color", 3, 4},     {"depth", 1, 1},       {"position", 3, 3},
+                                   {"normal", 3, 3},    {"albedo", 3, 4},      {"uv", 2, 2},
+                                   {"id.object", 1, 1}, {"id.material", 1, 1}, {"light.count", 1, 1}};
 
-Format format_of(const std::string& path, const std::string& channel, OIIO::TypeDesc type, int components, bool& widened) {
+Format format_of(const std::string& path, const std::string& channel, OIIO::TypeDesc type, int components,
+                 bool& widened) {
   if (type == OIIO::TypeDesc::UINT32 && components == 1) return Format::r32ui;
   constexpr Format kFloats[] = {Format::d32f, Format::rg32f, Format::rgb32f, Format::rgba32f};
   if (type == OIIO::TypeDesc::HALF && components >= 3) return components == 3 ? Format::rgb16f : Format::rgba16f;
@@ -181,12 +185,14 @@ std::vector<NamedImage> exr_planes(const std::string& path, const std::vector<ui
   check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
   if (spec.tile_width != 0) throw bad_image(path, "it is stored in tiles", "store scan lines");
   if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
-  if (spec.x != 0 || spec.y != 0 || spec.full_x != 0 || spec.full_y != 0 || spec.full_width != spec.width || spec.full_height != spec.height)
+  if (spec.x != 0 || spec.y != 0 || spec.full_x != 0 || spec.full_y != 0 || spec.full_width != spec.width ||
+      spec.full_height != spec.height)
     throw bad_image(path, "its data window is not its display window", "store all pixels, from 0, 0 on");
   std::vector<PlaneSource> planes;
   for (const PlaneLayout& layout : kPlanes)
     if (auto plane = plane_in(path, spec, layout)) planes.push_back(std::move(*plane));
-  if (planes.empty()) throw bad_image(path, "no channel has a name of ours", "name them R G B A, depth.Z, P.X, N.X, albedo.R, ...");
+  if (planes.empty())
+    throw bad_image(path, "no channel has a name of ours", "name them R G B A, depth.Z, P.X, N.X, albedo.R, ...");
   std::vector<uint8_t> rows;
   for (int first = 0; first < spec.height; first += kRowsAtOnce) {
     file.read(first, std::min(first + kRowsAtOnce, spec.height), rows);

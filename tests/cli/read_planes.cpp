@@ -1,4 +1,5 @@
-// Captures come from anywhere: what is read is what was written, and what is not right is refused before it costs anything.
+// Captures come from anywhere: what is read is what was written, and what is not right is refused before it costs
+// anything.
 #include <OpenImageIO/imageio.h>
 
 #include <fstream>
@@ -45,8 +46,10 @@ void write_exr(const std::string& path, OIIO::ImageSpec spec, const std::vector<
   const auto file = OIIO::ImageOutput::create("openexr");
   REQUIRE(file->open(path, spec));
   const std::vector<float> zeros(size_t(spec.width) * size_t(spec.height) * names.size());
-  if (spec.tile_width != 0) REQUIRE(file->write_tiles(0, spec.width, 0, spec.height, 0, 1, OIIO::TypeDesc::FLOAT, zeros.data()));
-  else REQUIRE(file->write_scanlines(spec.y, spec.y + spec.height, 0, OIIO::TypeDesc::FLOAT, zeros.data()));
+  if (spec.tile_width != 0)
+    REQUIRE(file->write_tiles(0, spec.width, 0, spec.height, 0, 1, OIIO::TypeDesc::FLOAT, zeros.data()));
+  else
+    REQUIRE(file->write_scanlines(spec.y, spec.y + spec.height, 0, OIIO::TypeDesc::FLOAT, zeros.data()));
   REQUIRE(file->close());
 }
 
@@ -55,10 +58,11 @@ void write_exr(const std::string& path, OIIO::ImageSpec spec, const std::vector<
 TEST_CASE("planes written to an EXR are read back under their names, bit for bit") {
   const ScratchFolder folder;
   const Image color = pattern(37, 131, Format::rgba16f);
-  const std::vector<NamedImage> planes = {{"depth", pattern(37, 131, Format::d32f)},       {"position", pattern(37, 131, Format::rgb32f)},
-                                          {"normal", pattern(37, 131, Format::rgb16f)},    {"albedo", pattern(37, 131, Format::rgba32f)},
-                                          {"uv", pattern(37, 131, Format::rg32f)},         {"id.object", pattern(37, 131, Format::r32ui)},
-                                          {"id.material", pattern(37, 131, Format::r32ui)}, {"light.count", pattern(37, 131, Format::r32ui)}};
+  const std::vector<NamedImage> planes = {
+      {"depth", pattern(37, 131, Format::d32f)},        {"position", pattern(37, 131, Format::rgb32f)},
+      {"normal", pattern(37, 131, Format::rgb16f)},     {"albedo", pattern(37, 131, Format::rgba32f)},
+      {"uv", pattern(37, 131, Format::rg32f)},          {"id.object", pattern(37, 131, Format::r32ui)},
+      {"id.material", pattern(37, 131, Format::r32ui)}, {"light.count", pattern(37, 131, Format::r32ui)}};
   write_image(folder.path("p.exr"), color, planes, {});
   const std::vector<NamedImage> read = read_planes(folder.path("p.exr"));
   REQUIRE(read.size() == planes.size() + 1);
@@ -129,7 +133,8 @@ TEST_CASE("files that are not a whole picture of our planes are refused") {
   OIIO::ImageSpec cropped = plain;
   cropped.full_width = 16;
   CHECK(refusal(written("cropped.exr", cropped, {"R", "G", "B", "A"})) == ErrorKind::bad_input);
-  CHECK(refusal(written("wide.exr", OIIO::ImageSpec(16385, 1, 1, OIIO::TypeDesc::FLOAT), {"depth.Z"})) == ErrorKind::limit);
+  CHECK(refusal(written("wide.exr", OIIO::ImageSpec(16385, 1, 1, OIIO::TypeDesc::FLOAT), {"depth.Z"})) ==
+        ErrorKind::limit);
   write_bytes(folder.path("text.exr"), "not an image at all");
   CHECK(refusal(folder.path("text.exr")) == ErrorKind::bad_input);
   write_bytes(folder.path("magic.exr"), std::string("\x76\x2f\x31\x01") + std::string(400, 'x'));

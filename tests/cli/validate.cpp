@@ -18,8 +18,8 @@ constexpr int kNoDriver = 7;
 
 /// Our own frame of builtin:cornell as c.exr (target and planes) and c.png.
 void write_capture(const ScratchFolder& folder) {
-  const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "200x150", "-o", "c.exr", "-o", "c.png", "--aov",
-                                       "depth,position,normal,albedo,uv,id.object,id.material,light.count"},
+  const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "200x150", "-o", "c.exr", "-o", "c.png",
+                                       "--aov", "depth,position,normal,albedo,uv,id.object,id.material,light.count"},
                                       folder.path(""));
   REQUIRE(outcome.exit_code == 0);
 }
@@ -53,7 +53,8 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
   for (const char* driver : {"llvmpipe", "softpipe"})
     for (const char* scene : {"builtin:city", "builtin:sphere", "builtin:cornell"})
       for (const char* preset : {"many-lights", "touchdesigner"}) {
-        if (driver == std::string("softpipe") && scene == std::string("builtin:city")) continue;  // 12 s of 757 lights a pixel
+        if (driver == std::string("softpipe") && scene == std::string("builtin:city"))
+          continue;  // 12 s of 757 lights a pixel
         INFO(scene << ' ' << preset << ' ' << driver);
         const Outcome outcome =
             run_command({"validate", scene, "--preset", preset, "--driver", driver, "--size", "200x150", "--quick"});
@@ -72,8 +73,9 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
 
 TEST_CASE("a driver's report and JSON name the driver and the tightest profile") {
   const ScratchFolder folder;
-  const Outcome outcome = run_command({"validate", "builtin:cornell", "--driver", "llvmpipe", "--size", "200x150", "--json", "-o", "v.html"},
-                                      folder.path(""));
+  const Outcome outcome = run_command(
+      {"validate", "builtin:cornell", "--driver", "llvmpipe", "--size", "200x150", "--json", "-o", "v.html"},
+      folder.path(""));
   if (outcome.exit_code == kNoDriver) {
     WARN("SKIPPED: " << outcome.err);
     CHECK(folder.entries().empty());
@@ -137,7 +139,8 @@ TEST_CASE("captures that cannot be judged are refused, and nothing is left behin
   write_image(folder.path("bare.exr"), planes[0].image, {{planes[1]}}, {});  // the target and depth alone
   write_image(folder.path("small.png"), Image(20, 15, Format::rgba8), {}, {});
   write_changed(folder, "grey.exr", "albedo", [](Image& i) { set_float(i, 3, 4, 0, 0.5f); });  // between two codes
-  std::ofstream(folder.path("torn.exr"), std::ios::binary) << std::ifstream(folder.path("c.exr"), std::ios::binary).rdbuf();
+  std::ofstream(folder.path("torn.exr"), std::ios::binary)
+      << std::ifstream(folder.path("c.exr"), std::ios::binary).rdbuf();
   std::filesystem::resize_file(folder.path("torn.exr"), 20000);
   const auto before = folder.entries();
   const auto check = [&folder](Arguments options, int exit_code, const std::string& about) {
