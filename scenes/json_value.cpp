@@ -86,9 +86,10 @@ const std::string& Node::string() const {
 const Array& Node::array(size_t least, size_t most) const {
   const auto* a = std::get_if<std::unique_ptr<Array>>(&value_->is);
   if (!a || (*a)->size() < least || (*a)->size() > most) {
-    const std::string count =
-        least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
-    fail("found " + (a ? "an array of " + std::to_string((*a)->size()) : shown(*value_)), "an array of " + count);
+    const std::string found = a ? "an array of " + std::to_string((*a)->size()) : shown(*value_);
+    if (least == 0 && most == SIZE_MAX) fail("found " + found, "an array");
+    fail("found " + found, least == most ? "an array of " + std::to_string(least)
+                                         : "an array of " + std::to_string(least) + " to " + std::to_string(most));
   }
   return **a;
 }
