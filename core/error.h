@@ -7,10 +7,10 @@ namespace trueshade {
 
 /// Why a run ends early; the value is the exit code of the command.
 enum class ErrorKind : int {
-  usage = 2,        ///< the command line
-  bad_input = 3,    ///< a file or value that is not what its format says
-  limit = 4,        ///< well formed, but over a stated limit
-  io = 5,           ///< reading or writing failed
+  usage = 2,      ///< the command line
+  bad_input = 3,  ///< a file or value that is not what its format says
+  limit = 4,      ///< well formed, but over a stated limit
+  io = 5,         ///< reading or writing failed
   out_of_memory = 6,
   no_gl_driver = 7,  ///< no OpenGL on this machine, or not enough of it
 };

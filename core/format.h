@@ -21,14 +21,22 @@ struct FormatInfo {
 
 constexpr FormatInfo info(Format format) {
   switch (format) {
-    case Format::rgba8: return {"rgba8", 4, 1, NumberClass::unorm};
-    case Format::rgb16f: return {"rgb16f", 3, 2, NumberClass::floating};
-    case Format::rgba16f: return {"rgba16f", 4, 2, NumberClass::floating};
-    case Format::rgba32f: return {"rgba32f", 4, 4, NumberClass::floating};
-    case Format::rgb32f: return {"rgb32f", 3, 4, NumberClass::floating};
-    case Format::rg32f: return {"rg32f", 2, 4, NumberClass::floating};
-    case Format::r32ui: return {"r32ui", 1, 4, NumberClass::integer};
-    case Format::d32f: return {"d32f", 1, 4, NumberClass::floating};
+    case Format::rgba8:
+      return {"rgba8", 4, 1, NumberClass::unorm};
+    case Format::rgb16f:
+      return {"rgb16f", 3, 2, NumberClass::floating};
+    case Format::rgba16f:
+      return {"rgba16f", 4, 2, NumberClass::floating};
+    case Format::rgba32f:
+      return {"rgba32f", 4, 4, NumberClass::floating};
+    case Format::rgb32f:
+      return {"rgb32f", 3, 4, NumberClass::floating};
+    case Format::rg32f:
+      return {"rg32f", 2, 4, NumberClass::floating};
+    case Format::r32ui:
+      return {"r32ui", 1, 4, NumberClass::integer};
+    case Format::d32f:
+      return {"d32f", 1, 4, NumberClass::floating};
   }
   return {};  // unreachable: every enumerator returns above, and -Wswitch keeps it so
 }

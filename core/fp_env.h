@@ -4,8 +4,9 @@
 
 namespace trueshade {
 
-/// For its lifetime this thread computes as IEEE 754 says: round to nearest even, denormals kept, no traps. The caller's
-/// settings come back on exit: a host may run with flush-to-zero or another rounding, and must find it as it left it.
+/// For its lifetime this thread computes as IEEE 754 says: round to nearest even, denormals kept, no traps. The
+/// caller's settings come back on exit: a host may run with flush-to-zero or another rounding, and must find it as it
+/// left it.
 class FpScope {
  public:
   FpScope();

@@ -16,9 +16,9 @@ constexpr double kSmallestW = 0x1p-100;
 
 // A plane's distance is a sum of terms: two clip coordinates (each with a sign), or one and a constant.
 struct PlaneTerms {
-  int axis;           // x, y or z; 3 for the plane of w alone
-  double sign;        // of that axis
-  double w_factor;    // of w
+  int axis;         // x, y or z; 3 for the plane of w alone
+  double sign;      // of that axis
+  double w_factor;  // of w
   double constant;
 };
 
@@ -28,13 +28,20 @@ double far_box(const WindowTransform& t) {
 
 PlaneTerms terms(Plane plane, const WindowTransform& t) {
   switch (plane) {
-    case kW: return {3, 1.0, 0.0, -kSmallestW};
-    case kNear: return {2, 1.0, t.zero_to_one ? 0.0 : 1.0, 0.0};
-    case kFar: return {2, -1.0, 1.0, 0.0};
-    case kRight: return {0, -1.0, far_box(t), 0.0};
-    case kLeft: return {0, 1.0, far_box(t), 0.0};
-    case kTop: return {1, -1.0, far_box(t), 0.0};
-    case kBottom: return {1, 1.0, far_box(t), 0.0};
+    case kW:
+      return {3, 1.0, 0.0, -kSmallestW};
+    case kNear:
+      return {2, 1.0, t.zero_to_one ? 0.0 : 1.0, 0.0};
+    case kFar:
+      return {2, -1.0, 1.0, 0.0};
+    case kRight:
+      return {0, -1.0, far_box(t), 0.0};
+    case kLeft:
+      return {0, 1.0, far_box(t), 0.0};
+    case kTop:
+      return {1, -1.0, far_box(t), 0.0};
+    case kBottom:
+      return {1, 1.0, far_box(t), 0.0};
   }
   return {};
 }
@@ -44,9 +51,7 @@ double distance(const PlaneTerms& p, const double c[4]) {
 }
 
 // On which side, exactly: comparing two numbers needs no sum.
-bool inside(const PlaneTerms& p, const double c[4]) {
-  return c[p.axis] * p.sign >= -(c[3] * p.w_factor) - p.constant;
-}
+bool inside(const PlaneTerms& p, const double c[4]) { return c[p.axis] * p.sign >= -(c[3] * p.w_factor) - p.constant; }
 
 // Exponent of the last bit of a float's mantissa, or a large number for 0.
 int last_bit(double value) {
@@ -71,11 +76,13 @@ Exact exact_product(double a, double b) {
 }
 
 // The crossing in pairs of doubles, about 100 bits, where that settles the rounding to 53; nothing where it does not.
-std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVertex& vb, double a, double b) {
+std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVertex& vb, double a,
+                                     double b) {
   const double ca[4] = {double(va.c[0]), double(va.c[1]), double(va.c[2]), double(va.c[3])};
   const double cb[4] = {double(vb.c[0]), double(vb.c[1]), double(vb.c[2]), double(vb.c[3])};
   if (p.constant != 0.0) return std::nullopt;
-  const Exact da = exact_sum(ca[p.axis] * p.sign, ca[3] * p.w_factor), db = exact_sum(cb[p.axis] * p.sign, cb[3] * p.w_factor);
+  const Exact da = exact_sum(ca[p.axis] * p.sign, ca[3] * p.w_factor),
+              db = exact_sum(cb[p.axis] * p.sign, cb[3] * p.w_factor);
   const Exact den = exact_sum(db.value, -da.value);
   if (da.rest != 0.0 || db.rest != 0.0 || den.rest != 0.0) return std::nullopt;
   const Exact left = exact_product(a, db.value), right = exact_product(b, da.value);
@@ -92,7 +99,8 @@ std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, 
   int exponent = 0;
   const double fraction = std::frexp(std::abs(q.value), &exponent);
   const double half_unit = std::ldexp(1.0, exponent - (fraction == 0.5 ? 55 : 54));
-  if (std::abs(std::abs(q.rest) - half_unit) < half_unit * 0x1p-20 || (fraction == 0.5 && std::abs(q.rest) > half_unit * 0.5))
+  if (std::abs(std::abs(q.rest) - half_unit) < half_unit * 0x1p-20 ||
+      (fraction == 0.5 && std::abs(q.rest) > half_unit * 0.5))
     return std::nullopt;
   return q.value;
 }
@@ -110,8 +118,8 @@ double exact_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVerte
   };
   const WideInteger da = wide_distance(ca), db = wide_distance(cb);
   const int value_unit = std::min(last_bit(double(a)), last_bit(double(b)));
-  const WideInteger numerator = WideInteger::from_double(double(a), value_unit) * db -
-                                WideInteger::from_double(double(b), value_unit) * da;
+  const WideInteger numerator =
+      WideInteger::from_double(double(a), value_unit) * db - WideInteger::from_double(double(b), value_unit) * da;
   return WideInteger::rounded_quotient(numerator, db - da, value_unit);
 }
 
@@ -123,7 +131,8 @@ int shared_edge(const ClipCorner& p, const ClipCorner& q) {
   return both == 0 ? -1 : both & 1 ? 0 : both & 2 ? 1 : 2;
 }
 
-int add_crossing(ClippedPolygon& polygon, int from, int to, Plane plane, const ClipVertex v[3], const WindowTransform& t) {
+int add_crossing(ClippedPolygon& polygon, int from, int to, Plane plane, const ClipVertex v[3],
+                 const WindowTransform& t) {
   const PlaneTerms p = terms(plane, t);
   ClipCorner made{};
   made.plane = plane;
@@ -199,7 +208,8 @@ ClippedPolygon clip_triangle(const ClipVertex v[3], const WindowTransform& windo
     cut(polygon, kNear, v, window);
     cut(polygon, kFar, v, window);
   }
-  for (int i = 0; i < polygon.corners; ++i) {  // between near and far w is at least 0; only without them, or at 0, this cuts
+  for (int i = 0; i < polygon.corners;
+       ++i) {  // between near and far w is at least 0; only without them, or at 0, this cuts
     if (polygon.at(i).c[3] >= kSmallestW) continue;
     cut(polygon, kW, v, window);
     break;
@@ -215,7 +225,8 @@ double corner_attribute(const ClippedPolygon& polygon, int index, const ClipVert
   const ClipCorner& corner = polygon.all[index];
   if (corner.kind == 0) return double(value[corner.a]);
   if (corner.kind == 1)
-    return exact_crossing(terms(Plane(corner.plane), window), v[corner.a], v[corner.b], value[corner.a], value[corner.b]);
+    return exact_crossing(terms(Plane(corner.plane), window), v[corner.a], v[corner.b], value[corner.a],
+                          value[corner.b]);
   const double a = corner_attribute(polygon, corner.a, v, window, v0, v1, v2);
   const double b = corner_attribute(polygon, corner.b, v, window, v0, v1, v2);
   return a + (b - a) * corner.t;

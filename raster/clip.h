@@ -13,11 +13,11 @@ struct ClipVertex {
 /// A corner of a clipped triangle, and how it came about: an original vertex, the exact point where an original edge
 /// meets a plane, or (only where the cut runs inside the triangle) a point between two earlier corners.
 struct ClipCorner {
-  double c[4];       ///< clip coordinates; of an exact point each rounded once
-  uint8_t kind;      ///< 0: original vertex a; 1: original edge a-b cut by `plane`; 2: earlier corners a, b and `t`
+  double c[4];   ///< clip coordinates; of an exact point each rounded once
+  uint8_t kind;  ///< 0: original vertex a; 1: original edge a-b cut by `plane`; 2: earlier corners a, b and `t`
   uint8_t a, b;
   uint8_t plane;
-  uint8_t edges;     ///< bit i: lies on the original edge opposite to vertex i
+  uint8_t edges;  ///< bit i: lies on the original edge opposite to vertex i
   double t;
 };
 
@@ -26,8 +26,8 @@ struct ClippedPolygon {
   static constexpr int kMax = 24, kCorners = 12;
   ClipCorner all[kMax];  ///< every corner that came about, cut away or not
   int made = 0;
-  uint8_t corner[kCorners];    ///< indices into `all`
-  int corners = 0;       ///< 0: nothing is left; otherwise 3 to 10
+  uint8_t corner[kCorners];  ///< indices into `all`
+  int corners = 0;           ///< 0: nothing is left; otherwise 3 to 10
 
   const ClipCorner& at(int i) const { return all[corner[i]]; }
 };

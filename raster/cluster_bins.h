@@ -10,9 +10,9 @@ namespace trueshade {
 /// The clusters that may be seen, and for each tile those that may touch it, in submission order.
 struct ClusterBins {
   int tile = 64, tiles_x = 0, tiles_y = 0;
-  std::vector<ClusterDraw> draws;    ///< ascending by instance, then cluster
-  std::vector<uint64_t> first;       ///< tiles_x * tiles_y + 1 offsets into `list`; tile (x, y) is y * tiles_x + x, y up
-  std::vector<uint32_t> list;        ///< into `draws`, ascending in each tile
+  std::vector<ClusterDraw> draws;  ///< ascending by instance, then cluster
+  std::vector<uint64_t> first;     ///< tiles_x * tiles_y + 1 offsets into `list`; tile (x, y) is y * tiles_x + x, y up
+  std::vector<uint32_t> list;      ///< into `draws`, ascending in each tile
 
   std::span<const uint32_t> tile_list(int index) const {
     return {list.data() + first[size_t(index)], size_t(first[size_t(index) + 1] - first[size_t(index)])};

@@ -22,7 +22,8 @@ class Builder {
   ClusteredMesh build() {
     for (size_t triangle = 0; triangle < mesh_.triangle_count(); ++triangle) {
       const uint32_t* corner = &mesh_.indices[3 * triangle];
-      if (triangle == 0 || current_.triangles == kClusterTriangles || current_.vertices + added(corner) > kClusterVertices)
+      if (triangle == 0 || current_.triangles == kClusterTriangles ||
+          current_.vertices + added(corner) > kClusterVertices)
         start(triangle);
       for (int i = 0; i < 3; ++i) out_.corner[size_t(i)].push_back(local_vertex(corner[i]));
       ++current_.triangles;

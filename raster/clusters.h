@@ -12,18 +12,18 @@ inline constexpr int kClusterTriangles = 126;
 
 /// A run of consecutive triangles of a mesh that share at most 64 vertices: the unit of culling and binning.
 struct Cluster {
-  uint32_t first_vertex;    ///< into ClusteredMesh's vertex streams; a multiple of 16
-  uint32_t first_triangle;  ///< of the mesh, in submission order; also into ClusteredMesh::corner
-  uint16_t vertices;        ///< 1..64; the streams go on with copies of the last vertex up to a multiple of 16
-  uint16_t triangles;       ///< 1..126
+  uint32_t first_vertex;          ///< into ClusteredMesh's vertex streams; a multiple of 16
+  uint32_t first_triangle;        ///< of the mesh, in submission order; also into ClusteredMesh::corner
+  uint16_t vertices;              ///< 1..64; the streams go on with copies of the last vertex up to a multiple of 16
+  uint16_t triangles;             ///< 1..126
   float center[3], half_size[3];  ///< object-space box; half sizes rounded up
 };
 
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
-  std::array<std::vector<float>, 3> position;      ///< object space, a cluster's vertices side by side
-  std::vector<uint32_t> vertex;                    ///< the mesh's vertex that each of them is
-  std::array<std::vector<uint8_t>, 3> corner;      ///< cluster-local vertex of each triangle's corner
+  std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
+  std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
+  std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };
 
 struct ClusteredScene {

@@ -34,7 +34,8 @@ struct CountCommit {
     constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
     alignas(64) double one[kLanes];
     hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i) counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
+    for (size_t i = 0; i < hn::Lanes(d); ++i)
+      counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
     return false;
   }
   bool scalar(int at, double, double) {
@@ -44,17 +45,26 @@ struct CountCommit {
   void finish_block(int) {}
 };
 
-/// Whether a fragment replaces what is there. Ties of the ordered functions go by submission, so order of drawing is free.
+/// Whether a fragment replaces what is there. Ties of the ordered functions go by submission, so order of drawing is
+/// free.
 constexpr bool passes(DepthFunc func, float z, float there, uint32_t id, uint32_t there_id) {
   switch (func) {
-    case DepthFunc::never: return false;
-    case DepthFunc::less: return z < there || (z == there && id < there_id);
-    case DepthFunc::lequal: return z < there || (z == there && id > there_id);
-    case DepthFunc::greater: return z > there || (z == there && id < there_id);
-    case DepthFunc::gequal: return z > there || (z == there && id > there_id);
-    case DepthFunc::equal: return z == there;
-    case DepthFunc::notequal: return z != there;
-    case DepthFunc::always: return true;
+    case DepthFunc::never:
+      return false;
+    case DepthFunc::less:
+      return z < there || (z == there && id < there_id);
+    case DepthFunc::lequal:
+      return z < there || (z == there && id > there_id);
+    case DepthFunc::greater:
+      return z > there || (z == there && id < there_id);
+    case DepthFunc::gequal:
+      return z > there || (z == there && id > there_id);
+    case DepthFunc::equal:
+      return z == there;
+    case DepthFunc::notequal:
+      return z != there;
+    case DepthFunc::always:
+      return true;
   }
   return false;
 }
@@ -64,7 +74,7 @@ struct DepthCommit {
   VisibilityTile& tile;
   DepthFunc func;
   float range_low, range_high;
-  bool skip_hidden;     ///< use the blocks' largest depths
+  bool skip_hidden;  ///< use the blocks' largest depths
   uint64_t fragments = 0;
   uint32_t id = 0;
   double z0 = 0, g1 = 0, g2 = 0, z_low = 0, z_high = 0;
@@ -95,14 +105,29 @@ struct DepthCommit {
     const auto tie_last = hn::And(hn::Eq(z, there), hn::RebindMask(df, hn::Gt(my_id, there_id)));
     auto pass = hn::Lt(z, there);
     switch (func) {
-      case DepthFunc::never: return false;
-      case DepthFunc::less: pass = hn::Or(pass, tie_first); break;
-      case DepthFunc::lequal: pass = hn::Or(pass, tie_last); break;
-      case DepthFunc::greater: pass = hn::Or(hn::Gt(z, there), tie_first); break;
-      case DepthFunc::gequal: pass = hn::Or(hn::Gt(z, there), tie_last); break;
-      case DepthFunc::equal: pass = hn::Eq(z, there); break;
-      case DepthFunc::notequal: pass = hn::Or(pass, hn::Gt(z, there)); break;
-      case DepthFunc::always: pass = hn::Eq(z, z); break;
+      case DepthFunc::never:
+        return false;
+      case DepthFunc::less:
+        pass = hn::Or(pass, tie_first);
+        break;
+      case DepthFunc::lequal:
+        pass = hn::Or(pass, tie_last);
+        break;
+      case DepthFunc::greater:
+        pass = hn::Or(hn::Gt(z, there), tie_first);
+        break;
+      case DepthFunc::gequal:
+        pass = hn::Or(hn::Gt(z, there), tie_last);
+        break;
+      case DepthFunc::equal:
+        pass = hn::Eq(z, there);
+        break;
+      case DepthFunc::notequal:
+        pass = hn::Or(pass, hn::Gt(z, there));
+        break;
+      case DepthFunc::always:
+        pass = hn::Eq(z, z);
+        break;
     }
     if (hn::AllFalse(df, pass)) return false;
     hn::Store(hn::IfThenElse(pass, z, there), df, tile.depth + at);
@@ -160,7 +185,8 @@ struct EdgeVectors<__int128> {
   double c[3][2], sx[3][2], sy[3][2];  // high, low
   V64 column, row;
 
-  explicit EdgeVectors(const TriangleSetup<__int128>& s) : column(hn::LoadU(D64(), kLaneColumn)), row(hn::LoadU(D64(), kLaneRow)) {
+  explicit EdgeVectors(const TriangleSetup<__int128>& s)
+      : column(hn::LoadU(D64(), kLaneColumn)), row(hn::LoadU(D64(), kLaneRow)) {
     for (int i = 0; i < 3; ++i) {
       split(s.c[i], c[i]);
       split(s.sx[i], sx[i]);
@@ -206,8 +232,10 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
         M64 covered = hn::And(hn::Ge(e[0], least[0]), hn::And(hn::Ge(e[1], least[1]), hn::Ge(e[2], least[2])));
         if (limited) {
           const V64 x = hn::Add(hn::Set(d, px), column), y = hn::Add(hn::Set(d, py), row);
-          covered = hn::And(covered, hn::And(hn::Ge(x, hn::Set(d, rect.limit[0])), hn::Lt(x, hn::Set(d, rect.limit[2]))));
-          covered = hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
+          covered =
+              hn::And(covered, hn::And(hn::Ge(x, hn::Set(d, rect.limit[0])), hn::Lt(x, hn::Set(d, rect.limit[2]))));
+          covered =
+              hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
         }
         if (hn::AllFalse(d, covered)) continue;
         changed |= commit.vector(block * kBlockPixels + k, covered, e[1], e[2]);
@@ -249,13 +277,14 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
 /// A fan in which snapping has turned a piece over: a pixel belongs to the polygon if the pieces that cover it, counted
 /// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
 template <class Commit>
-inline void cover_turned_fan(const CarefulPieces& fan, const GeometryState& state, bool upper_left, const TileRect& rect,
-                             Commit& commit) {
+inline void cover_turned_fan(const CarefulPieces& fan, const GeometryState& state, bool upper_left,
+                             const TileRect& rect, Commit& commit) {
   TriangleSetup<__int128> setup[CarefulPieces::kMax];
   bool used[CarefulPieces::kMax];
   GeometryState both_sides = state;
   both_sides.cull_face = CullFace::none;
-  for (int i = 0; i < fan.count; ++i) used[i] = set_up_triangle(fan.piece[i].triangle, both_sides, upper_left, rect.limit, setup[i]);
+  for (int i = 0; i < fan.count; ++i)
+    used[i] = set_up_triangle(fan.piece[i].triangle, both_sides, upper_left, rect.limit, setup[i]);
   for (int y = rect.limit[1]; y < rect.limit[3]; ++y) {
     for (int x = rect.limit[0]; x < rect.limit[2]; ++x) {
       int winding = 0, drawn = -1;
@@ -275,8 +304,8 @@ inline void cover_turned_fan(const CarefulPieces& fan, const GeometryState& stat
 
 /// Draws a triangle that needs care: clipped, snapped exactly, by the path its size asks for.
 template <class Commit>
-inline void draw_careful(const ClipVertex v[3], const WindowTransform& t, SampleOrigin origin, const GeometryState& state,
-                         const TileRect& rect, Commit& commit) {
+inline void draw_careful(const ClipVertex v[3], const WindowTransform& t, SampleOrigin origin,
+                         const GeometryState& state, const TileRect& rect, Commit& commit) {
   const CarefulPieces fan = careful_pieces(v, t, origin.x, origin.y);
   if (fan.count == 0 || culled(state, (fan.facing > 0) != t.upper_left)) return;
   if (fan.turned) {

@@ -17,6 +17,7 @@ struct ClipTriangle {
 /// Of `execution` the tile size and the SIMD target count; one thread does the work.
 ///   counts: width * height, row 0 at window y = 0; counts up from what is there
 void count_coverage(std::span<const ClipTriangle> triangles, const GeometryState& state, int width, int height,
-                    const Execution& execution, std::span<uint16_t> counts, NumericProfile profile = NumericProfile::ideal);
+                    const Execution& execution, std::span<uint16_t> counts,
+                    NumericProfile profile = NumericProfile::ideal);
 
 }  // namespace trueshade

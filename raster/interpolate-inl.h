@@ -55,7 +55,9 @@ HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 
     x[i] = hn::GatherIndex(di, in.x.data(), corner[i]);
     y[i] = hn::GatherIndex(di, in.y.data(), corner[i]);
   }
-  const auto before = [&](int a, int b) { return hn::Or(hn::Lt(y[a], y[b]), hn::And(hn::Eq(y[a], y[b]), hn::Lt(x[a], x[b]))); };
+  const auto before = [&](int a, int b) {
+    return hn::Or(hn::Lt(y[a], y[b]), hn::And(hn::Eq(y[a], y[b]), hn::Lt(x[a], x[b])));
+  };
   const auto first_is_1 = hn::And(before(1, 0), hn::Not(before(2, 1)));
   const auto first_is_2 = hn::And(before(2, 0), before(2, 1));
   const auto turn = [&](const VI32 v[3], VI32 out[3]) {

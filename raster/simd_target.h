@@ -7,8 +7,9 @@ namespace trueshade {
 /// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
 std::vector<std::string_view> simd_targets();
 
-/// For its lifetime kernels run on one SIMD target: `best`, or a name of simd_targets(). Error(usage) if the machine does
-/// not run it. The choice is the process's: frames drawn at the same time share it (the image does not depend on it).
+/// For its lifetime kernels run on one SIMD target: `best`, or a name of simd_targets(). Error(usage) if the machine
+/// does not run it. The choice is the process's: frames drawn at the same time share it (the image does not depend on
+/// it).
 class SimdScope {
  public:
   explicit SimdScope(std::string_view name);

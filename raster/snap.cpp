@@ -19,7 +19,9 @@ int compare_products(double x, int64_t a, double w, int64_t b) {
   if (left == 0 || right == 0 || (left < 0) != (right < 0)) return (left > right) - (left < right);
   const auto magnitude_bits = [](Wide v) {
     int bits = 0;
-    for (unsigned __int128 m = v < 0 ? static_cast<unsigned __int128>(-v) : static_cast<unsigned __int128>(v); m != 0; m >>= 1) ++bits;
+    for (unsigned __int128 m = v < 0 ? static_cast<unsigned __int128>(-v) : static_cast<unsigned __int128>(v); m != 0;
+         m >>= 1)
+      ++bits;
     return bits;
   };
   const int sign = left < 0 ? -1 : 1;
@@ -31,8 +33,8 @@ int compare_products(double x, int64_t a, double w, int64_t b) {
   return (left > right) - (left < right);
 }
 
-// fl32(a * b + c), rounded once. The product is exact in a double; the sum is rounded to odd, which a second rounding to
-// 24 bits does not disturb (Boldo and Melquiond, "Emulation of a FMA and correctly rounded sums", 2008).
+// fl32(a * b + c), rounded once. The product is exact in a double; the sum is rounded to odd, which a second rounding
+// to 24 bits does not disturb (Boldo and Melquiond, "Emulation of a FMA and correctly rounded sums", 2008).
 float fused_multiply_add(float a, float b, float c) {
   const double product = double(a) * double(b), sum = product + double(c);
   const double c_part = sum - product, error = (product - (sum - c_part)) + (double(c) - c_part);

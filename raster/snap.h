@@ -10,7 +10,8 @@ namespace trueshade {
 /// not finite.
 std::optional<int64_t> snapped_quotient(double x, double w, int64_t scale);
 
-/// Window x (axis 0) or y (axis 1), in 1/256 pixel, as llvmpipe 22.3 computes it: in float32 with one fused multiply-add (its draw_llvm.c and lp_setup_tri.c).
+/// Window x (axis 0) or y (axis 1), in 1/256 pixel, as llvmpipe 22.3 computes it: in float32 with one fused
+/// multiply-add (its draw_llvm.c and lp_setup_tri.c).
 std::optional<int64_t> float_snapped(const WindowTransform& t, int axis, float coordinate, float w);
 
 /// Window x (axis 0) or y (axis 1) of a clip-space vertex, in 1/256 pixel.

@@ -48,23 +48,28 @@ HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
   result = hn::IfThenElse(hn::Gt(result, most), nearest ? inf : most, result);
   result = hn::IfThenElse(hn::Eq(magnitude, inf), inf, result);
   result = hn::IfThenElse(hn::Eq(x, x), result, hn::BitCast(d, hn::Set(du, 0x7FC00000u)));
-  return hn::BitCast(d, hn::Or(hn::BitCast(du, hn::Abs(result)), hn::IfThenElseZero(hn::RebindMask(du, hn::Eq(x, x)), sign)));
+  return hn::BitCast(
+      d, hn::Or(hn::BitCast(du, hn::Abs(result)), hn::IfThenElseZero(hn::RebindMask(du, hn::Eq(x, x)), sign)));
 }
 
-/// The float that a shader reads from code k: the nearest to k / 255, or llvmpipe's k * RN(1 / 255), which differs in 126
-/// of the 256 codes.
+/// The float that a shader reads from code k: the nearest to k / 255, or llvmpipe's k * RN(1 / 255), which differs in
+/// 126 of the 256 codes.
 HWY_INLINE VF unorm8_value(VF code, NumericProfile profile) {
   const DF d;
-  return profile == NumericProfile::ideal ? hn::Div(code, hn::Set(d, 255.0f)) : hn::Mul(code, hn::Set(d, 1.0f / 255.0f));
+  return profile == NumericProfile::ideal ? hn::Div(code, hn::Set(d, 255.0f))
+                                          : hn::Mul(code, hn::Set(d, 1.0f / 255.0f));
 }
 
 /// What reading back gives after storing x in a channel of `format`.
 HWY_INLINE VF stored_value(VF x, Format format, HalfRound mode, NumericProfile profile) {
   switch (format) {
-    case Format::rgba8: return unorm8_value(unorm8_code(x), profile);
+    case Format::rgba8:
+      return unorm8_value(unorm8_code(x), profile);
     case Format::rgb16f:
-    case Format::rgba16f: return rounded_to_half(x, mode);
-    default: return x;
+    case Format::rgba16f:
+      return rounded_to_half(x, mode);
+    default:
+      return x;
   }
 }
 

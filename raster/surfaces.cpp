@@ -46,7 +46,8 @@ void to_world(const InstanceTransform& t, VisibleVertices& work, size_t at, int 
 }
 
 // Transforms the vertices of one seen cluster into its slot.
-void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int32_t slot, bool need_uv, VisibleVertices& work) {
+void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int32_t slot, bool need_uv,
+               VisibleVertices& work) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const Instance& instance = in.scene.instances[draw.instance];
   const ClusteredMesh& clusters = in.clusters.meshes[instance.mesh];
@@ -59,23 +60,27 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
     for (auto& stream : work.stream) stream.resize(grown);
   }
   WindowVertices window;
-  window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y), window);
+  window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y),
+                  window);
   std::copy_n(window.x, cluster.vertices, work.x.data() + at);
   std::copy_n(window.y, cluster.vertices, work.y.data() + at);
   std::copy_n(window.u, cluster.vertices, work.u.data() + at);
   const uint32_t* vertex = &clusters.vertex[cluster.first_vertex];
   for (size_t c = 0; c < 3; ++c) {
-    std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices, work.stream[size_t(kPosition) + c].data() + at);
+    std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices,
+                work.stream[size_t(kPosition) + c].data() + at);
     copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
   }
-  for (size_t c = 0; c < 4; ++c) copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
-  for (size_t c = 0; c < 2 && need_uv; ++c) copy_stream(mesh.uv[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kUv) + c].data() + at);
+  for (size_t c = 0; c < 4; ++c)
+    copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
+  for (size_t c = 0; c < 2 && need_uv; ++c)
+    copy_stream(mesh.uv[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kUv) + c].data() + at);
   to_world(in.view.instances[draw.instance], work, at, cluster.vertices);
 }
 
 // Gives every seen cluster a slot and every pixel the three vertices of its triangle.
-void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
-                  SurfaceTile& out) {
+void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible, bool need_uv,
+                  VisibleVertices& work, SurfaceTile& out) {
   const int pixels = rect.size * rect.size;
   work.slot_of.resize(std::max(work.slot_of.size(), in.list.size()), -1);
   work.position_of.clear();
@@ -107,7 +112,8 @@ void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTil
     const Instance& instance = in.scene.instances[draw.instance];
     const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
     const size_t triangle = mesh.clusters[draw.cluster].first_triangle + id_triangle(id);
-    for (size_t k = 0; k < 3; ++k) work.corner[k][size_t(i)] = uint32_t(slot) * uint32_t(kSlot) + mesh.corner[k][triangle];
+    for (size_t k = 0; k < 3; ++k)
+      work.corner[k][size_t(i)] = uint32_t(slot) * uint32_t(kSlot) + mesh.corner[k][triangle];
     out.object[i] = draw.instance + 1;
     out.material[i] = instance.material + 1;
   }
@@ -147,7 +153,8 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
     const VI32 provoking = corner[state.provoking == Provoking::last ? 2 : 0];
     for (int g = 0; g < groups; ++g)
       for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
-        hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df, out.plane[c] + i);
+        hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df,
+                  out.plane[c] + i);
   }
 }
 
@@ -155,7 +162,7 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
 struct CarefulSurface {
   uint32_t id;
   TriangleSetup<__int128> setup;
-  double u[3], area;                  // canonical order
+  double u[3], area;  // canonical order
   double attribute[kStreams][3];
   float provoking[kStreams];
 };
@@ -173,7 +180,8 @@ void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const Strea
     const CarefulPieces::Piece& piece = fan.piece[i];
     CarefulSurface surface;
     surface.id = id;
-    if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, surface.setup)) continue;
+    if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, surface.setup))
+      continue;
     surface.area = double(surface.setup.edge(0, 0, 0) + surface.setup.edge(1, 0, 0) + surface.setup.edge(2, 0, 0));
     int order[3];
     canonical_order(piece.triangle, order);
@@ -201,8 +209,8 @@ void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const
   for (int g = 0; g < groups; ++g) {
     for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
       const double* a = s.attribute[c];
-      const V64 plane = affine(group[g].plane.interpolation == Interpolation::smooth ? w.smooth : w.linear, hn::Set(d, a[0]),
-                               hn::Set(d, a[1]), hn::Set(d, a[2]));
+      const V64 plane = affine(group[g].plane.interpolation == Interpolation::smooth ? w.smooth : w.linear,
+                               hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]));
       const V64 low = hn::Set(d, std::min({a[0], a[1], a[2]})), high = hn::Set(d, std::max({a[0], a[1], a[2]}));
       const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
       V64 value = hn::IfThenElse(hn::Gt(above, high), high, above);
@@ -227,7 +235,8 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
       const uint32_t id = visible.id[i + lane];
       if (id == 0 || !id_careful(id) || id == done) continue;
       done = id;
-      const uint32_t corner[3] = {work.corner[0][size_t(i + lane)], work.corner[1][size_t(i + lane)], work.corner[2][size_t(i + lane)]};
+      const uint32_t corner[3] = {work.corner[0][size_t(i + lane)], work.corner[1][size_t(i + lane)],
+                                  work.corner[2][size_t(i + lane)]};
       if (std::none_of(surfaces.begin(), surfaces.end(), [id](const CarefulSurface& s) { return s.id == id; }))
         add_careful_surfaces(in, rect, group, groups, id, corner, work, surfaces);
       alignas(64) double mine[HWY_MAX_BYTES / sizeof(double)];
@@ -272,8 +281,8 @@ void rebuild_positions(const TileDraws& in, const TileRect& rect, const Visibili
 }
 
 // Albedo times the material's colour, then every plane as its format stores it.
-void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const StreamGroup* group, int groups,
-                  SurfaceTile& out) {
+void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const StreamGroup* group,
+                  int groups, SurfaceTile& out) {
   const DF d;
   const int pixels = rect.size * rect.size;
   for (int i = 0; i < pixels; ++i) {
@@ -285,12 +294,14 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
     if (info(group[g].plane.format).bytes_per_channel == 4) continue;
     for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
       for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
-        hn::Store(stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round, in.view.profile), d, out.plane[c] + i);
+        hn::Store(
+            stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round, in.view.profile), d,
+            out.plane[c] + i);
   }
 }
 
-void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const VisibilityTile& visible,
-                           bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+                           const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out) {
   find_corners(in, rect, visible, need_uv, work, out);
   if (out.covered_pixels == 0) return;
   StreamGroup group[4];
@@ -308,8 +319,8 @@ HWY_AFTER_NAMESPACE();
 namespace trueshade {
 HWY_EXPORT(resolve_surfaces_simd);
 
-void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const VisibilityTile& visible,
-                      bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+                      const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out) {
   HWY_DYNAMIC_DISPATCH(resolve_surfaces_simd)(in, rect, planes, visible, need_uv, work, out);
 }
 }  // namespace trueshade

@@ -12,25 +12,25 @@ enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams 
 
 /// The G-buffer of one tile, in tile_index() order: values as they read back from the stored formats.
 struct SurfaceTile {
-  alignas(64) int32_t covered[kMaxTilePixels];          ///< -1 with a surface, 0 without; the others mean nothing there
-  alignas(64) float plane[kStreams][kMaxTilePixels];    ///< world position, world normal, albedo RGBA, uv
+  alignas(64) int32_t covered[kMaxTilePixels];        ///< -1 with a surface, 0 without; the others mean nothing there
+  alignas(64) float plane[kStreams][kMaxTilePixels];  ///< world position, world normal, albedo RGBA, uv
   alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
   int covered_pixels;
 };
 
 /// Vertices of the clusters that are seen in a tile, 64 a cluster, with everything interpolation needs.
 struct VisibleVertices {
-  std::vector<int32_t> x, y;     ///< 1/256 pixel, relative to the tile's first sample
-  std::vector<double> u;         ///< 1 / w
+  std::vector<int32_t> x, y;  ///< 1/256 pixel, relative to the tile's first sample
+  std::vector<double> u;      ///< 1 / w
   std::vector<float> stream[kStreams];
-  std::vector<int32_t> slot_of;  ///< by position in the tile's list; -1: not seen
+  std::vector<int32_t> slot_of;       ///< by position in the tile's list; -1: not seen
   std::vector<uint32_t> position_of;  ///< by slot
   std::vector<uint32_t> corner[3];    ///< by pixel: vertices of its triangle, in the order submitted
 };
 
-/// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes' formats.
-/// `need_uv`: fill the uv planes. `work` is scratch, kept between tiles to save allocation.
-void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const VisibilityTile& visible,
-                      bool need_uv, VisibleVertices& work, SurfaceTile& out);
+/// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'
+/// formats. `need_uv`: fill the uv planes. `work` is scratch, kept between tiles to save allocation.
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+                      const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out);
 
 }  // namespace trueshade

@@ -19,9 +19,9 @@ struct WindowTriangle {
 template <class T>
 struct TriangleSetup {
   T c[3], sx[3], sy[3];
-  T least[3];            ///< covered where E_i >= least_i: 0 on edges that own their points, 1 on the others
-  int x0, y0, x1, y1;    ///< pixels of the tile whose samples the box contains, half open
-  double z0, g1, g2;     ///< z = z0 + (E_1 g1 + E_2 g2)
+  T least[3];          ///< covered where E_i >= least_i: 0 on edges that own their points, 1 on the others
+  int x0, y0, x1, y1;  ///< pixels of the tile whose samples the box contains, half open
+  double z0, g1, g2;   ///< z = z0 + (E_1 g1 + E_2 g2)
   double z_low, z_high;
 
   int samples() const { return (x1 - x0) * (y1 - y0); }  ///< in the box
@@ -62,10 +62,18 @@ inline bool set_up_triangle(const WindowTriangle& in, const GeometryState& state
   const T area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (area == T(0)) return false;
   if (culled(state, (area > T(0)) != upper_left)) return false;
-  const auto min3 = [](const int64_t* v) { return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]); };
-  const auto max3 = [](const int64_t* v) { return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]); };
-  const auto first_sample = [](int64_t v, int low) { return int(v <= int64_t(low) * 256 ? low : (v + 255 > int64_t(kMaxTile) * 256 ? kMaxTile : (v + 255) >> 8)); };
-  const auto past_sample = [](int64_t v, int high) { return int(v >= int64_t(high) * 256 ? high : (v < 0 ? 0 : (v >> 8) + 1)); };
+  const auto min3 = [](const int64_t* v) {
+    return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]);
+  };
+  const auto max3 = [](const int64_t* v) {
+    return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]);
+  };
+  const auto first_sample = [](int64_t v, int low) {
+    return int(v <= int64_t(low) * 256 ? low : (v + 255 > int64_t(kMaxTile) * 256 ? kMaxTile : (v + 255) >> 8));
+  };
+  const auto past_sample = [](int64_t v, int high) {
+    return int(v >= int64_t(high) * 256 ? high : (v < 0 ? 0 : (v >> 8) + 1));
+  };
   out.x0 = first_sample(min3(in.x), limit[0]);
   out.y0 = first_sample(min3(in.y), limit[1]);
   out.x1 = past_sample(max3(in.x), limit[2]);

@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D64 = hn::ScalableTag<double>;         // a lane is a vertex, a triangle or a pixel; lanes never meet
-using D32 = hn::Rebind<float, D64>;          // as many floats
+using D64 = hn::ScalableTag<double>;  // a lane is a vertex, a triangle or a pixel; lanes never meet
+using D32 = hn::Rebind<float, D64>;   // as many floats
 using I32 = hn::Rebind<int32_t, D64>;
 using U32 = hn::Rebind<uint32_t, D64>;
 using V64 = hn::Vec<D64>;
@@ -28,13 +28,14 @@ using V32 = hn::Vec<D32>;
 /// Row `m` of an affine transform: ((m0 x + m1 y) + m2 z) + m3.
 HWY_INLINE V32 affine_row(const float m[4], V32 x, V32 y, V32 z) {
   const D32 d;
-  return hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0]), x), hn::Mul(hn::Set(d, m[1]), y)), hn::Mul(hn::Set(d, m[2]), z)),
-                 hn::Set(d, m[3]));
+  return hn::Add(
+      hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0]), x), hn::Mul(hn::Set(d, m[1]), y)), hn::Mul(hn::Set(d, m[2]), z)),
+      hn::Set(d, m[3]));
 }
 
 /// Vertices in window space, relative to the sample of a tile's pixel (0, 0). Where `needs_care` is set, x and y mean
-/// nothing: the vertex is outside near or far, has w <= 0 or no finite value, or lies 2^25 subpixels away; clip.h sees to
-/// its triangles.
+/// nothing: the vertex is outside near or far, has w <= 0 or no finite value, or lies 2^25 subpixels away; clip.h sees
+/// to its triangles.
 struct WindowVertices {
   alignas(64) int32_t x[kClusterVertices], y[kClusterVertices];  ///< 1/256 pixel, y up, |.| < 2^26
   alignas(64) double z[kClusterVertices];                        ///< window depth
@@ -77,7 +78,8 @@ HWY_INLINE V32 fused_multiply_add(V32 a, V32 b, V32 c) {
   const V64 sum = hn::Add(product, wide_c), c_part = hn::Sub(sum, product);
   const V64 error = hn::Add(hn::Sub(product, hn::Sub(sum, c_part)), hn::Sub(wide_c, c_part)), zero = hn::Zero(d);
   const auto bits = hn::BitCast(di, sum), one = hn::Set(di, 1);
-  const auto larger = hn::Gt(hn::Mul(hn::IfThenElse(hn::Gt(error, zero), hn::Set(d, 1.0), hn::Set(d, -1.0)), sum), zero);
+  const auto larger =
+      hn::Gt(hn::Mul(hn::IfThenElse(hn::Gt(error, zero), hn::Set(d, 1.0), hn::Set(d, -1.0)), sum), zero);
   const auto odd = hn::IfThenElse(hn::RebindMask(di, larger), hn::Add(bits, one), hn::Sub(bits, one));
   const auto moves = hn::And(hn::RebindMask(di, hn::Or(hn::Lt(error, zero), hn::Gt(error, zero))),
                              hn::Eq(hn::And(bits, one), hn::Zero(di)));
@@ -96,7 +98,8 @@ HWY_INLINE V64 float_snap(V64 coordinate, V64 w, const WindowTransform& t, int a
 
 /// One axis of the window position, relative to `origin`; `fits` loses the lanes that do not fit the vector path.
 template <class M>
-HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTransform& t, int axis, int32_t origin, M& fits) {
+HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTransform& t, int axis, int32_t origin,
+                                  M& fits) {
   const D64 d;
   const V64 estimate = hn::Mul(hn::Mul(coordinate, u), hn::Set(d, double(t.scale[axis])));
   V64 window;
@@ -145,9 +148,9 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
     const size_t from = cluster.first_vertex + i;
     const V32 x = hn::LoadU(df, &mesh.position[0][from]), y = hn::LoadU(df, &mesh.position[1][from]),
               z = hn::LoadU(df, &mesh.position[2][from]);
-    const bool care = place_vertices(affine_row(instance.clip[0], x, y, z), affine_row(instance.clip[1], x, y, z),
-                                     affine_row(instance.clip[2], x, y, z), affine_row(instance.clip[3], x, y, z), t,
-                                     origin, i, out);
+    const bool care =
+        place_vertices(affine_row(instance.clip[0], x, y, z), affine_row(instance.clip[1], x, y, z),
+                       affine_row(instance.clip[2], x, y, z), affine_row(instance.clip[3], x, y, z), t, origin, i, out);
     out.any_needs_care = out.any_needs_care || care;
   }
 }

@@ -96,7 +96,8 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   constexpr int64_t kFloatSnapLimit = int64_t(1) << 25;  // 2^17 pixels
   out.float_snap = profile == NumericProfile::mesa_llvmpipe_22_3;
   for (int axis = 0; axis < 2; ++axis)
-    out.float_snap = out.float_snap && std::max(std::abs(out.scale[axis]), std::abs(out.offset[axis])) <= kFloatSnapLimit;
+    out.float_snap =
+        out.float_snap && std::max(std::abs(out.scale[axis]), std::abs(out.offset[axis])) <= kFloatSnapLimit;
   for (int axis = 0; axis < 2; ++axis) {
     out.half_size[axis] = float(out.scale[axis]) / 256.0f;
     out.center[axis] = float(out.offset[axis]) / 256.0f;
@@ -119,8 +120,11 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
 
 View make_view(const Scene& scene, const Pipeline& pipeline) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
-  View view{pipeline.width, pipeline.height, pipeline.profile,
-            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile), {},
+  View view{pipeline.width,
+            pipeline.height,
+            pipeline.profile,
+            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
+            {},
             inverse_rows(clip)};
   view.instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)

@@ -39,9 +39,10 @@ WindowBox window_box(const WindowVertices& v, int count) {
   return {least(x0), least(y0), most(x1), most(y1), hn::GetLane(hn::MinOfLanes(d, near))};
 }
 
-// Triangles that have area and a sample in their box and the tile, many at a time, in 32-bit integers: in a cluster that
-// spans less than 2^15 subpixels a doubled area stays below 2^31. Returns how many it wrote to `out`.
-int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4], uint8_t* out) {
+// Triangles that have area and a sample in their box and the tile, many at a time, in 32-bit integers: in a cluster
+// that spans less than 2^15 subpixels a doubled area stays below 2^31. Returns how many it wrote to `out`.
+int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4],
+               uint8_t* out) {
   const I32 di;
   const hn::Rebind<uint8_t, I32> d8;
   const size_t lanes = hn::Lanes(di);
@@ -90,14 +91,16 @@ bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBo
 }
 
 // Whether the blocks under a triangle's box hide it: cheaper than setting it up.
-bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const WindowTriangle& w, const WindowTransform& t) {
+bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const WindowTriangle& w,
+                     const WindowTransform& t) {
   const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
                       int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
                       std::min({w.z[0], w.z[1], w.z[2]})};
   return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit, RasterCounts& counts) {
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit,
+                  RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
@@ -123,7 +126,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   for (int i = 0; i < count; ++i) {
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
-    const bool careful = v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
+    const bool careful =
+        v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
     if (careful) {
       ClipVertex clip[3];
@@ -147,7 +151,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   }
 }
 
-void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts) {
+void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                          RasterCounts& counts) {
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
   std::fill_n(out.depth, pixels, in.state.clear_depth);
   std::fill_n(out.id, pixels, 0u);
@@ -190,7 +195,8 @@ namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
 HWY_EXPORT(clip_corners_simd);
 
-void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts) {
+void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                     RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
 }
 

@@ -12,16 +12,16 @@ namespace trueshade {
 /// A cluster of an instance that may be seen, from cluster_bins.h.
 struct ClusterDraw {
   uint32_t instance;
-  uint32_t cluster;   ///< of the instance's mesh
-  float near_depth;   ///< no fragment of it is nearer; -infinity where nothing is known
+  uint32_t cluster;                             ///< of the instance's mesh
+  float near_depth;                             ///< no fragment of it is nearer; -infinity where nothing is known
   uint16_t tile_x0, tile_y0, tile_x1, tile_y1;  ///< tiles it may touch, half open
 };
 
 /// A square of pixels and which of them may be drawn; window coordinates, y up.
 struct TileRect {
-  int x, y;       ///< lower left pixel in the window
-  int size;       ///< 8, 16, 32, 48 or 64
-  int limit[4];   ///< x0, y0, x1, y1 in the tile, half open: inside viewport and image
+  int x, y;      ///< lower left pixel in the window
+  int size;      ///< 8, 16, 32, 48 or 64
+  int limit[4];  ///< x0, y0, x1, y1 in the tile, half open: inside viewport and image
 };
 
 // What is seen in a pixel: position in the tile's list, triangle of the cluster, and whether the triangle took the
@@ -58,8 +58,9 @@ struct TileDraws {
 /// Clip-space corners of a triangle of a cluster, as the vertex stage rounds them.
 void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]);
 
-/// Draws the listed clusters into `out`, which it clears first. `culling`: skip what hierarchical depth proves hidden and
-/// draw front to back; never changes a bit.
-void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts);
+/// Draws the listed clusters into `out`, which it clears first. `culling`: skip what hierarchical depth proves hidden
+/// and draw front to back; never changes a bit.
+void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                     RasterCounts& counts);
 
 }  // namespace trueshade

@@ -56,7 +56,8 @@ WideInteger WideInteger::operator*(const WideInteger& other) const {
     uint64_t carry = 0;
     for (int k = 0; k < used || carry != 0; ++k) {
       assert(i + k < kLimbs);
-      carry += uint64_t(limb_[std::size_t(i)]) * (k < used ? other.limb_[std::size_t(k)] : 0) + out.limb_[std::size_t(i + k)];
+      carry += uint64_t(limb_[std::size_t(i)]) * (k < used ? other.limb_[std::size_t(k)] : 0) +
+               out.limb_[std::size_t(i + k)];
       out.limb_[std::size_t(i + k)] = uint32_t(carry);
       carry >>= 32;
     }

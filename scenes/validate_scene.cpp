@@ -109,8 +109,8 @@ std::vector<glm::dvec3> mesh_reaches(const Scene& scene) {
   return reaches;
 }
 
-/// World positions stay within 1e18, so that no squared distance overflows: a bound over the mesh's box, which may refuse
-/// a little less than the limit.
+/// World positions stay within 1e18, so that no squared distance overflows: a bound over the mesh's box, which may
+/// refuse a little less than the limit.
 void check_world_reach(const Instance& instance, const glm::dvec3& reach, const Part& part) {
   const glm::mat4x3& m = instance.world_from_object;
   for (int row = 0; row < 3; ++row) {

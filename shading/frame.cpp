@@ -23,7 +23,7 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kAovNames[] = {"depth", "position", "normal",    "albedo",
+constexpr std::string_view kAovNames[] = {"depth", "position",  "normal",      "albedo",
                                           "uv",    "id.object", "id.material", "light.count"};
 
 double now_ms() {
@@ -81,8 +81,8 @@ struct FrameWork {
     const double middle = now_ms();
     const float eye[3] = {scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z};
     const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
-    light_tile(s.surface, where.size, lights, pipeline.light_model, eye, clear, execution.light_culling, s.lights, s.color,
-               counts.light);
+    light_tile(s.surface, where.size, lights, pipeline.light_model, eye, clear, execution.light_culling, s.lights,
+               s.color, counts.light);
     store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
     for (NamedImage& aov : out.aovs)
       store_aov(aov.name, s.visible, s.surface, s.color, where, pipeline.gbuffer.half_round, aov.image);
@@ -108,7 +108,8 @@ std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution)
   return order;
 }
 
-// Refused before anything is allocated: more bytes than half of the machine's memory would end in the system killing us.
+// Refused before anything is allocated: more bytes than half of the machine's memory would end in the system killing
+// us.
 void check_memory(const Pipeline& pipeline, const Execution& execution, std::span<const std::string> aovs) {
   const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
   uint64_t texel = uint64_t(info(pipeline.target).bytes_per_texel());
@@ -117,8 +118,10 @@ void check_memory(const Pipeline& pipeline, const Execution& execution, std::spa
   const uint64_t need = pixels * texel + tiles * (sizeof(TileCounts) + 3 * sizeof(uint64_t));
   const uint64_t have = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
   if (need > have / 2)
-    throw Error(ErrorKind::limit, "size", "the image and its planes need " + std::to_string(need >> 20) + " MiB, over half of this machine's memory",
-                "a smaller size or fewer planes");
+    throw Error(
+        ErrorKind::limit, "size",
+        "the image and its planes need " + std::to_string(need >> 20) + " MiB, over half of this machine's memory",
+        "a smaller size or fewer planes");
 }
 
 void check_aovs(std::span<const std::string> names) {
@@ -184,10 +187,12 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, pipeline.gbuffer))});
 
   View view = make_view(scene, pipeline);
-  ClusterBins bins = bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
+  ClusterBins bins =
+      bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
-  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), make_light_table(scene.lights, pipeline.light_model),
-              need_uv, frame}, progress);
+  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins),
+              make_light_table(scene.lights, pipeline.light_model), need_uv, frame},
+             progress);
 
   FrameStats& stats = frame.stats;
   stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
@@ -198,8 +203,8 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   return frame;
 }
 
-Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution, std::span<const std::string> aovs,
-                   const Progress& progress) {
+Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                   std::span<const std::string> aovs, const Progress& progress) {
   return render_frame(PreparedScene(scene), pipeline, execution, aovs, progress);
 }
 

@@ -16,18 +16,18 @@ namespace trueshade {
 
 /// Counts of one frame. The first group depends on scene and pipeline alone; the second on Execution too.
 struct FrameStats {
-  uint64_t pixels = 0;             ///< of the image
-  uint64_t covered_pixels = 0;     ///< N: with a surface
-  uint64_t lit_pixel_lights = 0;   ///< pairs of covered pixel and light that is in range and faces it
-  uint64_t pixel_lights = 0;       ///< covered pixels times lights
-  uint64_t triangles = 0;          ///< submitted, over all instances
+  uint64_t pixels = 0;            ///< of the image
+  uint64_t covered_pixels = 0;    ///< N: with a surface
+  uint64_t lit_pixel_lights = 0;  ///< pairs of covered pixel and light that is in range and faces it
+  uint64_t pixel_lights = 0;      ///< covered pixels times lights
+  uint64_t triangles = 0;         ///< submitted, over all instances
   uint64_t lights = 0;
 
-  uint64_t clusters_drawn = 0;     ///< cluster x tile pairs whose triangles were set up
-  uint64_t triangles_tested = 0;   ///< set up, over all tiles
-  uint64_t fragments = 0;          ///< covered samples before the depth test
-  uint64_t tile_pixel_lights = 0;  ///< covered pixels times lights in the tile's list
-  uint64_t evaluated_pixel_lights = 0;  ///< lanes the light kernel computed a contribution for
+  uint64_t clusters_drawn = 0;                         ///< cluster x tile pairs whose triangles were set up
+  uint64_t triangles_tested = 0;                       ///< set up, over all tiles
+  uint64_t fragments = 0;                              ///< covered samples before the depth test
+  uint64_t tile_pixel_lights = 0;                      ///< covered pixels times lights in the tile's list
+  uint64_t evaluated_pixel_lights = 0;                 ///< lanes the light kernel computed a contribution for
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
 };
 

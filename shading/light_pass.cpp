@@ -78,7 +78,8 @@ struct LightAdder {
   HWY_INLINE void ambient(const PixelVector& px, size_t light, VF sum[3]) const {
     const DF d;
     for (int c = 0; c < 3; ++c)
-      sum[c] = hn::Add(sum[c], hn::IfThenElseZero(px.covered, hn::Mul(px.albedo[c], hn::Set(d, lights.color[c][light]))));
+      sum[c] =
+          hn::Add(sum[c], hn::IfThenElseZero(px.covered, hn::Mul(px.albedo[c], hn::Set(d, lights.color[c][light]))));
   }
 
   HWY_INLINE void add(const PixelVector& px, size_t light, int at, VF sum[3]) {
@@ -171,11 +172,13 @@ Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
   return box;
 }
 
-// Lights that may reach the box, ascending. Dropped only if the least squared distance, with slack for its six roundings,
-// is past the light's cut: then the kernel's own d2 is past it at every pixel. A light without a cut is never dropped:
-// to pixels whose positions are infinite (a half plane overflowed) every distance is, and ambient light is there too.
+// Lights that may reach the box, ascending. Dropped only if the least squared distance, with slack for its six
+// roundings, is past the light's cut: then the kernel's own d2 is past it at every pixel. A light without a cut is
+// never dropped: to pixels whose positions are infinite (a half plane overflowed) every distance is, and ambient light
+// is there too.
 template <class Candidate>
-void reaching_lights(const LightTable& lights, const Box& box, size_t count, const Candidate& candidate, std::vector<uint32_t>& out) {
+void reaching_lights(const LightTable& lights, const Box& box, size_t count, const Candidate& candidate,
+                     std::vector<uint32_t>& out) {
   for (size_t k = 0; k < count; ++k) {
     const uint32_t light = candidate(k);
     float d2 = 0.0f;
@@ -193,7 +196,8 @@ void reaching_lights(const LightTable& lights, const Box& box, size_t count, con
 void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
   const DF d;
   const size_t lanes = hn::Lanes(d);
-  const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f), inf = hn::Set(d, std::numeric_limits<float>::infinity());
+  const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f),
+           inf = hn::Set(d, std::numeric_limits<float>::infinity());
   alignas(64) float reach[HWY_MAX_BYTES / sizeof(float)];
   for (size_t i = 0; i < lights.size(); i += lanes) {
     VF d2 = zero;
@@ -213,15 +217,16 @@ void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vec
   }
 }
 
-void light_block(const SurfaceTile& surface, int block, const std::vector<uint32_t>& list, LightAdder& adder, const float eye[3],
-                 const float clear[4], ColorTile& out) {
+void light_block(const SurfaceTile& surface, int block, const std::vector<uint32_t>& list, LightAdder& adder,
+                 const float eye[3], const float clear[4], ColorTile& out) {
   const DF d;
   for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d))) {
     const PixelVector px = load_pixels(surface, i, adder.model, eye);
     VF sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     if (!hn::AllFalse(d, px.covered))
       for (const uint32_t light : list) adder.add(px, light, i, sum);
-    for (int c = 0; c < 3; ++c) hn::Store(hn::IfThenElse(px.covered, sum[c], hn::Set(d, clear[c])), d, out.plane[c] + i);
+    for (int c = 0; c < 3; ++c)
+      hn::Store(hn::IfThenElse(px.covered, sum[c], hn::Set(d, clear[c])), d, out.plane[c] + i);
     const VF alpha = adder.model.alpha_from_albedo ? hn::Load(d, surface.plane[kAlbedo + 3] + i) : hn::Set(d, 1.0f);
     hn::Store(hn::IfThenElse(px.covered, alpha, hn::Set(d, clear[3])), d, out.plane[3] + i);
   }
@@ -237,8 +242,9 @@ int region_blocks(int blocks, int bx, int by, int out[kRegionBlocks * kRegionBlo
   return count;
 }
 
-void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model, const float eye[3],
-                     const float clear[4], bool culling, LightLists& work, ColorTile& out, LightCounts& counts) {
+void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
+                     const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
+                     LightCounts& counts) {
   const int blocks = tile / kBlockSize;
   std::fill_n(out.light_count, size_t(tile) * size_t(tile), 0u);
   int all_blocks[kMaxTilePixels / kBlockPixels];
@@ -260,7 +266,9 @@ void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lig
       if (culling) {
         work.region.clear();
         const Box box = surface_box(surface, block, count);
-        if (box.pixels > 0) reaching_lights(lights, box, work.tile.size(), [&](size_t k) { return work.tile[k]; }, work.region);
+        if (box.pixels > 0)
+          reaching_lights(
+              lights, box, work.tile.size(), [&](size_t k) { return work.tile[k]; }, work.region);
         list = &work.region;
       }
       for (int i = 0; i < count; ++i) light_block(surface, block[i], *list, adder, eye, clear, out);
@@ -275,8 +283,9 @@ HWY_AFTER_NAMESPACE();
 namespace trueshade {
 HWY_EXPORT(light_tile_simd);
 
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model, const float eye[3],
-                const float clear[4], bool culling, LightLists& work, ColorTile& out, LightCounts& counts) {
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
+                const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
+                LightCounts& counts) {
   HWY_DYNAMIC_DISPATCH(light_tile_simd)(surface, tile, lights, model, eye, clear, culling, work, out, counts);
 }
 }  // namespace trueshade

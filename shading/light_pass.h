@@ -25,10 +25,11 @@ struct LightLists {
   std::vector<uint32_t> tile, region;
 };
 
-/// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha included.
-/// Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by tile, by
-/// 16x16 region and by vector: never changes a bit.
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model, const float eye[3],
-                const float clear[4], bool culling, LightLists& work, ColorTile& out, LightCounts& counts);
+/// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha
+/// included. Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by
+/// tile, by 16x16 region and by vector: never changes a bit.
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
+                const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
+                LightCounts& counts);
 
 }  // namespace trueshade

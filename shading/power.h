@@ -2,11 +2,12 @@
 
 namespace trueshade {
 
-/// A shininess as docs/arithmetic.md section 8 splits it: an even integer s is (t^2 / h^2)^(s/2), any other (t / |h|)^s.
+/// A shininess as docs/arithmetic.md section 8 splits it: an even integer s is (t^2 / h^2)^(s/2), any other (t /
+/// |h|)^s.
 struct Exponent {
-  bool squared;   ///< the base is a square already
-  int integer;    ///< 0..8192, or -1: not an integer
-  int top_bit;    ///< of `integer`
+  bool squared;  ///< the base is a square already
+  int integer;   ///< 0..8192, or -1: not an integer
+  int top_bit;   ///< of `integer`
   double value;
 };
 

@@ -41,7 +41,8 @@ template <class Write>
 void for_each_texel(const TileRect& rect, Image& image, const Write& write) {
   const int width = std::min(rect.size, image.width - rect.x), height = std::min(rect.size, image.height - rect.y);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) write(tile_index(rect.size, x, y), image.texel(rect.x + x, image.height - 1 - (rect.y + y)));
+    for (int x = 0; x < width; ++x)
+      write(tile_index(rect.size, x, y), image.texel(rect.x + x, image.height - 1 - (rect.y + y)));
 }
 
 void write_channels(const float* value, Format format, HalfRound half_round, uint8_t* texel) {
@@ -91,8 +92,10 @@ void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_r
 
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane) {
-  const uint32_t* integers = name == "id.object" ? surface.object : name == "id.material" ? surface.material
-                                                                  : name == "light.count" ? color.light_count : nullptr;
+  const uint32_t* integers = name == "id.object"     ? surface.object
+                             : name == "id.material" ? surface.material
+                             : name == "light.count" ? color.light_count
+                                                     : nullptr;
   if (integers != nullptr || name == "depth") {
     for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
       if (integers == nullptr)

@@ -6,8 +6,8 @@
 
 namespace trueshade {
 
-/// Rounds a tile's colours to the target's format (docs/arithmetic.md section 7) and writes them into their place of the
-/// image, whose rows run from the top down while the tile's y points up.
+/// Rounds a tile's colours to the target's format (docs/arithmetic.md section 7) and writes them into their place of
+/// the image, whose rows run from the top down while the tile's y points up.
 void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target);
 
 /// Writes one plane of a tile into an AOV image of the same size.

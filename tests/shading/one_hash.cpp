@@ -1,5 +1,5 @@
-// One image a scene and pipeline, whatever draws it: threads, tiles, SIMD targets, culling, order of tiles, the caller's
-// floating-point environment; and, since the hashes stand in the source, compilers and machines.
+// One image a scene and pipeline, whatever draws it: threads, tiles, SIMD targets, culling, order of tiles, the
+// caller's floating-point environment; and, since the hashes stand in the source, compilers and machines.
 #include <algorithm>
 #include <array>
 #include <cfenv>
@@ -98,10 +98,10 @@ void check(const PreparedScene& scene, const GoldenFrame& golden, const Way& way
   pipeline.height = golden.height;
   const HostScope host(way.host);
   const Frame frame = render_frame(scene, pipeline, way.execution);
-  INFO(golden.scene << " " << golden.preset << ": threads " << way.execution.threads << ", tile " << way.execution.tile << ", "
-                    << way.execution.simd << ", light culling " << way.execution.light_culling << ", geometry culling "
-                    << way.execution.geometry_culling << ", shuffled " << way.execution.shuffle_tiles << ", host "
-                    << int(way.host));
+  INFO(golden.scene << " " << golden.preset << ": threads " << way.execution.threads << ", tile " << way.execution.tile
+                    << ", " << way.execution.simd << ", light culling " << way.execution.light_culling
+                    << ", geometry culling " << way.execution.geometry_culling << ", shuffled "
+                    << way.execution.shuffle_tiles << ", host " << int(way.host));
   CHECK(image_hash(frame.color) == golden.hash);
 }
 
@@ -123,7 +123,8 @@ TEST_CASE("every built-in scene has one hash over pairs of all ways to draw it",
     int n = 0;
     for (const Choice& c : ways) {
       Way w = way(c, targets);
-      // Without geometry culling each cluster is set up in each tile, so small tiles and narrow vectors do not meet there.
+      // Without geometry culling each cluster is set up in each tile, so small tiles and narrow vectors do not meet
+      // there.
       const bool narrow = w.execution.simd == "scalar" || w.execution.simd == "sse4";
       if (!w.execution.geometry_culling && narrow) w.execution.tile = std::max(w.execution.tile, 48);
       if (!w.execution.geometry_culling && w.execution.tile == 8) w.execution.tile = 16;
@@ -148,7 +149,8 @@ TEST_CASE("every built-in scene has one hash over the whole matrix", "[determini
           for (c[4] = 0; c[4] < counts[4]; ++c[4])
             for (c[5] = 0; c[5] < counts[5]; ++c[5]) {
               if (is_dense(golden.scene) && c[5] == 1 && kTiles[c[1]] != 64) continue;
-              if (golden.width > 200 && c[0] > 0 && kTiles[c[1]] != 64) continue;  // large frames: threads x tiles at 64
+              if (golden.width > 200 && c[0] > 0 && kTiles[c[1]] != 64)
+                continue;  // large frames: threads x tiles at 64
               if (golden.width > 200 && c[5] == 1 && kTiles[c[1]] < 48) continue;
               c[3] = (c[0] + c[1] + c[2]) % counts[3];
               c[6] = (c[1] + c[4]) % counts[6];
@@ -157,7 +159,8 @@ TEST_CASE("every built-in scene has one hash over the whole matrix", "[determini
   }
 }
 
-TEST_CASE("more than nine in ten of city's pixel-light pairs are culled, and not one bit changes", "[determinism][culling]") {
+TEST_CASE("more than nine in ten of city's pixel-light pairs are culled, and not one bit changes",
+          "[determinism][culling]") {
   const Scene scene = load_scene("builtin:city");
   const PreparedScene prepared(scene);
   const Pipeline pipeline = *preset_pipeline("many-lights");
@@ -176,12 +179,13 @@ TEST_CASE("the benchmark scenes are as hard as they are meant to be", "[scenes]"
     const char* scene;
     double covered, lit;
   };
-  const Bar bar = GENERATE(Bar{"builtin:city", 0.74, 2.1}, Bar{"builtin:rabbits", 0.64, 2.8}, Bar{"builtin:sphere", 0.48, 16.0},
-                           Bar{"builtin:red", 0.56, 4.2});
+  const Bar bar = GENERATE(Bar{"builtin:city", 0.74, 2.1}, Bar{"builtin:rabbits", 0.64, 2.8},
+                           Bar{"builtin:sphere", 0.48, 16.0}, Bar{"builtin:red", 0.56, 4.2});
   const Scene scene = load_scene(bar.scene);
   const FrameStats stats = render_frame(scene, *preset_pipeline("many-lights")).stats;
   INFO(bar.scene);
   CHECK(double(stats.covered_pixels) >= bar.covered * double(stats.pixels));
   CHECK(double(stats.lit_pixel_lights) >= bar.lit * double(stats.covered_pixels));
-  CHECK(double(stats.tile_pixel_lights) >= 2.0 * double(stats.lit_pixel_lights));  // and several times as many in its tile
+  CHECK(double(stats.tile_pixel_lights) >=
+        2.0 * double(stats.lit_pixel_lights));  // and several times as many in its tile
 }

@@ -111,7 +111,8 @@ TEST_CASE("Factors, equations and profiles are spelled as the enumerators") {
   CHECK(kBlendFactorNames[size_t(BlendFactor::dst_color)] == "dst_color");
   CHECK(kBlendEquationNames[size_t(BlendEquation::reverse_subtract)] == "reverse_subtract");
   CHECK(kBlendEquationNames[size_t(BlendEquation::max)] == "max");
-  for (const NumericProfile profile : {NumericProfile::ideal, kMesa}) CHECK(profile_from_name(profile_name(profile)) == profile);
+  for (const NumericProfile profile : {NumericProfile::ideal, kMesa})
+    CHECK(profile_from_name(profile_name(profile)) == profile);
   CHECK(profile_name(kMesa) == "mesa-llvmpipe-22.3");
   CHECK(!profile_from_name("mesa"));
 }
