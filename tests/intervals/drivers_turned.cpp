@@ -1,0 +1,85 @@
+// No false alarm on a driver: random scenes by llvmpipe, triangles begun at any vertex, the picture moved by whole pixels.
+#include <catch2/catch.hpp>
+#include <cstdio>
+
+#include "oracle/gl/renderer.h"
+#include "oracle/intervals/judge.h"
+#include "tests/intervals/drivers.h"
+#include "tests/intervals/random_scene.h"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+
+namespace {
+
+struct Alarms {
+  int images = 0, rejected = 0, rejected_by_own = 0;
+};
+
+bool alarm(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture, const std::string& what) {
+  bool alarm = false;
+  for (const StageVerdict& v : {judge_gbuffer(scene, pipeline, profile, capture), judge_lighting(scene, pipeline, profile, capture)}) {
+    if (v.passes()) continue;
+    alarm = true;
+    const WorstPixel& w = v.worst.front();
+    WARN(what << ", " << profile.name << " " << v.stage << " " << v.count(PixelClass::violation) << " px, (" << w.x << ", " << w.y << ") "
+              << w.plane << " [" << w.low << ", " << w.high << "] given " << w.given << " " << w.note);
+  }
+  return alarm;
+}
+
+/// `scenes` scenes, each by a pipeline of its own in three rotations, each rotation where it is and moved three ways.
+/// Its own profile is held only to pictures where they are: far from the window's corner llvmpipe's planes, which begin
+/// there, lose bits that the profile does not give away.
+Alarms turned_and_moved(const GlContext& context, int scenes, uint64_t first_seed) {
+  Profile unknown;
+  unknown.subpixel_bits = context.info().subpixel_bits;
+  const Profile own = *profile_named("mesa-llvmpipe-22.3");
+  const bool known = context.info().line().find("Mesa 22.3") != std::string::npos;
+  Alarms alarms;
+  for (int i = 0; i < scenes; ++i) {
+    Pcg32 random(first_seed + uint64_t(i));
+    const Scene scene = testing::random_scene(random);
+    Pipeline pipeline = testing::random_pipeline(random);
+    constexpr Format normals[] = {Format::rgba32f, Format::rgba16f};
+    pipeline.gbuffer.normal.format = normals[random.below(2)];
+    for (int rotation = 0; rotation < 3; ++rotation) {
+      GlRenderer renderer(context, scene, rotation);
+      for (int move = 0; move < 4; ++move) {
+        GlDraw draw;
+        if (move > 0) {
+          draw.shift_x = int(random.below(200));
+          draw.shift_y = int(random.below(200));
+        }
+        const Capture capture = renderer.draw(pipeline, draw).capture;
+        const std::string what = "scene " + std::to_string(first_seed + uint64_t(i)) + " turned by " + std::to_string(rotation) + ", moved by (" +
+                                 std::to_string(draw.shift_x) + ", " + std::to_string(draw.shift_y) + ")";
+        ++alarms.images;
+        alarms.rejected += alarm(scene, pipeline, unknown, capture, what) ? 1 : 0;
+        if (known && move == 0) alarms.rejected_by_own += alarm(scene, pipeline, own, capture, what) ? 1 : 0;
+      }
+    }
+  }
+  std::printf("llvmpipe turned and moved: %d images, %d rejected, %d of those not moved rejected by its own profile\n", alarms.images, alarms.rejected, alarms.rejected_by_own);
+  return alarms;
+}
+
+}  // namespace
+
+TEST_CASE("Of seventy-two images by llvmpipe, triangles turned and pictures moved, none is rejected") {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Alarms alarms = turned_and_moved(*context, 6, 1);
+  CHECK(alarms.images == 72);
+  CHECK(alarms.rejected == 0);
+  CHECK(alarms.rejected_by_own == 0);
+}
+
+TEST_CASE("Of 2,400 images by llvmpipe, triangles turned and pictures moved, none is rejected", "[long]") {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Alarms alarms = turned_and_moved(*context, 200, 1000);
+  CHECK(alarms.images == 2400);
+  CHECK(alarms.rejected == 0);
+  CHECK(alarms.rejected_by_own == 0);
+}
