@@ -1,6 +1,6 @@
 // How fast is the same picture drawn by OpenGL, in the ways people draw many lights with it, on the driver at hand?
 // Warm frames, the sum of the passes' times up to glFinish. "first pass ms" is the driver's geometry pass alone.
-// The fast designs cull back faces, as their users would, where that changes at most one pixel in 100,000.
+// The fast designs cull back faces, as their users would, where that changes at most one pixel in 50,000.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -52,7 +52,7 @@ void draw(benchmark::State& state, const oracle::GlContext& context, const std::
   Pipeline pipeline = presets().front().pipeline;
   if (loaded->culling_changes < 0) loaded->culling_changes = pixels_culling_changes(loaded->renderer, pipeline);
   const int changed = loaded->culling_changes;
-  const bool culled = is_fast(design) && changed <= pipeline.width * pipeline.height / 100000;
+  const bool culled = is_fast(design) && changed <= pipeline.width * pipeline.height / 50000;
   if (culled) pipeline.geometry.cull_face = CullFace::back;
   oracle::GlPeer peer(loaded->renderer, pipeline, design);
   peer.draw(false);
