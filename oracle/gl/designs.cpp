@@ -55,6 +55,7 @@ struct GlPeer::Work {
   GlFrame draw(bool read_back);
 
  private:
+  void draw_scene(GLuint program);
   void draw_gbuffer();
   void draw_depth();
   void bin_lights();
@@ -67,11 +68,13 @@ struct GlPeer::Work {
 
 namespace {
 
-GlslOptions lean_options(const GlRenderer& renderer) {
+GlslOptions lean_options(GlRenderer& renderer) {
   GlDraw draw;
   draw.planes = false;
   GlslOptions options = renderer.shader_options(draw);
   options.products = true;
+  options.instance_uniforms = renderer.buffers().has_large_meshes();
+  options.vertex_color = renderer.buffers().has_vertex_colors();
   return options;
 }
 
@@ -113,6 +116,14 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   renderer.buffers().upload_instances(pipeline);
 }
 
+void GlPeer::Work::draw_scene(GLuint program) {
+  glUseProgram(program);
+  if (options.instance_uniforms)
+    renderer.buffers().draw_instances(program);
+  else
+    renderer.buffers().draw_instances();
+}
+
 void GlPeer::Work::draw_gbuffer() {
   glBindFramebuffer(GL_FRAMEBUFFER, geometry_target.framebuffer);
   glDepthMask(GL_TRUE);
@@ -126,8 +137,7 @@ void GlPeer::Work::draw_gbuffer() {
   }
   glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
-  glUseProgram(geometry);
-  renderer.buffers().draw_instances();
+  draw_scene(geometry);
 }
 
 void GlPeer::Work::draw_depth() {
@@ -135,8 +145,7 @@ void GlPeer::Work::draw_depth() {
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
-  glUseProgram(depth_only);
-  renderer.buffers().draw_instances();
+  draw_scene(depth_only);
 }
 
 void GlPeer::Work::bin_lights() {
@@ -226,7 +235,7 @@ void GlPeer::Work::draw_multipass() {
   const int lights = int(scene().lights.size());
   for (int i = lights == 0 ? -1 : 0; i < std::max(lights, 0); ++i) {
     set_uniform(lighting, "light", i);
-    renderer.buffers().draw_instances();
+    draw_scene(lighting);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
     glEnable(GL_BLEND);
@@ -257,7 +266,7 @@ GlFrame GlPeer::Work::draw(bool read_back) {
     if (design == GlDesign::forward_multipass)
       draw_multipass();
     else
-      renderer.buffers().draw_instances();
+      draw_scene(lighting);
     timer.end("forward");
   } else {
     light_deferred();

@@ -89,9 +89,8 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
   if (design == GlDesign::forward_loop) text += "uniform int light_count;\n";
   if (design == GlDesign::forward_multipass) text += "uniform int light;  // -1: none, for a scene without lights\n";
   text += "layout(location = 0) out vec4 target;\n\n" + light_function_text(model, options) +
-          "\nvoid main() {\n  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n  vec4 albedo = color * "
-          "base;\n" +
-          surface_text(model);
+          "\nvoid main() {\n  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n  vec4 albedo = " +
+          albedo_text(options) + ";\n" + surface_text(model);
   if (design == GlDesign::forward_plus)
     text +=
         "  ivec2 tile = ivec2(gl_FragCoord.xy) / tile_size;\n  int at = 2 * (tile.y * columns + tile.x);\n"

@@ -36,7 +36,7 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
     if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
-    if (plane.name == "albedo") text += "color * base;\n";
+    if (plane.name == "albedo") text += albedo_text(options) + ";\n";
     if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
     if (plane.name == "id.object") text += "ids.x;\n";
     if (plane.name == "id.material") text += "ids.y;\n";
@@ -123,8 +123,9 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   };
   if (!g.position_from_depth) declare(g.position.interpolation, "vec3", "world_position");
   declare(g.normal.interpolation, "vec3", "world_normal");
-  declare(g.albedo.interpolation, "vec4", "color");
-  declare(Interpolation::flat, "vec4", "base");
+  if (options.vertex_color) declare(g.albedo.interpolation, "vec4", "color");
+  if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
+  if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
   if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
   if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
   return text;
@@ -164,13 +165,21 @@ std::string lit_call_text(const LightModel& model, const std::string& buffer, co
   return text + ")";
 }
 
+std::string albedo_text(const GlslOptions& options) { return options.vertex_color ? "color * base" : "base"; }
+
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: matrices are rows, rounded once from double");
   text += R"(layout(location = 0) in vec3 object_position;
 layout(location = 1) in vec3 object_normal;
 layout(location = 2) in vec4 vertex_color;  // 1 where the mesh has none
 layout(location = 3) in vec2 vertex_uv;
-layout(location = 4) in vec4 clip_from_object[4];
+)";
+  text += options.instance_uniforms ? R"(uniform vec4 clip_from_object[4];
+uniform vec4 world_from_object[3];
+uniform vec3 normal_from_object[3];  // inverse transpose
+uniform uvec2 instance_ids;
+)"
+                                    : R"(layout(location = 4) in vec4 clip_from_object[4];
 layout(location = 8) in vec4 world_from_object[3];
 layout(location = 11) in vec3 normal_from_object[3];  // inverse transpose
 layout(location = 14) in vec4 base_color;
@@ -190,9 +199,9 @@ void main() {
                 linear(normal_from_object[2], object_normal));
   float n2 = linear(n, n);
   world_normal = n * (n2 > 0.0 ? 1.0 / sqrt(n2) : 0.0);
-  color = vertex_color;
-  base = base_color;
 )";
+  if (options.vertex_color) text += "  color = vertex_color;\n";
+  if (!options.instance_uniforms) text += "  base = base_color;\n";
   if (!pipeline.gbuffer.position_from_depth)
     text +=
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "

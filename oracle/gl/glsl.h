@@ -16,6 +16,8 @@ struct GlslOptions {
   bool uv = true;         ///< plane uv
   bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
   bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
+  bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
+  bool vertex_color = true;        ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
 
@@ -51,6 +53,8 @@ std::string glsl_header(int version, std::string_view purpose);
 std::string glsl_float(float value);  ///< a literal that reads back as the same float
 /// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
+/// The surface's colour in a fragment shader with those varyings.
+std::string albedo_text(const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
 /// `vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color[, vec3 k])`: what one light adds.

@@ -11,12 +11,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr GLuint kPosition = 0, kNormal = 1, kColor = 2, kUv = 3, kInstance = 4, kIds = 15;  // as in vertex_text()
-constexpr int kInstanceFloats = 4 * 4 + 3 * 4 + 3 * 3 + 4;  // clip rows, world rows, normal rows, base colour
-
-struct InstanceRecord {
-  std::array<float, kInstanceFloats> values;
-  std::array<uint32_t, 2> ids;
-};
+constexpr size_t kLargeMesh = 3 * 1000;                                                      // indices an instance
 
 /// Vertex attributes of a mesh side by side, as GPUs like them: position, normal, then colour and uv if there are any.
 std::vector<float> interleaved(const Mesh& mesh) {
@@ -62,7 +57,7 @@ void point_at_instances(uint32_t first) {
   }
   glEnableVertexAttribArray(kIds);
   glVertexAttribIPointer(kIds, 2, GL_UNSIGNED_INT, GLsizei(sizeof(InstanceRecord)),
-                         byte_offset(start + kInstanceFloats * sizeof(float)));
+                         byte_offset(start + InstanceRecord::kFloats * sizeof(float)));
   glVertexAttribDivisor(kIds, 1);
 }
 
@@ -107,13 +102,18 @@ SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& mesh, int rotation) c
   return out;
 }
 
+bool SceneBuffers::has_vertex_colors() const {
+  return std::any_of(scene_->meshes.begin(), scene_->meshes.end(), [](const Mesh& m) { return m.has_color(); });
+}
+
 bool SceneBuffers::has_type(LightType type) const {
   return std::any_of(scene_->lights.begin(), scene_->lights.end(), [type](const Light& l) { return l.type == type; });
 }
 
 void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   const Matrix4 clip = projection_of(scene_->camera, pipeline.geometry, pipeline.width, pipeline.height);
-  std::vector<InstanceRecord> records;
+  std::vector<InstanceRecord>& records = records_;
+  records.clear();
   records.reserve(scene_->instances.size());
   for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
     const Instance& instance = scene_->instances[i];
@@ -142,6 +142,31 @@ void SceneBuffers::draw_instances() const {
     point_at_instances(run.first);
     glDrawElementsInstanced(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr, GLsizei(run.count));
   }
+}
+
+void SceneBuffers::draw_instances(GLuint program) const {
+  glVertexAttrib4f(kColor, 1, 1, 1, 1);
+  glVertexAttrib2f(kUv, 0, 0);
+  const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };
+  const GLint clip = place("clip_from_object"), world = place("world_from_object");
+  const GLint normal = place("normal_from_object"), base = place("base"), ids = place("instance_ids");
+  for (uint32_t i = 0; i < records_.size(); ++i) {
+    const MeshBuffers& mesh = meshes_[scene_->instances[i].mesh];
+    glBindVertexArray(mesh.array);
+    const float* values = records_[i].values.data();
+    glUniform4fv(clip, 4, values);
+    glUniform4fv(world, 3, values + 16);
+    glUniform3fv(normal, 3, values + 28);
+    glUniform4fv(base, 1, values + 37);
+    glUniform2uiv(ids, 1, records_[i].ids.data());
+    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+bool SceneBuffers::has_large_meshes() const {
+  size_t indices = 0;
+  for (const InstanceRun& run : runs_) indices += size_t(meshes_[run.mesh].index_count) * run.count;
+  return indices >= kLargeMesh * scene_->instances.size();
 }
 
 GLuint SceneBuffers::light_texels(const LightModel& model) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct InstanceRun {
   uint32_t first = 0, count = 0;
 };
 
+/// What a draw needs to know of an instance.
+struct InstanceRecord {
+  static constexpr int kFloats = 4 * 4 + 3 * 4 + 3 * 3 + 4;  ///< clip rows, world rows, normal rows, base colour
+  std::array<float, kFloats> values;
+  std::array<uint32_t, 2> ids;
+};
+
 /// A scene on the GPU: each mesh once, lights as texels. Instance matrices follow when a camera and a size are known.
 class SceneBuffers {
  public:
@@ -22,11 +30,15 @@ class SceneBuffers {
   explicit SceneBuffers(const Scene& scene, int rotation = 0);
 
   const Scene& scene() const { return *scene_; }
+  bool has_vertex_colors() const;
   bool has_type(LightType type) const;
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
   void draw_instances() const;  ///< every triangle, in submission order
+  /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
+  void draw_instances(GLuint program) const;
+  bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the layout of texels_per_light(); made again when the layout changes.
   GLuint light_texels(const LightModel& model);
 
@@ -42,6 +54,7 @@ class SceneBuffers {
   std::vector<MeshBuffers> meshes_;
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;
+  std::vector<InstanceRecord> records_;  ///< what instances_ holds
   GlTexelBuffer lights_;
   int light_layout_ = 0;  ///< texels a light of lights_; 0: none yet
 };

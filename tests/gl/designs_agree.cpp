@@ -69,3 +69,7 @@ TEST_CASE("Every OpenGL design knows ambient and directional lights, and eyes in
   scene.lights.insert(scene.lights.begin() + 3, {ambient, sun, near});
   check_designs(scene, presets().front());
 }
+
+TEST_CASE("Every OpenGL design draws large meshes, a draw an instance, as we do") {
+  check_designs(builtin_scene("rabbits,objects=3,lights=6"), presets().front());
+}
