@@ -1,4 +1,4 @@
-// Edge functions -> covered pixels of a tile, block by block, and what happens to them. Included once per SIMD target.
+// Edge functions -> covered pixels of a tile, block by block. Included once per SIMD target.
 // docs/arithmetic.md sections 4 to 6.
 #if defined(TRUESHADE_RASTER_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_COVERAGE_INL_H_
@@ -9,10 +9,8 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "raster/careful.h"
+#include "raster/commit-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -20,140 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using M64 = hn::Mask<D64>;
-
-/// Counts covered samples: for overdraw, and for tests of watertightness.
-struct CountCommit {
-  uint16_t* counts;  ///< in tile_index() order
-
-  template <class T>
-  void begin(const TriangleSetup<T>&) {}
-  bool hidden(int) const { return false; }
-  HWY_INLINE bool vector(int at, M64 covered, V64, V64) {
-    const D64 d;
-    constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
-    alignas(64) double one[kLanes];
-    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i)
-      counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
-    return false;
-  }
-  bool scalar(int at, double, double) {
-    ++counts[at];
-    return false;
-  }
-  void finish_block(int) {}
-};
-
-/// Whether a fragment replaces what is there. Ties of the ordered functions go by submission, so order of drawing is
-/// free.
-constexpr bool passes(DepthFunc func, float z, float there, uint32_t id, uint32_t there_id) {
-  switch (func) {
-    case DepthFunc::never:
-      return false;
-    case DepthFunc::less:
-      return z < there || (z == there && id < there_id);
-    case DepthFunc::lequal:
-      return z < there || (z == there && id > there_id);
-    case DepthFunc::greater:
-      return z > there || (z == there && id < there_id);
-    case DepthFunc::gequal:
-      return z > there || (z == there && id > there_id);
-    case DepthFunc::equal:
-      return z == there;
-    case DepthFunc::notequal:
-      return z != there;
-    case DepthFunc::always:
-      return true;
-  }
-  return false;
-}
-
-/// Tests depth and keeps the visible id.
-struct DepthCommit {
-  VisibilityTile& tile;
-  DepthFunc func;
-  float range_low, range_high;
-  bool skip_hidden;  ///< use the blocks' largest depths
-  uint64_t fragments = 0;
-  uint32_t id = 0;
-  double z0 = 0, g1 = 0, g2 = 0, z_low = 0, z_high = 0;
-  float nearest = 0;
-
-  template <class T>
-  void begin(const TriangleSetup<T>& s) {
-    z0 = s.z0, g1 = s.g1, g2 = s.g2, z_low = s.z_low, z_high = s.z_high;
-    nearest = std::min(std::max(float(z_low), range_low), range_high);
-  }
-  bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
-
-  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
-    const D64 d;
-    const D32 df;
-    const U32 du;
-    fragments += hn::CountTrue(d, covered);
-    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e1, hn::Set(d, g1)), hn::Mul(e2, hn::Set(d, g2))));
-    const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
-    const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
-    // Lanes that are not covered become NaN, which passes no comparison below.
-    const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    const V32 z = hn::DemoteTo(df, hn::IfThenElse(covered, in_range, nan));
-    const V32 there = hn::Load(df, tile.depth + at);
-    const auto there_id = hn::Load(du, tile.id + at);
-    const auto my_id = hn::Set(du, id);
-    const auto tie_first = hn::And(hn::Eq(z, there), hn::RebindMask(df, hn::Gt(there_id, my_id)));
-    const auto tie_last = hn::And(hn::Eq(z, there), hn::RebindMask(df, hn::Gt(my_id, there_id)));
-    auto pass = hn::Lt(z, there);
-    switch (func) {
-      case DepthFunc::never:
-        return false;
-      case DepthFunc::less:
-        pass = hn::Or(pass, tie_first);
-        break;
-      case DepthFunc::lequal:
-        pass = hn::Or(pass, tie_last);
-        break;
-      case DepthFunc::greater:
-        pass = hn::Or(hn::Gt(z, there), tie_first);
-        break;
-      case DepthFunc::gequal:
-        pass = hn::Or(hn::Gt(z, there), tie_last);
-        break;
-      case DepthFunc::equal:
-        pass = hn::Eq(z, there);
-        break;
-      case DepthFunc::notequal:
-        pass = hn::Or(pass, hn::Gt(z, there));
-        break;
-      case DepthFunc::always:
-        pass = hn::Eq(z, z);
-        break;
-    }
-    if (hn::AllFalse(df, pass)) return false;
-    hn::Store(hn::IfThenElse(pass, z, there), df, tile.depth + at);
-    hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, tile.id + at);
-    return true;
-  }
-
-  bool scalar(int at, double e1, double e2) {
-    ++fragments;
-    const double plane = z0 + (e1 * g1 + e2 * g2);
-    const double in_hull = std::min(std::max(plane, z_low), z_high);
-    const float z = float(std::min(std::max(in_hull, double(range_low)), double(range_high)));
-    if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
-    tile.depth[at] = z;
-    tile.id[at] = id;
-    return true;
-  }
-
-  HWY_INLINE void finish_block(int block) {
-    const D32 df;
-    const float* depth = tile.depth + block * kBlockPixels;
-    V32 far = hn::Load(df, depth);
-    for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
-    tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
-  }
-};
 
 /// Column and row of each lane's pixel in a block, for vectors that start at a multiple of their length.
 alignas(64) inline constexpr double kLaneColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kLaneRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
