@@ -1,6 +1,6 @@
 #!/bin/bash
 # Fails on an #include against the arrows core <- scenes <- raster <- shading <- cli; oracle sees core and scenes. Also
-# holds libraries to their places: OpenImageIO in core/image_io.cpp and core/read_image.cpp, TBB in core/fp_env.cpp, Embree in oracle/embree_rays.cpp.
+# holds libraries to their places: OpenImageIO in core/image_io.cpp, core/jpeg_pixels.cpp and core/read_image.cpp, TBB in core/fp_env.cpp, Embree in oracle/embree_rays.cpp.
 # Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
@@ -36,7 +36,7 @@ allowed shading 'core|scenes|raster|shading'
 allowed compare 'core|compare'
 allowed oracle 'core|scenes|oracle'
 allowed cli 'core|scenes|raster|shading|compare|oracle|cli'
-only_in 'OpenImageIO/' 'core/(image_io|read_image).cpp'
+only_in 'OpenImageIO/' 'core/(image_io|jpeg_pixels|read_image).cpp'
 only_in '(tbb|oneapi)/' 'core/fp_env.cpp'
 only_in 'embree' 'oracle/embree_rays.cpp'
 only_in 'epoxy/' 'oracle/gl/[a-z_]*\.(h|cpp)'
