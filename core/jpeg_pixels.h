@@ -7,8 +7,9 @@
 
 namespace trueshade {
 
-/// Size of a JPEG, from its frame header. Walks the whole stream and so refuses one that is cut off, which libjpeg would
-/// fill with grey. Error(bad_input) naming `where`: not a JPEG, truncated, or of a kind other than 8 bits grey or YCbCr.
+/// Size of a JPEG, from its frame header. Walks the whole stream and so refuses one that is cut off, which libjpeg
+/// would fill with grey. Error(bad_input) naming `where`: not a JPEG, truncated, or of a kind other than 8 bits grey or
+/// YCbCr.
 struct JpegSize {
   int width, height;
 };

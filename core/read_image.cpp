@@ -73,7 +73,9 @@ void check_size(const std::string& path, int width, int height, uint64_t texel_b
 class ExrFile {
  public:
   ExrFile(const std::string& path, std::span<const uint8_t> bytes)
-      : path_(path), memory_(const_cast<uint8_t*>(bytes.data()), bytes.size()), file_(OIIO::ImageInput::create("openexr")) {
+      : path_(path),
+        memory_(const_cast<uint8_t*>(bytes.data()), bytes.size()),
+        file_(OIIO::ImageInput::create("openexr")) {
     if (!file_ || !file_->set_ioproxy(&memory_) || !file_->open(path, spec_)) throw failure();
   }
 

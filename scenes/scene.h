@@ -61,8 +61,8 @@ struct SceneLimits {
 
 /// Texels of an image file's content: rgba8 as the codes are, rgba16f or rgba32f. Made by who links an image library;
 /// scenes does not. `where` stands in errors. Error(limit) for more than `most_bytes`, before they are allocated.
-using ImageDecoder = std::function<Image(std::span<const uint8_t> content, const std::string& where,
-                                         uint64_t most_bytes)>;
+using ImageDecoder =
+    std::function<Image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes)>;
 
 /// Throws Error(bad_input or limit) unless every index, number and count is in its stated range: finite positions with
 /// |x| <= 1e18, colours in [0, 1e18], ranges > 0, unit directions, indices below the vertex count.

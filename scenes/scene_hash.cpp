@@ -6,8 +6,8 @@
 #include "scenes/scene.h"
 
 // Layout of the hashed bytes: every number little-endian, counts as 64-bit before what they count, floats by their bits
-// except that -0 counts as 0. Names and the spec are left out: they change no pixel. Textures and what materials do with
-// them come last, and only where a material does something.
+// except that -0 counts as 0. Names and the spec are left out: they change no pixel. Textures and what materials do
+// with them come last, and only where a material does something.
 namespace trueshade {
 namespace {
 

@@ -23,7 +23,7 @@ constexpr double kLargest = 1e18;
 constexpr double kRadPerDeg = kPi / 180.0;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
-constexpr std::string_view kRootKeys[] = {"version", "camera",  "clear",  "textures",
+constexpr std::string_view kRootKeys[] = {"version",   "camera",  "clear",  "textures",
                                           "materials", "objects", "lights", "pipeline"};
 constexpr std::string_view kCameraKeys[] = {"eye",      "target", "up",  "fov_deg",
                                             "fov_axis", "near",   "far", "clip_from_world"};
@@ -38,19 +38,32 @@ constexpr std::string_view kSpotKeys[] = {"type",  "position",    "direction", "
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation"};
 
-enum Object : size_t { kRoot, kCamera, kTexture, kPattern, kMap, kMaterial, kObject, kAmbient, kDirectional, kPoint, kSpot, kRing };
+enum Object : size_t {
+  kRoot,
+  kCamera,
+  kTexture,
+  kPattern,
+  kMap,
+  kMaterial,
+  kObject,
+  kAmbient,
+  kDirectional,
+  kPoint,
+  kSpot,
+  kRing
+};
 constexpr std::array<json::ObjectKeys, 12> kObjects{{{"", kRootKeys},
-                                                    {"camera", kCameraKeys},
-                                                    {"texture", kTextureKeys},
-                                                    {"pattern", kPatternKeys},
-                                                    {"map", kMapKeys},
-                                                    {"material", kMaterialKeys},
-                                                    {"object", kObjectKeys},
-                                                    {"ambient", kAmbientKeys},
-                                                    {"directional", kDirectionalKeys},
-                                                    {"point", kPointKeys},
-                                                    {"spot", kSpotKeys},
-                                                    {"ring", kRingKeys}}};
+                                                     {"camera", kCameraKeys},
+                                                     {"texture", kTextureKeys},
+                                                     {"pattern", kPatternKeys},
+                                                     {"map", kMapKeys},
+                                                     {"material", kMaterialKeys},
+                                                     {"object", kObjectKeys},
+                                                     {"ambient", kAmbientKeys},
+                                                     {"directional", kDirectionalKeys},
+                                                     {"point", kPointKeys},
+                                                     {"spot", kSpotKeys},
+                                                     {"ring", kRingKeys}}};
 
 using Key = std::string_view;
 
@@ -144,11 +157,7 @@ glm::mat4x3 read_transform(const json::Node& object) {
 class ObjectReader {
  public:
   ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits, const ImageDecoder& decode)
-      : scene_(scene),
-        path_(path),
-        folder_(path),
-        limits_(limits),
-        surfaces_(scene, path_, folder_, limits_, decode) {}
+      : scene_(scene), path_(path), folder_(path), limits_(limits), surfaces_(scene, path_, folder_, limits_, decode) {}
 
   void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
 

@@ -61,7 +61,8 @@ std::array<float, 4> box(const Texture& texture, size_t level, const Taps& acros
 
 std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, int y) {
   const TextureLevel& from = texture.levels[level];
-  const uint8_t* at = from.bytes.data() + (size_t(y) * size_t(from.width) + size_t(x)) * size_t(bytes_per_texel(texture.format));
+  const uint8_t* at =
+      from.bytes.data() + (size_t(y) * size_t(from.width) + size_t(x)) * size_t(bytes_per_texel(texture.format));
   std::array<float, 4> value;
   switch (texture.format) {
     case TextureFormat::rgba8:

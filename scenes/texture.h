@@ -29,9 +29,9 @@ constexpr int bytes_per_texel(TextureFormat format) {
   return format == TextureFormat::rgba32f ? 16 : format == TextureFormat::rgba16f ? 8 : 4;
 }
 
-inline constexpr int kMaxTextureSide = 16384;                       ///< texels
-inline constexpr uint64_t kMaxTextureTexels = uint64_t(1) << 28;    ///< of one level
-inline constexpr int kMaxTextureLevels = 15;                        ///< floor(log2(16384)) + 1
+inline constexpr int kMaxTextureSide = 16384;                     ///< texels
+inline constexpr uint64_t kMaxTextureTexels = uint64_t(1) << 28;  ///< of one level
+inline constexpr int kMaxTextureLevels = 15;                      ///< floor(log2(16384)) + 1
 
 /// One level: rows without padding, the first at v = 0, each from u = 0 on; channels little-endian.
 struct TextureLevel {

@@ -64,8 +64,7 @@ Texture texture_of(const TexturePattern& p) {
     for (int x = 0; x < p.width; ++x) {
       const float part = float(std::min<int64_t>(share(p, x, y), 65536)) * 0x1p-16f;
       std::array<float, 4> value;
-      for (int c = 0; c < 4; ++c)
-        value[size_t(c)] = p.colors[0][c] * (1.0f - part) + p.colors[1][c] * part;
+      for (int c = 0; c < 4; ++c) value[size_t(c)] = p.colors[0][c] * (1.0f - part) + p.colors[1][c] * part;
       append_texel(p.format, value, level.bytes);
     }
   }

@@ -69,9 +69,9 @@ float check_texture(const Texture& texture, const Part& part) {
     const TextureLevel& level = texture.levels[k];
     part.require(level.width == std::max(1, width >> k) && level.height == std::max(1, height >> k),
                  "a level has the wrong size", "half the sides of the level before it, rounded down, at least 1");
-    part.require(level.bytes.size() ==
-                     size_t(level.width) * size_t(level.height) * size_t(bytes_per_texel(texture.format)),
-                 "a level has too many or too few bytes", "width * height texels");
+    part.require(
+        level.bytes.size() == size_t(level.width) * size_t(level.height) * size_t(bytes_per_texel(texture.format)),
+        "a level has too many or too few bytes", "width * height texels");
     if (bytes_per_texel(texture.format) == 4) continue;  // every code is a number in [0, 1]
     for (int y = 0; y < level.height; ++y)
       for (int x = 0; x < level.width; ++x) {

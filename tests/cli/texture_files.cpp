@@ -111,8 +111,8 @@ TEST_CASE("cut-off pictures are refused at every length") {
 TEST_CASE("damaged pictures end in an answer or a refusal") {
   const std::vector<uint8_t> texels = ramp(24 * 24 * 4);
   for (const char* kind : {"png", "jpg", "exr"}) {
-    const std::vector<uint8_t> file = written(kind, 24, 8, 3, kind[0] == 'e' ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8,
-                                              texels.data());
+    const std::vector<uint8_t> file =
+        written(kind, 24, 8, 3, kind[0] == 'e' ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8, texels.data());
     for (size_t at = 0; at < file.size(); ++at) {
       std::vector<uint8_t> damaged = file;
       damaged[at] = uint8_t(damaged[at] ^ (1u << (at % 8)));
@@ -149,7 +149,8 @@ TEST_CASE("the command refuses bad textures in one line") {
   std::filesystem::create_directory(scratch.path("folder.png"));
   std::ofstream(scratch.path("torn.png"), std::ios::binary) << "\x89PNG\r\n\x1a\n";
   const auto refused = [&](const std::string& file, int exit_code, const std::string& about) {
-    std::ofstream(scratch.path("s.json")) << R"({"version": 1, "textures": [{"name": "t", "file": ")" << file << "\"}]}";
+    std::ofstream(scratch.path("s.json"))
+        << R"({"version": 1, "textures": [{"name": "t", "file": ")" << file << "\"}]}";
     check_refused(run_command({"render", "s.json", "--hash"}, scratch.path(".")), exit_code, about);
   };
   refused("absent.png", 5, "/textures/0/file: absent.png");

@@ -68,8 +68,14 @@ TEST_CASE("maps say how a texture is read") {
   CHECK(scene.textures[0].format == TextureFormat::rgba8);
   CHECK(m.alpha_cutoff == 0.25f);
   CHECK(m.normal_scale == -2.0f);
-  const Sampler expected{{Wrap::clamp_to_border, Wrap::mirrored_repeat}, Filter::nearest, Filter::linear,
-                         MipFilter::nearest, -1.5f, 0.0f, 3.0f, {0.5f, 0.25f, 1.0f, 0.125f}};
+  const Sampler expected{{Wrap::clamp_to_border, Wrap::mirrored_repeat},
+                         Filter::nearest,
+                         Filter::linear,
+                         MipFilter::nearest,
+                         -1.5f,
+                         0.0f,
+                         3.0f,
+                         {0.5f, 0.25f, 1.0f, 0.125f}};
   CHECK(m.color_map.sampler == expected);
   CHECK(m.specular_map.sampler == Sampler{});
   CHECK(m.normal_map.sampler.wrap == std::array<Wrap, 2>{Wrap::mirror_clamp_to_edge, Wrap::mirror_clamp_to_edge});
@@ -77,7 +83,8 @@ TEST_CASE("maps say how a texture is read") {
 }
 
 TEST_CASE("levels come from files or are made where a map reads them") {
-  const Scene given = load(textures(R"({"name": "t", "levels": ["two.tex", "one.tex"], "encoding": "linear"})", material("")));
+  const Scene given =
+      load(textures(R"({"name": "t", "levels": ["two.tex", "one.tex"], "encoding": "linear"})", material("")));
   REQUIRE(given.textures[0].levels.size() == 2);
   CHECK(given.textures[0].levels[1].bytes == std::vector<uint8_t>{0, 1, 2, 3});
   const Scene unread = load(textures(R"({"name": "t", "file": "two.tex"})", material(R"(, "mip": "none")")));
@@ -101,8 +108,9 @@ TEST_CASE("bad textures are refused with their place") {
   CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "one.tex"}, {"name": "t", "file": "one.tex"})")),
                     "s.json: /textures/1: a texture of this name exists");
   CHECK_STARTS_WITH(refusal(textures("", material(""))), "s.json: /materials/0/color_map/texture: no texture has");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "one.tex"})", material(R"(, "lod_min": 2, "lod_max": 1)"))),
-                    "s.json: /materials/0/color_map: lod_min is above lod_max");
+  CHECK_STARTS_WITH(
+      refusal(textures(R"({"name": "t", "file": "one.tex"})", material(R"(, "lod_min": 2, "lod_max": 1)"))),
+      "s.json: /materials/0/color_map: lod_min is above lod_max");
   CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [0, 4]}})")),
                     "s.json: /textures/0/pattern/size/0");
   CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16385, 4]}})")),
@@ -120,7 +128,9 @@ TEST_CASE("without a decoder only patterns are textures") {
   const std::string file = scratch.write("s.json", textures(R"({"name": "t", "file": "one.tex"})"));
   const std::string message = error_of(ErrorKind::bad_input, [&] { load_scene(file); });
   CHECK(message.find("this program reads no image files") != std::string::npos);
-  CHECK(load_scene(scratch.write("p.json", textures(R"({"name": "t", "pattern": {"type": "brick"}})"))).textures.size() == 1);
+  CHECK(
+      load_scene(scratch.write("p.json", textures(R"({"name": "t", "pattern": {"type": "brick"}})"))).textures.size() ==
+      1);
 }
 
 Texture floats(int width, int height, const std::vector<float>& values) {
@@ -145,7 +155,10 @@ TEST_CASE("texels that are no colours, sizes that do not fit and samplers out of
   const float kBad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f, 2e18f};
   for (const float bad : kBad) {
     INFO(bad);
-    CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { validate(with(floats(2, 1, {0.0f, bad}))); }),
+    CHECK_STARTS_WITH(error_of(ErrorKind::bad_input,
+                               [&] {
+                                 validate(with(floats(2, 1, {0.0f, bad})));
+                               }),
                       "test: texture 0: a texel is out of range");
   }
   const auto refused = [&](auto&& change) {
@@ -160,7 +173,9 @@ TEST_CASE("texels that are no colours, sizes that do not fit and samplers out of
   refused([](Scene& s) { s.textures[0].levels.push_back(s.textures[0].levels[0]); });
   refused([](Scene& s) { s.materials[0].color_map.texture = 1; });
   refused([](Scene& s) { s.materials[0].color_map.sampler.lod_bias = std::numeric_limits<float>::quiet_NaN(); });
-  refused([](Scene& s) { s.materials[0].color_map.sampler.lod_min = 3.0f, s.materials[0].color_map.sampler.lod_max = 2.0f; });
+  refused([](Scene& s) {
+    s.materials[0].color_map.sampler.lod_min = 3.0f, s.materials[0].color_map.sampler.lod_max = 2.0f;
+  });
   refused([](Scene& s) { s.materials[0].color_map.sampler.border.x = -1.0f; });
   refused([](Scene& s) { s.materials[0].alpha_cutoff = 2.0f; });
   refused([](Scene& s) { s.materials[0].normal_scale = std::numeric_limits<float>::infinity(); });
@@ -247,8 +262,7 @@ TEST_CASE("patterns repeat without a seam and follow their seed") {
   p.width = 64, p.height = 32, p.columns = 4, p.rows = 2, p.format = TextureFormat::rgba32f;
   const Texture checker = texture_of(p);
   for (int y = 0; y < 32; ++y)
-    for (int x = 0; x < 64; ++x)
-      CHECK(texel_value(checker, 0, x, y)[0] == ((x / 16 + y / 16) % 2 == 0 ? 1.0f : 0.2f));
+    for (int x = 0; x < 64; ++x) CHECK(texel_value(checker, 0, x, y)[0] == ((x / 16 + y / 16) % 2 == 0 ? 1.0f : 0.2f));
   for (const Pattern pattern : {Pattern::brick, Pattern::noise}) {
     p.pattern = pattern, p.seed = 5;
     const Texture one = texture_of(p);
@@ -256,7 +270,8 @@ TEST_CASE("patterns repeat without a seam and follow their seed") {
     const Texture other = texture_of(p);
     CHECK(one.levels[0].bytes != other.levels[0].bytes);
     CHECK_NOTHROW(validate(with(one)));
-    // Twice the cells over twice the texels, read over the first half: the lattice is the same where it has not wrapped.
+    // Twice the cells over twice the texels, read over the first half: the lattice is the same where it has not
+    // wrapped.
     float low = 2.0f, high = -1.0f;
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 64; ++x) {
