@@ -147,6 +147,11 @@ TextureSlot MaterialReader::read_map(const json::Node& node) const {
 Material MaterialReader::read_material(const json::Node& node) const {
   node.check_keys(kMaterial);
   Material material{node.member("name").string(), node.member("color").color()};
+  if (const auto color = node.find("specular_color")) material.specular_color = color->vec3(0.0f, 1e18);
+  if (const auto shininess = node.find("shininess")) material.shininess = float(shininess->integer(0, 8192));
+  if (const auto color = node.find("emission")) material.emission = color->vec3(0.0f, 1e18);
+  if (const auto metallic = node.find("metallic")) material.metallic = metallic->real(0.0, 1.0);
+  if (const auto roughness = node.find("roughness")) material.roughness = roughness->real(0.0, 1.0);
   if (const auto map = node.find("color_map")) material.color_map = read_map(*map);
   if (const auto map = node.find("specular_map")) material.specular_map = read_map(*map);
   if (const auto map = node.find("normal_map")) material.normal_map = read_map(*map);

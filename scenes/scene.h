@@ -18,11 +18,17 @@ namespace trueshade {
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};  ///< linear RGBA, times the vertex colour
-  TextureSlot color_map{};     ///< times the colour, alpha too
-  TextureSlot specular_map{};  ///< RGB times the specular colour
-  TextureSlot normal_map{};    ///< tangent space, (n + 1) / 2
-  float normal_scale = 1.0f;   ///< of the map's x and y
-  float alpha_cutoff = 0.0f;   ///< fragments with less alpha are not drawn; 0: all are
+  // What lights beside the albedo; a light model reads the fields it names (scenes/light_model.h).
+  glm::vec3 specular_color{0.25f};  ///< each in [0, 1e18]
+  float shininess = 32.0f;          ///< an integer from 0 to 8192
+  glm::vec3 emission{0.0f};         ///< each in [0, 1e18]
+  float metallic = 0.0f;            ///< in [0, 1]
+  float roughness = 1.0f;           ///< in [0, 1]
+  TextureSlot color_map{};          ///< times the colour, alpha too
+  TextureSlot specular_map{};       ///< RGB times the specular colour
+  TextureSlot normal_map{};         ///< tangent space, (n + 1) / 2
+  float normal_scale = 1.0f;        ///< of the map's x and y
+  float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
 
   bool masked() const { return alpha_cutoff > 0.0f; }
   bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }

@@ -31,10 +31,10 @@ constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",      "color", "material",
                                             "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity"};
-constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity"};
-constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation"};
-constexpr std::string_view kSpotKeys[] = {"type",  "position",    "direction", "color",       "intensity",
-                                          "range", "attenuation", "cone_deg",  "penumbra_deg"};
+constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity", "ambient"};
+constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation", "ambient"};
+constexpr std::string_view kSpotKeys[] = {"type",        "position", "direction",    "color",   "intensity",    "range",
+                                          "attenuation", "cone_deg", "penumbra_deg", "ambient", "spot_exponent"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation"};
 
@@ -270,6 +270,7 @@ Light read_light(const json::Node& node, LightType type) {
   Light light;
   light.type = type;
   light.color = read_color(node);
+  if (const auto ambient = node.find("ambient")) light.ambient = ambient->vec3(0.0f, kLargest);
   if (type == LightType::directional || type == LightType::spot)
     light.direction = read_direction(node.member("direction"));
   if (type == LightType::ambient || type == LightType::directional) return light;
@@ -283,6 +284,7 @@ Light read_light(const json::Node& node, LightType type) {
   if (cone + fade > 180.0) node.fail("cone_deg and penumbra_deg together are over 180", "a sum of at most 180");
   light.cone_rad = float(cone * kRadPerDeg);
   light.penumbra_rad = float(fade * kRadPerDeg);
+  light.spot_exponent = real_or(node, "spot_exponent", 0.0f, 0.0, 8192.0);
   return light;
 }
 

@@ -106,8 +106,17 @@ void check_map(const TextureSlot& slot, std::span<const float> largest, float fa
 void check_material(const Material& material, std::span<const float> largest, const Part& part) {
   const glm::vec4& base = material.base_color;
   part.require(is_color(base), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  part.require(within(material.specular_color, 0.0f, kLargest), "the specular colour is out of range",
+               "each channel in [0, 1e18]");
+  part.require(material.shininess >= 0.0f && material.shininess <= 8192.0f &&
+                   material.shininess == std::nearbyint(material.shininess),
+               "the shininess is out of range", "an integer from 0 to 8192");
+  part.require(within(material.emission, 0.0f, kLargest), "the emission is out of range", "each channel in [0, 1e18]");
+  part.require(material.metallic >= 0.0f && material.metallic <= 1.0f, "metallic is out of range", "in [0, 1]");
+  part.require(material.roughness >= 0.0f && material.roughness <= 1.0f, "roughness is out of range", "in [0, 1]");
+  const glm::vec3& specular = material.specular_color;
   check_map(material.color_map, largest, std::max({base.x, base.y, base.z}), part);
-  check_map(material.specular_map, largest, 1.0f, part);
+  check_map(material.specular_map, largest, std::max({specular.x, specular.y, specular.z}), part);
   check_map(material.normal_map, largest, 1.0f, part);
   part.require(material.normal_scale >= -1000.0f && material.normal_scale <= 1000.0f,
                "the normal map's scale is out of range", "in [-1000, 1000]");
@@ -124,6 +133,8 @@ void check_light(const Light& light, const Part& part) {
   part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
   if (light.type == LightType::ambient) return;
+  part.require(within(light.ambient, 0.0f, kLargest), "the ambient colour is negative, over 1e18 or no number",
+               "each channel in [0, 1e18]");
   if (light.type != LightType::point)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (light.type == LightType::directional) return;
@@ -135,6 +146,8 @@ void check_light(const Light& light, const Part& part) {
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
+  part.require(light.spot_exponent >= 0.0f && light.spot_exponent <= 8192.0f, "the spot exponent is out of range",
+               "in [0, 8192]");
 }
 
 void check_camera(const Camera& camera, const Part& part) {
