@@ -9,6 +9,7 @@
 
 #include "core/fp_env.h"
 #include "raster/coverage-inl.h"
+#include "raster/outline-inl.h"
 
 // Once in all, though the file is read once per target.
 #ifndef TRUESHADE_RASTER_PLACED_MESH
@@ -110,11 +111,17 @@ void count_mesh_simd(const LightMesh& mesh, const PlacedMesh& placed, const Geom
   }
 }
 
+RegionCover region_cover_simd(const LightOutlines& outlines, size_t light, int x, int y, int width, int height,
+                              RegionMasks& masks) {
+  return polygon_cover(outlines, light, x, y, width, height, masks);
+}
+
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace trueshade {
+HWY_EXPORT(region_cover_simd);
 HWY_EXPORT(place_mesh_simd);
 HWY_EXPORT(count_mesh_simd);
 namespace {
@@ -196,7 +203,7 @@ struct OutlineMaker {
     while (x.size() > first + 1 && x.back() == x[first] && y.back() == y[first]) x.pop_back(), y.pop_back();
     const size_t corners = x.size() - first;
     int upward_turns = 0;
-    bool convex = corners >= 3;
+    bool convex = corners >= 3 && corners <= kMostOutlineCorners;
     for (size_t i = 0; i < corners && convex; ++i) {
       const size_t a = first + i, b = first + (i + 1) % corners, c = first + (i + 2) % corners;
       const int64_t ux = x[b] - x[a], uy = y[b] - y[a], vx = x[c] - x[b], vy = y[c] - y[b];
@@ -278,6 +285,11 @@ LightOutlines make_light_outlines(std::span<const Light> lights, const Pipeline&
     out.y.insert(out.y.end(), maker.y.begin(), maker.y.end());
   }
   return out;
+}
+
+RegionCover region_cover(const LightOutlines& outlines, size_t light, int x, int y, int width, int height,
+                         RegionMasks& masks) {
+  return HWY_DYNAMIC_DISPATCH(region_cover_simd)(outlines, light, x, y, width, height, masks);
 }
 
 int count_light_mesh(const LightMesh& mesh, const Light& light, const LightOutlines& outlines, const View& view,

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/region.h"
 #include "raster/view.h"
 #include "raster/visibility.h"
 #include "scenes/light_mesh.h"
@@ -16,6 +17,8 @@ enum class OutlineKind : uint8_t {
   polygon,     ///< the inside of one convex polygon, as many times as `layers` says
   mesh         ///< whatever its triangles cover, each by itself
 };
+
+inline constexpr uint32_t kMostOutlineCorners = 192;  ///< of a polygon
 
 /// Where the geometry of each light lies in the window, made once a frame. A mesh all of whose vertices are in front
 /// of the camera and whose drawn side has a convex outline covers, by the fill rule, exactly the inside of that
@@ -38,6 +41,11 @@ GeometryState light_geometry_state(const Pipeline& pipeline);
 
 LightOutlines make_light_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
                                   const View& view, int threads);
+
+/// Which pixels of a region a polygon covers, the region's first pixel in the window being (x, y), its sides multiples
+/// of 4. `masks` is set where the answer is `some`.
+RegionCover region_cover(const LightOutlines& outlines, size_t light, int x, int y, int width, int height,
+                         RegionMasks& masks);
 
 /// How often the mesh of one light covers each pixel of a tile: any kind of outline, triangle by triangle.
 ///   counts: tile_index() order; set, not added to. Returns the largest.
