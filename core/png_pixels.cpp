@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -15,7 +16,6 @@ namespace trueshade {
 namespace {
 
 constexpr size_t kSignatureBytes = 8, kChunkOverhead = 12;  // a chunk: length, type, data, CRC
-constexpr size_t kTexelBytes = 4;
 constexpr size_t kPiece = 65536;
 
 uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
@@ -71,12 +71,12 @@ int paeth(int left, int above, int corner) {
 }
 
 /// Undoes a row's filter in place. `above`: the row before it, undone; null for the first.
-void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes) {
+void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes, size_t texel) {
   if (filter > 4) throw refused(where, "a row has a filter that PNG does not know");
   for (size_t i = 0; i < bytes; ++i) {
-    const int left = i < kTexelBytes ? 0 : row[i - kTexelBytes];
+    const int left = i < texel ? 0 : row[i - texel];
     const int up = above == nullptr ? 0 : above[i];
-    const int corner = i < kTexelBytes || above == nullptr ? 0 : above[i - kTexelBytes];
+    const int corner = i < texel || above == nullptr ? 0 : above[i - texel];
     const int guess = filter == 1   ? left
                       : filter == 2 ? up
                       : filter == 3 ? (left + up) / 2
@@ -87,8 +87,8 @@ void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint
 }
 
 void check_kind(const std::string& where, std::span<const uint8_t> header) {
-  if (header[8] != 8 || header[9] != 6)
-    throw refused(where, "its texels are not 8 bits RGBA", "write RGBA: alpha is judged too");
+  if ((header[8] != 8 && header[8] != 16) || header[9] != 6)
+    throw refused(where, "its texels are not RGBA of 8 or 16 bits", "write RGBA: alpha is judged too");
   if (header[10] != 0 || header[11] != 0 || header[12] != 0)
     throw refused(where, "it is interlaced, or compressed in an unknown way", "write it without interlacing");
 }
@@ -97,7 +97,7 @@ void check_kind(const std::string& where, std::span<const uint8_t> header) {
 
 Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
   std::unique_ptr<Inflater> texels;
-  int width = 0, height = 0;
+  Image image;
   for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
     const size_t length = word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
@@ -106,8 +106,9 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
       check_kind(where, data);
-      width = int(word_at(data, 0)), height = int(word_at(data, 4));
-      texels = std::make_unique<Inflater>(where, (size_t(width) * kTexelBytes + 1) * size_t(height));
+      image.format = data[8] == 16 ? Format::rgba16 : Format::rgba8;
+      image.width = int(word_at(data, 0)), image.height = int(word_at(data, 4));
+      texels = std::make_unique<Inflater>(where, (image.row_bytes() + 1) * size_t(image.height));
     } else if (name == "IDAT") {
       texels->add(data);
     } else if (name == "IEND") {
@@ -116,15 +117,18 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
     at += length + kChunkOverhead;
   }
   std::vector<uint8_t> rows = texels->finish();
-  Image image(width, height, Format::rgba8);
   const size_t row_bytes = image.row_bytes();
+  const auto texel_bytes = size_t(info(image.format).bytes_per_texel());
+  image.texels.resize(row_bytes * size_t(image.height));
   const uint8_t* above = nullptr;
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < image.height; ++y) {
     uint8_t* row = rows.data() + size_t(y) * (row_bytes + 1);
-    unfilter(where, row[0], row + 1, above, row_bytes);
+    unfilter(where, row[0], row + 1, above, row_bytes, texel_bytes);
     std::copy(row + 1, row + 1 + row_bytes, image.texel(0, y));
     above = row + 1;
   }
+  if (image.format == Format::rgba16)  // most significant byte first, in the file
+    for (size_t i = 0; i < image.texels.size(); i += 2) std::swap(image.texels[i], image.texels[i + 1]);
   return image;
 }
 

@@ -46,8 +46,8 @@ struct PlaneState {
   bool operator==(const PlaneState&) const = default;
 };
 
-/// The planes the light pass reads, in the formats that round them. position, normal, uv: rgba32f, rgba16f or rgb16f;
-/// albedo: these or rgba8. Depth is d32f, ids are r32ui.
+/// The planes the light pass reads, in the formats that round them. position, uv: kPositionFormats; normal:
+/// kNormalFormats; albedo: kAlbedoFormats. Ids are r32ui.
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
   bool position_from_depth = false;  ///< rebuilt from the stored depth (docs/arithmetic.md); `position` is not read
@@ -63,7 +63,7 @@ struct Pipeline {
   GBufferState gbuffer;
   LightModel light_model;
   Strategy strategy = Strategy::deferred_loop;
-  Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
+  Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;
   bool operator==(const Pipeline&) const = default;
 };
