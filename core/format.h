@@ -81,9 +81,10 @@ constexpr FormatInfo info(Format format) {
   return {};  // unreachable: every enumerator returns above, and -Wswitch keeps it so
 }
 
-inline constexpr Format kFormats[] = {
-    Format::rgba8,   Format::srgb8_a8, Format::rgb10_a2, Format::rgba16, Format::r11g11b10f, Format::rgb16f, Format::rgba16f,
-    Format::rgba32f, Format::rgb32f,   Format::rg32f,    Format::r32ui,  Format::d32f,       Format::d24,    Format::d16};
+inline constexpr Format kFormats[] = {Format::rgba8,      Format::srgb8_a8, Format::rgb10_a2, Format::rgba16,
+                                      Format::r11g11b10f, Format::rgb16f,   Format::rgba16f,  Format::rgba32f,
+                                      Format::rgb32f,     Format::rg32f,    Format::r32ui,    Format::d32f,
+                                      Format::d24,        Format::d16};
 
 /// What a colour target, the depth buffer and the planes of a G-buffer may be stored as.
 inline constexpr Format kTargetFormats[] = {Format::rgba8,      Format::srgb8_a8, Format::rgb10_a2, Format::rgba16,

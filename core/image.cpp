@@ -34,7 +34,8 @@ void make_packed_nans_one(uint8_t* bytes, size_t size) {
     std::memcpy(&word, bytes + i, sizeof word);
     for (const int first : {0, 11, 22}) {
       const uint32_t fraction = first == 22 ? 5 : 6, field = (32u << fraction) - 1, infinity = 31u << fraction;
-      if (((word >> first) & field) > infinity) word = (word & ~(field << first)) | (infinity | 1u << (fraction - 1)) << first;
+      if (((word >> first) & field) > infinity)
+        word = (word & ~(field << first)) | (infinity | 1u << (fraction - 1)) << first;
     }
     std::memcpy(bytes + i, &word, sizeof word);
   }

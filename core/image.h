@@ -28,8 +28,8 @@ struct Image {
   /// Replaces them; `bits` has none above the channel's.
   void set_code(int x, int y, int channel, uint32_t bits);
 
-  /// Value of one channel, as a float: unorm RN(code / largest), sRGB decoded to linear, floats of any size as they are;
-  /// integers converted. y from the top.
+  /// Value of one channel, as a float: unorm RN(code / largest), sRGB decoded to linear, floats of any size as they
+  /// are; integers converted. y from the top.
   double value(int x, int y, int channel) const;
 
  private:

@@ -39,9 +39,9 @@ ImageFileInfo read_image_info(const std::string& path);
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
-/// where a plane has so few components; halves of those are widened), RGBA of 8 or 16 bits of a PNG. Memory grows with the rows
-/// decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no plane at
-/// all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
+/// where a plane has so few components; halves of those are widened), RGBA of 8 or 16 bits of a PNG. Memory grows with
+/// the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no
+/// plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
 std::vector<NamedImage> read_planes(const std::string& path);
 
 }  // namespace trueshade

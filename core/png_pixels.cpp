@@ -71,7 +71,8 @@ int paeth(int left, int above, int corner) {
 }
 
 /// Undoes a row's filter in place. `above`: the row before it, undone; null for the first.
-void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes, size_t texel) {
+void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes,
+              size_t texel) {
   if (filter > 4) throw refused(where, "a row has a filter that PNG does not know");
   for (size_t i = 0; i < bytes; ++i) {
     const int left = i < texel ? 0 : row[i - texel];

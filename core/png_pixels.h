@@ -8,9 +8,9 @@
 namespace trueshade {
 
 /// The texels of a PNG of RGBA, 8 or 16 bits, without interlacing, codes as they are stored: no gamma, no profile is
-/// applied. Our own, because libpng reports a bad file on standard error itself. `bytes` has passed png_header() and its size is
-/// one the caller accepts. Error(bad_input) naming `where`: another kind of PNG, wrong checksums, too few or many
-/// texels.
+/// applied. Our own, because libpng reports a bad file on standard error itself. `bytes` has passed png_header() and
+/// its size is one the caller accepts. Error(bad_input) naming `where`: another kind of PNG, wrong checksums, too few
+/// or many texels.
 Image png_pixels(const std::string& where, std::span<const uint8_t> bytes);
 
 }  // namespace trueshade

@@ -178,7 +178,8 @@ Rgba blended_codes(const BlendState& state, const Rgba& source, const Rgba& stor
   return out;
 }
 
-Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source, const Rgba& stored) {
+Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source,
+                    const Rgba& stored) {
   Operands<float> in{source, stored, state.constant, 1.0f};
   for (size_t c = 0; unorm_bits(format, 0) > 0 && c < 4; ++c) {
     in.source[c] = unit(source[c]);
@@ -224,8 +225,8 @@ Rgba blended_values(const BlendState& state, NumericProfile profile, Format form
 
 }  // namespace
 
-Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round, const Rgba& source,
-                   const Rgba& stored) {
+Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round,
+                   const Rgba& source, const Rgba& stored) {
   const bool unorm = unorm_bits(format, 0) > 0;
   const bool codes = unorm && profile != NumericProfile::ideal;
   Rgba out = !state.enabled ? source

@@ -48,8 +48,9 @@ HWY_INLINE VF srgb8_code(VF x) {
 HWY_INLINE VF one_nan() { return hn::BitCast(DF(), hn::Set(DU(), 0x7FC00000u)); }
 
 /// The float next to a magnitude that has `kFraction` bits of fraction and a half's exponents: 1 + 2^-kFraction is one,
-/// and so are the multiples of 2^(-14 - kFraction) below 2^-14. Finite values stop at the largest one, or, for `nearest`
-/// halves, go to infinity as IEEE 754 says. Integers do it: Highway's own conversion truncates on some targets.
+/// and so are the multiples of 2^(-14 - kFraction) below 2^-14. Finite values stop at the largest one, or, for
+/// `nearest` halves, go to infinity as IEEE 754 says. Integers do it: Highway's own conversion truncates on some
+/// targets.
 template <int kFraction>
 HWY_INLINE VF rounded_magnitude(VF magnitude, bool nearest) {
   const DF d;
@@ -63,7 +64,8 @@ HWY_INLINE VF rounded_magnitude(VF magnitude, bool nearest) {
   const VF normal = hn::BitCast(d, hn::And(bumped, hn::Set(du, ~kRest)));
   const VF scaled = hn::Mul(magnitude, hn::Set(d, 1.0f / kUnit));
   const VF tiny = hn::Mul(nearest ? hn::Round(scaled) : hn::Trunc(scaled), hn::Set(d, kUnit));
-  const VF inf = hn::BitCast(d, hn::Set(du, 0x7F800000u)), most = hn::Set(d, 65536.0f - 32768.0f / float(1 << kFraction));
+  const VF inf = hn::BitCast(d, hn::Set(du, 0x7F800000u)),
+           most = hn::Set(d, 65536.0f - 32768.0f / float(1 << kFraction));
   VF result = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d, 0x1p-14f)), tiny, normal);
   result = hn::IfThenElse(hn::Gt(result, most), nearest && kFraction == 10 ? inf : most, result);
   return hn::IfThenElse(hn::Eq(magnitude, inf), inf, result);
@@ -81,7 +83,8 @@ HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
 template <int kFraction>
 HWY_INLINE VF rounded_to_unsigned(VF x, HalfRound mode) {
   const DF d;
-  const VF result = rounded_magnitude<kFraction>(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), mode == HalfRound::nearest);
+  const VF result =
+      rounded_magnitude<kFraction>(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), mode == HalfRound::nearest);
   return hn::IfThenElse(hn::Eq(x, x), result, one_nan());
 }
 

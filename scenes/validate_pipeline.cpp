@@ -27,7 +27,8 @@ void require_enumerator(Enum value, Enum last, const char* field) {
 
 void require_format(Format format, std::span<const Format> allowed, const char* field) {
   std::string names;
-  for (const Format f : allowed) names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(info(f).name);
+  for (const Format f : allowed)
+    names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(info(f).name);
   require(std::find(allowed.begin(), allowed.end(), format) != allowed.end(), field, std::string(info(format).name),
           names.c_str());
 }

@@ -90,8 +90,17 @@ struct BlendPlan {
 };
 
 inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) {
-  BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false, false, target, info(target.format),
-                 state.enabled, false, state.mask, state.constant};
+  BlendPlan plan{{state.rgb, false, false},
+                 {state.alpha, false, false},
+                 false,
+                 false,
+                 false,
+                 target,
+                 info(target.format),
+                 state.enabled,
+                 false,
+                 state.mask,
+                 state.constant};
   plan.codes = plan.unorm() && target.profile != NumericProfile::ideal;
   for (int c = 0; c < 4; ++c) {
     plan.written[size_t(c)] = plan.written[size_t(c)] && c < plan.layout.channels;

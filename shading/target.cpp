@@ -53,7 +53,8 @@ void for_each_texel(const TileRect& rect, Image& image, const Write& write) {
 }
 
 uint32_t channel_bits(float value, int bits, bool unorm, HalfRound half_round) {
-  if (unorm) return uint32_t(value * float((1u << bits) - 1) + 0.5f);  // a read-back value RN(k / largest) gives k again
+  if (unorm)
+    return uint32_t(value * float((1u << bits) - 1) + 0.5f);  // a read-back value RN(k / largest) gives k again
   if (bits == 32) return std::bit_cast<uint32_t>(value);
   return bits == 16 ? half_from_float(value, half_round) : unsigned_from_float(value, bits, half_round);
 }
@@ -79,7 +80,8 @@ void write_words(const uint32_t* words, int at_byte, const TileRect& rect, Image
       uint8_t* to = target.texel(rect.x + x, target.height - 1 - (rect.y + y)) + at_byte;
       const int count = std::min(kBlockSize, width - x);
       if (whole) std::memcpy(to, from, size_t(4 * count));
-      for (int i = 0; i < count && !whole; ++i) std::memcpy(to + i * info(target.format).bytes_per_texel(), from + i, 4);
+      for (int i = 0; i < count && !whole; ++i)
+        std::memcpy(to + i * info(target.format).bytes_per_texel(), from + i, 4);
     }
 }
 

@@ -25,7 +25,8 @@ TEST_CASE("scenes out of range are refused with the part's name") {
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
                     "builtin:cornell: instance 3: the transform");
   CHECK_STARTS_WITH(invalid([](Scene& s) {
-                      s.meshes[s.instances[3].mesh].position[1][0] = 1e12f, s.instances[3].world_from_object[1].y = 1e7f;
+                      s.meshes[s.instances[3].mesh].position[1][0] = 1e12f,
+                      s.instances[3].world_from_object[1].y = 1e7f;
                     }),
                     "builtin:cornell: instance 3: the transform takes vertices beyond 1e18");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].base_color.x = -1.0f; }), "builtin:cornell: material 2");

@@ -220,7 +220,8 @@ size_t wrong_pairs(size_t stride, std::string_view simd) {
       for (size_t i = 0; i < held.size(); ++i) out.set(i, held[i]);
       blend(blended, {format}, source, out, simd);
       for (size_t i = 0; i < held.size(); ++i)
-        wrong += out.at(i) != oracle::blended_pixel(blended, NumericProfile::ideal, format, HalfRound::toward_zero, from[i], held[i]);
+        wrong += out.at(i) != oracle::blended_pixel(blended, NumericProfile::ideal, format, HalfRound::toward_zero,
+                                                    from[i], held[i]);
     }
   return wrong;
 }
@@ -293,7 +294,8 @@ TEST_CASE("Lights blended one by one drift as GL_RULES section 4 measured, and a
     int lights;
     double unorm8, truncated, nearest;  // bias, codes of 255
   };
-  constexpr Row kTable[] = {{4, .002, -.20, -.001}, {16, -.03, -.67, 0}, {64, -.16, -2.52, -.006}, {256, -3.1, -9.80, -.09}};
+  constexpr Row kTable[] = {
+      {4, .002, -.20, -.001}, {16, -.03, -.67, 0}, {64, -.16, -2.52, -.006}, {256, -3.1, -9.80, -.09}};
   on_every_simd([&](std::string_view simd) {
     for (const Row& row : kTable) {
       const Drifts drifts = drift_of(row.lights, simd);

@@ -44,7 +44,8 @@ float source_value(Random& random) {
 }
 
 float stored_value_of(Random& random, Format format, int channel) {
-  if (info(format).number_class == NumberClass::unorm) return float(random() % (info(format).largest_code(channel) + 1));
+  if (info(format).number_class == NumberClass::unorm)
+    return float(random() % (info(format).largest_code(channel) + 1));
   if (format == Format::r11g11b10f)
     return float_from_unsigned(uint32_t(random() % (channel == 2 ? 1024 : 2048)), channel == 2 ? 10 : 11);
   if (info(format).small_float()) return float_from_half(uint16_t(random() % 4 ? random() % 0x3C01 : random()));
