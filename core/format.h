@@ -92,6 +92,8 @@ inline constexpr Format kTargetFormats[] = {Format::rgba8,      Format::srgb8_a8
 inline constexpr Format kDepthFormats[] = {Format::d32f, Format::d24, Format::d16};
 inline constexpr Format kPositionFormats[] = {Format::rgba32f, Format::rgba16f, Format::rgb16f};  ///< position and uv
 inline constexpr Format kNormalFormats[] = {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgb10_a2};
+inline constexpr Format kSpecularFormats[] = {Format::rgba32f, Format::rgba16f};
+inline constexpr Format kEmissionFormats[] = {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8};
 inline constexpr Format kAlbedoFormats[] = {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8,
                                             Format::rgb10_a2};
 

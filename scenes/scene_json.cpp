@@ -26,14 +26,15 @@ constexpr std::string_view kRootKeys[] = {"version", "camera", "clear", "materia
 constexpr std::string_view kCameraKeys[] = {"eye",      "target", "up",  "fov_deg",
                                             "fov_axis", "near",   "far", "clip_from_world"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
-constexpr std::string_view kMaterialKeys[] = {"name", "color"};
+constexpr std::string_view kMaterialKeys[] = {"name",     "color",    "specular_color", "shininess",
+                                              "emission", "metallic", "roughness"};
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",      "color", "material",
                                             "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity"};
-constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity"};
-constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation"};
-constexpr std::string_view kSpotKeys[] = {"type",  "position",    "direction", "color",       "intensity",
-                                          "range", "attenuation", "cone_deg",  "penumbra_deg"};
+constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity", "ambient"};
+constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation", "ambient"};
+constexpr std::string_view kSpotKeys[] = {"type",        "position", "direction",    "color",   "intensity",    "range",
+                                          "attenuation", "cone_deg", "penumbra_deg", "ambient", "spot_exponent"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation"};
 
@@ -136,6 +137,18 @@ glm::mat4x3 read_transform(const json::Node& object) {
                      glm::vec3(rotation[2] * scale.z), position);
 }
 
+Material read_material(const json::Node& node) {
+  Material m;
+  m.name = node.member("name").string();
+  m.base_color = node.member("color").color();
+  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, kLargest);
+  if (const auto shininess = node.find("shininess")) m.shininess = float(shininess->integer(0, 8192));
+  if (const auto color = node.find("emission")) m.emission = color->vec3(0.0f, kLargest);
+  m.metallic = real_or(node, "metallic", m.metallic, 0.0, 1.0);
+  m.roughness = real_or(node, "roughness", m.roughness, 0.0, 1.0);
+  return m;
+}
+
 /// Adds objects to a scene; each geometry file, generated mesh and colour once.
 class ObjectReader {
  public:
@@ -147,10 +160,10 @@ class ObjectReader {
     for (size_t i = 0; i < count; ++i) {
       const json::Node node = list.element(i);
       node.check_keys(kObjects[kMaterial]);
-      const std::string& name = node.member("name").string();
-      if (!named_.emplace(name, uint32_t(scene_.materials.size())).second)
+      Material material = read_material(node);
+      if (!named_.emplace(material.name, uint32_t(scene_.materials.size())).second)
         node.fail("a material of this name exists", "another name");
-      scene_.materials.push_back({name, node.member("color").color()});
+      scene_.materials.push_back(std::move(material));
     }
   }
 
@@ -250,6 +263,7 @@ Light read_light(const json::Node& node, LightType type) {
   Light light;
   light.type = type;
   light.color = read_color(node);
+  if (const auto ambient = node.find("ambient")) light.ambient = ambient->vec3(0.0f, kLargest);
   if (type == LightType::directional || type == LightType::spot)
     light.direction = read_direction(node.member("direction"));
   if (type == LightType::ambient || type == LightType::directional) return light;
@@ -263,6 +277,7 @@ Light read_light(const json::Node& node, LightType type) {
   if (cone + fade > 180.0) node.fail("cone_deg and penumbra_deg together are over 180", "a sum of at most 180");
   light.cone_rad = float(cone * kRadPerDeg);
   light.penumbra_rad = float(fade * kRadPerDeg);
+  light.spot_exponent = real_or(node, "spot_exponent", 0.0f, 0.0, 8192.0);
   return light;
 }
 
