@@ -13,18 +13,20 @@ constexpr double kLargest = 1e18;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity", "steps", "interpolation", "repeat"};
-constexpr std::string_view kDirectionalKeys[] = {"type",  "direction",     "color", "intensity",
-                                                 "steps", "interpolation", "repeat"};
-constexpr std::string_view kPointKeys[] = {"type",        "position", "color",         "intensity", "range",
-                                           "attenuation", "steps",    "interpolation", "repeat"};
-constexpr std::string_view kSpotKeys[] = {"type",         "position", "direction",     "color",
-                                          "intensity",    "range",    "attenuation",   "cone_deg",
-                                          "penumbra_deg", "steps",    "interpolation", "repeat"};
+constexpr std::string_view kDirectionalKeys[] = {"type",    "direction", "color",         "intensity",
+                                                 "ambient", "steps",     "interpolation", "repeat"};
+constexpr std::string_view kPointKeys[] = {"type",  "position",    "color", "intensity",     "ambient",
+                                           "range", "attenuation", "steps", "interpolation", "repeat"};
+constexpr std::string_view kSpotKeys[] = {"type",          "position", "direction",     "color",    "intensity",
+                                          "ambient",       "range",    "attenuation",   "cone_deg", "penumbra_deg",
+                                          "spot_exponent", "steps",    "interpolation", "repeat"};
 constexpr std::string_view kAmbientStepKeys[] = {"time", "color", "intensity"};
-constexpr std::string_view kDirectionalStepKeys[] = {"time", "direction", "color", "intensity"};
-constexpr std::string_view kPointStepKeys[] = {"time", "position", "color", "intensity", "range", "attenuation"};
-constexpr std::string_view kSpotStepKeys[] = {"time",  "position",    "direction", "color",       "intensity",
-                                              "range", "attenuation", "cone_deg",  "penumbra_deg"};
+constexpr std::string_view kDirectionalStepKeys[] = {"time", "direction", "color", "intensity", "ambient"};
+constexpr std::string_view kPointStepKeys[] = {"time",    "position", "color",      "intensity",
+                                               "ambient", "range",    "attenuation"};
+constexpr std::string_view kSpotStepKeys[] = {"time",      "position",     "direction",    "color",
+                                              "intensity", "ambient",      "range",        "attenuation",
+                                              "cone_deg",  "penumbra_deg", "spot_exponent"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",      "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation", "turn_s"};
 constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",          "colors", "noise",
@@ -63,11 +65,13 @@ struct LightValue {
   bool required;  ///< in the lights that have the key
 };
 constexpr LightValue kValues[] = {
+    {"ambient", LightProperty::ambient, Kind::three_numbers, 0.0, kLargest, false},
     {"position", LightProperty::position, Kind::three_numbers, -kLargest, kLargest, true},
     {"range", LightProperty::range, Kind::number, kSmallest, kLargest, false},
     {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, kLargest, false},
     {"cone_deg", LightProperty::cone, Kind::degrees, 0.0, 180.0, true},
-    {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false}};
+    {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false},
+    {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false}};
 
 ValueReader reader_of(const LightValue& value) {
   if (value.kind == Kind::degrees) return degrees(value.key, value.least, value.most);

@@ -47,9 +47,12 @@ struct PlaneState {
 };
 
 /// The planes the light pass reads, in the formats that round them. position, normal, uv: rgba32f, rgba16f or rgb16f;
-/// albedo: these or rgba8. Depth is d32f, ids are r32ui.
+/// albedo: these or rgba8. Depth is d32f, ids are r32ui. The planes `specular` (RGB the specular colour, A the
+/// shininess; rgba32f or rgba16f) and `emission` (rgba32f, rgba16f, rgb16f or rgba8) exist where the light model reads
+/// them; they hold what the material makes of the pixel.
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
+  Format specular = Format::rgba32f, emission = Format::rgba32f;
   bool position_from_depth = false;  ///< rebuilt from the stored depth (docs/arithmetic.md); `position` is not read
   HalfRound half_round = HalfRound::toward_zero;
   bool operator==(const GBufferState&) const = default;

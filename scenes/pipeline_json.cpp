@@ -20,8 +20,14 @@ constexpr std::string_view kInterpolations[] = {"smooth", "flat", "noperspective
 constexpr std::string_view kProvoking[] = {"last", "first"};
 constexpr std::string_view kStrategies[] = {"deferred-loop"};
 constexpr std::string_view kHalfRounds[] = {"toward_zero", "nearest"};
-constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic"};
-constexpr std::string_view kOrders[] = {"factored", "separate"};
+constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic",   "none",
+                                          "linear",       "attenuation", "inverse_square"};
+constexpr std::string_view kOrders[] = {"factored", "separate", "albedo_last", "with_ambient"};
+constexpr std::string_view kCones[] = {"none", "smooth_cutoff", "smooth_penumbra", "exponent", "squared_penumbra"};
+constexpr std::string_view kDiffuses[] = {"clamped", "unclamped"};
+constexpr std::string_view kSpeculars[] = {"blinn_phong", "phong", "none"};
+constexpr std::string_view kSpecularSources[] = {"model", "albedo", "material", "metallic_roughness"};
+constexpr std::string_view kViewers[] = {"local", "infinite"};
 
 constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",    "height", "geometry",
                                           "gbuffer", "light_model", "strategy", "target", "profile"};
@@ -29,10 +35,13 @@ constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "dep
                                               "clear_depth", "depth_clamp", "cull_face", "front_face",
                                               "clip_origin", "clip_depth",  "provoking"};
 constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
-constexpr std::string_view kGBufferKeys[] = {"position", "normal", "albedo", "uv", "position_from_depth", "half_round"};
+constexpr std::string_view kGBufferKeys[] = {
+    "position", "normal", "albedo", "uv", "specular_format", "emission_format", "position_from_depth", "half_round"};
 constexpr std::string_view kPlaneKeys[] = {"format", "interpolation"};
-constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess",        "specular_color",
-                                                "falloff",     "order",           "alpha_from_albedo"};
+constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess",         "specular_color",
+                                                "falloff",     "order",           "alpha_from_albedo", "cone",
+                                                "diffuse",     "specular",        "specular_source",   "viewer",
+                                                "emission",    "global_ambient",  "damping",           "clamp_result"};
 
 enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel };
 constexpr std::array<json::ObjectKeys, 6> kObjects{{{"", kRootKeys},
@@ -105,8 +114,15 @@ void write_gbuffer(std::string& out, const GBufferState& g) {
   write_plane(w.key("normal"), g.normal);
   write_plane(w.key("albedo"), g.albedo);
   write_plane(w.key("uv"), g.uv);
+  w.put("specular_format", info(g.specular).name);
+  w.put("emission_format", info(g.emission).name);
   w.put("position_from_depth", g.position_from_depth);
   w.put("half_round", g.half_round, kHalfRounds);
+}
+
+void write_color(std::string& out, const glm::vec3& color) {
+  for (int k = 0; k < 3; ++k) json::append_number(out += k == 0 ? '[' : ',', color[k]);
+  out += ']';
 }
 
 void write_light_model(std::string& out, const LightModel& m) {
@@ -114,12 +130,19 @@ void write_light_model(std::string& out, const LightModel& m) {
   w.put("renormalize", m.renormalize);
   w.put("specular_masked", m.specular_masked);
   w.put("shininess", m.shininess);
-  w.key("specular_color");
-  for (int k = 0; k < 3; ++k) json::append_number(out += k == 0 ? '[' : ',', m.specular_color[k]);
-  out += ']';
+  write_color(w.key("specular_color"), m.specular_color);
   w.put("falloff", m.falloff, kFalloffs);
   w.put("order", m.order, kOrders);
   w.put("alpha_from_albedo", m.alpha_from_albedo);
+  w.put("cone", m.cone, kCones);
+  w.put("diffuse", m.diffuse, kDiffuses);
+  w.put("specular", m.specular, kSpeculars);
+  w.put("specular_source", m.specular_source, kSpecularSources);
+  w.put("viewer", m.viewer, kViewers);
+  w.put("emission", m.emission);
+  write_color(w.key("global_ambient"), m.global_ambient);
+  w.put("damping", m.damping);
+  w.put("clamp_result", m.clamp_result);
 }
 
 // --- Reading -------------------------------------------------------------------------------------------------------
@@ -184,8 +207,16 @@ void read_gbuffer(const json::Node& node, GBufferState& g) {
   read_plane(node, "normal", g.normal);
   read_plane(node, "albedo", g.albedo);
   read_plane(node, "uv", g.uv);
+  constexpr std::string_view kFormats[] = {"rgba32f", "rgba16f", "rgb16f", "rgba8"};  // specular has an alpha
+  if (const auto format = node.find("specular_format")) g.specular = read_format(*format, Names(kFormats).first(2));
+  if (const auto format = node.find("emission_format")) g.emission = read_format(*format, kFormats);
   read_flag(node, "position_from_depth", g.position_from_depth);
   read_choice(node, "half_round", g.half_round, kHalfRounds);
+}
+
+bool multiplies_albedo_last_but_reads_another(const LightModel& m) {
+  return m.order == TermOrder::albedo_last && m.specular != Specular::none &&
+         m.specular_source != SpecularSource::albedo;
 }
 
 void read_light_model(const json::Node& node, LightModel& m) {
@@ -197,6 +228,18 @@ void read_light_model(const json::Node& node, LightModel& m) {
   read_choice(node, "falloff", m.falloff, kFalloffs);
   read_choice(node, "order", m.order, kOrders);
   read_flag(node, "alpha_from_albedo", m.alpha_from_albedo);
+  read_choice(node, "cone", m.cone, kCones);
+  read_choice(node, "diffuse", m.diffuse, kDiffuses);
+  read_choice(node, "specular", m.specular, kSpeculars);
+  read_choice(node, "specular_source", m.specular_source, kSpecularSources);
+  read_choice(node, "viewer", m.viewer, kViewers);
+  read_flag(node, "emission", m.emission);
+  if (const auto color = node.find("global_ambient")) m.global_ambient = color->vec3(0.0f, kLargest);
+  read_real(node, "damping", m.damping, 0.0f, kLargest);
+  read_flag(node, "clamp_result", m.clamp_result);
+  if (multiplies_albedo_last_but_reads_another(m))
+    node.fail("order albedo_last with a specular colour that is not the albedo",
+              "specular none or specular_source albedo");
 }
 
 }  // namespace

@@ -53,6 +53,28 @@ class SceneHasher {
     add(light.penumbra_rad);
   }
 
+  /// What scenes of the first layout did not have: absent where it is the default, else behind its place.
+  void add_if_set(uint64_t place, const Light& light) {
+    if (light.ambient == glm::vec3(0.0f) && light.spot_exponent == 0.0f) return;
+    add(place);
+    add(light.ambient);
+    add(light.spot_exponent);
+  }
+
+  void add_if_set(uint64_t place, const Material& material) {
+    const Material absent;
+    if (material.specular_color == absent.specular_color && material.shininess == absent.shininess &&
+        material.emission == absent.emission && material.metallic == absent.metallic &&
+        material.roughness == absent.roughness)
+      return;
+    add(place);
+    add(material.specular_color);
+    add(material.shininess);
+    add(material.emission);
+    add(material.metallic);
+    add(material.roughness);
+  }
+
   void add(const Camera& camera) {
     add(camera.eye);
     add(camera.target);
@@ -89,6 +111,9 @@ std::string scene_hash(const Scene& scene) {
   for (const Light& light : scene.lights) hasher.add(light);
   hasher.add(scene.camera);
   hasher.add(scene.clear);
+  constexpr uint64_t kMaterials = uint64_t(1) << 62, kLights = uint64_t(1) << 63;  // no count is as large
+  for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_if_set(kMaterials + i, scene.materials[i]);
+  for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
   return hasher.hex();
 }
 

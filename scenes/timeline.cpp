@@ -89,6 +89,9 @@ void set_property(Light& light, LightProperty property, const glm::dvec4& value)
     case LightProperty::intensity:
       light.color = glm::vec3(glm::dvec3(light.color) * value.x);
       break;
+    case LightProperty::ambient:
+      light.ambient = glm::vec3(value);
+      break;
     case LightProperty::position:
       light.position = glm::vec3(value);
       break;
@@ -106,6 +109,9 @@ void set_property(Light& light, LightProperty property, const glm::dvec4& value)
       break;
     case LightProperty::penumbra:
       light.penumbra_rad = float(value.x);
+      break;
+    case LightProperty::spot_exponent:
+      light.spot_exponent = float(value.x);
       break;
   }
 }

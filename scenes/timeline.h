@@ -44,7 +44,18 @@ struct MaterialMotion {
 };
 
 /// Set in this order, so that an intensity multiplies the colour of its time.
-enum class LightProperty : uint8_t { color, intensity, position, direction, range, attenuation, cone, penumbra };
+enum class LightProperty : uint8_t {
+  color,
+  intensity,
+  ambient,
+  position,
+  direction,
+  range,
+  attenuation,
+  cone,
+  penumbra,
+  spot_exponent
+};
 
 struct LightMotion {
   uint32_t light;

@@ -70,6 +70,8 @@ void check_light(const Light& light, const Part& part) {
   part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
   if (light.type == LightType::ambient) return;
+  part.require(within(light.ambient, 0.0f, kLargest), "the ambient colour is negative, over 1e18 or no number",
+               "each channel in [0, 1e18]");
   if (light.type != LightType::point)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (light.type == LightType::directional) return;
@@ -81,6 +83,8 @@ void check_light(const Light& light, const Part& part) {
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
+  part.require(light.spot_exponent >= 0.0f && light.spot_exponent <= 8192.0f, "the spot exponent is out of range",
+               "in [0, 8192]");
 }
 
 void check_camera(const Camera& camera, const Part& part) {
@@ -134,6 +138,14 @@ void check_instance(const Scene& scene, const Instance& instance, const Part& pa
 
 void check_material(const Material& material, const Part& part) {
   part.require(is_color(material.base_color), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  part.require(within(material.specular_color, 0.0f, kLargest), "the specular colour is out of range",
+               "each channel in [0, 1e18]");
+  part.require(material.shininess >= 0.0f && material.shininess <= 8192.0f &&
+                   material.shininess == std::nearbyint(material.shininess),
+               "the shininess is out of range", "an integer from 0 to 8192");
+  part.require(within(material.emission, 0.0f, kLargest), "the emission is out of range", "each channel in [0, 1e18]");
+  part.require(material.metallic >= 0.0f && material.metallic <= 1.0f, "metallic is out of range", "in [0, 1]");
+  part.require(material.roughness >= 0.0f && material.roughness <= 1.0f, "roughness is out of range", "in [0, 1]");
 }
 
 void check_limit(const std::string& spec, const char* what, uint64_t count, uint64_t limit) {

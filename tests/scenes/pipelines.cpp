@@ -32,6 +32,19 @@ Pipeline strange_pipeline() {
   p.gbuffer.half_round = HalfRound::nearest;
   p.light_model.shininess = 0.1f;
   p.light_model.specular_color = {1e-20f, 1.0f / 3.0f, 1e18f};
+  p.light_model.falloff = Falloff::inverse_square;
+  p.light_model.order = TermOrder::with_ambient;
+  p.light_model.cone = Cone::squared_penumbra;
+  p.light_model.diffuse = Diffuse::unclamped;
+  p.light_model.specular = Specular::phong;
+  p.light_model.specular_source = SpecularSource::metallic_roughness;
+  p.light_model.viewer = Viewer::infinite;
+  p.light_model.emission = true;
+  p.light_model.global_ambient = {0.2f, 0.0f, 1e18f};
+  p.light_model.damping = 0.1f;
+  p.light_model.clamp_result = true;
+  p.gbuffer.specular = Format::rgba16f;
+  p.gbuffer.emission = Format::rgb16f;
   p.target = Format::rgba16f;
   p.profile = NumericProfile::mesa_llvmpipe_22_3;
   return p;
@@ -62,9 +75,12 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
         R"("provoking":"last"},"gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
         R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
-        R"({"format":"rgba32f","interpolation":"smooth"},"position_from_depth":false,"half_round":"toward_zero"},)"
+        R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
+        R"("position_from_depth":false,"half_round":"toward_zero"},)"
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
-        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false},"strategy":"deferred-loop",)"
+        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
+        R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
+        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal"})");
 }
 
@@ -104,6 +120,13 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"specular_color": [1, 1]}})",
        "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
       {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
+      {R"({"light_model": {"cone": "cosine"}})",
+       "p.json: /light_model/cone: found \"cosine\" (one of none smooth_cutoff"},
+      {R"({"light_model": {"order": "albedo_last"}})",
+       "p.json: /light_model: order albedo_last with a specular colour"},
+      {R"({"light_model": {"damping": -1}})", "p.json: /light_model/damping: found -1"},
+      {R"({"light_model": {"global_ambient": [0, 0, 2e18]}})", "p.json: /light_model/global_ambient/2: found 2e+18"},
+      {R"({"gbuffer": {"specular_format": "rgb16f"}})", "p.json: /gbuffer/specular_format: found \"rgb16f\""},
       {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
       {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
@@ -129,6 +152,11 @@ TEST_CASE("pipelines out of range are named by field") {
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
                     "light_model.specular_color");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.order = TermOrder::albedo_last; }), "light_model.order");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.cone = Cone(9); }), "light_model.cone");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.damping = kNan; }), "light_model.damping");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.global_ambient.y = -1.0f; }), "light_model.global_ambient");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.specular = Format::rgb16f; }), "gbuffer.specular");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) {
