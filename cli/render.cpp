@@ -99,7 +99,7 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
 
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
-  Scene scene = load_scene(options.scene);
+  Scene scene = load_scene(options.scene, {}, decode_image);
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   const Pipeline pipeline = pipeline_of(options, scene);

@@ -15,29 +15,16 @@ namespace {
 constexpr double kLargest = 1e18;
 constexpr glm::vec4 kGrey{0.8f, 0.8f, 0.8f, 1.0f};
 
-constexpr std::string_view kMaterialKeys[] = {"name",     "color",    "specular_color", "shininess",
-                                              "emission", "metallic", "roughness"};
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",          "normals",      "color", "material",
                                             "position", "rotation",      "rotation_deg", "scale", "grid",
                                             "steps",    "interpolation", "repeat"};
 constexpr std::string_view kStepKeys[] = {"time", "color", "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kGridKeys[] = {"count", "spacing", "jitter", "turn_deg", "shrink", "colors", "seed"};
 
-enum Object : size_t { kMaterial, kObject, kStep, kGrid };
-constexpr json::ObjectKeys kObjects[] = {
-    {"material", kMaterialKeys}, {"object", kObjectKeys}, {"object_step", kStepKeys}, {"grid", kGridKeys}};
-
-Material read_material(const json::Node& node) {
-  Material m;
-  m.name = node.member("name").string();
-  m.base_color = node.member("color").color();
-  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, kLargest);
-  if (const auto shininess = node.find("shininess")) m.shininess = float(shininess->integer(0, 8192));
-  if (const auto color = node.find("emission")) m.emission = color->vec3(0.0f, kLargest);
-  if (const auto metallic = node.find("metallic")) m.metallic = metallic->real(0.0, 1.0);
-  if (const auto roughness = node.find("roughness")) m.roughness = roughness->real(0.0, 1.0);
-  return m;
-}
+enum Object : size_t { kObject, kStep, kGrid };
+constexpr json::ObjectKeys kObjects[] = {{"object", kObjectKeys},    {"object_step", kStepKeys}, {"grid", kGridKeys},
+                                         {"texture", kTextureKeys},  {"pattern", kPatternKeys},  {"map", kMapKeys},
+                                         {"material", kMaterialKeys}};
 
 std::optional<glm::dvec4> read_color(const json::Node& object) {
   const auto node = object.find("color");
@@ -135,12 +122,12 @@ void ObjectReader::read_materials(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
   for (size_t i = 0; i < count; ++i) {
     const json::Node node = list.element(i);
-    node.check_keys(kObjects[kMaterial]);
-    Material material = read_material(node);
+    Material material = surfaces_.read_material(node);
     if (!named_.emplace(material.name, uint32_t(scene_.materials.size())).second)
       node.fail("a material of this name exists", "another name");
     scene_.materials.push_back(std::move(material));
   }
+  surfaces_.complete_mip_chains();
 }
 
 void ObjectReader::read_objects(const json::Node& list) {

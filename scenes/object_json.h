@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "scenes/load_ply.h"
+#include "scenes/material_json.h"
 #include "scenes/scene.h"
 #include "scenes/scene_files.h"
 #include "scenes/steps_json.h"
@@ -13,13 +14,15 @@ namespace trueshade {
 /// The keys of materials, objects and their parts.
 std::span<const json::ObjectKeys> object_json_keys();
 
-/// Adds materials and objects of a scene's text to a scene; each geometry file, generated mesh and colour once.
+/// Adds textures, materials and objects of a scene's text to a scene; each geometry file, generated mesh and colour
+/// once.
 class ObjectReader {
  public:
   /// `path` of the scene file; geometry is read from its folder.
-  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits)
-      : scene_(scene), path_(path), folder_(path), limits_(limits) {}
+  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits, const ImageDecoder& decode)
+      : scene_(scene), path_(path), folder_(path), limits_(limits), surfaces_(scene, path_, folder_, limits_, decode) {}
 
+  void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
   void read_materials(const json::Node& list);
   void read_objects(const json::Node& list);
 
@@ -37,6 +40,7 @@ class ObjectReader {
   std::string path_;
   SceneFolder folder_;
   SceneLimits limits_;
+  MaterialReader surfaces_;
   std::map<std::tuple<std::string, MissingNormals>, uint32_t> files_;
   std::map<size_t, uint32_t> generated_;
   std::map<std::string, uint32_t, std::less<>> named_;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLargest = 1e18;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
-constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "materials",
+constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "textures", "materials",
                                           "objects", "lights", "pipeline", "fps"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "fov_deg",       "fov_axis", "near",
                                             "far", "clip_from_world", "steps", "interpolation", "repeat"};
@@ -78,7 +78,8 @@ std::span<const json::ObjectKeys> scene_object_keys() {
   return all;
 }
 
-Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits) {
+Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits,
+                      const ImageDecoder& decode) {
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
   root.check_keys(kObjects[kRoot]);
@@ -93,7 +94,8 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   if (const auto fps = root.find("fps")) scene.timeline.fps = fps->number(0.001, 1e6);
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
   if (const auto lights = root.find("lights")) read_lights(*lights, scene, limits);
-  ObjectReader objects(scene, path, limits);
+  ObjectReader objects(scene, path, limits, decode);
+  if (const auto textures = root.find("textures")) objects.read_textures(*textures);
   if (const auto materials = root.find("materials")) objects.read_materials(*materials);
   if (const auto list = root.find("objects")) objects.read_objects(*list);
   const auto camera = root.find("camera");
