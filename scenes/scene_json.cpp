@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scenes/builtin_scenes.h"
 #include "scenes/load_geometry.h"
+#include "scenes/material_json.h"
 #include "scenes/pipeline_json.h"
 #include "scenes/presets.h"
 #include "scenes/scene_defaults.h"
@@ -22,12 +23,11 @@ constexpr double kLargest = 1e18;
 constexpr double kRadPerDeg = kPi / 180.0;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
-constexpr std::string_view kRootKeys[] = {"version", "camera", "clear", "materials", "objects", "lights", "pipeline"};
+constexpr std::string_view kRootKeys[] = {"version",   "camera",  "clear",  "textures",
+                                          "materials", "objects", "lights", "pipeline"};
 constexpr std::string_view kCameraKeys[] = {"eye",      "target", "up",  "fov_deg",
                                             "fov_axis", "near",   "far", "clip_from_world"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
-constexpr std::string_view kMaterialKeys[] = {"name",     "color",    "specular_color", "shininess",
-                                              "emission", "metallic", "roughness"};
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",      "color", "material",
                                             "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity"};
@@ -38,16 +38,32 @@ constexpr std::string_view kSpotKeys[] = {"type",        "position", "direction"
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation"};
 
-enum Object : size_t { kRoot, kCamera, kMaterial, kObject, kAmbient, kDirectional, kPoint, kSpot, kRing };
-constexpr std::array<json::ObjectKeys, 9> kObjects{{{"", kRootKeys},
-                                                    {"camera", kCameraKeys},
-                                                    {"material", kMaterialKeys},
-                                                    {"object", kObjectKeys},
-                                                    {"ambient", kAmbientKeys},
-                                                    {"directional", kDirectionalKeys},
-                                                    {"point", kPointKeys},
-                                                    {"spot", kSpotKeys},
-                                                    {"ring", kRingKeys}}};
+enum Object : size_t {
+  kRoot,
+  kCamera,
+  kTexture,
+  kPattern,
+  kMap,
+  kMaterial,
+  kObject,
+  kAmbient,
+  kDirectional,
+  kPoint,
+  kSpot,
+  kRing
+};
+constexpr std::array<json::ObjectKeys, 12> kObjects{{{"", kRootKeys},
+                                                     {"camera", kCameraKeys},
+                                                     {"texture", kTextureKeys},
+                                                     {"pattern", kPatternKeys},
+                                                     {"map", kMapKeys},
+                                                     {"material", kMaterialKeys},
+                                                     {"object", kObjectKeys},
+                                                     {"ambient", kAmbientKeys},
+                                                     {"directional", kDirectionalKeys},
+                                                     {"point", kPointKeys},
+                                                     {"spot", kSpotKeys},
+                                                     {"ring", kRingKeys}}};
 
 using Key = std::string_view;
 
@@ -137,34 +153,24 @@ glm::mat4x3 read_transform(const json::Node& object) {
                      glm::vec3(rotation[2] * scale.z), position);
 }
 
-Material read_material(const json::Node& node) {
-  Material m;
-  m.name = node.member("name").string();
-  m.base_color = node.member("color").color();
-  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, kLargest);
-  if (const auto shininess = node.find("shininess")) m.shininess = float(shininess->integer(0, 8192));
-  if (const auto color = node.find("emission")) m.emission = color->vec3(0.0f, kLargest);
-  m.metallic = real_or(node, "metallic", m.metallic, 0.0, 1.0);
-  m.roughness = real_or(node, "roughness", m.roughness, 0.0, 1.0);
-  return m;
-}
-
 /// Adds objects to a scene; each geometry file, generated mesh and colour once.
 class ObjectReader {
  public:
-  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits)
-      : scene_(scene), path_(path), folder_(path), limits_(limits) {}
+  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits, const ImageDecoder& decode)
+      : scene_(scene), path_(path), folder_(path), limits_(limits), surfaces_(scene, path_, folder_, limits_, decode) {}
+
+  void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
 
   void read_materials(const json::Node& list) {
     const size_t count = list.array(0, SIZE_MAX).size();
     for (size_t i = 0; i < count; ++i) {
       const json::Node node = list.element(i);
-      node.check_keys(kObjects[kMaterial]);
-      Material material = read_material(node);
+      Material material = surfaces_.read_material(node);
       if (!named_.emplace(material.name, uint32_t(scene_.materials.size())).second)
         node.fail("a material of this name exists", "another name");
       scene_.materials.push_back(std::move(material));
     }
+    surfaces_.complete_mip_chains();
   }
 
   void read_object(const json::Node& node) {
@@ -229,6 +235,7 @@ class ObjectReader {
   std::string path_;
   SceneFolder folder_;
   SceneLimits limits_;
+  MaterialReader surfaces_;
   std::map<std::tuple<std::string, MissingNormals>, uint32_t> files_;
   std::map<size_t, uint32_t> generated_;
   std::map<std::string, uint32_t, std::less<>> named_;
@@ -321,7 +328,8 @@ void read_lights(const json::Node& list, std::vector<Light>& lights, const Scene
 
 std::span<const json::ObjectKeys> scene_object_keys() { return kObjects; }
 
-Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits) {
+Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits,
+                      const ImageDecoder& decode) {
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
   root.check_keys(kObjects[kRoot]);
@@ -334,7 +342,8 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   }
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
   if (const auto lights = root.find("lights")) read_lights(*lights, scene.lights, limits);
-  ObjectReader objects(scene, path, limits);
+  ObjectReader objects(scene, path, limits, decode);
+  if (const auto textures = root.find("textures")) objects.read_textures(*textures);
   if (const auto materials = root.find("materials")) objects.read_materials(*materials);
   if (const auto list = root.find("objects")) {
     const size_t count = list->array(0, SIZE_MAX).size();

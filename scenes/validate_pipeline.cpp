@@ -80,6 +80,23 @@ void check_light_model(const LightModel& m) {
       "specular none or specular_source albedo");
 }
 
+void check_light_volumes(const LightVolumes& v) {
+  require_enumerator(v.point, LightExtent::cone, "light_volumes.point");
+  require_enumerator(v.spot, LightExtent::cone, "light_volumes.spot");
+  require_integer(v.slices, 3, 64, "light_volumes.slices", "3 to 64");
+  require_integer(v.stacks, 2, 64, "light_volumes.stacks", "2 to 64");
+  require_enumerator(v.cull_face, CullFace::front_and_back, "light_volumes.cull_face");
+}
+
+void check_blend(const BlendState& b) {
+  for (const BlendTerm& term : {b.rgb, b.alpha}) {
+    require_enumerator(term.equation, BlendEquation::max, "blend: equation");
+    require_enumerator(term.src, BlendFactor::src_alpha_saturate, "blend: src");
+    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, "blend: dst");
+  }
+  for (const float constant : b.constant) require_real(constant, -1e18f, 1e18f, "blend.constant", "each -1e18 to 1e18");
+}
+
 }  // namespace
 
 void validate(const Pipeline& pipeline) {
@@ -88,6 +105,8 @@ void validate(const Pipeline& pipeline) {
   check_geometry(pipeline.geometry);
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
+  check_light_volumes(pipeline.light_volumes);
+  check_blend(pipeline.blend);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target",
                  "rgba8, rgba16f or rgba32f");

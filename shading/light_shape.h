@@ -68,9 +68,11 @@ inline constexpr LightShape kCompiledShapes[] = {
 template <size_t kIndex>
 struct CompiledShape {
   static constexpr LightShape shape = kCompiledShapes[kIndex];
+  static constexpr bool compiled = true;
 };
 struct AnyShape {
   LightShape shape;
+  static constexpr bool compiled = false;
 };
 
 }  // namespace trueshade

@@ -47,7 +47,7 @@ HWY_INLINE void add_four(const LightTerms<Shape>& terms, const PixelVector& px, 
 }
 
 template <class Shape>
-HWY_INLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, uint32_t light, LightSum& sum) {
+HWY_NOINLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, uint32_t light, LightSum& sum) {
   const DF d;
   const LightTerm term = terms(px, light);
   if (hn::AllFalse(d, term.adds)) return;
@@ -83,12 +83,12 @@ HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px
   for (size_t first = 0; first < list.size(); first += kChunk) {
     const size_t hits = hits_of(terms, px, list.subspan(first, std::min(kChunk, list.size() - first)), hit);
     size_t i = 0;
-    for (; i + 4 <= hits; i += 4) {
+    for (; i + 4 <= hits && Shape::compiled; i += 4) {
       const LightKind* kind = terms.lights.kind.data();
       const LightKind k = std::max({kind[hit[i]], kind[hit[i + 1]], kind[hit[i + 2]], kind[hit[i + 3]]});
       if (k == LightKind::other) {
         for (size_t j = i; j < i + 4; ++j) add_one(terms, px, hit[j], sum);
-      } else {
+      } else if constexpr (Shape::compiled) {
         add_four(terms, px, hit + i, k == LightKind::coned, sum);
         sum.evaluated += 4;
       }

@@ -47,6 +47,13 @@ Pipeline strange_pipeline() {
   p.gbuffer.emission = Format::rgb16f;
   p.target = Format::rgba16f;
   p.profile = NumericProfile::mesa_llvmpipe_22_3;
+  p.strategy = Strategy::forward_loop;
+  p.light_volumes = {LightExtent::box, LightExtent::cone, 64, 2, CullFace::front, false, false};
+  p.blend = {false,
+             {BlendEquation::reverse_subtract, BlendFactor::src_alpha_saturate, BlendFactor::one_minus_dst_color},
+             {BlendEquation::max, BlendFactor::zero, BlendFactor::constant_alpha},
+             {-1.0f, 0.1f, 1e18f, 0.0f},
+             {false, true, false, true}};
   return p;
 }
 
@@ -80,7 +87,10 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
         R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
         R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
-        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"strategy":"deferred-loop",)"
+        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"range",)"
+        R"("spot":"range","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
+        R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
+        R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal"})");
 }
 
@@ -120,6 +130,15 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"specular_color": [1, 1]}})",
        "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
       {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
+      {R"({"strategy": "forward"})",
+       "p.json: /strategy: found \"forward\" (one of forward-multipass forward-loop deferred-volumes "
+       "deferred-loop)"},
+      {R"({"light_volumes": {"slices": 2}})", "p.json: /light_volumes/slices: found 2 (a whole number from 3 to 64)"},
+      {R"({"light_volumes": {"point": "ball"}})",
+       "p.json: /light_volumes/point: found \"ball\" (one of unbounded range"},
+      {R"({"blend": {"rgb": {"src": "GL_ONE"}}})", "p.json: /blend/rgb/src: found \"GL_ONE\" (one of zero one"},
+      {R"({"blend": {"mask": [true, true, true]}})", "p.json: /blend/mask: found an array of 3 (an array of 4)"},
+      {R"({"blend": {"constant": [0, 0, 0, 2e18]}})", "p.json: /blend/constant/3: found 2e+18"},
       {R"({"light_model": {"cone": "cosine"}})",
        "p.json: /light_model/cone: found \"cosine\" (one of none smooth_cutoff"},
       {R"({"light_model": {"order": "albedo_last"}})",
@@ -127,7 +146,6 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"damping": -1}})", "p.json: /light_model/damping: found -1"},
       {R"({"light_model": {"global_ambient": [0, 0, 2e18]}})", "p.json: /light_model/global_ambient/2: found 2e+18"},
       {R"({"gbuffer": {"specular_format": "rgb16f"}})", "p.json: /gbuffer/specular_format: found \"rgb16f\""},
-      {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
       {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
@@ -164,6 +182,15 @@ TEST_CASE("pipelines out of range are named by field") {
                       p.geometry.depth_near = 1.0f;
                     }),
                     "gbuffer.position_from_depth");
+}
+
+TEST_CASE("light volumes and blending out of range are named by field") {
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.slices = 65; }), "light_volumes.slices: 65");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.stacks = 1; }), "light_volumes.stacks: 1");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.spot = LightExtent(5); }), "light_volumes.spot: 5");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.alpha.dst = BlendFactor(15); }), "blend: dst: 15");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.constant[2] = INFINITY; }), "blend.constant");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.strategy = Strategy(4); }), "strategy: 4");
 }
 
 TEST_CASE("executions out of range are named by field") {
