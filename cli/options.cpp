@@ -79,11 +79,17 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
+std::vector<std::string_view> target_names() {
+  std::vector<std::string_view> names;
+  for (const Format format : kTargetFormats) names.push_back(info(format).name);
+  return names;
+}
+
 Format target_from_text(const std::string& text) {
-  constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
-  if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
-    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(kTargets));
-  return *format_from_name(text);
+  const std::optional<Format> format = format_from_name(text);
+  if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
+    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(target_names()));
+  return *format;
 }
 
 std::vector<std::string> aovs_from_text(const std::string& list) {
@@ -145,7 +151,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   render->add_option(
       "--frames", texts.frames,
       "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
-  render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
+  render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
