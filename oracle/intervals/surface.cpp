@@ -15,8 +15,8 @@ constexpr Range kAnything{0, -HUGE_VAL, HUGE_VAL};
 
 }  // namespace
 
-SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y)
-    : piece_(piece), profile_(profile) {
+SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
+    : piece_(piece), profile_(profile), window_reach_(window_reach) {
   const auto& v = piece.v;
   double reach[2] = {0, 0};
   for (const WindowVertex& p : v)
@@ -45,8 +45,6 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Vie
     return;
   }
   condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
-  reach_x_ = std::max(std::abs(double(viewport.x)), std::abs(double(viewport.x) + viewport.width));
-  reach_y_ = std::max(std::abs(double(viewport.y)), std::abs(double(viewport.y) + viewport.height));
   if (points) return;
 
   // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's reach.
@@ -86,7 +84,7 @@ double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
     spread = std::max(spread, std::fabs(n[i] - n[(i + 1) % 3]));
   }
   gx = std::fabs(gx), gy = std::fabs(gy);
-  const double anchored = gx * reach_x_ + gy * reach_y_;
+  const double anchored = gx * window_reach_[0] + gy * window_reach_[1];
   const double sums_x = 2 * spread * span_y_ / std::fabs(area_), sums_y = 2 * spread * span_x_ / std::fabs(area_);  // G
   const double det = 3 * condition_ * v + profile_.arithmetic.divide + v;
   const double setup = (4 * v * sums_x + gx * det) * span_x_ + (4 * v * sums_y + gy * det) * span_y_;

@@ -16,7 +16,8 @@ namespace trueshade::oracle {
 /// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine functions is monotone along every line where its divisor keeps its sign: the
 /// extremes are at the box's corners.
 ///
-/// Float planes a0 + gx x + gy y, |x| <= X, |y| <= Y in pixels, add, with v the roundoff and N the largest vertex value:
+/// Float planes a0 + gx x + gy y of the driver's window, |x| <= X, |y| <= Y in pixels from its corner (where Mesa 22.3
+/// has a0: llvmpipe/lp_state_setup.c, emit_coef4), add, with v the roundoff and N the largest vertex value:
 ///   setup      gx = (dN1 dy2 - dN2 dy1) / det: 4 v G + |gx| (3 K v + divide + v), G and K the same sums with | | in
 ///              place of - over |det|; it acts over the triangle's own extent, since a0 is made from the same gx
 ///   anchor     a0 = N - gx x - gy y: 3 v (|gx| X + |gy| Y) + 2 v N
@@ -25,7 +26,8 @@ namespace trueshade::oracle {
 /// and a perspective quotient N / D adds (dN + |a| dD) / D and the division.
 class SurfacePoint {
  public:
-  SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y);
+  /// reach: the X and Y above, Projector::window_reach().
+  SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
   /// False where the box allows a triangle without area: its planes are then anything (UNDEFINED).
   bool bounded() const { return bounded_; }
@@ -46,7 +48,7 @@ class SurfacePoint {
   int points_ = 1;                          ///< 1 where the vertices are points, 5 otherwise
   std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
   std::array<double, 3> dx_{}, dy_{};       ///< their gradients, 1/pixel
-  double reach_x_ = 0, reach_y_ = 0;        ///< X, Y
+  const Pair window_reach_;                 ///< X, Y
   double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
 };
 
