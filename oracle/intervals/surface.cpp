@@ -41,7 +41,7 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
     lambda_[0][i] = edge[i] / area_;
   }
   if (area_ == 0) {
-    bounded_ = false;
+    no_plane(x, y);
     return;
   }
   condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
@@ -61,7 +61,7 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
   }
   const double smallest_area = std::fabs(area_) - area_change;
   if (!(smallest_area > 0)) {
-    bounded_ = false;
+    no_plane(x, y);
     return;
   }
   double shift[2] = {0, 0};
@@ -72,6 +72,29 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
     const double qx = ((corner & 1) != 0 ? 1 : -1) * shift[0], qy = ((corner & 2) != 0 ? 1 : -1) * shift[1];
     for (size_t i = 0; i < 3; ++i) lambda_[corner][i] = lambda_[0][i] + qx * dx_[i] + qy * dy_[i];
   }
+}
+
+void SurfacePoint::no_plane(double x, double y) {
+  bounded_ = false;
+  if (profile_.exact_planes || profile_.plane_origin == PlaneOrigin::unsnapped) return;
+  tiny_ = Tiny::hull;
+  if (profile_.plane_origin == PlaneOrigin::snapped) return;
+  bool same = true;
+  float_piece_ = std::make_unique<Piece>(piece_);
+  for (WindowVertex& v : float_piece_->v) {
+    same = same && v.plane == v.exact && v.plane_reach == v.float_reach;
+    v.plane = v.exact, v.plane_reach = v.float_reach;
+  }
+  tiny_ = same ? Tiny::anything : Tiny::hull_and_plane;
+  if (!same) unsnapped_ = std::make_unique<SurfacePoint>(*float_piece_, profile_, window_reach_, x, y);
+}
+
+Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const {
+  Range r{plane.value, HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < 3; ++i) r.low = std::min(r.low, value[i] - error[i]), r.high = std::max(r.high, value[i] + error[i]);
+  const double width = r.high - r.low;
+  r.low = std::min(r.low - width, plane.low), r.high = std::max(r.high + width, plane.high);
+  return {std::clamp(r.value, r.low, r.high), r.low, r.high};
 }
 
 double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
@@ -111,7 +134,8 @@ Range SurfacePoint::affine(const std::array<double, 3>& value, const std::array<
 Range SurfacePoint::depth() const {
   std::array<double, 3> z{}, error{};
   for (size_t i = 0; i < 3; ++i) z[i] = piece_.v[i].z, error[i] = piece_.v[i].z_error;
-  if (!bounded_) return {z[0], -HUGE_VAL, HUGE_VAL};
+  if (!bounded()) return {z[0], -HUGE_VAL, HUGE_VAL};
+  if (!bounded_) return of_tiny(z, error, unsnapped_ ? unsnapped_->depth() : Range{z[0], z[0], z[0]});
   if (!profile_.exact_planes) return affine(z, error);
   double at = z[0], largest = 1;
   for (size_t i = 0; i < 3; ++i) {
@@ -125,7 +149,9 @@ Range SurfacePoint::depth() const {
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
-  if (!bounded_) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  if (!bounded_)
+    return of_tiny(value, error, unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
   const bool smooth = interpolation == Interpolation::smooth;
   if (!smooth && !profile_.exact_planes) return affine(value, error);
 

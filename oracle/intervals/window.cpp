@@ -259,6 +259,7 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
     // GL_RULES section 9: fp32 divide and viewport, 2^-23 (2 |x/w| px/2 + |xw|); and what the clip error comes to.
     const double error = exact ? 0 : half * (c.error[axis] + std::fabs(ndc) * c.error[3]) / room +
                                          0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis] + drawn_at_[axis]));
+    v.float_reach[axis] = error;
     const double along = half * (c.along[axis] + std::fabs(ndc) * c.along[3]) / std::max(w - c.along[3], 0x1p-20 * w);
     snap(v, a, c, error, along, leaves_view);
   }

@@ -17,6 +17,7 @@ struct WindowVertex {
   Pair exact{};                     ///< of the real coordinates: equal where two triangles share the vertex
   Pair low{}, high{};               ///< the box of the snapped vertex, that coverage is computed from
   Pair plane{}, plane_reach{};      ///< the vertex that attribute planes go through: within reach of plane
+  Pair float_reach{};               ///< what float arithmetic alone makes of `exact`
   double z = 0, z_error = 0;        ///< window depth
   double u = 0, u_error = 0;        ///< 1 / w
   std::array<double, 3> weight{};   ///< in clip space, of the vertices of the triangle submitted
