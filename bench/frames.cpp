@@ -1,6 +1,7 @@
 // How long does a frame of each benchmark scene take, and where does the time go?
-// Counters: million triangles submitted a second, ns of one core per evaluated pixel-light, covered pixels, share of the
-// CPU time that is geometry. A run first draws the frame with one thread and compares hashes, so no wrong image is timed.
+// Counters: million triangles submitted a second, ns of one core per evaluated pixel-light, covered pixels, share of
+// the CPU time that is geometry. A run first draws the frame with one thread and compares hashes, so no wrong image is
+// timed.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -38,7 +39,8 @@ void draw(benchmark::State& state, const std::string& spec, const std::string& p
   pipeline.height = size.height;
   Execution one_thread;
   one_thread.threads = 1;
-  if (image_hash(render_frame(in.prepared, pipeline, one_thread).color) != image_hash(render_frame(in.prepared, pipeline).color)) {
+  if (image_hash(render_frame(in.prepared, pipeline, one_thread).color) !=
+      image_hash(render_frame(in.prepared, pipeline).color)) {
     state.SkipWithError("one thread and all threads disagree: nothing to time");
     return;
   }
@@ -62,8 +64,10 @@ void draw(benchmark::State& state, const std::string& spec, const std::string& p
 int main(int argc, char** argv) {
   for (const char* scene : {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"})
     for (const Size size : {Size{800, 800}, Size{1920, 1080}})
-      benchmark::RegisterBenchmark((std::string(scene) + " many-lights " + std::to_string(size.width) + "x" + std::to_string(size.height)).c_str(),
-                                   [=](benchmark::State& state) { draw(state, scene, "many-lights", size); })
+      benchmark::RegisterBenchmark(
+          (std::string(scene) + " many-lights " + std::to_string(size.width) + "x" + std::to_string(size.height))
+              .c_str(),
+          [=](benchmark::State& state) { draw(state, scene, "many-lights", size); })
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
   benchmark::Initialize(&argc, argv);

@@ -10,6 +10,7 @@ void render(const RenderOptions& options);
 void print_info(const InfoOptions& options);
 void print_list(const ListOptions& options);
 void write_glsl(const GlslFilesOptions& options);
+void bench(const BenchOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
 /// Writes text to standard output and flushes it. Error(io) where that fails, say on a full disk.

@@ -141,6 +141,12 @@ void check_preset(const std::optional<std::string>& preset) {
     throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");
 }
 
+void check_simd(const std::string& name) {
+  const std::vector<std::string_view> simd = simd_targets();
+  if (name != "best" && std::find(simd.begin(), simd.end(), name) == simd.end())
+    throw usage("--simd", "this machine has no '" + name + "'", "one of: best " + joined(simd));
+}
+
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.target) options.target = target_from_text(*texts.target);
@@ -150,9 +156,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
   options.execution.light_culling = !texts.no_light_culling;
   check_preset(options.preset);
-  const std::vector<std::string_view> simd = simd_targets();
-  if (options.simd != "best" && std::find(simd.begin(), simd.end(), options.simd) == simd.end())
-    throw usage("--simd", "this machine has no '" + options.simd + "'", "one of: best " + joined(simd));
+  check_simd(options.simd);
   validate(execution_of(options));
   check_outputs(options);
   return options;
@@ -216,6 +220,50 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   return options;
 }
 
+/// Option values of bench as text.
+struct BenchTexts {
+  std::optional<std::string> size, threads, against;
+};
+
+CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
+  CLI::App* bench = app.add_subcommand("bench", "Time frames, in turn with others that draw the same");
+  bench->add_option("SCENE", options.scenes, "Scenes as for render; without any builtin:city, rabbits, sphere and red");
+  bench->add_option("--preset", options.preset, "Row of numbers, as for render");
+  bench->add_option("--pipeline", options.pipeline_file, "JSON file of values, as for render");
+  bench->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
+  bench->add_option("--threads", texts.threads, "Threads, 0 for one a core");
+  bench->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512");
+  bench->add_option("--against", texts.against,
+                    "Peers in the same run, with commas: gl (every design), embree (visibility)");
+  bench->add_option("--json", options.json_file, "JSON document to write");
+  bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");
+  return bench;
+}
+
+std::vector<std::string> peers_from_text(const std::string& list) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    names.push_back(list.substr(begin, end - begin));
+    if (names.back() != "gl" && names.back() != "embree")
+      throw usage("--against", "there is no peer '" + names.back() + "'", "gl, embree or gl,embree");
+    begin = end + 1;
+  }
+  return names;
+}
+
+BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
+  if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  if (texts.against) options.against = peers_from_text(*texts.against);
+  check_preset(options.preset);
+  check_simd(options.simd);
+  if (options.report && !options.report->ends_with(".html"))
+    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  return options;
+}
+
 /// CLI11's message without the line breaks that some have.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -245,6 +293,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   GlslFilesOptions glsl;
   ValidationOptions validation;
   ValidationTexts validation_texts;
+  BenchOptions benchmark;
+  BenchTexts bench_texts;
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
@@ -252,7 +302,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   list_command->add_flag("--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate"};
+  const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate", "bench"};
   if (count > 1 && arguments[1][0] != '-' &&
       std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
     throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
@@ -271,6 +322,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (info_command->parsed()) return info;
   if (glsl_command->parsed()) return finished(std::move(glsl));
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
+  if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
   return list;
 }
 

@@ -61,12 +61,22 @@ struct ValidationOptions : PipelineOptions {
   bool json = false;
 };
 
+/// `trueshade bench`
+struct BenchOptions : PipelineOptions {
+  std::vector<std::string> scenes;   ///< what is timed, one after the other; `scene` is not read
+  std::vector<std::string> against;  ///< of gl, embree
+  std::string simd = "best";         ///< stays alive for the execution
+  Execution execution;
+  std::optional<std::string> json_file, report;  ///< files to write; the report is .html
+};
+
 /// `--help` and `--version`: what to print.
 struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ValidationOptions, PrintText>;
+using Command =
+    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ValidationOptions, BenchOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

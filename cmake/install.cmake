@@ -7,6 +7,7 @@ set_target_properties(trueshade_flags PROPERTIES EXPORT_NAME flags)
 install(TARGETS trueshade_flags trueshade_core trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade)
 install(TARGETS trueshade_image_io EXPORT trueshade_image_io)
 install(TARGETS trueshade)
+install(TARGETS trueshade_image_io_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade)
 foreach(header
   core/error.h core/format.h core/fp_env.h core/half.h core/image.h core/image_io.h core/numeric_profile.h core/sha256.h
   scenes/builtin.h scenes/camera.h scenes/light.h scenes/light_model.h scenes/mesh.h scenes/pipeline.h scenes/presets.h

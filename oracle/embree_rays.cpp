@@ -1,170 +1,18 @@
 #include "oracle/embree_rays.h"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
+#include "oracle/camera_view.h"
+#include "oracle/ray_scene.h"
 #include "oracle/scalar_renderer.h"
 
 namespace trueshade::oracle {
 
 namespace {
-
-using Vector4 = std::array<double, 4>;
-
-Vector4 transformed(const Matrix4& m, const Vector4& v) {
-  Vector4 out{};
-  for (size_t r = 0; r < 4; ++r)
-    for (size_t c = 0; c < 4; ++c) out[r] += m[4 * c + r] * v[c];
-  return out;
-}
-
-/// Gauss with partial pivoting; a singular matrix gives non-finite elements.
-Matrix4 inverse(const Matrix4& m) {
-  std::array<std::array<double, 8>, 4> a{};
-  for (size_t r = 0; r < 4; ++r) {
-    for (size_t c = 0; c < 4; ++c) a[r][c] = m[4 * c + r];
-    a[r][4 + r] = 1;
-  }
-  for (size_t k = 0; k < 4; ++k) {
-    size_t pivot = k;
-    for (size_t r = k + 1; r < 4; ++r)
-      if (std::fabs(a[r][k]) > std::fabs(a[pivot][k])) pivot = r;
-    std::swap(a[k], a[pivot]);
-    for (size_t r = 0; r < 4; ++r) {
-      if (r == k) continue;
-      const double factor = a[r][k] / a[k][k];
-      for (size_t c = 0; c < 8; ++c) a[r][c] -= factor * a[k][c];
-    }
-    for (size_t c = 0; c < 8; ++c)
-      if (c != k) a[k][c] /= a[k][k];
-    a[k][k] = 1;
-  }
-  Matrix4 result{};
-  for (size_t r = 0; r < 4; ++r)
-    for (size_t c = 0; c < 4; ++c) result[4 * c + r] = a[r][4 + c];
-  return result;
-}
-
-struct View {
-  Matrix4 clip_from_world, world_from_clip;
-  int width, height;
-  double near_z;  ///< ndc z of the near plane
-  bool flip;      ///< upper_left
-  bool has_eye;   ///< all rays pass through `eye`
-  std::array<double, 3> eye;
-
-  double ndc_x(double x) const { return 2 * x / width - 1; }
-  double ndc_y(double y) const { return flip ? 1 - 2 * y / height : 2 * y / height - 1; }
-  std::array<double, 3> world(double x, double y, double z) const {
-    const Vector4 p = transformed(world_from_clip, {ndc_x(x), ndc_y(y), z, 1});
-    return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
-  }
-  /// Window x, y in pixels and z in [0, 1].
-  std::array<double, 3> window(const std::array<double, 3>& p) const {
-    const Vector4 c = transformed(clip_from_world, {p[0], p[1], p[2], 1});
-    const double y = c[1] / c[3], z = c[2] / c[3];
-    return {(c[0] / c[3] + 1) * width / 2, (flip ? 1 - y : 1 + y) * height / 2, window_z(z)};
-  }
-  double window_z(double z) const { return near_z < 0 ? (z + 1) / 2 : z; }
-};
-
-View view_of(const Scene& scene, const Pipeline& pipeline) {
-  View view;
-  view.width = pipeline.width;
-  view.height = pipeline.height;
-  view.near_z = pipeline.geometry.clip_depth == ClipDepth::zero_to_one ? 0 : -1;
-  view.flip = pipeline.geometry.clip_origin == ClipOrigin::upper_left;
-  view.clip_from_world = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
-  view.world_from_clip = inverse(view.clip_from_world);
-  // The centre of projection has clip x = y = w = 0: the image of (0, 0, 1, 0).
-  const Vector4 eye = transformed(view.world_from_clip, {0, 0, 1, 0});
-  view.has_eye = std::fabs(eye[3]) > 1e-9 * (std::fabs(eye[0]) + std::fabs(eye[1]) + std::fabs(eye[2]));
-  if (view.has_eye) view.eye = {eye[0] / eye[3], eye[1] / eye[3], eye[2] / eye[3]};
-  if (!scene.camera.clip_from_world)
-    view.eye = {double(scene.camera.eye.x), double(scene.camera.eye.y), double(scene.camera.eye.z)};
-  return view;
-}
-
-/// Owns what Embree made for one scene.
-class RayScene {
- public:
-  explicit RayScene(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
-    if (device_ == nullptr) fail();
-    top_ = rtcNewScene(device_);
-    rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
-    for (const Mesh& mesh : scene.meshes) add_mesh(mesh);
-    for (uint32_t i = 0; i < scene.instances.size(); ++i) add_instance(scene.instances[i], i);
-    rtcCommitScene(top_);
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) fail();
-  }
-  ~RayScene() {
-    rtcReleaseScene(top_);
-    for (const RTCScene mesh : meshes_) rtcReleaseScene(mesh);
-    rtcReleaseDevice(device_);
-  }
-  RayScene(const RayScene&) = delete;
-  RayScene& operator=(const RayScene&) = delete;
-
-  void intersect(RTCRayHit& ray) const {
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(top_, &ray);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(top_, &context, &ray);
-#endif
-  }
-
- private:
-  [[noreturn]] static void fail() {
-    throw Error(ErrorKind::out_of_memory, "embree", "building its tree failed",
-                "give it more memory or a smaller scene");
-  }
-
-  void add_mesh(const Mesh& mesh) {
-    const RTCScene scene = rtcNewScene(device_);
-    meshes_.push_back(scene);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), mesh.vertex_count()));
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(uint32_t), mesh.triangle_count()));
-    if (vertices == nullptr || indices == nullptr) fail();
-    for (size_t v = 0; v < mesh.vertex_count(); ++v)
-      for (size_t k = 0; k < 3; ++k) vertices[3 * v + k] = mesh.position[k][v];
-    std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-  }
-
-  void add_instance(const Instance& instance, uint32_t id) {
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, meshes_[instance.mesh]);
-    float columns[12];
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 3; ++r) columns[3 * c + r] = instance.world_from_object[c][r];
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(top_, geometry, id);
-    rtcReleaseGeometry(geometry);
-  }
-
-  RTCDevice device_;
-  RTCScene top_ = nullptr;
-  std::vector<RTCScene> meshes_;
-};
 
 RayHit shoot(const RayScene& rays, const View& view, int x, int y) {
   const double centre_x = x + 0.5, centre_y = y + 0.5;
@@ -337,7 +185,7 @@ bool allowed(const std::vector<Candidate>& candidates, uint32_t instance, double
 
 std::vector<RayHit> embree_visibility(const Scene& scene, const Pipeline& pipeline) {
   const View view = view_of(scene, pipeline);
-  const RayScene rays(scene);
+  const RayScene rays(scene, true);
   std::vector<RayHit> hits;
   hits.reserve(size_t(view.width) * size_t(view.height));
   for (int y = 0; y < view.height; ++y)

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+namespace trueshade {
+
+/// What a time was measured on.
+struct Machine {
+  std::string cpu;       ///< as the system names it
+  int cores = 0;         ///< that this process may use
+  double clock_ghz = 0;  ///< measured: dependent additions a nanosecond, one a cycle on every CPU in use
+};
+
+Machine this_machine();
+
+}  // namespace trueshade

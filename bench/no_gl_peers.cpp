@@ -1,0 +1,10 @@
+#include "bench/peers.h"
+#include "core/error.h"
+
+namespace trueshade {
+
+std::unique_ptr<Peers> gl_peers(const Scene&, const Pipeline&) {
+  throw Error(ErrorKind::no_gl_driver, "--against gl", "this build has no OpenGL", "build it with libepoxy's headers");
+}
+
+}  // namespace trueshade

@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/contest.h"
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade {
+
+/// Others that draw the same frame, on this machine. Owns what they need; contenders() borrow from it.
+class Peers {
+ public:
+  virtual ~Peers() = default;
+  virtual std::vector<Contender> contenders() = 0;
+  virtual std::string about() const = 0;  ///< which driver or library, and what it was allowed
+};
+
+/// OpenGL in every design of oracle/gl/designs.h, on the driver at hand. Designs that a user picks for speed cull back
+/// faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver).
+std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline);
+
+/// Embree's primary rays, nothing shaded. `threads`: 0 for one a core.
+std::unique_ptr<Peers> embree_peers(const Scene& scene, const Pipeline& pipeline, int threads);
+
+}  // namespace trueshade

@@ -1,0 +1,76 @@
+#include <cstdio>
+
+#include "cli/bench.h"
+#include "cli/page.h"
+#include "cli/svg_chart.h"
+#include "cli/version.h"
+
+namespace trueshade {
+namespace {
+
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string card(const std::string& title, const std::string& chart) {
+  return "<figure style=\"padding: 14px\"><b>" + escaped(title) + "</b>\n" + chart + "</figure>\n";
+}
+
+std::string against_peers(const SceneTime& s) {
+  std::vector<Bar> bars{{"trueshade", s.timing.median(), number(s.timing.median(), "%.2f ms"), true}};
+  for (const PeerTime& peer : s.peers)
+    bars.push_back({peer.name + ' ' + peer.strategy, peer.timing.median(),
+                    number(peer.timing.median(), "%.1f ms") + number(s.ratio(peer), ", %.1fx"), false});
+  return card(s.scene + ", " + std::to_string(s.pipeline.width) + " x " + std::to_string(s.pipeline.height),
+              bar_chart(bars));
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return "<tr><td>" + escaped(name) + "<td>" + escaped(value) + '\n';
+}
+
+std::string counts(const SceneTime& s, const BenchResult& bench) {
+  const FrameStats& f = s.stats;
+  const double floor = s.floor.ms(bench.machine.clock_ghz, bench.threads);
+  std::string html = "<details><summary>" + escaped(s.scene) + "</summary>\n<table>\n";
+  html += row("image", "sha256:" + s.hash) +
+          row("median, least", number(s.timing.median(), "%.3f ms, ") + number(s.timing.least(), "%.3f ms"));
+  html += row("spread of the middle half", number(100 * s.timing.spread(), "%.1f %%"));
+  html += row("geometry, light: core time", number(f.geometry_ms, "%.3f ms, ") + number(f.light_ms, "%.3f ms"));
+  html += row("modelled floor",
+              number(floor, "%.3f ms, ") + number(100 * floor / s.timing.median(), "%.0f %% of the time"));
+  html += row("triangles submitted, set up", std::to_string(f.triangles) + ", " + std::to_string(f.triangles_tested));
+  html += row("fragments, pixels covered", std::to_string(f.fragments) + ", " + std::to_string(f.covered_pixels));
+  html += row("pixel-lights left by tiles, computed, lit", std::to_string(f.tile_pixel_lights) + ", " +
+                                                               std::to_string(f.evaluated_pixel_lights) + ", " +
+                                                               std::to_string(f.lit_pixel_lights));
+  html += row("most memory", number(s.peak_mib, "%.0f MiB"));
+  for (const std::string& about : s.peers_about) html += row("peer", about);
+  return html + "</table></details>\n";
+}
+
+}  // namespace
+
+std::string bench_page(const BenchResult& bench) {
+  std::string html =
+      page_head("Benchmark") + "<h1>Benchmark</h1>\n<p class=quiet>" + escaped(bench_heading(bench)) + "</p>\n";
+  html += "<h2>Time a frame, all drawn in turn in one run; median</h2>\n<div class=pictures>\n";
+  for (const SceneTime& s : bench.scenes) html += against_peers(s);
+  html += "</div>\n<h2>Scaling</h2>\n<div class=pictures>\n";
+  for (const ScalingCurve& curve : bench.scaling) {
+    std::vector<ChartPoint> points;
+    std::vector<Bar> bars;
+    for (const auto& p : curve.points) {
+      points.push_back({p.x, p.ms, p.label});
+      bars.push_back({p.label, p.ms, number(p.ms, "%.2f ms"), false});
+    }
+    html += card(curve.title, curve.axis.empty() ? bar_chart(bars) : line_chart(points, curve.axis, curve.log_axis));
+  }
+  html += "</div>\n<h2>Counts</h2>\n";
+  for (const SceneTime& s : bench.scenes) html += counts(s, bench);
+  return html + std::string(kPageEnd);
+}
+
+}  // namespace trueshade

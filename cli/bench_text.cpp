@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/bench.h"
+#include "cli/json_text.h"
+#include "cli/version.h"
+
+namespace trueshade {
+namespace {
+
+std::string number(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string size_text(const Pipeline& p) { return std::to_string(p.width) + 'x' + std::to_string(p.height); }
+
+double floor_ms(const SceneTime& s, const BenchResult& bench) {
+  return s.floor.ms(bench.machine.clock_ghz, bench.threads);
+}
+
+double per(double value, uint64_t count) { return count == 0 ? 0.0 : value / double(count); }
+
+/// ns of one core per pixel-light computed, and million triangles submitted a second.
+double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e6, s.stats.evaluated_pixel_lights); }
+double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
+
+std::string time_row(const std::string& who, const Timing& t, const std::string& ratio) {
+  char line[160];
+  std::snprintf(line, sizeof line, "  %-26s %9.2f ms  least %9.2f  spread %4.1f %%  of %2zu  %s\n", who.c_str(),
+                t.median(), t.least(), 100.0 * t.spread(), t.ms.size(), ratio.c_str());
+  return line;
+}
+
+std::string scene_json(const SceneTime& s, const BenchResult& bench) {
+  JsonArray peers;
+  for (const PeerTime& peer : s.peers) {
+    JsonObject row;
+    row.put("name", peer.name).put("strategy", peer.strategy).put("ms", peer.timing.median());
+    row.put("least_ms", peer.timing.least()).put("spread", peer.timing.spread());
+    peers.add_raw(row.put("frames", uint64_t(peer.timing.ms.size())).put("ratio", s.ratio(peer)).text());
+  }
+  const FrameStats& f = s.stats;
+  JsonObject json =
+      JsonObject().put("scene", s.scene).put("size", size_text(s.pipeline)).put("preset", s.pipeline.preset);
+  json.put("hash", "sha256:" + s.hash);
+  json.put("ms", s.timing.median()).put("least_ms", s.timing.least()).put("spread", s.timing.spread());
+  json.put("frames", uint64_t(s.timing.ms.size()));
+  json.put("geometry_ms", f.geometry_ms).put("light_ms", f.light_ms);
+  json.put("triangles", f.triangles).put("triangles_tested", f.triangles_tested).put("fragments", f.fragments);
+  json.put("covered_pixels", f.covered_pixels).put("lights", f.lights).put("lit_pixel_lights", f.lit_pixel_lights);
+  json.put("evaluated_pixel_lights", f.evaluated_pixel_lights).put("tile_pixel_lights", f.tile_pixel_lights);
+  json.put("ns_per_pixel_light", ns_per_pixel_light(s)).put("million_triangles_per_s", million_triangles_per_s(s));
+  json.put("floor_ms", floor_ms(s, bench)).put("share_of_floor", floor_ms(s, bench) / s.timing.median());
+  json.put("peak_mib", s.peak_mib);
+  return json.put_raw("peers", peers.text()).text();
+}
+
+}  // namespace
+
+std::string bench_heading(const BenchResult& b) {
+  return b.machine.cpu + ", " + std::to_string(b.machine.cores) + " cores at " + number(b.machine.clock_ghz, "%.2f") +
+         " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + b.simd + ", " + std::to_string(b.threads) +
+         (b.threads == 1 ? " thread" : " threads") + ", tiles of " + std::to_string(b.execution.tile) + "\n";
+}
+
+std::string bench_text(const SceneTime& s, const BenchResult& bench) {
+  const FrameStats& f = s.stats;
+  std::string text = "\n" + s.scene + "  " + s.pipeline.preset + "  " + size_text(s.pipeline) +
+                     "  sha256:" + s.hash.substr(0, 16) + "\n";
+  text += time_row("trueshade", s.timing, "");
+  for (const PeerTime& peer : s.peers)
+    text += time_row(peer.name + ' ' + peer.strategy, peer.timing, number(s.ratio(peer), "%.2fx ours"));
+  text += "  geometry " + number(f.geometry_ms, "%.2f") + " ms, light " + number(f.light_ms, "%.2f") +
+          " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " +
+          number(million_triangles_per_s(s), "%.0f") + " million triangles a second; modelled floor " +
+          number(floor_ms(s, bench), "%.2f") + " ms, " +
+          number(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
+  text += "  " + std::to_string(f.triangles_tested) + " of " + std::to_string(f.triangles) + " triangles set up, " +
+          std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) + " pixels covered; " +
+          std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
+          std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
+          number(s.peak_mib, "%.0f") + " MiB at most\n";
+  for (const std::string& about : s.peers_about) text += "  " + about + "\n";
+  return text;
+}
+
+std::string bench_json(const BenchResult& bench) {
+  JsonArray scenes, scaling;
+  for (const SceneTime& s : bench.scenes) scenes.add_raw(scene_json(s, bench));
+  for (const ScalingCurve& curve : bench.scaling) {
+    JsonArray points;
+    for (const auto& p : curve.points)
+      points.add_raw(JsonObject().put("label", p.label).put("x", p.x).put("ms", p.ms).text());
+    scaling.add_raw(
+        JsonObject().put("title", curve.title).put("axis", curve.axis).put_raw("points", points.text()).text());
+  }
+  JsonObject machine;
+  machine.put("cpu", bench.machine.cpu).put("cores", bench.machine.cores).put("clock_ghz", bench.machine.clock_ghz);
+  JsonObject json;
+  json.put("version", kVersion).put("commit", kCommit).put_raw("machine", machine.text());
+  json.put("threads", bench.threads).put("simd", bench.simd).put("tile", bench.execution.tile);
+  json.put_raw("scenes", scenes.text());
+  return json.put_raw("scaling", scaling.text()).text() + '\n';
+}
+
+}  // namespace trueshade

@@ -1,0 +1,88 @@
+#include "cli/svg_chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/page.h"
+
+namespace trueshade {
+namespace {
+
+constexpr int kWidth = 640, kLabelWidth = 190, kTextWidth = 150, kBarHeight = 22;
+constexpr int kPlotHeight = 220, kLeft = 56, kRight = 24, kTop = 16, kBottom = 44;
+
+std::string text_at(double x, double y, const std::string& text, const char* anchor,
+                    const char* color = "var(--text)") {
+  char start[160];
+  std::snprintf(start, sizeof start, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"12\">", x,
+                y, anchor, color);
+  return start + escaped(text) + "</text>\n";
+}
+
+std::string open_svg(int width, int height) {
+  return "<svg viewBox=\"0 0 " + std::to_string(width) + ' ' + std::to_string(height) +
+         "\" role=\"img\" width=\"100%\">\n";
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value >= 100 ? "%.0f" : value >= 10 ? "%.1f" : "%.2f", value);
+  return text;
+}
+
+/// An axis from the least to the most of some values, in units of 0 to 1.
+struct Axis {
+  double low, high;
+  bool logarithmic;
+  double at(double value) const {
+    if (!(high > low)) return 0.5;
+    return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  }
+};
+
+}  // namespace
+
+std::string bar_chart(std::span<const Bar> bars) {
+  double most = 0.0;
+  for (const Bar& bar : bars) most = std::max(most, bar.value);
+  std::string svg = open_svg(kWidth, kBarHeight * int(bars.size()) + 4);
+  for (size_t i = 0; i < bars.size(); ++i) {
+    const double y = kBarHeight * double(i) + 4, room = kWidth - kLabelWidth - kTextWidth;
+    const double length = most > 0 ? std::max(1.0, bars[i].value / most * room) : 1.0;
+    char rect[200];
+    std::snprintf(rect, sizeof rect, "<rect x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\" fill=\"%s\"/>\n",
+                  kLabelWidth, y, length, kBarHeight - 6, bars[i].accented ? "var(--accent)" : "#56677f");
+    svg += rect + text_at(kLabelWidth - 8, y + 12, bars[i].label, "end") +
+           text_at(kLabelWidth + length + 6, y + 12, bars[i].text, "start", "var(--quiet)");
+  }
+  return svg + "</svg>\n";
+}
+
+std::string line_chart(std::span<const ChartPoint> points, const std::string& axis, bool log_axes) {
+  if (points.empty()) return {};
+  Axis x{points[0].x, points[0].x, log_axes}, y{log_axes ? points[0].y : 0.0, points[0].y, log_axes};
+  for (const ChartPoint& p : points) {
+    x.low = std::min(x.low, p.x), x.high = std::max(x.high, p.x);
+    y.low = std::min(y.low, p.y), y.high = std::max(y.high, p.y);
+  }
+  const double room_x = kWidth - kLeft - kRight, room_y = kPlotHeight - kTop - kBottom;
+  std::string svg = open_svg(kWidth, kPlotHeight), path, marks;
+  for (const ChartPoint& p : points) {
+    const double px = kLeft + x.at(p.x) * room_x, py = kTop + (1 - y.at(p.y)) * room_y;
+    char mark[160];
+    std::snprintf(mark, sizeof mark, "%s%.1f %.1f", path.empty() ? "M" : " L", px, py);
+    path += mark;
+    std::snprintf(mark, sizeof mark, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"var(--accent)\"/>\n", px, py);
+    marks += mark + text_at(px, py - 8, short_number(p.y) + " ms", "middle", "var(--quiet)") +
+             text_at(px, kPlotHeight - kBottom + 18, p.label, "middle");
+  }
+  char frame[200];
+  std::snprintf(frame, sizeof frame, "<path d=\"M%d %d V%d H%d\" fill=\"none\" stroke=\"var(--line)\"/>\n", kLeft,
+                kTop / 2, kPlotHeight - kBottom + 4, kWidth - kRight);
+  svg += frame;
+  svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks;
+  return svg + text_at(kLeft + room_x / 2, kPlotHeight - 8, axis, "middle", "var(--quiet)") + "</svg>\n";
+}
+
+}  // namespace trueshade

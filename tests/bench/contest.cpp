@@ -1,0 +1,81 @@
+// How times are taken, with contenders that only say that they took some.
+#include "bench/contest.h"
+
+#include "bench/machine.h"
+#include "bench/peers.h"
+#include "core/error.h"
+#include "oracle/embree_peer.h"
+#include "oracle/embree_rays.h"
+#include "scenes/presets.h"
+#include "tests/catch.hpp"
+
+namespace trueshade {
+namespace {
+
+/// Draws nothing: its times are given, and each call notes who it was.
+Contender pretender(const std::string& name, std::vector<double> ms, std::string& calls) {
+  return {name, "", [name, ms, &calls, next = size_t(0)]() mutable {
+            calls += name;
+            return ms[next++ % ms.size()];
+          }};
+}
+
+}  // namespace
+
+TEST_CASE("Contenders draw in turn, and the warm-up is not timed") {
+  std::string calls;
+  const std::vector<Contender> two{pretender("a", {9, 3, 1, 2}, calls), pretender("b", {50, 7, 7, 7}, calls)};
+  int steps = 0;
+  const std::vector<Timing> t = contest(two, {3, 1000.0}, [&](int done, int most) {
+    CHECK(done == ++steps);
+    CHECK(most == 8);
+  });
+  CHECK(calls == "abababab");
+  CHECK(steps == 8);
+  CHECK(t[0].ms == std::vector<double>{1, 2, 3});
+  CHECK(t[0].least() == 1.0);
+  CHECK(t[0].median() == 2.0);
+  CHECK(t[1].spread() == 0.0);
+}
+
+TEST_CASE("A contender sits out when its time is used up; one slow frame is better than none") {
+  std::string calls;
+  const std::vector<Contender> three{pretender("a", {1}, calls), pretender("b", {40}, calls),
+                                     pretender("c", {500}, calls)};
+  const std::vector<Timing> t = contest(three, {5, 100.0});
+  CHECK(calls == "abcababaaa");
+  CHECK(t[0].ms.size() == 5);
+  CHECK(t[1].ms.size() == 2);
+  CHECK(t[2].ms == std::vector<double>{500});
+}
+
+TEST_CASE("The spread is that of the middle half, as a share of the median") {
+  Timing t{{10, 20, 30, 40, 50, 60, 70, 80}};
+  CHECK(t.median() == 50.0);
+  CHECK(t.spread() == Approx((70.0 - 30.0) / 50.0));
+}
+
+TEST_CASE("The machine has a clock that a CPU may have") {
+  const Machine machine = this_machine();
+  CHECK(machine.clock_ghz > 0.3);
+  CHECK(machine.clock_ghz < 8.0);
+  CHECK(machine.cores >= 1);
+  CHECK_FALSE(machine.cpu.empty());
+}
+
+TEST_CASE("Embree the peer hits what Embree the judge hits, but for edges") {
+  const Scene scene = load_scene("builtin:city");
+  Pipeline pipeline = presets().front().pipeline;
+  pipeline.width = 131, pipeline.height = 97;  // no multiple of 4
+  const oracle::EmbreePeer peer(scene, pipeline);
+  uint64_t hits = 0, expected = 0;
+  for (int row = 0; row < peer.rows(); ++row) hits += peer.trace_row(row);
+  for (const oracle::RayHit& hit : oracle::embree_visibility(scene, pipeline))
+    expected += hit.instance != oracle::kNoInstance;
+  CAPTURE(hits, expected);
+  CHECK(expected > 131 * 97 / 2);
+  CHECK(hits + 4 >= expected);
+  CHECK(hits <= expected + 4);
+}
+
+}  // namespace trueshade
