@@ -158,7 +158,7 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
 
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
   const std::string n = std::to_string(texels_per_light(model));
-  std::string text = "lit(P, N, V, albedo.rgb";
+  std::string text = model.specular_color != glm::vec3(0.0f) ? "lit(P, N, V, albedo.rgb" : "lit(P, N, albedo.rgb";
   for (int i = 0; i < texels_per_light(model); ++i)
     text +=
         ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");

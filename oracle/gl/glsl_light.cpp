@@ -49,7 +49,11 @@ std::string falloff_text(Falloff falloff) {
   return {};
 }
 
+/// specular_color 0: the term is 0 whatever the angle, and nothing of it is computed.
+bool has_specular(const LightModel& m) { return m.specular_color != glm::vec3(0.0f); }
+
 std::string sum_text(const LightModel& m) {
+  if (!has_specular(m)) return "  return albedo * c * (color.rgb * f);\n";
   switch (m.order) {
     case TermOrder::factored:
       return "  return (albedo * c + specular_color * s) * (color.rgb * f);\n";
@@ -63,12 +67,15 @@ std::string sum_text(const LightModel& m) {
 
 std::string surface_text(const LightModel& model) {
   return std::string(model.renormalize ? "  vec3 N = unit(stored_normal);\n" : "  vec3 N = stored_normal;\n") +
-         "  vec3 V = unit(eye - P);\n";
+         (has_specular(model) ? "  vec3 V = unit(eye - P);\n" : "");
 }
 
 std::string light_function_text(const LightModel& m, const GlslOptions& options) {
-  std::string text = "const vec3 specular_color = vec3(" + glsl_float(m.specular_color.r) + ", " +
-                     glsl_float(m.specular_color.g) + ", " + glsl_float(m.specular_color.b) + ");\n" + R"(
+  std::string text;
+  if (has_specular(m))
+    text = "const vec3 specular_color = vec3(" + glsl_float(m.specular_color.r) + ", " + glsl_float(m.specular_color.g) +
+           ", " + glsl_float(m.specular_color.b) + ");\n";
+  text += R"(
 // Unit length, and 0 for 0.
 vec3 unit(vec3 v) {
   float l2 = dot(v, v);
@@ -78,7 +85,8 @@ vec3 unit(vec3 v) {
 // What one light adds to a pixel. place: position (directional: -direction) and type; color: colour and range.
 )";
   const bool quadratic = m.falloff == Falloff::quadratic;
-  text += std::string("vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color") +
+  text += std::string(has_specular(m) ? "vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color"
+                                      : "vec3 lit(vec3 P, vec3 N, vec3 albedo, vec4 place, vec4 color") +
           (quadratic ? ", vec3 k" : "") + ") {\n";
   if (options.ambient) text += "  if (place.w == 0.0) return albedo * color.rgb;\n";
   text += "  vec3 D = place.xyz - P;\n";
@@ -88,7 +96,8 @@ vec3 unit(vec3 v) {
   if (options.directional) text += "  if (place.w == 1.0) { r = 1.0; f = 1.0; }\n";
   text += "  float nl = dot(N, D) * r;\n";
   text += "  vec3 L = D * r;\n  float c = max(nl, 0.0);\n";
-  return text + specular_text(m, options.products) + sum_text(m) + "}\n";
+  if (has_specular(m)) text += specular_text(m, options.products);
+  return text + sum_text(m) + "}\n";
 }
 
 }  // namespace trueshade::oracle
