@@ -2,7 +2,7 @@
 // Warm frames, the sum of the passes' times up to glFinish; CPU is of all the driver's threads. "first pass ms" is the
 // driver's geometry pass alone.
 // The fast designs cull back faces, as their users would, where that changes at most one pixel in 50,000.
-// "Lambert": the shader of other people's figures, max(0, 1 - d/range) * max(0, N.L), which is no specular colour.
+// "Lambert": the shader of other people's figures, max(0, 1 - d/range) * max(0, N.L), Specular::none.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -52,7 +52,7 @@ void draw(benchmark::State& state, const oracle::GlContext& context, const std::
   auto& loaded = scenes[spec];
   if (!loaded) loaded = std::make_unique<Loaded>(context, spec);
   Pipeline pipeline = presets().front().pipeline;
-  if (lambert) pipeline.light_model.specular_color = glm::vec3(0.0f);
+  if (lambert) pipeline.light_model.specular = Specular::none;
   if (loaded->culling_changes < 0) loaded->culling_changes = pixels_culling_changes(loaded->renderer, pipeline);
   const int changed = loaded->culling_changes;
   const bool culled = is_fast(design) && changed <= pipeline.width * pipeline.height / 50000;

@@ -85,7 +85,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   PipelineOptions own = options;
   own.scene = spec;
   reset_peak_memory();
-  const Scene scene = load_scene(spec);
+  const Scene scene = load_scene(spec, {}, decode_image);
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(own, scene);
@@ -118,7 +118,7 @@ double median_ms(const BenchOptions& options, const std::string& spec, const Exe
   PipelineOptions own = options;
   own.scene = spec;
   if (size) own.size = size;
-  const Scene scene = load_scene(spec);
+  const Scene scene = load_scene(spec, {}, decode_image);
   const PreparedScene prepared(scene);
   OwnFrames frames(prepared, pipeline_of(own, scene), execution);
   const std::vector<Contender> alone{{"trueshade", "", [&frames] { return frames.draw(); }}};

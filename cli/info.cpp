@@ -20,7 +20,7 @@ std::string about_image(const std::string& path) {
 }
 
 std::string about_scene(const std::string& spec) {
-  const Scene scene = load_scene(spec);
+  const Scene scene = load_scene(spec, {}, decode_image);
   const char* const kTypes[] = {"ambient", "directional", "point", "spot"};
   size_t lights[4] = {};
   for (const Light& light : scene.lights) ++lights[size_t(light.type)];

@@ -70,7 +70,7 @@ void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
 
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = load_scene(options.scene, {}, decode_image);
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}, {}};

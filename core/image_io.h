@@ -34,6 +34,11 @@ struct ImageFileInfo {
 /// Header of a PNG or EXR file. Error(io) if it cannot be read, Error(bad_input) if it is neither.
 ImageFileInfo read_image_info(const std::string& path);
 
+/// Texels of a picture's content: PNG (8 bits a channel) and JPEG as rgba8, EXR (R, G, B, perhaps A) as rgba16f or
+/// rgba32f. `where` stands in errors, as read_planes() has them; Error(limit) too where it would take over
+/// `most_bytes`.
+Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes);
+
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f

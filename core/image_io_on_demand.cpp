@@ -48,6 +48,10 @@ std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata) {
   return table().encode_png(color, metadata);
 }
 
+Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
+  return table().decode_image(content, where, most_bytes);
+}
+
 ImageFileInfo read_image_info(const std::string& path) { return table().read_image_info(path); }
 
 std::vector<NamedImage> read_planes(const std::string& path) { return table().read_planes(path); }

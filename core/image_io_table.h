@@ -8,6 +8,7 @@ namespace trueshade {
 struct ImageIoTable {
   decltype(&trueshade::write_image) write_image;
   decltype(&trueshade::encode_png) encode_png;
+  decltype(&trueshade::decode_image) decode_image;
   decltype(&trueshade::read_image_info) read_image_info;
   decltype(&trueshade::read_planes) read_planes;
 };

@@ -15,7 +15,6 @@ namespace trueshade {
 namespace {
 
 constexpr size_t kSignatureBytes = 8, kChunkOverhead = 12;  // a chunk: length, type, data, CRC
-constexpr size_t kTexelBytes = 4;
 constexpr size_t kPiece = 65536;
 
 uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
@@ -71,12 +70,13 @@ int paeth(int left, int above, int corner) {
 }
 
 /// Undoes a row's filter in place. `above`: the row before it, undone; null for the first.
-void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes) {
+void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes,
+              size_t texel_bytes) {
   if (filter > 4) throw refused(where, "a row has a filter that PNG does not know");
   for (size_t i = 0; i < bytes; ++i) {
-    const int left = i < kTexelBytes ? 0 : row[i - kTexelBytes];
+    const int left = i < texel_bytes ? 0 : row[i - texel_bytes];
     const int up = above == nullptr ? 0 : above[i];
-    const int corner = i < kTexelBytes || above == nullptr ? 0 : above[i - kTexelBytes];
+    const int corner = i < texel_bytes || above == nullptr ? 0 : above[i - texel_bytes];
     const int guess = filter == 1   ? left
                       : filter == 2 ? up
                       : filter == 3 ? (left + up) / 2
@@ -86,18 +86,61 @@ void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint
   }
 }
 
-void check_kind(const std::string& where, std::span<const uint8_t> header) {
-  if (header[8] != 8 || header[9] != 6)
+enum Kind : uint8_t { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6 };  // PNG's colour types
+
+size_t texel_bytes(uint8_t kind) { return kind == kRgba ? 4 : kind == kRgb ? 3 : kind == kGreyAlpha ? 2 : 1; }
+
+void check_kind(const std::string& where, std::span<const uint8_t> header, PngKinds kinds) {
+  if (kinds == PngKinds::rgba && (header[8] != 8 || header[9] != kRgba))
     throw refused(where, "its texels are not 8 bits RGBA", "write RGBA: alpha is judged too");
+  if (header[8] != 8) throw refused(where, "its channels are not of 8 bits", "write 8 bits a channel");
   if (header[10] != 0 || header[11] != 0 || header[12] != 0)
     throw refused(where, "it is interlaced, or compressed in an unknown way", "write it without interlacing");
 }
 
+struct Palette {
+  uint8_t rgba[256][4] = {};
+  size_t size = 0;
+
+  void set_colors(const std::string& where, std::span<const uint8_t> data) {
+    if (data.empty() || data.size() % 3 != 0 || data.size() > 768) throw refused(where, "its palette is damaged");
+    size = data.size() / 3;
+    for (size_t i = 0; i < size; ++i) {
+      std::copy_n(data.data() + 3 * i, 3, rgba[i]);
+      rgba[i][3] = 255;
+    }
+  }
+  void set_alphas(const std::string& where, std::span<const uint8_t> data) {
+    if (data.size() > size) throw refused(where, "its palette has too many alphas");
+    for (size_t i = 0; i < data.size(); ++i) rgba[i][3] = data[i];
+  }
+};
+
+/// A row of any kind as RGBA: grey spread over R, G and B, alpha 255 where there is none.
+void spread(const std::string& where, uint8_t kind, const Palette& palette, const uint8_t* row, size_t width,
+            uint8_t* out) {
+  const size_t from = texel_bytes(kind);
+  for (size_t x = 0; x < width; ++x) {
+    const uint8_t* texel = row + x * from;
+    uint8_t* rgba = out + 4 * x;
+    if (kind == kPalette) {
+      if (*texel >= palette.size) throw refused(where, "a texel is beyond its palette");
+      std::copy_n(palette.rgba[*texel], 4, rgba);
+      continue;
+    }
+    const bool color = kind == kRgb || kind == kRgba;
+    for (size_t c = 0; c < 3; ++c) rgba[c] = texel[color ? c : 0];
+    rgba[3] = kind == kRgba || kind == kGreyAlpha ? texel[from - 1] : 255;
+  }
+}
+
 }  // namespace
 
-Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKinds kinds) {
   std::unique_ptr<Inflater> texels;
+  Palette palette;
   int width = 0, height = 0;
+  uint8_t kind = kRgba;
   for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
     const size_t length = word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
@@ -105,9 +148,14 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
       throw refused(where, "a checksum of it is wrong");
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
-      check_kind(where, data);
-      width = int(word_at(data, 0)), height = int(word_at(data, 4));
-      texels = std::make_unique<Inflater>(where, (size_t(width) * kTexelBytes + 1) * size_t(height));
+      check_kind(where, data, kinds);
+      width = int(word_at(data, 0)), height = int(word_at(data, 4)), kind = data[9];
+      texels = std::make_unique<Inflater>(where, (size_t(width) * texel_bytes(kind) + 1) * size_t(height));
+    } else if (name == "PLTE" && kind == kPalette) {
+      palette.set_colors(where, data);
+    } else if (name == "tRNS" && kind != kRgba) {
+      if (kind != kPalette) throw refused(where, "one of its colours stands for transparency", "write RGBA");
+      palette.set_alphas(where, data);
     } else if (name == "IDAT") {
       texels->add(data);
     } else if (name == "IEND") {
@@ -117,12 +165,12 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
   }
   std::vector<uint8_t> rows = texels->finish();
   Image image(width, height, Format::rgba8);
-  const size_t row_bytes = image.row_bytes();
+  const size_t row_bytes = size_t(width) * texel_bytes(kind);
   const uint8_t* above = nullptr;
   for (int y = 0; y < height; ++y) {
     uint8_t* row = rows.data() + size_t(y) * (row_bytes + 1);
-    unfilter(where, row[0], row + 1, above, row_bytes);
-    std::copy(row + 1, row + 1 + row_bytes, image.texel(0, y));
+    unfilter(where, row[0], row + 1, above, row_bytes, texel_bytes(kind));
+    spread(where, kind, palette, row + 1, size_t(width), image.texel(0, y));
     above = row + 1;
   }
   return image;

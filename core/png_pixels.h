@@ -7,10 +7,13 @@
 
 namespace trueshade {
 
-/// The texels of a PNG of 8 bits RGBA without interlacing, codes as they are stored: no gamma, no profile is applied.
+/// Which colour types are taken, all of 8 bits a channel.
+enum class PngKinds : uint8_t { rgba, any };
+
+/// The texels of a PNG without interlacing as rgba8, codes as they are stored: no gamma, no profile is applied.
 /// Our own, because libpng reports a bad file on standard error itself. `bytes` has passed png_header() and its size is
 /// one the caller accepts. Error(bad_input) naming `where`: another kind of PNG, wrong checksums, too few or many
 /// texels.
-Image png_pixels(const std::string& where, std::span<const uint8_t> bytes);
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKinds kinds = PngKinds::rgba);
 
 }  // namespace trueshade

@@ -18,6 +18,7 @@
 #include "core/guarded.h"
 #include "core/half.h"
 #include "core/image_io.h"
+#include "core/jpeg_pixels.h"
 #include "core/png_header.h"
 #include "core/png_pixels.h"
 
@@ -28,7 +29,7 @@ constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
 constexpr uint64_t kMaxDecodedBytes = uint64_t(4) << 30;
 constexpr int kMaxSide = 16384;
 constexpr int kRowsAtOnce = 64;  // a multiple of the rows an EXR compresses together
-constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kExr = "\x76\x2f\x31\x01";
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kExr = "\x76\x2f\x31\x01", kJpeg = "\xff\xd8\xff";
 
 Error bad_image(const std::string& path, const std::string& reason,
                 const std::string& remedy = "write the file again") {
@@ -71,8 +72,10 @@ void check_size(const std::string& path, int width, int height, uint64_t texel_b
 /// An EXR opened for reading. OpenImageIO borrows the bytes.
 class ExrFile {
  public:
-  ExrFile(const std::string& path, const std::vector<uint8_t>& bytes)
-      : path_(path), memory_(bytes.data(), bytes.size()), file_(OIIO::ImageInput::create("openexr")) {
+  ExrFile(const std::string& path, std::span<const uint8_t> bytes)
+      : path_(path),
+        memory_(const_cast<uint8_t*>(bytes.data()), bytes.size()),
+        file_(OIIO::ImageInput::create("openexr")) {
     if (!file_ || !file_->set_ioproxy(&memory_) || !file_->open(path, spec_)) throw failure();
   }
 
@@ -100,7 +103,7 @@ class ExrFile {
   OIIO::ImageSpec spec_;
 };
 
-ImageFileInfo exr_header(const std::string& path, const std::vector<uint8_t>& bytes) {
+ImageFileInfo exr_header(const std::string& path, std::span<const uint8_t> bytes) {
   const ExrFile file(path, bytes);
   const OIIO::ImageSpec& spec = file.spec();
   ImageFileInfo header{spec.width, spec.height, {}, {}};
@@ -179,7 +182,7 @@ void append_rows(const std::vector<uint8_t>& rows, size_t pixel_bytes, PlaneSour
     }
 }
 
-std::vector<NamedImage> exr_planes(const std::string& path, const std::vector<uint8_t>& bytes) {
+std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
   ExrFile file(path, bytes);
   const OIIO::ImageSpec& spec = file.spec();
   check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
@@ -204,12 +207,40 @@ std::vector<NamedImage> exr_planes(const std::string& path, const std::vector<ui
   return result;
 }
 
-std::vector<NamedImage> png_planes(const std::string& path, const std::vector<uint8_t>& bytes) {
+std::vector<NamedImage> png_planes(const std::string& path, std::span<const uint8_t> bytes) {
   const ImageFileInfo header = png_header(path, bytes);
   check_size(path, header.width, header.height, 4);
   std::vector<NamedImage> planes;
   planes.push_back({"color", png_pixels(path, bytes)});
   return planes;
+}
+
+/// Three channels with an alpha of 1 behind them.
+Image with_alpha(const Image& rgb) {
+  const bool half = rgb.format == Format::rgb16f;
+  Image rgba(rgb.width, rgb.height, half ? Format::rgba16f : Format::rgba32f);
+  const size_t from = size_t(info(rgb.format).bytes_per_texel()), to = size_t(info(rgba.format).bytes_per_texel());
+  const uint16_t half_one = 0x3C00;
+  const float one = 1.0f;
+  for (size_t i = 0; i < size_t(rgb.width) * size_t(rgb.height); ++i) {
+    std::memcpy(rgba.texels.data() + i * to, rgb.texels.data() + i * from, from);
+    std::memcpy(rgba.texels.data() + i * to + from, half ? static_cast<const void*>(&half_one) : &one, to - from);
+  }
+  return rgba;
+}
+
+void check_budget(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t most_bytes) {
+  check_size(where, width, height, texel_bytes);
+  if (uint64_t(width) * uint64_t(height) * texel_bytes > most_bytes)
+    throw Error(ErrorKind::limit, where, "with it the pictures are over the limit of decoded bytes", "smaller ones");
+}
+
+Image exr_color(const std::string& where, std::span<const uint8_t> content) {
+  for (NamedImage& plane : exr_planes(where, content)) {
+    if (plane.name != "color") continue;
+    return info(plane.image.format).channels == 3 ? with_alpha(plane.image) : std::move(plane.image);
+  }
+  throw bad_image(where, "it has no colour", "name its channels R, G, B and A");
 }
 
 }  // namespace
@@ -219,6 +250,26 @@ ImageFileInfo read_image_info(const std::string& path) {
   if (starts_with(bytes, kPng)) return png_header(path, bytes);
   if (starts_with(bytes, kExr)) return guarded(path, [&] { return exr_header(path, bytes); });
   throw Error(ErrorKind::bad_input, path, "it is neither PNG nor EXR", "give one of these");
+}
+
+Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
+  const FpScope ieee;
+  if (starts_with(content, kPng)) {
+    const ImageFileInfo header = png_header(where, content);
+    check_budget(where, header.width, header.height, 4, most_bytes);
+    return png_pixels(where, content, PngKinds::any);
+  }
+  if (starts_with(content, kJpeg)) {
+    const JpegSize size = jpeg_size(where, content);
+    check_budget(where, size.width, size.height, 4, most_bytes);
+    return guarded(where, [&] { return jpeg_pixels(where, content); });
+  }
+  if (!starts_with(content, kExr)) throw bad_image(where, "it is neither PNG, JPEG nor EXR", "give one of these");
+  return guarded(where, [&] {
+    const ImageFileInfo header = exr_header(where, content);
+    check_budget(where, header.width, header.height, 16, most_bytes);
+    return exr_color(where, content);
+  });
 }
 
 std::vector<NamedImage> read_planes(const std::string& path) {

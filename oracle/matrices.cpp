@@ -78,6 +78,13 @@ Matrix4 projection_of(const Camera& camera, const GeometryState& state, int widt
   return result;
 }
 
+std::array<double, 3> view_axis(const Matrix4& m) {
+  Vector row = {m[3], m[7], m[11]};
+  if (dot(row, row) == 0) row = {m[2], m[6], m[10]};
+  const Vector v = unit(row);
+  return {double(-v[0]), double(-v[1]), double(-v[2])};
+}
+
 Matrix4 inverse_of(const Matrix4& matrix) {
   std::array<std::array<Real, 8>, 4> rows{};  // the matrix beside the identity
   for (size_t r = 0; r < 4; ++r) {

@@ -17,6 +17,8 @@ struct Light {
   glm::vec3 attenuation{1.0f, 0.0f, 0.0f};               ///< k0, k1 [1/unit], k2 [1/unit^2]
   float cone_rad = 3.14159265f;                          ///< half angle of the fully lit cone; spot
   float penumbra_rad = 0.0f;                             ///< angle past cone_rad over which the light fades to 0; spot
+  glm::vec3 ambient{0.0f};     ///< its share of ambient light, falling off as `color` does; each in [0, 1e18]
+  float spot_exponent = 0.0f;  ///< of the cosine to the axis; in [0, 8192]; spot
 };
 
 }  // namespace trueshade

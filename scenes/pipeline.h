@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/blend_state.h"
 #include "core/format.h"
 #include "core/numeric_profile.h"
 #include "scenes/light_model.h"
@@ -17,7 +18,27 @@ enum class ClipOrigin : uint8_t { lower_left, upper_left };
 enum class ClipDepth : uint8_t { negative_one_to_one, zero_to_one };
 enum class Interpolation : uint8_t { smooth, flat, noperspective };
 enum class Provoking : uint8_t { last, first };
-enum class Strategy : uint8_t { deferred_loop };  ///< spelled `deferred-loop` outside C++
+
+/// How lights come to pixels. Spelled with hyphens outside C++.
+enum class Strategy : uint8_t {
+  forward_multipass,  ///< every object once a light, added to the target after each
+  forward_loop,       ///< every object once, all lights summed in float32 registers, one store
+  deferred_volumes,   ///< G-buffer, then each light drawn as its geometry, blended and rounded light by light
+  deferred_loop       ///< G-buffer, then one pass that sums the lights in float32 registers, one store
+};
+inline constexpr std::string_view kStrategyNames[] = {"forward-multipass", "forward-loop", "deferred-volumes",
+                                                      "deferred-loop"};
+constexpr std::string_view name_of(Strategy strategy) { return kStrategyNames[size_t(strategy)]; }
+constexpr bool is_forward(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::forward_loop; }
+
+/// What bounds a light beside its falloff. A light whose range is infinite is unbounded whatever this says.
+enum class LightExtent : uint8_t {
+  unbounded,  ///< nothing; drawn as a quad over the whole image
+  range,      ///< distance < range; drawn as a quad whose fragments beyond are discarded
+  box,        ///< axis-aligned mesh, half side `range`; where nothing is drawn as a mesh, the same as `range`, as are
+  sphere,     ///< a mesh whose vertices lie on the sphere of radius `range`
+  cone        ///< a mesh with its apex at the light and its base at `range`, as wide as the light's cone
+};
 
 /// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image, whatever x and y.
 struct Viewport {
@@ -47,13 +68,30 @@ struct PlaneState {
 };
 
 /// The planes the light pass reads, in the formats that round them. position, normal, uv: rgba32f, rgba16f or rgb16f;
-/// albedo: these or rgba8. Depth is d32f, ids are r32ui.
+/// albedo: these or rgba8. Depth is d32f, ids are r32ui. The planes `specular` (RGB the specular colour, A the
+/// shininess; rgba32f or rgba16f) and `emission` (rgba32f, rgba16f, rgb16f or rgba8) exist where the light model reads
+/// them; they hold what the material makes of the pixel.
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
+  Format specular = Format::rgba32f, emission = Format::rgba32f;
   bool position_from_depth = false;  ///< rebuilt from the stored depth (docs/arithmetic.md); `position` is not read
   HalfRound half_round = HalfRound::toward_zero;
   bool operator==(const GBufferState&) const = default;
 };
+
+/// How lights are bounded and drawn. Ambient and directional lights are unbounded. Quads are never culled.
+struct LightVolumes {
+  LightExtent point = LightExtent::range, spot = LightExtent::range;
+  int slices = 16;                      ///< of spheres and cones, around their axis: 3 to 64
+  int stacks = 8;                       ///< of spheres, from pole to pole: 2 to 64
+  CullFace cull_face = CullFace::none;  ///< of meshes; seen from outside their triangles are counter-clockwise
+  bool depth_clamp = true;              ///< of meshes; there is no depth test
+  bool base = true;                     ///< first a draw over the image, not blended: what a surface has without lights
+  bool operator==(const LightVolumes&) const = default;
+};
+
+/// Blending of the draws of deferred-volumes: RGB accumulate, alpha is not written.
+inline constexpr BlendState kAddLight{true, kAccumulate, kAccumulate, {}, {true, true, true, false}};
 
 /// Everything that may change a pixel, beside the scene.
 struct Pipeline {
@@ -62,6 +100,8 @@ struct Pipeline {
   GeometryState geometry;
   GBufferState gbuffer;
   LightModel light_model;
+  LightVolumes light_volumes;
+  BlendState blend = kAddLight;  ///< of deferred-volumes, a light's draws; forward-multipass always has kAddLight
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
   NumericProfile profile = NumericProfile::ideal;

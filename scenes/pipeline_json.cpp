@@ -18,29 +18,45 @@ constexpr std::string_view kClipOrigins[] = {"lower_left", "upper_left"};
 constexpr std::string_view kClipDepths[] = {"negative_one_to_one", "zero_to_one"};
 constexpr std::string_view kInterpolations[] = {"smooth", "flat", "noperspective"};
 constexpr std::string_view kProvoking[] = {"last", "first"};
-constexpr std::string_view kStrategies[] = {"deferred-loop"};
+constexpr std::string_view kExtents[] = {"unbounded", "range", "box", "sphere", "cone"};
 constexpr std::string_view kHalfRounds[] = {"toward_zero", "nearest"};
-constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic"};
-constexpr std::string_view kOrders[] = {"factored", "separate"};
+constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic",   "none",
+                                          "linear",       "attenuation", "inverse_square"};
+constexpr std::string_view kOrders[] = {"factored", "separate", "albedo_last", "with_ambient"};
+constexpr std::string_view kCones[] = {"none", "smooth_cutoff", "smooth_penumbra", "exponent", "squared_penumbra"};
+constexpr std::string_view kDiffuses[] = {"clamped", "unclamped"};
+constexpr std::string_view kSpeculars[] = {"blinn_phong", "phong", "none"};
+constexpr std::string_view kSpecularSources[] = {"model", "albedo", "material", "metallic_roughness"};
+constexpr std::string_view kViewers[] = {"local", "infinite"};
 
-constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",    "height", "geometry",
-                                          "gbuffer", "light_model", "strategy", "target", "profile"};
+constexpr std::string_view kRootKeys[] = {"version",     "preset",        "width", "height",   "geometry", "gbuffer",
+                                          "light_model", "light_volumes", "blend", "strategy", "target",   "profile"};
 constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "depth_far", "depth_func",
                                               "clear_depth", "depth_clamp", "cull_face", "front_face",
                                               "clip_origin", "clip_depth",  "provoking"};
 constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
-constexpr std::string_view kGBufferKeys[] = {"position", "normal", "albedo", "uv", "position_from_depth", "half_round"};
+constexpr std::string_view kGBufferKeys[] = {
+    "position", "normal", "albedo", "uv", "specular_format", "emission_format", "position_from_depth", "half_round"};
 constexpr std::string_view kPlaneKeys[] = {"format", "interpolation"};
-constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess",        "specular_color",
-                                                "falloff",     "order",           "alpha_from_albedo"};
+constexpr std::string_view kLightModelKeys[] = {"renormalize", "specular_masked", "shininess",         "specular_color",
+                                                "falloff",     "order",           "alpha_from_albedo", "cone",
+                                                "diffuse",     "specular",        "specular_source",   "viewer",
+                                                "emission",    "global_ambient",  "damping",           "clamp_result"};
+constexpr std::string_view kLightVolumesKeys[] = {"point",     "spot",        "slices", "stacks",
+                                                  "cull_face", "depth_clamp", "base"};
+constexpr std::string_view kBlendKeys[] = {"enabled", "rgb", "alpha", "constant", "mask"};
+constexpr std::string_view kBlendTermKeys[] = {"equation", "src", "dst"};
 
-enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel };
-constexpr std::array<json::ObjectKeys, 6> kObjects{{{"", kRootKeys},
+enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel, kLightVolumes, kBlend, kBlendTerm };
+constexpr std::array<json::ObjectKeys, 9> kObjects{{{"", kRootKeys},
                                                     {"geometry", kGeometryKeys},
                                                     {"viewport", kViewportKeys},
                                                     {"gbuffer", kGBufferKeys},
                                                     {"plane", kPlaneKeys},
-                                                    {"light_model", kLightModelKeys}}};
+                                                    {"light_model", kLightModelKeys},
+                                                    {"light_volumes", kLightVolumesKeys},
+                                                    {"blend", kBlendKeys},
+                                                    {"blend_term", kBlendTermKeys}}};
 
 // --- Writing -------------------------------------------------------------------------------------------------------
 
@@ -105,8 +121,15 @@ void write_gbuffer(std::string& out, const GBufferState& g) {
   write_plane(w.key("normal"), g.normal);
   write_plane(w.key("albedo"), g.albedo);
   write_plane(w.key("uv"), g.uv);
+  w.put("specular_format", info(g.specular).name);
+  w.put("emission_format", info(g.emission).name);
   w.put("position_from_depth", g.position_from_depth);
   w.put("half_round", g.half_round, kHalfRounds);
+}
+
+void write_color(std::string& out, const glm::vec3& color) {
+  for (int k = 0; k < 3; ++k) json::append_number(out += k == 0 ? '[' : ',', color[k]);
+  out += ']';
 }
 
 void write_light_model(std::string& out, const LightModel& m) {
@@ -114,12 +137,50 @@ void write_light_model(std::string& out, const LightModel& m) {
   w.put("renormalize", m.renormalize);
   w.put("specular_masked", m.specular_masked);
   w.put("shininess", m.shininess);
-  w.key("specular_color");
-  for (int k = 0; k < 3; ++k) json::append_number(out += k == 0 ? '[' : ',', m.specular_color[k]);
-  out += ']';
+  write_color(w.key("specular_color"), m.specular_color);
   w.put("falloff", m.falloff, kFalloffs);
   w.put("order", m.order, kOrders);
   w.put("alpha_from_albedo", m.alpha_from_albedo);
+  w.put("cone", m.cone, kCones);
+  w.put("diffuse", m.diffuse, kDiffuses);
+  w.put("specular", m.specular, kSpeculars);
+  w.put("specular_source", m.specular_source, kSpecularSources);
+  w.put("viewer", m.viewer, kViewers);
+  w.put("emission", m.emission);
+  write_color(w.key("global_ambient"), m.global_ambient);
+  w.put("damping", m.damping);
+  w.put("clamp_result", m.clamp_result);
+}
+
+void write_light_volumes(std::string& out, const LightVolumes& v) {
+  Writer w(out);
+  w.put("point", v.point, kExtents);
+  w.put("spot", v.spot, kExtents);
+  w.put("slices", v.slices);
+  w.put("stacks", v.stacks);
+  w.put("cull_face", v.cull_face, kCullFaces);
+  w.put("depth_clamp", v.depth_clamp);
+  w.put("base", v.base);
+}
+
+void write_blend_term(std::string& out, const BlendTerm& term) {
+  Writer w(out);
+  w.put("equation", term.equation, kBlendEquationNames);
+  w.put("src", term.src, kBlendFactorNames);
+  w.put("dst", term.dst, kBlendFactorNames);
+}
+
+void write_blend(std::string& out, const BlendState& b) {
+  Writer w(out);
+  w.put("enabled", b.enabled);
+  write_blend_term(w.key("rgb"), b.rgb);
+  write_blend_term(w.key("alpha"), b.alpha);
+  std::string& constant = w.key("constant");
+  for (size_t k = 0; k < 4; ++k) json::append_number(constant += k == 0 ? '[' : ',', b.constant[k]);
+  constant += ']';
+  std::string& mask = w.key("mask");
+  for (size_t k = 0; k < 4; ++k) (mask += k == 0 ? '[' : ',') += b.mask[k] ? "true" : "false";
+  mask += ']';
 }
 
 // --- Reading -------------------------------------------------------------------------------------------------------
@@ -184,8 +245,16 @@ void read_gbuffer(const json::Node& node, GBufferState& g) {
   read_plane(node, "normal", g.normal);
   read_plane(node, "albedo", g.albedo);
   read_plane(node, "uv", g.uv);
+  constexpr std::string_view kFormats[] = {"rgba32f", "rgba16f", "rgb16f", "rgba8"};  // specular has an alpha
+  if (const auto format = node.find("specular_format")) g.specular = read_format(*format, Names(kFormats).first(2));
+  if (const auto format = node.find("emission_format")) g.emission = read_format(*format, kFormats);
   read_flag(node, "position_from_depth", g.position_from_depth);
   read_choice(node, "half_round", g.half_round, kHalfRounds);
+}
+
+bool multiplies_albedo_last_but_reads_another(const LightModel& m) {
+  return m.order == TermOrder::albedo_last && m.specular != Specular::none &&
+         m.specular_source != SpecularSource::albedo;
 }
 
 void read_light_model(const json::Node& node, LightModel& m) {
@@ -197,6 +266,53 @@ void read_light_model(const json::Node& node, LightModel& m) {
   read_choice(node, "falloff", m.falloff, kFalloffs);
   read_choice(node, "order", m.order, kOrders);
   read_flag(node, "alpha_from_albedo", m.alpha_from_albedo);
+  read_choice(node, "cone", m.cone, kCones);
+  read_choice(node, "diffuse", m.diffuse, kDiffuses);
+  read_choice(node, "specular", m.specular, kSpeculars);
+  read_choice(node, "specular_source", m.specular_source, kSpecularSources);
+  read_choice(node, "viewer", m.viewer, kViewers);
+  read_flag(node, "emission", m.emission);
+  if (const auto color = node.find("global_ambient")) m.global_ambient = color->vec3(0.0f, kLargest);
+  read_real(node, "damping", m.damping, 0.0f, kLargest);
+  read_flag(node, "clamp_result", m.clamp_result);
+  if (multiplies_albedo_last_but_reads_another(m))
+    node.fail("order albedo_last with a specular colour that is not the albedo",
+              "specular none or specular_source albedo");
+}
+
+void read_light_volumes(const json::Node& node, LightVolumes& v) {
+  node.check_keys(kObjects[kLightVolumes]);
+  read_choice(node, "point", v.point, kExtents);
+  read_choice(node, "spot", v.spot, kExtents);
+  read_integer(node, "slices", v.slices, 3, 64);
+  read_integer(node, "stacks", v.stacks, 2, 64);
+  read_choice(node, "cull_face", v.cull_face, kCullFaces);
+  read_flag(node, "depth_clamp", v.depth_clamp);
+  read_flag(node, "base", v.base);
+}
+
+void read_blend_term(const json::Node& blend, std::string_view key, BlendTerm& term) {
+  const auto node = blend.find(key);
+  if (!node) return;
+  node->check_keys(kObjects[kBlendTerm]);
+  read_choice(*node, "equation", term.equation, kBlendEquationNames);
+  read_choice(*node, "src", term.src, kBlendFactorNames);
+  read_choice(*node, "dst", term.dst, kBlendFactorNames);
+}
+
+void read_blend(const json::Node& node, BlendState& b) {
+  node.check_keys(kObjects[kBlend]);
+  read_flag(node, "enabled", b.enabled);
+  read_blend_term(node, "rgb", b.rgb);
+  read_blend_term(node, "alpha", b.alpha);
+  if (const auto constant = node.find("constant")) {
+    constant->array(4, 4);
+    for (size_t k = 0; k < 4; ++k) b.constant[k] = constant->element(k).real(-kLargest, kLargest);
+  }
+  if (const auto mask = node.find("mask")) {
+    mask->array(4, 4);
+    for (size_t k = 0; k < 4; ++k) read(mask->element(k), b.mask[k]);
+  }
 }
 
 }  // namespace
@@ -214,7 +330,9 @@ std::string pipeline_json(const Pipeline& pipeline) {
     write_geometry(w.key("geometry"), pipeline.geometry);
     write_gbuffer(w.key("gbuffer"), pipeline.gbuffer);
     write_light_model(w.key("light_model"), pipeline.light_model);
-    w.put("strategy", pipeline.strategy, kStrategies);
+    write_light_volumes(w.key("light_volumes"), pipeline.light_volumes);
+    write_blend(w.key("blend"), pipeline.blend);
+    w.put("strategy", pipeline.strategy, kStrategyNames);
     w.put("target", info(pipeline.target).name);
     w.put("profile", pipeline.profile, kProfileNames);
   }
@@ -236,7 +354,9 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   if (const auto geometry = node.find("geometry")) read_geometry(*geometry, p.geometry);
   if (const auto gbuffer = node.find("gbuffer")) read_gbuffer(*gbuffer, p.gbuffer);
   if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);
-  read_choice(node, "strategy", p.strategy, kStrategies);
+  if (const auto volumes = node.find("light_volumes")) read_light_volumes(*volumes, p.light_volumes);
+  if (const auto blend = node.find("blend")) read_blend(*blend, p.blend);
+  read_choice(node, "strategy", p.strategy, kStrategyNames);
   if (const auto target = node.find("target")) p.target = read_format(*target, kTargets);
   read_choice(node, "profile", p.profile, kProfileNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)

@@ -51,14 +51,14 @@ Mesh mesh_from_file(const Bytes& content, const std::string& name, uint64_t limi
   return mesh;
 }
 
-Scene load_scene(const std::string& spec, const SceneLimits& limits) {
+Scene load_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode) {
   const FpScope environment;  // a caller's rounding mode or flush-to-zero must not reach a scene's numbers
   constexpr std::string_view kBuiltin = "builtin:";
   if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
   if (spec.ends_with(".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes);
-    scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits);
+    scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode);
   } else if (is_geometry_name(spec)) {
     scene = scene_of(
         mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));

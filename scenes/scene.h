@@ -1,19 +1,37 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <glm/mat4x3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/image.h"
 #include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/mesh.h"
+#include "scenes/texture.h"
 
 namespace trueshade {
 
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};  ///< linear RGBA, times the vertex colour
+  // What lights beside the albedo; a light model reads the fields it names (scenes/light_model.h).
+  glm::vec3 specular_color{0.25f};  ///< each in [0, 1e18]
+  float shininess = 32.0f;          ///< an integer from 0 to 8192
+  glm::vec3 emission{0.0f};         ///< each in [0, 1e18]
+  float metallic = 0.0f;            ///< in [0, 1]
+  float roughness = 1.0f;           ///< in [0, 1]
+  TextureSlot color_map{};          ///< times the colour, alpha too
+  TextureSlot specular_map{};       ///< RGB times the specular colour
+  TextureSlot normal_map{};         ///< tangent space, (n + 1) / 2
+  float normal_scale = 1.0f;        ///< of the map's x and y
+  float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
+
+  bool masked() const { return alpha_cutoff > 0.0f; }
+  bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }
 };
 
 /// One drawing of a mesh. Geometry is stored once however often it is drawn.
@@ -28,6 +46,7 @@ struct Scene {
   std::string spec;  ///< what the user wrote: `builtin:city,seed=3`, or the file's name without its folder
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   std::vector<Instance> instances;
   std::vector<Light> lights;
   Camera camera;
@@ -43,7 +62,13 @@ struct SceneLimits {
   uint64_t instances = uint64_t(16) << 20;
   uint64_t file_bytes = uint64_t(1) << 30;
   uint64_t json_bytes = uint64_t(256) << 20;
+  uint64_t texture_bytes = uint64_t(4) << 30;  ///< of all pictures, decoded
 };
+
+/// Texels of an image file's content: rgba8 as the codes are, rgba16f or rgba32f. Made by who links an image library;
+/// scenes does not. `where` stands in errors. Error(limit) for more than `most_bytes`, before they are allocated.
+using ImageDecoder =
+    std::function<Image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes)>;
 
 /// Throws Error(bad_input or limit) unless every index, number and count is in its stated range: finite positions with
 /// |x| <= 1e18, colours in [0, 1e18], ranges > 0, unit directions, indices below the vertex count.
@@ -51,10 +76,12 @@ void validate(const Scene& scene, const SceneLimits& limits = {});
 
 /// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
 /// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of
-/// lights. Errors: bad_input with file and place; limit; io for a file that cannot be read.
-Scene load_scene(const std::string& spec, const SceneLimits& limits = {});
+/// lights. Without `decode` a scene that names an image file is refused.
+/// Errors: bad_input with file and place; limit; io for a file that cannot be read.
+Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {});
 
-/// SHA-256 over the loaded values (not over file bytes): meshes, materials, instances, lights, camera, clear colour.
+/// SHA-256 over the loaded values (not over file bytes): meshes, materials, textures (decoded texels), instances,
+/// lights, camera, clear colour.
 std::string scene_hash(const Scene& scene);
 
 }  // namespace trueshade

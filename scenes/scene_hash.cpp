@@ -6,7 +6,8 @@
 #include "scenes/scene.h"
 
 // Layout of the hashed bytes: every number little-endian, counts as 64-bit before what they count, floats by their bits
-// except that -0 counts as 0. Names and the spec are left out: they change no pixel.
+// except that -0 counts as 0. Names and the spec are left out: they change no pixel. Textures and what materials do
+// with them come last, and only where a material does something.
 namespace trueshade {
 namespace {
 
@@ -42,6 +43,37 @@ class SceneHasher {
     sha_.update(mesh.indices.data(), mesh.indices.size() * sizeof mesh.indices[0]);
   }
 
+  void add(const Texture& texture) {
+    count(texture.levels.size());
+    for (size_t k = 0; k < texture.levels.size(); ++k) {
+      const int width = texture.levels[k].width, height = texture.levels[k].height;
+      count(size_t(width));
+      count(size_t(height));
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) add(texel_value(texture, k, x, y));
+    }
+  }
+
+  void add(const TextureSlot& slot) {
+    count(slot.used());
+    if (!slot.used()) return;
+    const Sampler& s = slot.sampler;
+    count(size_t(slot.texture));
+    for (const Wrap wrap : s.wrap) add(uint64_t(wrap));
+    for (const Filter filter : {s.mag_filter, s.min_filter}) add(uint64_t(filter));
+    add(uint64_t(s.mip_filter));
+    for (const float lod : {s.lod_bias, s.lod_min, s.lod_max}) add(lod);
+    add(s.border);
+  }
+
+  void add_maps(const Material& material) {
+    add(material.color_map);
+    add(material.specular_map);
+    add(material.normal_map);
+    add(material.normal_scale);
+    add(material.alpha_cutoff);
+  }
+
   void add(const Light& light) {
     add(uint64_t(light.type));
     add(light.position);
@@ -51,6 +83,28 @@ class SceneHasher {
     add(light.attenuation);
     add(light.cone_rad);
     add(light.penumbra_rad);
+  }
+
+  /// What scenes of the first layout did not have: absent where it is the default, else behind its place.
+  void add_if_set(uint64_t place, const Light& light) {
+    if (light.ambient == glm::vec3(0.0f) && light.spot_exponent == 0.0f) return;
+    add(place);
+    add(light.ambient);
+    add(light.spot_exponent);
+  }
+
+  void add_if_set(uint64_t place, const Material& material) {
+    const Material absent;
+    if (material.specular_color == absent.specular_color && material.shininess == absent.shininess &&
+        material.emission == absent.emission && material.metallic == absent.metallic &&
+        material.roughness == absent.roughness)
+      return;
+    add(place);
+    add(material.specular_color);
+    add(material.shininess);
+    add(material.emission);
+    add(material.metallic);
+    add(material.roughness);
   }
 
   void add(const Camera& camera) {
@@ -89,6 +143,16 @@ std::string scene_hash(const Scene& scene) {
   for (const Light& light : scene.lights) hasher.add(light);
   hasher.add(scene.camera);
   hasher.add(scene.clear);
+  constexpr uint64_t kMaterials = uint64_t(1) << 62, kLights = uint64_t(1) << 63;  // no count is as large
+  for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_if_set(kMaterials + i, scene.materials[i]);
+  for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
+  const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
+                                  [](const Material& m) { return m.textured() || m.masked(); });
+  if (plain) return hasher.hex();
+  hasher.add(uint64_t(3) << 61);  // no count, and none of the above
+  hasher.count(scene.textures.size());
+  for (const Texture& texture : scene.textures) hasher.add(texture);
+  for (const Material& material : scene.materials) hasher.add_maps(material);
   return hasher.hex();
 }
 

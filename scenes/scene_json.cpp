@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scenes/builtin_scenes.h"
 #include "scenes/load_geometry.h"
+#include "scenes/material_json.h"
 #include "scenes/pipeline_json.h"
 #include "scenes/presets.h"
 #include "scenes/scene_defaults.h"
@@ -22,31 +23,47 @@ constexpr double kLargest = 1e18;
 constexpr double kRadPerDeg = kPi / 180.0;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
-constexpr std::string_view kRootKeys[] = {"version", "camera", "clear", "materials", "objects", "lights", "pipeline"};
+constexpr std::string_view kRootKeys[] = {"version",   "camera",  "clear",  "textures",
+                                          "materials", "objects", "lights", "pipeline"};
 constexpr std::string_view kCameraKeys[] = {"eye",      "target", "up",  "fov_deg",
                                             "fov_axis", "near",   "far", "clip_from_world"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
-constexpr std::string_view kMaterialKeys[] = {"name", "color"};
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",     "normals",      "color", "material",
                                             "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity"};
-constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity"};
-constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation"};
-constexpr std::string_view kSpotKeys[] = {"type",  "position",    "direction", "color",       "intensity",
-                                          "range", "attenuation", "cone_deg",  "penumbra_deg"};
+constexpr std::string_view kDirectionalKeys[] = {"type", "direction", "color", "intensity", "ambient"};
+constexpr std::string_view kPointKeys[] = {"type", "position", "color", "intensity", "range", "attenuation", "ambient"};
+constexpr std::string_view kSpotKeys[] = {"type",        "position", "direction",    "color",   "intensity",    "range",
+                                          "attenuation", "cone_deg", "penumbra_deg", "ambient", "spot_exponent"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",     "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation"};
 
-enum Object : size_t { kRoot, kCamera, kMaterial, kObject, kAmbient, kDirectional, kPoint, kSpot, kRing };
-constexpr std::array<json::ObjectKeys, 9> kObjects{{{"", kRootKeys},
-                                                    {"camera", kCameraKeys},
-                                                    {"material", kMaterialKeys},
-                                                    {"object", kObjectKeys},
-                                                    {"ambient", kAmbientKeys},
-                                                    {"directional", kDirectionalKeys},
-                                                    {"point", kPointKeys},
-                                                    {"spot", kSpotKeys},
-                                                    {"ring", kRingKeys}}};
+enum Object : size_t {
+  kRoot,
+  kCamera,
+  kTexture,
+  kPattern,
+  kMap,
+  kMaterial,
+  kObject,
+  kAmbient,
+  kDirectional,
+  kPoint,
+  kSpot,
+  kRing
+};
+constexpr std::array<json::ObjectKeys, 12> kObjects{{{"", kRootKeys},
+                                                     {"camera", kCameraKeys},
+                                                     {"texture", kTextureKeys},
+                                                     {"pattern", kPatternKeys},
+                                                     {"map", kMapKeys},
+                                                     {"material", kMaterialKeys},
+                                                     {"object", kObjectKeys},
+                                                     {"ambient", kAmbientKeys},
+                                                     {"directional", kDirectionalKeys},
+                                                     {"point", kPointKeys},
+                                                     {"spot", kSpotKeys},
+                                                     {"ring", kRingKeys}}};
 
 using Key = std::string_view;
 
@@ -139,19 +156,21 @@ glm::mat4x3 read_transform(const json::Node& object) {
 /// Adds objects to a scene; each geometry file, generated mesh and colour once.
 class ObjectReader {
  public:
-  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits)
-      : scene_(scene), path_(path), folder_(path), limits_(limits) {}
+  ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits, const ImageDecoder& decode)
+      : scene_(scene), path_(path), folder_(path), limits_(limits), surfaces_(scene, path_, folder_, limits_, decode) {}
+
+  void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
 
   void read_materials(const json::Node& list) {
     const size_t count = list.array(0, SIZE_MAX).size();
     for (size_t i = 0; i < count; ++i) {
       const json::Node node = list.element(i);
-      node.check_keys(kObjects[kMaterial]);
-      const std::string& name = node.member("name").string();
-      if (!named_.emplace(name, uint32_t(scene_.materials.size())).second)
+      Material material = surfaces_.read_material(node);
+      if (!named_.emplace(material.name, uint32_t(scene_.materials.size())).second)
         node.fail("a material of this name exists", "another name");
-      scene_.materials.push_back({name, node.member("color").color()});
+      scene_.materials.push_back(std::move(material));
     }
+    surfaces_.complete_mip_chains();
   }
 
   void read_object(const json::Node& node) {
@@ -216,6 +235,7 @@ class ObjectReader {
   std::string path_;
   SceneFolder folder_;
   SceneLimits limits_;
+  MaterialReader surfaces_;
   std::map<std::tuple<std::string, MissingNormals>, uint32_t> files_;
   std::map<size_t, uint32_t> generated_;
   std::map<std::string, uint32_t, std::less<>> named_;
@@ -250,6 +270,7 @@ Light read_light(const json::Node& node, LightType type) {
   Light light;
   light.type = type;
   light.color = read_color(node);
+  if (const auto ambient = node.find("ambient")) light.ambient = ambient->vec3(0.0f, kLargest);
   if (type == LightType::directional || type == LightType::spot)
     light.direction = read_direction(node.member("direction"));
   if (type == LightType::ambient || type == LightType::directional) return light;
@@ -263,6 +284,7 @@ Light read_light(const json::Node& node, LightType type) {
   if (cone + fade > 180.0) node.fail("cone_deg and penumbra_deg together are over 180", "a sum of at most 180");
   light.cone_rad = float(cone * kRadPerDeg);
   light.penumbra_rad = float(fade * kRadPerDeg);
+  light.spot_exponent = real_or(node, "spot_exponent", 0.0f, 0.0, 8192.0);
   return light;
 }
 
@@ -306,7 +328,8 @@ void read_lights(const json::Node& list, std::vector<Light>& lights, const Scene
 
 std::span<const json::ObjectKeys> scene_object_keys() { return kObjects; }
 
-Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits) {
+Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits,
+                      const ImageDecoder& decode) {
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
   root.check_keys(kObjects[kRoot]);
@@ -319,7 +342,8 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   }
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
   if (const auto lights = root.find("lights")) read_lights(*lights, scene.lights, limits);
-  ObjectReader objects(scene, path, limits);
+  ObjectReader objects(scene, path, limits, decode);
+  if (const auto textures = root.find("textures")) objects.read_textures(*textures);
   if (const auto materials = root.find("materials")) objects.read_materials(*materials);
   if (const auto list = root.find("objects")) {
     const size_t count = list->array(0, SIZE_MAX).size();

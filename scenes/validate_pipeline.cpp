@@ -54,6 +54,9 @@ void check_gbuffer(const GBufferState& g) {
                  "gbuffer.albedo.format", "rgba32f, rgba16f, rgb16f or rgba8");
   for (const PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})
     require_enumerator(plane->interpolation, Interpolation::noperspective, "gbuffer: interpolation");
+  require_format(g.specular, {Format::rgba32f, Format::rgba16f}, "gbuffer.specular", "rgba32f or rgba16f");
+  require_format(g.emission, {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8}, "gbuffer.emission",
+                 "rgba32f, rgba16f, rgb16f or rgba8");
   require_enumerator(g.half_round, HalfRound::nearest, "gbuffer.half_round");
 }
 
@@ -61,8 +64,37 @@ void check_light_model(const LightModel& m) {
   require_real(m.shininess, 0.0f, 1e18f, "light_model.shininess", "0 to 1e18");
   for (int k = 0; k < 3; ++k)
     require_real(m.specular_color[k], 0.0f, 1e18f, "light_model.specular_color", "each 0 to 1e18");
-  require_enumerator(m.falloff, Falloff::quadratic, "light_model.falloff");
-  require_enumerator(m.order, TermOrder::separate, "light_model.order");
+  require_enumerator(m.falloff, Falloff::inverse_square, "light_model.falloff");
+  require_enumerator(m.order, TermOrder::with_ambient, "light_model.order");
+  require_enumerator(m.cone, Cone::squared_penumbra, "light_model.cone");
+  require_enumerator(m.diffuse, Diffuse::unclamped, "light_model.diffuse");
+  require_enumerator(m.specular, Specular::none, "light_model.specular");
+  require_enumerator(m.specular_source, SpecularSource::metallic_roughness, "light_model.specular_source");
+  require_enumerator(m.viewer, Viewer::infinite, "light_model.viewer");
+  for (int k = 0; k < 3; ++k)
+    require_real(m.global_ambient[k], 0.0f, 1e18f, "light_model.global_ambient", "each 0 to 1e18");
+  require_real(m.damping, 0.0f, 1e18f, "light_model.damping", "0 to 1e18");
+  require(
+      m.order != TermOrder::albedo_last || m.specular == Specular::none || m.specular_source == SpecularSource::albedo,
+      "light_model.order", "albedo_last with a specular colour that is not the albedo",
+      "specular none or specular_source albedo");
+}
+
+void check_light_volumes(const LightVolumes& v) {
+  require_enumerator(v.point, LightExtent::cone, "light_volumes.point");
+  require_enumerator(v.spot, LightExtent::cone, "light_volumes.spot");
+  require_integer(v.slices, 3, 64, "light_volumes.slices", "3 to 64");
+  require_integer(v.stacks, 2, 64, "light_volumes.stacks", "2 to 64");
+  require_enumerator(v.cull_face, CullFace::front_and_back, "light_volumes.cull_face");
+}
+
+void check_blend(const BlendState& b) {
+  for (const BlendTerm& term : {b.rgb, b.alpha}) {
+    require_enumerator(term.equation, BlendEquation::max, "blend: equation");
+    require_enumerator(term.src, BlendFactor::src_alpha_saturate, "blend: src");
+    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, "blend: dst");
+  }
+  for (const float constant : b.constant) require_real(constant, -1e18f, 1e18f, "blend.constant", "each -1e18 to 1e18");
 }
 
 }  // namespace
@@ -73,6 +105,8 @@ void validate(const Pipeline& pipeline) {
   check_geometry(pipeline.geometry);
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
+  check_light_volumes(pipeline.light_volumes);
+  check_blend(pipeline.blend);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target",
                  "rgba8, rgba16f or rgba32f");

@@ -56,6 +56,74 @@ void check_mesh(const Mesh& mesh, const Part& part) {
       part.fail("index " + std::to_string(index) + " is beyond the vertices", "below " + std::to_string(count));
 }
 
+/// Checks a texture; returns its largest R, G or B.
+float check_texture(const Texture& texture, const Part& part) {
+  part.require(!texture.levels.empty() && texture.levels.size() <= size_t(kMaxTextureLevels),
+               "the texture has no level, or too many", "1 to 15 levels");
+  const int width = texture.levels[0].width, height = texture.levels[0].height;
+  part.require(width >= 1 && height >= 1 && width <= kMaxTextureSide && height <= kMaxTextureSide &&
+                   uint64_t(width) * uint64_t(height) <= kMaxTextureTexels,
+               "a side of the texture is 0 or over 16384 texels", "1 to 16384 texels a side");
+  float largest = 1.0f;
+  for (size_t k = 0; k < texture.levels.size(); ++k) {
+    const TextureLevel& level = texture.levels[k];
+    part.require(level.width == std::max(1, width >> k) && level.height == std::max(1, height >> k),
+                 "a level has the wrong size", "half the sides of the level before it, rounded down, at least 1");
+    part.require(
+        level.bytes.size() == size_t(level.width) * size_t(level.height) * size_t(bytes_per_texel(texture.format)),
+        "a level has too many or too few bytes", "width * height texels");
+    if (bytes_per_texel(texture.format) == 4) continue;  // every code is a number in [0, 1]
+    for (int y = 0; y < level.height; ++y)
+      for (int x = 0; x < level.width; ++x) {
+        const std::array<float, 4> texel = texel_value(texture, k, x, y);
+        for (size_t c = 0; c < 4; ++c) {
+          part.require(texel[c] >= 0.0f && texel[c] <= (c == 3 ? 1.0f : kLargest), "a texel is out of range",
+                       "RGB in [0, 1e18], alpha in [0, 1]");
+          if (c < 3) largest = std::max(largest, texel[c]);
+        }
+      }
+  }
+  return largest;
+}
+
+bool is_color(const glm::vec4& color) {
+  return within(glm::vec3(color), 0.0f, kLargest) && color.w >= 0.0f && color.w <= 1.0f;
+}
+
+void check_map(const TextureSlot& slot, std::span<const float> largest, float factor, const Part& part) {
+  if (!slot.used()) return;
+  const Sampler& s = slot.sampler;
+  part.require(size_t(slot.texture) < largest.size(), "a texture index is beyond the textures", "an existing texture");
+  part.require(s.lod_bias >= -16.0f && s.lod_bias <= 16.0f && s.lod_min >= -1000.0f && s.lod_max <= 1000.0f &&
+                   s.lod_min <= s.lod_max,
+               "a level of detail is out of range", "a bias in [-16, 16], -1000 <= lod_min <= lod_max <= 1000");
+  part.require(is_color(s.border), "the border colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  const float most = std::max({largest[size_t(slot.texture)], s.border.x, s.border.y, s.border.z});
+  part.require(double(factor) * double(most) <= double(kLargest), "colour times texture is over 1e18",
+               "a smaller colour, or smaller texels");
+}
+
+void check_material(const Material& material, std::span<const float> largest, const Part& part) {
+  const glm::vec4& base = material.base_color;
+  part.require(is_color(base), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  part.require(within(material.specular_color, 0.0f, kLargest), "the specular colour is out of range",
+               "each channel in [0, 1e18]");
+  part.require(material.shininess >= 0.0f && material.shininess <= 8192.0f &&
+                   material.shininess == std::nearbyint(material.shininess),
+               "the shininess is out of range", "an integer from 0 to 8192");
+  part.require(within(material.emission, 0.0f, kLargest), "the emission is out of range", "each channel in [0, 1e18]");
+  part.require(material.metallic >= 0.0f && material.metallic <= 1.0f, "metallic is out of range", "in [0, 1]");
+  part.require(material.roughness >= 0.0f && material.roughness <= 1.0f, "roughness is out of range", "in [0, 1]");
+  const glm::vec3& specular = material.specular_color;
+  check_map(material.color_map, largest, std::max({base.x, base.y, base.z}), part);
+  check_map(material.specular_map, largest, std::max({specular.x, specular.y, specular.z}), part);
+  check_map(material.normal_map, largest, 1.0f, part);
+  part.require(material.normal_scale >= -1000.0f && material.normal_scale <= 1000.0f,
+               "the normal map's scale is out of range", "in [-1000, 1000]");
+  part.require(material.alpha_cutoff >= 0.0f && material.alpha_cutoff <= 1.0f, "the alpha cutoff is out of range",
+               "in [0, 1]");
+}
+
 bool is_unit(const glm::vec3& v) {
   const double length2 = (double(v.x) * v.x + double(v.y) * v.y) + double(v.z) * v.z;
   return length2 > 0.9999 && length2 < 1.0001;
@@ -65,6 +133,8 @@ void check_light(const Light& light, const Part& part) {
   part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
   if (light.type == LightType::ambient) return;
+  part.require(within(light.ambient, 0.0f, kLargest), "the ambient colour is negative, over 1e18 or no number",
+               "each channel in [0, 1e18]");
   if (light.type != LightType::point)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (light.type == LightType::directional) return;
@@ -76,6 +146,8 @@ void check_light(const Light& light, const Part& part) {
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
+  part.require(light.spot_exponent >= 0.0f && light.spot_exponent <= 8192.0f, "the spot exponent is out of range",
+               "in [0, 8192]");
 }
 
 void check_camera(const Camera& camera, const Part& part) {
@@ -135,10 +207,6 @@ void check_limit(const std::string& spec, const char* what, uint64_t count, uint
                 "at most " + std::to_string(limit));
 }
 
-bool is_color(const glm::vec4& color) {
-  return within(glm::vec3(color), 0.0f, kLargest) && color.w >= 0.0f && color.w <= 1.0f;
-}
-
 }  // namespace
 
 void validate(const Scene& scene, const SceneLimits& limits) {
@@ -147,10 +215,11 @@ void validate(const Scene& scene, const SceneLimits& limits) {
   check_limit(spec, "lights", scene.lights.size(), limits.lights);
   check_limit(spec, "instances", scene.instances.size(), limits.instances);
   for (size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], part("mesh", i));
+  std::vector<float> largest_texels;
+  for (size_t i = 0; i < scene.textures.size(); ++i)
+    largest_texels.push_back(check_texture(scene.textures[i], part("texture", i)));
   for (size_t i = 0; i < scene.materials.size(); ++i)
-    part("material", i)
-        .require(is_color(scene.materials[i].base_color), "the base colour is out of range",
-                 "RGB in [0, 1e18], alpha in [0, 1]");
+    check_material(scene.materials[i], largest_texels, part("material", i));
   const std::vector<glm::dvec3> reaches = mesh_reaches(scene);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     check_instance(scene, scene.instances[i], part("instance", i));

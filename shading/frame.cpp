@@ -176,6 +176,9 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   validate(pipeline);
   validate(execution);
   check_aovs(aovs);
+  if (pipeline.strategy != Strategy::deferred_loop)
+    throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not drawn yet",
+                "deferred-loop");
   check_memory(pipeline, execution, aovs);
   const FpScope fp;
   const SimdScope simd(execution.simd);

@@ -4,19 +4,15 @@ namespace trueshade::oracle {
 
 namespace {
 
-std::string target_text(const LightModel& model, const std::string& rgb) {
-  return "  target = vec4(" + rgb + (model.alpha_from_albedo ? ", albedo.a);\n" : ", 1.0);\n");
-}
-
 std::string loop_text(const LightModel& model, const std::string& buffer, const std::string& first,
                       const std::string& end) {
-  return "  vec3 sum = vec3(0.0);\n  for (int i = " + first + "; i < " + end +
+  return "  vec3 sum = " + sum_start_text(model) + ";\n  for (int i = " + first + "; i < " + end +
          "; ++i)\n    sum += " + lit_call_text(model, buffer, "i") + ";\n" + target_text(model, "sum");
 }
 
 /// A box around each light's range, a light an instance; over the whole image where the range does not bound it.
 std::string box_vertex_text(const LightModel& model, int version) {
-  const std::string n = std::to_string(texels_per_light(model));
+  const std::string n = std::to_string(LightLayout(model).texels());
   const bool bounded = model.falloff == Falloff::linear_range;
   return glsl_header(version,
                      "light volumes: axis-aligned boxes, corners bit x, y, z, counter-clockwise from outside") +
@@ -72,7 +68,8 @@ std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options
           read_surface_text(p, options);
   if (design == GlDesign::tiled) text += loop_text(model, "records", "range.x", "range.y");
   if (design == GlDesign::deferred_volumes)
-    text += "  target = vec4(" + lit_call_text(model, "lights", "light") + ", 0.0);\n";
+    text += "  target = vec4(" + lit_call_text(model, "lights", "light") +
+            (model.order == TermOrder::albedo_last ? " * albedo.rgb, 0.0);\n" : ", 0.0);\n");
   if (design == GlDesign::deferred_loop) text += loop_text(model, "lights", "0", "light_count");
   return text + "}\n";
 }

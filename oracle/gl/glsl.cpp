@@ -60,15 +60,14 @@ std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& opt
   const LightModel& model = pipeline.light_model;
   std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
   text += surface_uniforms_text(pipeline, options);
-  text += "uniform samplerBuffer lights;  // " + std::to_string(texels_per_light(model)) +
+  text += "uniform samplerBuffer lights;  // " + std::to_string(LightLayout(model).texels()) +
           " texels a light\n"
           "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
   text += light_function_text(model, options);
   text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
-  text += "  vec3 sum = vec3(0.0);\n  for (int i = 0; i < light_count; ++i)\n    sum += " +
-          lit_call_text(model, "lights", "i") + ";\n";
-  text += std::string("  target = vec4(sum, ") + (model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n}\n";
-  return text;
+  text += "  vec3 sum = " + sum_start_text(model) +
+          ";\n  for (int i = 0; i < light_count; ++i)\n    sum += " + lit_call_text(model, "lights", "i") + ";\n";
+  return text + target_text(model, "sum") + "}\n";
 }
 
 }  // namespace
@@ -113,8 +112,6 @@ const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes) {
   return planes[0];
 }
 
-int texels_per_light(const LightModel& model) { return model.falloff == Falloff::quadratic ? 3 : 2; }
-
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction) {
   const GBufferState& g = pipeline.gbuffer;
   std::string text;
@@ -143,7 +140,8 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
     text +=
         "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
         "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
-  return text + "uniform vec3 eye;\n";
+  return text + "uniform vec3 eye;\n" +
+         (pipeline.light_model.viewer == Viewer::infinite ? "uniform vec3 view_axis;\n" : "");
 }
 
 std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -157,11 +155,12 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
 }
 
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
-  const std::string n = std::to_string(texels_per_light(model));
-  std::string text = model.specular_color != glm::vec3(0.0f) ? "lit(P, N, V, albedo.rgb" : "lit(P, N, albedo.rgb";
-  for (int i = 0; i < texels_per_light(model); ++i)
+  const int texels = LightLayout(model).texels();
+  const std::string n = std::to_string(texels);
+  std::string text = std::string("lit(P, N, V, albedo.rgb") + (reads_specular_plane(model) ? ", gloss" : "");
+  for (int i = 0; i < texels; ++i)
     text +=
-        ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i == 2 ? ".xyz" : "");
+        ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i >= 2 ? ".xyz" : "");
   return text + ")";
 }
 

@@ -43,9 +43,17 @@ struct GlslShaders {
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
 
-/// A light is this many RGBA32F texels in `lights`: (position or -direction, type), (colour, range), and with a
-/// quadratic falloff (k0, k1, k2, 0). Types: 0 ambient, 1 directional, 2 point or spot.
-int texels_per_light(const LightModel& model);
+/// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
+/// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers
+/// (cos(outer) and the edge where it is fully lit; exponent: cos(outer), exponent; squared_penumbra: scale, offset);
+/// with an ambient share (ambient, 0). Types: 0 ambient, 1 directional, 2 point, or a spot that lights all around, 3
+/// spot.
+struct LightLayout {
+  explicit LightLayout(const LightModel& model);
+  bool attenuation, cone, ambient;
+  int texels() const { return 2 + int(attenuation) + 2 * int(cone) + int(ambient); }
+  bool operator==(const LightLayout&) const = default;
+};
 
 // Parts that the peers' shaders are made of too.
 
@@ -57,7 +65,8 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
 std::string albedo_text(const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
-/// `vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo, vec4 place, vec4 color[, vec3 k])`: what one light adds.
+/// `vec3 lit(P, N, V, albedo, [gloss,] place, color[, k][, axis, cone][, ambient])`: what one light adds; in the order
+/// albedo_last, before the albedo.
 std::string light_function_text(const LightModel& model, const GlslOptions& options);
 /// Samplers and uniforms that read_surface_text() reads, without those of the lights.
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
@@ -65,7 +74,10 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
 std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options);
 /// `vec3 N, V` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
 std::string surface_text(const LightModel& model);
-/// `lit(...)` of the light whose first texel in `buffer` is at `index` times texels_per_light().
+/// What the sum starts from; and the target, as the model makes it of a sum.
+std::string sum_start_text(const LightModel& model);
+std::string target_text(const LightModel& model, const std::string& sum);
+/// `lit(...)` of the light whose first texel in `buffer` is at `index` times LightLayout::texels().
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
 
 }  // namespace trueshade::oracle

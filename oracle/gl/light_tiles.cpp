@@ -111,7 +111,7 @@ LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<c
   tiles.rows = (pipeline.height + tile - 1) / tile;
   const std::vector<DepthBounds> bounds = depth_bounds(tiles, pipeline, depth);
   const std::vector<float> lights = light_records(scene, pipeline.light_model);
-  const auto floats = size_t(4 * texels_per_light(pipeline.light_model));
+  const auto floats = size_t(4 * LightLayout(pipeline.light_model).texels());
   uint32_t next = 0;
   for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, bounds)) {
     tiles.first.push_back(next);

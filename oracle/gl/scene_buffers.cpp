@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "oracle/gl/glsl.h"
 #include "oracle/matrices.h"
@@ -63,17 +64,44 @@ void point_at_instances(uint32_t first) {
 
 }  // namespace
 
+ConeNumbers cone_numbers(const Light& light, Cone cone) {
+  if (light.type != LightType::spot || cone == Cone::none) return {};
+  const double inner = std::cos(double(light.cone_rad)), outer_rad = double(light.cone_rad + light.penumbra_rad);
+  const double outer = std::cos(outer_rad);
+  switch (cone) {
+    case Cone::none:
+      break;
+    case Cone::smooth_cutoff:
+      return {true, float(outer), float(outer * 0.9 + 0.1)};
+    case Cone::smooth_penumbra:
+      return {true, float(outer), float(inner)};
+    case Cone::exponent:
+      return {outer_rad < double(3.14159265f), float(outer), light.spot_exponent};
+    case Cone::squared_penumbra: {
+      const double scale = 1 / std::max(0.001, inner - outer);
+      return {true, float(scale), float(-outer * scale)};
+    }
+  }
+  return {};
+}
+
 std::vector<float> light_records(const Scene& scene, const LightModel& model) {
-  const auto texels = size_t(texels_per_light(model));
+  const LightLayout layout(model);
   std::vector<float> out;
-  out.reserve(4 * texels * scene.lights.size());
+  out.reserve(4 * size_t(layout.texels()) * scene.lights.size());
   for (const Light& light : scene.lights) {
     const bool directional = light.type == LightType::directional;
     const glm::vec3 place = directional ? -light.direction : light.position;
-    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : 2.0f;
-    out.insert(out.end(), {place.x, place.y, place.z, type});
-    out.insert(out.end(), {light.color.r, light.color.g, light.color.b, light.range});
-    if (texels == 3) out.insert(out.end(), {light.attenuation.x, light.attenuation.y, light.attenuation.z, 0.0f});
+    const ConeNumbers cone = cone_numbers(light, model.cone);
+    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f : 2.0f;
+    const glm::vec3 color = light.color * model.damping;
+    const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
+    add(place, type);
+    add(color, light.range);
+    if (layout.attenuation) add(light.attenuation, 0.0f);
+    if (layout.cone) add(light.direction, 0.0f);
+    if (layout.cone) add({cone.first, cone.second, 0.0f}, 0.0f);
+    if (layout.ambient) add(light.ambient, 0.0f);
   }
   return out;
 }
@@ -170,9 +198,9 @@ bool SceneBuffers::has_large_meshes() const {
 }
 
 GLuint SceneBuffers::light_texels(const LightModel& model) {
-  if (light_layout_ != texels_per_light(model)) {
+  if (!uploaded_ || *uploaded_ != model) {
     lights_ = make_texel_buffer(light_records(*scene_, model));
-    light_layout_ = texels_per_light(model);
+    uploaded_ = model;
   }
   return lights_.texture;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "oracle/gl/objects.h"
@@ -39,7 +40,7 @@ class SceneBuffers {
   /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
   void draw_instances(GLuint program) const;
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
-  /// Light records in the layout of texels_per_light(); made again when the layout changes.
+  /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
 
  private:
@@ -56,8 +57,15 @@ class SceneBuffers {
   GlBuffer instances_;
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
   GlTexelBuffer lights_;
-  int light_layout_ = 0;  ///< texels a light of lights_; 0: none yet
+  std::optional<LightModel> uploaded_;  ///< whose records lights_ holds
 };
+
+/// A spot light's cone as shaders read it: LightLayout says what the numbers are.
+struct ConeNumbers {
+  bool narrow = false;  ///< false: a light without a cone, or whose cone is the whole sphere
+  float first = 0, second = 0;
+};
+ConeNumbers cone_numbers(const Light& light, Cone cone);
 
 /// The light records as the shaders read them, RGBA a texel.
 std::vector<float> light_records(const Scene& scene, const LightModel& model);

@@ -122,7 +122,15 @@ std::string light_layout(const LightModel& model) {
       "x, y, z: position (directional: minus the direction it travels); "
       "w: 0 ambient, 1 directional, 2 point or spot",
       "r, g, b: linear colour times intensity; a: range"};
-  if (texels_per_light(model) == 3) texels.push_back("k0, k1, k2, 0: attenuation");
+  const LightLayout layout(model);
+  if (layout.attenuation) texels.push_back("k0, k1, k2, 0: attenuation");
+  if (layout.cone) texels.push_back("x, y, z, 0: the way the light travels");
+  if (layout.cone)
+    texels.push_back(model.cone == Cone::exponent ? "cosine of the cutoff, exponent, 0, 0"
+                     : model.cone == Cone::squared_penumbra
+                         ? "scale, offset of the cosine, 0, 0"
+                         : "cosines where the light is 0 and where it is full, 0, 0");
+  if (layout.ambient) texels.push_back("r, g, b, 0: its ambient share");
   return calls(texels);
 }
 

@@ -40,6 +40,8 @@ int bind_surface(GLuint program, std::span<const GlslPlane> planes, std::span<co
     set_depth_uniforms(program, scene, pipeline, shift_x, shift_y);
   }
   set_uniform(program, "eye", std::array<float, 3>{scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z});
+  const auto axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+  set_uniform(program, "view_axis", std::array<float, 3>{float(axis[0]), float(axis[1]), float(axis[2])});
   return unit;
 }
 

@@ -74,9 +74,8 @@ TEST_CASE("Every OpenGL design draws large meshes, a draw an instance, as we do"
   check_designs(builtin_scene("rabbits,objects=3,lights=6"), presets().front());
 }
 
-// The expected picture is ours, whose specular term is computed and 0; the emitted GLSL has none.
-TEST_CASE("Every OpenGL design draws our picture where no light has a specular colour") {
+TEST_CASE("Every OpenGL design draws our picture under Lambert's law alone") {
   Preset lambert = presets().front();
-  lambert.pipeline.light_model.specular_color = glm::vec3(0.0f);
+  lambert.pipeline.light_model.specular = Specular::none;
   check_designs(builtin_scene("city,objects=300,lights=50"), lambert);
 }

@@ -32,8 +32,28 @@ Pipeline strange_pipeline() {
   p.gbuffer.half_round = HalfRound::nearest;
   p.light_model.shininess = 0.1f;
   p.light_model.specular_color = {1e-20f, 1.0f / 3.0f, 1e18f};
+  p.light_model.falloff = Falloff::inverse_square;
+  p.light_model.order = TermOrder::with_ambient;
+  p.light_model.cone = Cone::squared_penumbra;
+  p.light_model.diffuse = Diffuse::unclamped;
+  p.light_model.specular = Specular::phong;
+  p.light_model.specular_source = SpecularSource::metallic_roughness;
+  p.light_model.viewer = Viewer::infinite;
+  p.light_model.emission = true;
+  p.light_model.global_ambient = {0.2f, 0.0f, 1e18f};
+  p.light_model.damping = 0.1f;
+  p.light_model.clamp_result = true;
+  p.gbuffer.specular = Format::rgba16f;
+  p.gbuffer.emission = Format::rgb16f;
   p.target = Format::rgba16f;
   p.profile = NumericProfile::mesa_llvmpipe_22_3;
+  p.strategy = Strategy::forward_loop;
+  p.light_volumes = {LightExtent::box, LightExtent::cone, 64, 2, CullFace::front, false, false};
+  p.blend = {false,
+             {BlendEquation::reverse_subtract, BlendFactor::src_alpha_saturate, BlendFactor::one_minus_dst_color},
+             {BlendEquation::max, BlendFactor::zero, BlendFactor::constant_alpha},
+             {-1.0f, 0.1f, 1e18f, 0.0f},
+             {false, true, false, true}};
   return p;
 }
 
@@ -62,9 +82,15 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
         R"("provoking":"last"},"gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
         R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
-        R"({"format":"rgba32f","interpolation":"smooth"},"position_from_depth":false,"half_round":"toward_zero"},)"
+        R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
+        R"("position_from_depth":false,"half_round":"toward_zero"},)"
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
-        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false},"strategy":"deferred-loop",)"
+        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
+        R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
+        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"range",)"
+        R"("spot":"range","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
+        R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
+        R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal"})");
 }
 
@@ -104,7 +130,22 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"specular_color": [1, 1]}})",
        "p.json: /light_model/specular_color: found an array of 2 (an array of 3)"},
       {R"({"light_model": {"specular_color": [1, 1, 2e18]}})", "p.json: /light_model/specular_color/2: found 2e+18"},
-      {R"({"strategy": "forward"})", "p.json: /strategy: found \"forward\" (deferred-loop)"},
+      {R"({"strategy": "forward"})",
+       "p.json: /strategy: found \"forward\" (one of forward-multipass forward-loop deferred-volumes "
+       "deferred-loop)"},
+      {R"({"light_volumes": {"slices": 2}})", "p.json: /light_volumes/slices: found 2 (a whole number from 3 to 64)"},
+      {R"({"light_volumes": {"point": "ball"}})",
+       "p.json: /light_volumes/point: found \"ball\" (one of unbounded range"},
+      {R"({"blend": {"rgb": {"src": "GL_ONE"}}})", "p.json: /blend/rgb/src: found \"GL_ONE\" (one of zero one"},
+      {R"({"blend": {"mask": [true, true, true]}})", "p.json: /blend/mask: found an array of 3 (an array of 4)"},
+      {R"({"blend": {"constant": [0, 0, 0, 2e18]}})", "p.json: /blend/constant/3: found 2e+18"},
+      {R"({"light_model": {"cone": "cosine"}})",
+       "p.json: /light_model/cone: found \"cosine\" (one of none smooth_cutoff"},
+      {R"({"light_model": {"order": "albedo_last"}})",
+       "p.json: /light_model: order albedo_last with a specular colour"},
+      {R"({"light_model": {"damping": -1}})", "p.json: /light_model/damping: found -1"},
+      {R"({"light_model": {"global_ambient": [0, 0, 2e18]}})", "p.json: /light_model/global_ambient/2: found 2e+18"},
+      {R"({"gbuffer": {"specular_format": "rgb16f"}})", "p.json: /gbuffer/specular_format: found \"rgb16f\""},
       {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
@@ -129,6 +170,11 @@ TEST_CASE("pipelines out of range are named by field") {
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
                     "light_model.specular_color");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.order = TermOrder::albedo_last; }), "light_model.order");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.cone = Cone(9); }), "light_model.cone");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.damping = kNan; }), "light_model.damping");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.global_ambient.y = -1.0f; }), "light_model.global_ambient");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.specular = Format::rgb16f; }), "gbuffer.specular");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) {
@@ -136,6 +182,15 @@ TEST_CASE("pipelines out of range are named by field") {
                       p.geometry.depth_near = 1.0f;
                     }),
                     "gbuffer.position_from_depth");
+}
+
+TEST_CASE("light volumes and blending out of range are named by field") {
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.slices = 65; }), "light_volumes.slices: 65");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.stacks = 1; }), "light_volumes.stacks: 1");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.spot = LightExtent(5); }), "light_volumes.spot: 5");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.alpha.dst = BlendFactor(15); }), "blend: dst: 15");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.constant[2] = INFINITY; }), "blend.constant");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.strategy = Strategy(4); }), "strategy: 4");
 }
 
 TEST_CASE("executions out of range are named by field") {

@@ -81,6 +81,27 @@ TEST_CASE("cameras by angle along either axis and by matrix") {
   CHECK((*m.camera.clip_from_world)[5] == 1.0f);
 }
 
+TEST_CASE(
+    "a material has a specular colour, emission and glTF's two numbers; lights an ambient share and an exponent") {
+  const Scene scene = load(with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "b", "color": [1, 1, 1],
+      "specular_color": [0.1, 0.2, 0.3], "shininess": 60, "emission": [1, 2, 3], "metallic": 0.25, "roughness": 0.5}])"));
+  const Material& plain = scene.materials.at(0);
+  CHECK(plain.specular_color == glm::vec3(0.25f));
+  CHECK(plain.shininess == 32.0f);
+  CHECK(plain.emission == glm::vec3(0.0f));
+  const Material& m = scene.materials.at(1);
+  CHECK(m.specular_color == glm::vec3(0.1f, 0.2f, 0.3f));
+  CHECK(m.shininess == 60.0f);
+  CHECK(m.emission == glm::vec3(1.0f, 2.0f, 3.0f));
+  CHECK(m.metallic == 0.25f);
+  CHECK(m.roughness == 0.5f);
+  const Light light = load(with("lights", R"([{"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+      "cone_deg": 30, "ambient": [0.1, 0, 0], "spot_exponent": 2.5}])"))
+                          .lights.at(0);
+  CHECK(light.ambient == glm::vec3(0.1f, 0.0f, 0.0f));
+  CHECK(light.spot_exponent == 2.5f);
+}
+
 TEST_CASE("a pipeline is checked and handed on") {
   const Scene scene = load(with("pipeline", R"({"width": 320, "light_model": {"shininess": 8}})"));
   CHECK(pipeline_from_json(scene.pipeline_text, "p", {}).width == 320);

@@ -25,10 +25,21 @@ TEST_CASE("scenes out of range are refused with the part's name") {
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
                     "builtin:cornell: instance 3: the transform");
   CHECK_STARTS_WITH(invalid([](Scene& s) {
-                      s.meshes[s.instances[3].mesh].position[1][0] = 1e12f, s.instances[3].world_from_object[1].y = 1e7f;
+                      s.meshes[s.instances[3].mesh].position[1][0] = 1e12f,
+                      s.instances[3].world_from_object[1].y = 1e7f;
                     }),
                     "builtin:cornell: instance 3: the transform takes vertices beyond 1e18");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].base_color.x = -1.0f; }), "builtin:cornell: material 2");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].shininess = 1.5f; }),
+                    "builtin:cornell: material 2: the shini");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].emission.x = NAN; }),
+                    "builtin:cornell: material 2: the emis");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].roughness = -0.1f; }),
+                    "builtin:cornell: material 2: roughness");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].ambient.y = INFINITY; }),
+                    "builtin:cornell: light 7: the ambient");
+  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].type = LightType::spot, s.lights[7].spot_exponent = NAN; }),
+                    "builtin:cornell: light 7: the spot exponent");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].color.z = 2e18f; }), "builtin:cornell: light 7: the colour");
   CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].range = 0.0f; }), "builtin:cornell: light 7: the range");
   CHECK_STARTS_WITH(invalid([](Scene& s) {
@@ -57,6 +68,12 @@ TEST_CASE("the scene hash follows every value and no name") {
       [](Scene& s) { s.lights[3].range *= 2.0f; },
       [](Scene& s) { std::swap(s.lights[2], s.lights[3]); },
       [](Scene& s) { s.lights.pop_back(); },
+      [](Scene& s) { s.materials[0].emission.x = 0.5f; },
+      [](Scene& s) { s.materials[0].metallic = 0.5f; },
+      [](Scene& s) { s.materials[1].metallic = 0.5f; },
+      [](Scene& s) { s.materials[0].shininess = 16.0f; },
+      [](Scene& s) { s.lights[3].ambient.x = 0.5f; },
+      [](Scene& s) { s.lights[2].spot_exponent = 0.5f; },
       [](Scene& s) { s.camera.near = 0.2f; },
       [](Scene& s) { s.camera.fov_x_rad = s.camera.fov_y_rad; },
       [](Scene& s) { s.clear.y = 0.5f; }};

@@ -1,0 +1,116 @@
+#include "scenes/texture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/half.h"
+#include "core/srgb.h"
+
+namespace trueshade {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+const std::array<float, 256> kLinearFromSrgb8 = [] {
+  std::array<float, 256> values{};
+  for (size_t k = 0; k < values.size(); ++k) values[k] = float(linear_from_srgb(double(k) / 255.0));
+  return values;
+}();
+
+template <class T>
+void append(T value, std::vector<uint8_t>& bytes) {
+  const auto* first = reinterpret_cast<const uint8_t*>(&value);
+  bytes.insert(bytes.end(), first, first + sizeof value);
+}
+
+uint8_t unorm8(float x) { return uint8_t(std::nearbyint(255.0f * (x > 0.0f ? std::min(x, 1.0f) : 0.0f))); }
+
+/// Texels of a side of n that texel i of the next level's side of floor(n / 2) averages, weights over n. An odd side's
+/// texels overlap: 2 m + 1 texels become m, each the mean of the interval it covers.
+struct Taps {
+  int count, first;
+  double weight[3], divisor;
+};
+
+Taps taps_of(int n, int i) {
+  if (n == 1) return {1, 0, {1.0, 0.0, 0.0}, 1.0};
+  if (n % 2 == 0) return {2, 2 * i, {1.0, 1.0, 0.0}, 2.0};
+  const int m = n / 2;
+  return {3, 2 * i, {double(m - i), double(m), double(i + 1)}, double(n)};
+}
+
+/// docs/arithmetic.md section 13: f64, rows first, then the column, one rounding to float.
+std::array<float, 4> box(const Texture& texture, size_t level, const Taps& across, const Taps& up) {
+  double sum[4] = {};
+  for (int j = 0; j < up.count; ++j) {
+    double row[4] = {};
+    for (int i = 0; i < across.count; ++i) {
+      const std::array<float, 4> texel = texel_value(texture, level, across.first + i, up.first + j);
+      for (size_t c = 0; c < 4; ++c) row[c] = row[c] + across.weight[i] * double(texel[c]);
+    }
+    for (size_t c = 0; c < 4; ++c) sum[c] = sum[c] + up.weight[j] * (row[c] / across.divisor);
+  }
+  std::array<float, 4> value;
+  for (size_t c = 0; c < 4; ++c) value[c] = float(sum[c] / up.divisor);
+  return value;
+}
+
+}  // namespace
+
+std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, int y) {
+  const TextureLevel& from = texture.levels[level];
+  const uint8_t* at =
+      from.bytes.data() + (size_t(y) * size_t(from.width) + size_t(x)) * size_t(bytes_per_texel(texture.format));
+  std::array<float, 4> value;
+  switch (texture.format) {
+    case TextureFormat::rgba8:
+    case TextureFormat::srgb8_a8:
+      for (size_t c = 0; c < 4; ++c)
+        value[c] = texture.format == TextureFormat::srgb8_a8 && c < 3 ? kLinearFromSrgb8[at[c]] : float(at[c]) / 255.0f;
+      break;
+    case TextureFormat::rgba16f:
+      for (size_t c = 0; c < 4; ++c) value[c] = float_from_half(uint16_t(at[2 * c] | at[2 * c + 1] << 8));
+      break;
+    case TextureFormat::rgba32f:
+      std::memcpy(value.data(), at, sizeof value);
+      break;
+  }
+  return value;
+}
+
+void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes) {
+  for (size_t c = 0; c < 4; ++c) {
+    switch (format) {
+      case TextureFormat::rgba8:
+        append(unorm8(value[c]), bytes);
+        break;
+      case TextureFormat::srgb8_a8:
+        append(c < 3 ? srgb8_from_linear(value[c]) : unorm8(value[c]), bytes);
+        break;
+      case TextureFormat::rgba16f:
+        append(half_from_float(value[c], HalfRound::nearest), bytes);
+        break;
+      case TextureFormat::rgba32f:
+        append(value[c], bytes);
+        break;
+    }
+  }
+}
+
+void build_mip_chain(Texture& texture) {
+  texture.levels.resize(1);
+  while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
+    const size_t above = texture.levels.size() - 1;
+    const int width = texture.levels[above].width, height = texture.levels[above].height;
+    TextureLevel level{std::max(1, width / 2), std::max(1, height / 2), {}};
+    level.bytes.reserve(size_t(level.width) * size_t(level.height) * size_t(bytes_per_texel(texture.format)));
+    for (int y = 0; y < level.height; ++y)
+      for (int x = 0; x < level.width; ++x)
+        append_texel(texture.format, box(texture, above, taps_of(width, x), taps_of(height, y)), level.bytes);
+    texture.levels.push_back(std::move(level));
+  }
+}
+
+}  // namespace trueshade
