@@ -315,9 +315,11 @@ void store_plane(int first, int count, Format format, const GBufferState& planes
                  SurfaceTile& out) {
   const DF d;
   if (info(format).bytes_per_channel == 4) return;
-  for (int c = first; c < first + count; ++c)
+  for (int c = 0; c < count; ++c) {
+    float* plane = out.plane[first + c];
     for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
-      hn::Store(stored_value(hn::Load(d, out.plane[c] + i), format, c - first, planes.half_round, profile), d, out.plane[c] + i);
+      hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, profile), d, plane + i);
+  }
 }
 
 // Albedo times the material's colour, then every plane as its format stores it.

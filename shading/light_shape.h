@@ -70,9 +70,11 @@ inline constexpr LightShape kCompiledShapes[] = {
 template <size_t kIndex>
 struct CompiledShape {
   static constexpr LightShape shape = kCompiledShapes[kIndex];
+  static constexpr bool compiled = true;
 };
 struct AnyShape {
   LightShape shape;
+  static constexpr bool compiled = false;
 };
 
 /// Calls kernel(shape) with the shape compiled for the model, or with the general one.

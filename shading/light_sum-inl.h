@@ -68,7 +68,7 @@ HWY_INLINE void add_four(const LightTerms<Shape>& terms, const PixelVector& px, 
 }
 
 template <class Shape, class Sum>
-HWY_INLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, ListedLight of, Sum& sum) {
+HWY_NOINLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, ListedLight of, Sum& sum) {
   const DF d;
   LightTerm term = terms(px, of.light);
   sum.limit(of.place, term);
@@ -106,13 +106,13 @@ HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px
   for (size_t first = 0; first < list.size(); first += kChunk) {
     const size_t hits = hits_of(terms, px, list, first, std::min(list.size(), first + kChunk), sum, hit);
     size_t i = 0;
-    for (; i + 4 <= hits; i += 4) {
+    for (; i + 4 <= hits && Shape::compiled; i += 4) {
       const LightKind* kind = terms.lights.kind.data();
       const LightKind k =
           std::max({kind[hit[i].light], kind[hit[i + 1].light], kind[hit[i + 2].light], kind[hit[i + 3].light]});
       if (k == LightKind::other) {
         for (size_t j = i; j < i + 4; ++j) add_one(terms, px, hit[j], sum);
-      } else {
+      } else if constexpr (Shape::compiled) {
         add_four(terms, px, hit + i, k == LightKind::coned, sum);
         sum.evaluated += 4;
       }
