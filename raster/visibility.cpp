@@ -99,8 +99,8 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit,
-                  RasterCounts& counts) {
+template <class Commit>
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, Commit& commit, RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
@@ -174,6 +174,30 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   counts.fragments += commit.fragments;
 }
 
+// Keeps the pixels where not the visible fragment alone has the stored depth.
+void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& fragments) {
+  std::sort(fragments.begin(), fragments.end(), [](const DepthFragment& a, const DepthFragment& b) {
+    return a.at < b.at || (a.at == b.at && a.id < b.id);
+  });
+  size_t kept = 0;
+  for (size_t i = 0, end = 0; i < fragments.size(); i = end) {
+    while (end < fragments.size() && fragments[end].at == fragments[i].at) ++end;
+    if (end == i + 1 && fragments[i].id == visible.id[fragments[i].at]) continue;
+    for (size_t k = i; k < end; ++k) fragments[kept++] = fragments[k];
+  }
+  fragments.resize(kept);
+}
+
+void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                                   std::vector<DepthFragment>& out) {
+  out.clear();
+  const WindowTransform& t = in.view.window;
+  TieCommit commit{visible, {visible, DepthFunc::equal, t.depth_low, t.depth_high, culling}, out, culling};
+  RasterCounts again;
+  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, again);
+  keep_shared(visible, out);
+}
+
 void clip_corners_simd(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -193,11 +217,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(fragments_at_equal_depth_simd);
 HWY_EXPORT(clip_corners_simd);
 
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                              std::vector<DepthFragment>& out) {
+  HWY_DYNAMIC_DISPATCH(fragments_at_equal_depth_simd)(in, rect, culling, visible, out);
 }
 
 void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {

@@ -29,6 +29,7 @@ enum class Strategy : uint8_t {
 inline constexpr std::string_view kStrategyNames[] = {"forward-multipass", "forward-loop", "deferred-volumes",
                                                       "deferred-loop"};
 constexpr std::string_view name_of(Strategy strategy) { return kStrategyNames[size_t(strategy)]; }
+constexpr bool blends_lights(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::deferred_volumes; }
 constexpr bool is_forward(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::forward_loop; }
 
 /// What bounds a light beside its falloff. A light whose range is infinite is unbounded whatever this says.
@@ -108,6 +109,16 @@ struct Pipeline {
   bool operator==(const Pipeline&) const = default;
 };
 
+/// The planes surfaces really have: forward strategies store none, so that lights see float32 attributes.
+constexpr GBufferState surface_planes(const Pipeline& pipeline) {
+  GBufferState g = pipeline.gbuffer;
+  if (!is_forward(pipeline.strategy)) return g;
+  g.position_from_depth = false;
+  for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv}) plane->format = Format::rgba32f;
+  g.specular = g.emission = Format::rgba32f;
+  return g;
+}
+
 /// How a frame is computed. Never changes a pixel.
 struct Execution {
   int threads = 0;                 ///< 0: one a core; at most 1024
@@ -117,6 +128,7 @@ struct Execution {
   bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
   bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
+  bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
 };
 
 /// Throws Error(usage) naming the field and its range.

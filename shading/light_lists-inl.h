@@ -24,7 +24,7 @@ struct Box {
   int pixels;
 };
 
-Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
+inline Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
   const DF d;
   const DI di;
   const VF inf = hn::Set(d, std::numeric_limits<float>::infinity());
@@ -76,7 +76,7 @@ void reaching_lights(const LightTable& lights, const Box& box, size_t count, con
 }
 
 // The whole table against one box, a vector of lights at a time.
-void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
+inline void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
   const DF d;
   const size_t lanes = hn::Lanes(d);
   const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f),
