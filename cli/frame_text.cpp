@@ -41,11 +41,14 @@ std::string hash_line(const RenderedFrame& result) {
 }
 
 Metadata metadata_of(const RenderedFrame& result) {
-  return {{"trueshade:imageHash", "sha256:" + result.image_hash},
-          {"trueshade:pipeline", pipeline_json(result.pipeline)},
-          {"trueshade:scene", result.scene.spec},
-          {"trueshade:sceneHash", "sha256:" + result.scene_hash},
-          {"trueshade:version", kVersion}};
+  Metadata metadata{{"trueshade:imageHash", "sha256:" + result.image_hash},
+                    {"trueshade:pipeline", pipeline_json(result.pipeline)},
+                    {"trueshade:scene", result.scene.spec},
+                    {"trueshade:sceneHash", "sha256:" + result.scene_hash},
+                    {"trueshade:version", kVersion}};
+  if (result.frame.view_scale > 0)
+    metadata.emplace_back("trueshade:viewScale", std::to_string(result.frame.view_scale));
+  return metadata;
 }
 
 std::vector<StatLine> stat_lines(const RenderedFrame& result) {
@@ -78,6 +81,8 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
       time("light_ms", "light, all threads [ms]", s.light_ms),
       time("total_ms", "this frame, planes included [ms]", s.total_ms)};
+  if (result.frame.view_scale > 0)
+    lines.push_back(count("view_scale", "count at the top of the heat map", result.frame.view_scale));
   if (!result.repeated_ms.empty())
     lines.push_back(time("frame_ms", "time per frame [ms]", result.repeated_ms[result.repeated_ms.size() / 2]));
   return lines;

@@ -60,6 +60,12 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
+ImageView view_from_text(const std::string& text) {
+  const std::optional<ImageView> view = view_from_name(text);
+  if (!view) throw usage("--view", "there is no view '" + text + "'", "one of: " + joined(kViewNames));
+  return *view;
+}
+
 Format target_from_text(const std::string& text) {
   constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
   if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
@@ -67,19 +73,23 @@ Format target_from_text(const std::string& text) {
   return *format_from_name(text);
 }
 
+std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
+
+/// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
 std::vector<std::string> aovs_from_text(const std::string& list) {
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
     const std::string name = list.substr(begin, end - begin);
-    const auto known = aov_names();
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + joined(known));
+    if (!is_aov_name(name))
+      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
     if (std::find(names.begin(), names.end(), name) != names.end())
       throw usage("--aov", "plane '" + name + "' is named twice", "name it once");
     names.push_back(name);
     begin = end + 1;
   }
+  const auto named = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (named("depth") && !named("Z")) names.emplace_back("Z");
   return names;
 }
 
@@ -96,7 +106,7 @@ void check_outputs(const RenderOptions& options) {
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, target, profile, aov, threads, tile;
+  std::optional<std::string> size, target, profile, view, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -124,7 +134,8 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
-  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
+  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + plane_names());
+  render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
   render->add_option("--tile", texts.tile, "Tile side: 8, 16, 32, 48 or 64; never changes a pixel");
@@ -151,6 +162,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.target) options.target = target_from_text(*texts.target);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.view) options.view = view_from_text(*texts.view);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);

@@ -20,12 +20,13 @@ struct PipelineOptions {
   std::optional<Size> size;
   std::optional<Format> target;
   std::optional<NumericProfile> profile;
+  std::optional<ImageView> view;
 };
 
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html
-  std::vector<std::string> aovs;     ///< planes for .exr outputs, each one of aov_names()
+  std::vector<std::string> aovs;     ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";         ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;

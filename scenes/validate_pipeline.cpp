@@ -111,6 +111,7 @@ void validate(const Pipeline& pipeline) {
   require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target",
                  "rgba8, rgba16f or rgba32f");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
+  require_enumerator(pipeline.view, ImageView::overdraw, "view");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

@@ -10,6 +10,7 @@
 
 #include "core/half.h"
 #include "raster/store-inl.h"
+#include "shading/light_planes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -92,15 +93,15 @@ void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_r
 
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane) {
-  const uint32_t* integers = name == "id.object"     ? surface.object
-                             : name == "id.material" ? surface.material
-                             : name == "light.count" ? color.light_count
-                                                     : nullptr;
+  const uint32_t* integers = name == "id.object"                           ? surface.object
+                             : name == "id.material"                       ? surface.material
+                             : name == "light.count" || name == "overdraw" ? color.light_count
+                                                                           : nullptr;
   if (integers != nullptr || name == "depth") {
     for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
       if (integers == nullptr)
         std::memcpy(texel, visible.depth + i, 4);
-      else if (surface.covered[i] != 0)
+      else if (surface.covered[i] != 0 || name == "overdraw")
         std::memcpy(texel, integers + i, 4);
     });
     return;
@@ -120,7 +121,7 @@ Format aov_format(std::string_view name, const GBufferState& planes) {
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;
   if (name == "uv") return planes.uv.format;
-  return Format::r32ui;
+  return light_of_plane(name) ? Format::rgb32f : Format::r32ui;
 }
 
 }  // namespace trueshade

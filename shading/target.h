@@ -11,7 +11,8 @@ namespace trueshade {
 void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target);
 
 /// Writes one plane of a tile into an AOV image of the same size.
-/// Names are aov_names(); pixels without a surface get 0, depth its stored value.
+/// Names are planes_to_draw()'s but for light.<i>; pixels without a surface get 0, depth its stored value. Of
+/// `overdraw`, color.light_count holds the counts.
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane);
 
