@@ -60,17 +60,16 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
-<<<<<<< HEAD
 ImageView view_from_text(const std::string& text) {
   const std::optional<ImageView> view = view_from_name(text);
   if (!view) throw usage("--view", "there is no view '" + text + "'", "one of: " + joined(kViewNames));
   return *view;
-=======
+}
+
 std::vector<std::string_view> target_names() {
   std::vector<std::string_view> names;
   for (const Format format : kTargetFormats) names.push_back(info(format).name);
   return names;
->>>>>>> main
 }
 
 Format target_from_text(const std::string& text) {

@@ -109,15 +109,12 @@ void validate(const Pipeline& pipeline) {
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
-<<<<<<< HEAD
   require_enumerator(pipeline.view, ImageView::overdraw, "view");
-=======
   if (!profile_has(pipeline.profile, pipeline.target))
     throw Error(ErrorKind::usage, "target",
                 std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +
                     std::string(info(pipeline.target).name),
                 "use the profile ideal, or a target it promises: rgba8, rgba16f, rgba32f");
->>>>>>> main
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

@@ -15,10 +15,8 @@ struct Derived {
   std::string_view name;
   std::string_view from[2];  ///< planes it is made of, beside the target
 };
-constexpr Derived kDerived[] = {{"Z", {"position", "id.object"}},
-                                {"specular", {"id.object", ""}},
-                                {"light.tile", {"position", "id.object"}},
-                                {"light.intensity", {"", ""}}};
+constexpr Derived kDerived[] = {
+    {"Z", {"position", "id.object"}}, {"light.tile", {"position", "id.object"}}, {"light.intensity", {"", ""}}};
 
 void add_once(std::vector<std::string>& names, std::string_view name) {
   if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
@@ -51,14 +49,6 @@ Image view_distance(const Scene& scene, const Pipeline& pipeline, const Image& p
       for (int k = 0; k < 3; ++k) p[k] = float(position.value(x, y, k)) - eye[k];
       put(out, x, y, (axis.x * p[0] + axis.y * p[1]) + axis.z * p[2]);
     }
-  return out;
-}
-
-Image specular_colors(const Pipeline& pipeline, const Image& object) {
-  Image out(object.width, object.height, Format::rgb32f);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      if (object.value(x, y, 0) != 0.0) put(out, x, y, pipeline.light_model.specular_color);
   return out;
 }
 
@@ -139,10 +129,9 @@ Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& p
                     const Image& target, std::span<const NamedImage> drawn) {
   if (name == "light.intensity") return intensities(target);
   const Image& object = plane_named(drawn, "id.object");
-  if (name == "specular") return specular_colors(pipeline, object);
   const Image& position = plane_named(drawn, "position");
   if (name == "Z") return view_distance(scene, pipeline, position, object);
-  return lights_by_tile(make_light_table(scene.lights, pipeline.light_model), threads, position, object);
+  return lights_by_tile(make_light_table(scene.lights, pipeline.light_model, scene.camera), threads, position, object);
 }
 
 const Image& plane_named(std::span<const NamedImage> planes, std::string_view name) {

@@ -19,7 +19,6 @@ std::vector<std::string> planes_to_draw(std::span<const std::string> asked);
 
 /// A plane made of other planes of the same frame, drawn as planes_to_draw() says. docs/views.md:
 ///   Z                distance of the stored position along the view axis; 0 without a surface
-///   specular         specular colour of the surface; 0 without one
 ///   light.tile       lights that may reach the surfaces in the pixel's square of kLightTile pixels
 ///   light.intensity  luminance of the target
 /// `name` is one of these. Needs FpScope.

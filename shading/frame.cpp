@@ -82,9 +82,14 @@ struct FrameWork {
     light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
                execution.compiled_models, s.lights, s.color, counts.light);
     store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
-    light_planes.draw(s.surface, where, execution.light_culling, s.lights, s.extra, out.aovs);
+    light_planes.draw(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
+                      out.aovs);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
+      if (aov.name == "specular") {
+        store_specular(s.surface, pipeline.light_model, where, aov.image);
+        continue;
+      }
       const bool counts_fragments = aov.name == "overdraw";
       if (counts_fragments) count_fragments(draws, where, s.extra.light_count);
       store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where,
@@ -184,12 +189,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
       bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins),
-<<<<<<< HEAD
-              make_light_table(scene.lights, pipeline.light_model), need_uv,
+              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv,
               LightPlanes(aovs, scene, pipeline.light_model), frame},
-=======
-              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv, frame},
->>>>>>> main
              progress);
 
   FrameStats& stats = frame.stats;

@@ -17,18 +17,18 @@ std::optional<size_t> light_of_plane(std::string_view name) {
 }
 
 LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const LightModel& model)
-    : model_(model), eye_{scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z} {
+    : model_(model) {
   for (size_t i = 0; i < planes.size(); ++i)
     if (const std::optional<size_t> light = light_of_plane(planes[i]))
-      planes_.push_back({i, make_light_table(std::span(scene.lights).subspan(*light, 1), model)});
+      planes_.push_back({i, make_light_table(std::span(scene.lights).subspan(*light, 1), model, scene.camera)});
 }
 
-void LightPlanes::draw(const SurfaceTile& surface, const TileRect& rect, bool culling, LightLists& work,
+void LightPlanes::draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
                        ColorTile& color, std::span<NamedImage> planes) const {
   constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   for (const Plane& plane : planes_) {
     LightCounts uncounted;
-    light_tile(surface, rect.size, plane.light, model_, eye_, kNothing, culling, work, color, uncounted);
+    light_tile(surface, rect.size, plane.light, model_, kNothing, culling, compiled, work, color, uncounted);
     Image& image = planes[plane.index].image;
     for (int y = 0; y < std::min(rect.size, image.height - rect.y); ++y)
       for (int x = 0; x < std::min(rect.size, image.width - rect.x); ++x) {

@@ -22,8 +22,8 @@ class LightPlanes {
   LightPlanes(std::span<const std::string> planes, const Scene& scene, const LightModel& model);
 
   /// Draws a tile of each plane; `planes` are those of the constructor, in order. `work` and `color` are scratch.
-  void draw(const SurfaceTile& surface, const TileRect& rect, bool culling, LightLists& work, ColorTile& color,
-            std::span<NamedImage> planes) const;
+  void draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
+            ColorTile& color, std::span<NamedImage> planes) const;
 
  private:
   struct Plane {
@@ -32,7 +32,6 @@ class LightPlanes {
   };
   std::vector<Plane> planes_;
   LightModel model_;
-  float eye_[3];
 };
 
 }  // namespace trueshade

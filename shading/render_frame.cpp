@@ -46,7 +46,7 @@ bool draws_volumes(ImageView view) { return view == ImageView::light_boxes || vi
 
 // The material colours with the light volumes among them.
 Image light_boxes_view(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                         std::span<const NamedImage> planes) {
+                       std::span<const NamedImage> planes) {
   Image image = view_image(ImageView::albedo, planes);
   const Overlay boxes = overlay(pipeline.view == ImageView::light_edges ? light_box_edges(scene) : light_boxes(scene),
                                 pipeline, execution, plane_named(planes, "depth"));

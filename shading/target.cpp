@@ -149,13 +149,25 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
   });
 }
 
+void store_specular(const SurfaceTile& surface, const LightModel& model, const TileRect& rect, Image& plane) {
+  for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
+    if (surface.covered[i] == 0) return;
+    float value[3];
+    for (int c = 0; c < 3; ++c)
+      value[c] = reads_specular_plane(model)                       ? surface.plane[kSpecular + c][i]
+                 : model.specular_source == SpecularSource::albedo ? surface.plane[kAlbedo + c][i]
+                                                                   : model.specular_color[c];
+    std::memcpy(texel, value, sizeof value);
+  });
+}
+
 Format aov_format(std::string_view name, const GBufferState& planes) {
   if (name == "depth") return Format::d32f;
   if (name == "position") return planes.position_from_depth ? Format::rgba32f : planes.position.format;
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;
   if (name == "uv") return planes.uv.format;
-  return light_of_plane(name) ? Format::rgb32f : Format::r32ui;
+  return name == "specular" || light_of_plane(name) ? Format::rgb32f : Format::r32ui;
 }
 
 }  // namespace trueshade
