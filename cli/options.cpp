@@ -252,8 +252,10 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
-  if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
-    throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
+    throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.driver && !options.gbuffer_file.empty())
+    throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
   if (options.held_to && !oracle::profile_named(*options.held_to))
     throw usage("--profile", "there is no profile '" + *options.held_to + "'",
                 "one of: " + joined(oracle::profile_names()));

@@ -60,7 +60,7 @@ struct GlslFilesOptions {
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
-  std::string driver = "default";        ///< default, llvmpipe or softpipe; not read where there is a capture
+  std::optional<std::string> driver;     ///< default, llvmpipe or softpipe; none where there is a capture
   std::optional<std::string> held_to;    ///< what profile to hold the driver to; nothing: what OpenGL promises of any
   std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
