@@ -24,13 +24,16 @@ std::vector<Section> sections() {
                                          "G-buffer, then all lights summed in float32, one store"};
   for (size_t i = 0; i < std::size(kStrategyNames); ++i) strategies.entries.emplace_back(kStrategyNames[i], kAbout[i]);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
+  Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
   for (const BuiltinInfo& scene : builtin_scenes()) scenes.entries.emplace_back(scene.name, scene.description);
   for (const Preset& preset : presets()) rows.entries.emplace_back(preset.name, preset.source);
   for (const Format format : kFormats) formats.entries.emplace_back(info(format).name, "");
   for (const std::string_view name : aov_names()) planes.entries.emplace_back(name, "");
+  planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
+  for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  return {scenes, rows, strategies, formats, planes, simd};
+  return {scenes, rows, strategies, formats, planes, views, simd};
 }
 
 std::string json_of(const std::vector<Section>& list) {

@@ -31,6 +31,7 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.target) pipeline.target = *options.target;
   if (options.profile) pipeline.profile = *options.profile;
   if (options.strategy) pipeline.strategy = *options.strategy;
+  if (options.view) pipeline.view = *options.view;
   validate(pipeline);
   return pipeline;
 }
