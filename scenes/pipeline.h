@@ -83,7 +83,7 @@ struct GBufferState {
 
 /// How lights are bounded and drawn. Ambient and directional lights are unbounded. Quads are never culled.
 struct LightVolumes {
-  LightExtent point = LightExtent::range, spot = LightExtent::range;
+  LightExtent point = LightExtent::unbounded, spot = LightExtent::unbounded;
   int slices = 16;                      ///< of spheres and cones, around their axis: 3 to 64
   int stacks = 8;                       ///< of spheres, from pole to pole: 2 to 64
   CullFace cull_face = CullFace::none;  ///< of meshes; seen from outside their triangles are counter-clockwise

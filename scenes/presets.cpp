@@ -23,7 +23,6 @@ Preset touchdesigner() {
   p.light_model.falloff = Falloff::quadratic;
   p.light_model.order = TermOrder::separate;
   p.light_model.alpha_from_albedo = true;
-  p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;  // no cutoff
   p.target = Format::rgba8;
   return {"touchdesigner", "TouchDesigner Deferred Lighting - Point Lights (tutorial), its combine shader", p};
 }

@@ -88,8 +88,8 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
         R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
         R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
-        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"range",)"
-        R"("spot":"range","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
+        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"unbounded",)"
+        R"("spot":"unbounded","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
         R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
         R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal","view":"lit"})");
