@@ -59,7 +59,7 @@ constexpr std::array<Row, 8> kRows{{
     {{"red", "a canyon of 4 million vertices under ambient, point and spot lights, 100 in all"}, builtin::red, 0},
     {{"cornell", "the Cornell box with two blocks and coloured lights"}, builtin::cornell, 0},
     {{"circle", "lights on a circle, coloured by a ramp and noise, around a torus knot"}, builtin::circle, 1u << 20},
-    {{"lecture", "a textured room under 14 spot lights that sweep"}, builtin::lecture, 0},
+    {{"lecture", "a textured room under 14 sweeping spot lights"}, builtin::lecture, 0},
     {{"atrium", "a hall of arches with a fountain under 256 warm and cool lamps"}, builtin::atrium, 0},
 }};
 

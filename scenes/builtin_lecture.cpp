@@ -11,7 +11,7 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kLights = 14, kSweeping = 64;
+constexpr uint32_t kLights = 15, kSweeping = 64;         // a little ambient light, and spots
 constexpr double kWide = 6.0, kDeep = 4.5, kHigh = 5.0;  // half the width, half the depth, the height
 
 enum MeshId : uint32_t { kFloor, kWall, kCube, kSphere, kKnot, kRabbit };
@@ -79,10 +79,10 @@ void add_things(Scene& scene) {
 /// A spot light from `from` to `to` that goes round the point it shines at.
 void add_spot(Scene& scene, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& color, double reach,
               Pcg32& drift) {
-  Light light = point_light(from, color, 4.2 * reach);
+  Light light = point_light(from, color, 8.0 * reach);
   light.type = LightType::spot;
   light.direction = glm::vec3(unit(to - from));
-  light.cone_rad = 0.30f;
+  light.cone_rad = 0.34f;
   light.penumbra_rad = 0.12f;
   const uint32_t index = uint32_t(scene.lights.size());
   const double period = drift.between(6.0, 12.0);
@@ -92,7 +92,7 @@ void add_spot(Scene& scene, const glm::dvec3& from, const glm::dvec3& to, const 
     track.end = period;
     for (int i = 0; i <= 8; ++i) {
       const double angle = 2.0 * kPi * i / 8;
-      const glm::dvec3 at = to + glm::dvec3(1.0 - cosine(angle), 0.0, sine(angle)) * 1.1;
+      const glm::dvec3 at = to + glm::dvec3(1.0 - cosine(angle), 0.0, sine(angle)) * 0.7;
       track.times.push_back(period * i / 8);
       track.values.emplace_back(i % 8 == 0 ? glm::dvec3(light.direction) : unit(at - from), 0.0);
     }
@@ -114,12 +114,24 @@ Scene lecture(const Parameters& parameters) {
   Pcg32 random(parameters.seed, 8), drift(parameters.seed, 28);
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
+  const glm::dvec3 things[] = {{-3.0, 1.4, -1.2}, {0.0, 1.6, -2.0}, {3.0, 1.4, -1.2}};
   for (uint32_t i = 0; i < lights; ++i) {
-    const glm::dvec2 even = even_point(i + 3);
-    const glm::dvec3 from((even.x - 0.5) * 1.7 * kWide, kHigh - 0.35, (even.y - 0.5) * 1.6 * kDeep);
-    const glm::dvec3 to{from.x + random.between(-1.4, 1.4), 0.0, from.z + random.between(-2.2, 0.6)};
-    const glm::dvec3 color = i % 3 == 0 ? glm::dvec3(1.0, 0.86, 0.66) : color_of_hue(0.381966 * i + 0.05, 0.6);
-    add_spot(scene, from, to, color * random.between(0.5, 0.75), reach, drift);
+    if (i == 0) {
+      Light ambient;
+      ambient.type = LightType::ambient;
+      ambient.color = {0.07f, 0.07f, 0.09f};
+      scene.lights.push_back(ambient);
+      continue;
+    }
+    // A third shines at the things, a third at the floor, a third at the wall behind.
+    const glm::dvec2 even = even_point(i);
+    const glm::dvec3 from((even.x - 0.5) * 1.6 * kWide, kHigh - 0.3, (even.y - 0.35) * 1.5 * kDeep);
+    const double aside = random.between(-1.5, 1.5), high = random.between(1.0, 2.8);
+    const glm::dvec3 to = i % 3 == 0   ? things[i / 3 % 3]
+                          : i % 3 == 1 ? glm::dvec3(0.8 * from.x + aside, 0.0, from.z - 1.0)
+                                       : glm::dvec3(from.x + aside, high, -kDeep);
+    const glm::dvec3 color = i % 3 == 0 ? glm::dvec3(1.0, 0.88, 0.70) : color_of_hue(0.381966 * i + 0.05, 0.6);
+    add_spot(scene, from, to, color * random.between(0.32, 0.50), reach, drift);
   }
   scene.camera.eye = {0.6f, 2.4f, 8.6f};
   scene.camera.target = {0.0f, 1.55f, -1.5f};
