@@ -69,10 +69,14 @@ long double fragment_w(const DrawnTriangle& triangle, int x, int y);
 
 struct Surface {
   std::array<double, 3> position{}, normal{}, albedo{};
+  std::array<double, 3> specular{}, emission{};  ///< where the model reads them
+  double shininess = 0;
 };
 
 /// Sum of the lights as real numbers: docs/arithmetic.md section 8 without its roundings.
-std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model);
+///   view_axis: of the camera, where the model's viewer is infinite
+std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model,
+                                const std::array<double, 3>& view_axis = {0, 0, 1});
 
 /// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,

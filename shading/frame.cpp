@@ -23,8 +23,8 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kAovNames[] = {"depth", "position",  "normal",      "albedo",
-                                          "uv",    "id.object", "id.material", "light.count"};
+constexpr std::string_view kAovNames[] = {"depth",    "position", "normal",    "albedo",      "uv",
+                                          "specular", "emission", "id.object", "id.material", "light.count"};
 
 double now_ms() {
   using namespace std::chrono;
@@ -123,8 +123,11 @@ void check_memory(const Pipeline& pipeline, const Execution& execution, std::spa
         "a smaller size or fewer planes");
 }
 
-void check_aovs(std::span<const std::string> names) {
+void check_aovs(std::span<const std::string> names, const LightModel& model) {
   for (const std::string& name : names) {
+    if ((name == "specular" && !reads_specular_plane(model)) || (name == "emission" && !model.emission))
+      throw Error(ErrorKind::usage, "aov", "the light model reads no plane '" + name + "'",
+                  "a light model with material specular or emission");
     if (std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames)) continue;
     std::string known;
     for (const auto& n : kAovNames) known += (known.empty() ? "" : ", ") + std::string(n);
@@ -174,7 +177,7 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
                    std::span<const std::string> aovs, const Progress& progress) {
   validate(pipeline);
   validate(execution);
-  check_aovs(aovs);
+  check_aovs(aovs, pipeline.light_model);
   if (pipeline.strategy != Strategy::deferred_loop)
     throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not drawn yet",
                 "deferred-loop");

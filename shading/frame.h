@@ -32,7 +32,7 @@ struct FrameStats {
 };
 
 /// Planes to hand out beside the colour target.
-/// Names: depth position normal albedo uv id.object id.material light.count (lights that light the pixel; 0 = none).
+/// Names: depth position normal albedo uv specular emission id.object id.material light.count (lights that light the pixel; 0 = none).
 std::span<const std::string_view> aov_names();
 
 struct Frame {

@@ -111,6 +111,8 @@ Planes planes_of(std::string_view name) {
   if (name == "position") return {kPosition, 3, 1.0f};
   if (name == "normal") return {kNormal, 3, 1.0f};
   if (name == "albedo") return {kAlbedo, 4, 0.0f};
+  if (name == "specular") return {kSpecular, 4, 0.0f};
+  if (name == "emission") return {kEmission, 3, 1.0f};
   return {kUv, 2, 1.0f};
 }
 
@@ -154,6 +156,8 @@ Format aov_format(std::string_view name, const GBufferState& planes) {
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;
   if (name == "uv") return planes.uv.format;
+  if (name == "specular") return planes.specular;
+  if (name == "emission") return planes.emission;
   return Format::r32ui;
 }
 
