@@ -268,10 +268,29 @@ Real specular_of(const LightModel& model, Real shininess, const Vector& n, const
   return std::pow(cosine, shininess);
 }
 
+/// What the falloff's roundings are relative to.
+Real falloff_size(const Light& light, Falloff falloff, Real d) {
+  const Real ratio = d / Real(light.range), f = std::fabs(falloff_at(light, falloff, d));
+  if (falloff == Falloff::linear || falloff == Falloff::linear_range) return 1 + ratio;
+  if (falloff != Falloff::inverse_square || d == 0) return f;
+  return ratio < 2 ? (1 + ratio * ratio * ratio * ratio) * std::min(1 / (d * d), Real(1e18)) : 0;
+}
+
+/// How far a hard edge of the light's cone is from the cosine; a soft one has none.
+Real edge_distance(const Light& light, Cone cone, Real c) {
+  const bool step = cone == Cone::exponent ||
+                    ((cone == Cone::smooth_cutoff || cone == Cone::smooth_penumbra) && light.penumbra_rad == 0.0f);
+  return step ? std::fabs(c - std::cos(Real(light.cone_rad) + Real(light.penumbra_rad))) : 1;
+}
+
 }  // namespace
 
-std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model,
-                                const std::array<double, 3>& view_axis) {
+std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model) {
+  return lit_sum(surface, scene, model).color;
+}
+
+LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& model,
+               const std::array<double, 3>& view_axis) {
   const Vector position = {surface.position[0], surface.position[1], surface.position[2]};
   Vector n = {surface.normal[0], surface.normal[1], surface.normal[2]};
   if (model.renormalize) n = unit(n);
@@ -279,30 +298,38 @@ std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, cons
   if (model.viewer == Viewer::local) view = unit(difference(vector_of(scene.camera.eye), position));
   const bool own = reads_specular_plane(model), last = model.order == TermOrder::albedo_last;
   const Real shininess = own ? Real(surface.shininess) : Real(model.shininess);
-  Vector sum{};
+  Vector sum{}, size{};
   for (size_t k = 0; k < 3; ++k) {
     if (model.emission) sum[k] = surface.emission[k];
     sum[k] += Real(model.global_ambient[int(k)]) * (last ? 1 : Real(surface.albedo[k]));
+    size[k] = sum[k];
   }
+  LitSum out;
   for (const Light& light : scene.lights) {
     Vector color = vector_of(light.color);
     for (Real& c : color) c *= Real(model.damping);
     if (light.type == LightType::ambient) {
       for (size_t k = 0; k < 3; ++k) sum[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
+      for (size_t k = 0; k < 3; ++k) size[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
       continue;
     }
     Vector to_light{};
-    Real strength = 1;
+    Real strength = 1, strength_size = 1;
     if (light.type == LightType::directional) {
       to_light = difference({}, vector_of(light.direction));
     } else {
       const Vector offset = difference(vector_of(light.position), position);
+      const Real d = std::sqrt(dot(offset, offset));
       to_light = unit(offset);
-      strength = falloff_at(light, model.falloff, std::sqrt(dot(offset, offset)));
-      if (light.type == LightType::spot)
-        strength *= cone_at(light, model.cone, dot(to_light, difference({}, vector_of(light.direction))));
+      strength = falloff_at(light, model.falloff, d), strength_size = falloff_size(light, model.falloff, d);
+      if (light.type == LightType::spot) {
+        const Real c = dot(to_light, difference({}, vector_of(light.direction)));
+        strength *= cone_at(light, model.cone, c);
+        out.nearest_threshold = std::min(out.nearest_threshold, double(edge_distance(light, model.cone, c)));
+      }
     }
     const Real n_l = dot(n, to_light);
+    out.nearest_threshold = std::min(out.nearest_threshold, double(std::fabs(n_l)));
     Real diffuse = model.diffuse == Diffuse::clamped ? std::max(Real(0), n_l) : n_l;
     if (model.specular == Specular::phong && model.diffuse == Diffuse::clamped) diffuse = std::min(diffuse, Real(1));
     const Real specular = specular_of(model, shininess, n, to_light, view);
@@ -314,12 +341,13 @@ std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, cons
       const Real ambient = model.order == TermOrder::with_ambient ? albedo * Real(light.ambient[int(k)]) : 0;
       const Real reflected = last ? diffuse + specular : albedo * diffuse + ks * specular;
       sum[k] += (ambient + reflected * color[k]) * strength;
+      size[k] += (ambient + (last ? 2 : albedo + ks) * color[k]) * strength_size;
     }
   }
-  std::array<double, 3> out{};
   for (size_t k = 0; k < 3; ++k) {
-    if (last) sum[k] *= Real(surface.albedo[k]);
-    out[k] = double(model.clamp_result ? std::clamp(sum[k], Real(0), Real(1)) : sum[k]);
+    if (last) sum[k] *= Real(surface.albedo[k]), size[k] *= Real(surface.albedo[k]);
+    out.color[k] = double(model.clamp_result ? std::clamp(sum[k], Real(0), Real(1)) : sum[k]);
+    out.magnitude[k] = double(size[k]);
   }
   return out;
 }

@@ -131,6 +131,7 @@ class GBufferJudge {
   Range specular_of(const Material& material, const Range& base, int k) const {
     const double given = double(material.specular_color[k]);
     if (!maps_metals(pipeline_.light_model)) return {given, given, given};
+    if (material.metallic == 0.0f) return {double(0.04f), double(0.04f), double(0.04f)};
     const double metallic = double(material.metallic), rest = double(0.04f) * (1 - metallic);
     const double v =
         4 * std::max(profile_.arithmetic.roundoff, 0x1p-24) * (rest + std::fabs(base.high) * metallic) + kSmallestFloat;
