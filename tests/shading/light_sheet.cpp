@@ -1,6 +1,8 @@
 #include "tests/shading/light_sheet.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -98,18 +100,18 @@ Pixel Result::pixel(int x, int y) const {
       std::memcpy(&out.albedo[k], albedo.texel(x, y) + 4 * k, 4);
     }
   }
-  for (const NamedImage& plane : frame.aovs) {
-    if (plane.name == "specular") std::memcpy(out.specular, plane.image.texel(x, y), sizeof out.specular);
-    if (plane.name == "emission") std::memcpy(out.emission, plane.image.texel(x, y), sizeof out.emission);
-  }
+  std::memcpy(out.specular, frame.aovs[4].image.texel(x, y), 3 * sizeof(float));
+  const Material& m = materials[size_t(frame.aovs[5].image.value(x, y, 0)) - 1];
+  const double r = std::max(double(m.roughness), 0.04);
+  out.specular[3] = metals ? float(std::clamp(std::nearbyint(2 / (r * r * (r * r)) - 2), 1.0, 8192.0)) : m.shininess;
+  for (int k = 0; k < 3; ++k) out.emission[k] = m.emission[k];
   return out;
 }
 
 Result render(const Scene& scene, const Pipeline& pipeline, const Execution& execution) {
-  std::vector<std::string> aovs = {"position", "normal", "albedo", "id.object"};
-  if (reads_specular_plane(pipeline.light_model)) aovs.push_back("specular");
-  if (pipeline.light_model.emission) aovs.push_back("emission");
-  return {render_frame(PreparedScene(scene), pipeline, execution, aovs)};
+  const std::vector<std::string> aovs = {"position", "normal", "albedo", "id.object", "specular", "id.material"};
+  return {render_frame(PreparedScene(scene), pipeline, execution, aovs), scene.materials,
+          maps_metals(pipeline.light_model)};
 }
 
 void compare_with_loop(const Scene& scene, const Pipeline& pipeline, const Result& result) {
