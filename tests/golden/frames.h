@@ -42,6 +42,9 @@ inline constexpr GoldenFrame kGoldenFrames[] = {
     {"builtin:red", "punctual", 200, 150, "3ceb8cab711fed7251c598792a15beebf5d0b4605acb4cf7e6bcdb06f535d845"},
     {"builtin:cornell", "punctual", 200, 150, "5ff9d04dad12afc127f6eae96fe1a79ea9466c17339f6211f5ffbb0a21e77824"},
     {"builtin:circle", "punctual", 200, 150, "155bd7b878652001c8ec6d1bb2fd3a014c3173ac09f6274f2ad66517ed87051d"},
+    {"builtin:atrium", "many-lights", 200, 150, "a6c74d389ee87813a5f86fb080c918c5235ade4e605767347bae832bf264b664"},
+    {"builtin:atrium", "many-lights", 800, 800, "3db7c70e68f9f68cfb1fb160e9608b8b766e31e0331cd080733b5b5cf41576a5"},
+    {"builtin:atrium", "touchdesigner", 200, 150, "9aa6c8d69abe07218c962698eb8ae9e19a25c0bd1007e43ebf32885506aed78c"},
 };
 
 }  // namespace trueshade
