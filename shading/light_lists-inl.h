@@ -63,7 +63,8 @@ HWY_INLINE bool out_of_reach(const LightTable& lights, const Box& box, uint32_t 
     d2 += gap * gap;
   }
   const float cut2 = lights.cut2[light];
-  return cut2 != std::numeric_limits<float>::infinity() && d2 * (1.0f - 0x1p-20f) >= cut2;
+  return (cut2 != std::numeric_limits<float>::infinity() && d2 * (1.0f - 0x1p-20f) >= cut2) ||
+         dark_over(lights, light, box.low, box.high);
 }
 
 template <class Candidate>
@@ -96,7 +97,7 @@ inline void reaching_lights_of_scene(const LightTable& lights, const Box& box, s
     if (hn::AllTrue(d, out_of_reach)) continue;
     hn::Store(hn::IfThenElse(out_of_reach, zero, hn::Set(d, 1.0f)), d, reach);
     for (size_t k = 0; k < lanes && i + k < lights.size(); ++k)
-      if (reach[k] != 0.0f) out.push_back(uint32_t(i + k));
+      if (reach[k] != 0.0f && !dark_over(lights, i + k, box.low, box.high)) out.push_back(uint32_t(i + k));
   }
 }
 

@@ -110,6 +110,8 @@ class LightPass {
         bind_surface(program, t_.planes, t_.textures, t_.depth, scene_, pipeline_, draw_.shift_x, draw_.shift_y);
     bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
     set_uniform(program, "light_count", lights_);
+    if (reads_materials(pipeline_.light_model))
+      bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_.light_model));
   }
 
   void set_scene_state() const {
@@ -299,6 +301,8 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height),
                      draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
+  if (reads_materials(pipeline.light_model))
+    bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
   buffers_->draw_instances();
   timer.end("geometry");
   LightPass(target, program, *buffers_, pipeline, draw).run();
