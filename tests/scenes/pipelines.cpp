@@ -104,7 +104,7 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal",)"
         R"("post":{"samples":1,"marker_radius":0,"bloom":{"strength":0,"threshold":1,"radius":8,"passes":1},)"
-        R"("tone_map":"none","key":0.18,"white":0,"log_offset":0.0001,"encode":"linear","edge_filter":false,)"
+        R"("tone_map":"none","key":0.18,"white":0,"log_offset":1e-04,"encode":"linear","edge_filter":false,)"
         R"("output":"rgba8"},"view":"lit"})");
 }
 
