@@ -164,6 +164,8 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height),
                      draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
+  if (reads_materials(pipeline.light_model))
+    bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
   buffers_->draw_instances();
   timer.end("geometry");
   draw_lights(target, program.light, *buffers_, pipeline, draw);
