@@ -6,8 +6,9 @@
 #include "core/blend_state.h"
 #include "core/format.h"
 #include "core/numeric_profile.h"
-#include "scenes/light_model.h"
 #include "scenes/image_view.h"
+#include "scenes/light_model.h"
+#include "scenes/post_chain.h"
 
 namespace trueshade {
 
@@ -109,6 +110,7 @@ struct Pipeline {
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;
+  PostChain post;                   ///< of the view `lit`
   ImageView view = ImageView::lit;  ///< of others the image is rgba8, whatever the target
   bool operator==(const Pipeline&) const = default;
 };
