@@ -29,6 +29,7 @@ class Builder {
       ++current_.triangles;
     }
     finish();
+    for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
     return std::move(out_);
   }
 

@@ -9,6 +9,7 @@ namespace trueshade {
 
 inline constexpr int kClusterVertices = 64;
 inline constexpr int kClusterTriangles = 126;
+inline constexpr size_t kCornerSlack = 64;  ///< zeros after the last triangle's corners, so that vectors may read on
 
 /// A run of consecutive triangles of a mesh that share at most 64 vertices: the unit of culling and binning.
 struct Cluster {

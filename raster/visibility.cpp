@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raster/coverage-inl.h"
+#include "raster/small_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -108,7 +109,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices v;
   window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
-  uint8_t triangle[kClusterTriangles + 1];
+  alignas(64) uint8_t triangle[kMostCandidates];
   int count = 0;
   if (v.any_needs_care) {
     count = all_triangles(cluster, triangle);
@@ -118,8 +119,19 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
     const float near = std::min(std::max(float(box.near), t.depth_low), t.depth_high);
     if (commit.skip_hidden && hidden_box(commit.tile, rect, box, near)) return;
-    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
-    count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0), middle = rect.size * 128;
+    const int32_t farthest = std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
+    if (commit.skip_hidden && farthest < kPackedLimit) {
+      const PackedLimits limit(rect);
+      Candidates found;
+      alignas(64) int32_t packed[kClusterVertices];
+      pack_corners(v, cluster.vertices, middle, packed);
+      find_candidates(packed, mesh, cluster, limit, found);
+      draw_small(found.small, v.z, in.state, t.upper_left, rect, limit, visible_id(position, 0, false), commit);
+      count = found.others;
+      for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(found.other[i]) >> 24);
+    } else
+      count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
