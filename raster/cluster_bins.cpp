@@ -45,14 +45,13 @@ bool pixel_span(const Interval& ndc, const WindowTransform& t, int axis, int low
 
 struct Binner {
   const View& view;
-  int tile;
   bool culling;
 
-  void cover(int x0, int y0, int x1, int y1, ClusterDraw& draw) const {  // pixels, inclusive
-    draw.tile_x0 = uint16_t(x0 / tile);
-    draw.tile_y0 = uint16_t(y0 / tile);
-    draw.tile_x1 = uint16_t(x1 / tile + 1);
-    draw.tile_y1 = uint16_t(y1 / tile + 1);
+  static void cover(int x0, int y0, int x1, int y1, ClusterDraw& draw) {  // pixels, inclusive
+    draw.x0 = uint16_t(x0);
+    draw.y0 = uint16_t(y0);
+    draw.x1 = uint16_t(x1);
+    draw.y1 = uint16_t(y1);
   }
 
   // False if the cluster cannot be seen.
@@ -91,13 +90,13 @@ struct Row {
 
 constexpr uint64_t kChunk = 1024;
 
-std::vector<ClusterDraw> seen_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile,
+std::vector<ClusterDraw> seen_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view,
                                        bool culling, int threads) {
   const Row row(scene, clusters);
   const uint64_t all = row.first.back();
   const int chunks = int((all + kChunk - 1) / kChunk);
   std::vector<std::vector<ClusterDraw>> seen(static_cast<size_t>(chunks));
-  const Binner binner{view, tile, culling};
+  const Binner binner{view, culling};
   parallel_for(chunks, threads, [&](int chunk) {
     uint64_t at = uint64_t(chunk) * kChunk;
     const uint64_t end = std::min(all, at + kChunk);
@@ -128,11 +127,11 @@ ClusterBins bin_clusters(const Scene& scene, const ClusteredScene& clusters, con
   bins.first.assign(size_t(bins.tiles_x) * size_t(bins.tiles_y) + 1, 0);
   const WindowTransform& t = view.window;
   if (t.x0 >= t.x1 || t.y0 >= t.y1) return bins;
-  bins.draws = seen_clusters(scene, clusters, view, tile, culling, threads);
+  bins.draws = seen_clusters(scene, clusters, view, culling, threads);
 
   const auto for_each_tile = [&](const ClusterDraw& draw, auto&& visit) {
-    for (int y = draw.tile_y0; y < draw.tile_y1; ++y)
-      for (int x = draw.tile_x0; x < draw.tile_x1; ++x) visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
+    for (int y = draw.y0 / tile; y <= draw.y1 / tile; ++y)
+      for (int x = draw.x0 / tile; x <= draw.x1 / tile; ++x) visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
   };
   for (const ClusterDraw& draw : bins.draws) for_each_tile(draw, [&](size_t i) { ++bins.first[i + 1]; });
   for (size_t i = 1; i < bins.first.size(); ++i) {

@@ -1,4 +1,4 @@
-// Triangles whose box holds at most 2x2 samples, a lane a triangle: rejected, covered and tested for depth many at a
+// Triangles whose box holds at most 4x4 samples, a lane a triangle: rejected, covered and tested for depth many at a
 // time, with the bits of triangle_setup.h, coverage-inl.h and commit-inl.h. Included once per SIMD target.
 // docs/arithmetic.md sections 4 to 6.
 //
@@ -32,8 +32,8 @@ using VT = hn::Vec<DT>;
 
 inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
 // Lists are written a whole vector at a time, and are a multiple of every vector long.
-inline constexpr size_t kMostCandidates = 144, kMostFragments = 528;
-static_assert(kClusterTriangles + 16 <= kMostCandidates && 4 * kClusterTriangles + 16 <= kMostFragments);
+inline constexpr size_t kMostCandidates = 144, kMostFragments = 1024;
+static_assert(kClusterTriangles + 16 <= kMostCandidates && 16 * 16 + 16 <= kMostFragments);
 
 /// A cluster's triangles that have a sample in their box and the tile.
 struct TriangleList {
@@ -43,7 +43,7 @@ struct TriangleList {
 };
 
 struct Candidates {
-  TriangleList small;                          ///< at most 2x2 samples
+  TriangleList upto_2, upto_4;                 ///< at most 2x2 and 4x4 samples
   alignas(64) int32_t other[kMostCandidates];  ///< words, as above
   int others = 0;
 };
@@ -54,6 +54,17 @@ struct FragmentList {
   alignas(64) int32_t e1[kMostFragments], e2[kMostFragments], area[kMostFragments], word[kMostFragments],
       at[kMostFragments];
   int count = 0;
+  alignas(64) double corner_z[3][kMostFragments];
+  alignas(64) float z[kMostFragments];
+};
+
+/// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
+struct ClusterScratch {
+  WindowVertices vertices;
+  alignas(64) int32_t packed[kClusterVertices];
+  alignas(64) uint8_t triangle[kMostCandidates];
+  Candidates found;
+  FragmentList fragments;
 };
 
 /// Where the corners fit, packs them; `middle` is that of the tile, in 1/256 pixel from its first sample.
@@ -102,7 +113,17 @@ struct PackedLimits {
         last_y(rect.limit[3] - 1 + first_y) {}
 };
 
-/// Sorts a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, more.
+HWY_INLINE void append(TriangleList& out, hn::Mask<DT> which, VT p0, VT p1, VT p2, VT word) {
+  const DT d;
+  const int n = out.count;
+  hn::StoreU(hn::Compress(p0, which), d, out.corner[0] + n);
+  hn::StoreU(hn::Compress(p1, which), d, out.corner[1] + n);
+  hn::StoreU(hn::Compress(p2, which), d, out.corner[2] + n);
+  hn::StoreU(hn::Compress(word, which), d, out.word + n);
+  out.count = n + int(hn::CountTrue(d, which));
+}
+
+/// Sorts a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, at most 4x4, more.
 HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh, const Cluster& cluster,
                                 const PackedLimits& limit, Candidates& out) {
   const DT d;
@@ -113,7 +134,7 @@ HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh
            last_y = hn::Set(d, limit.last_y), round_up = hn::Set(d, 255);
   VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
   const VT next = hn::Set(d, int32_t(hn::Lanes(d)) << 24);
-  out.small.count = out.others = 0;
+  out.upto_2.count = out.upto_4.count = out.others = 0;
   for (int t = 0; t < cluster.triangles; t += int(hn::Lanes(d))) {
     const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t)), i1 = hn::PromoteTo(d, hn::LoadU(d8, corner[1] + t)),
              i2 = hn::PromoteTo(d, hn::LoadU(d8, corner[2] + t));
@@ -127,25 +148,24 @@ HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh
     const VT rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), last_y), first_y);  // one less than their number
     const auto present = hn::FirstN(d, size_t(cluster.triangles - t));
     const auto sampled = hn::And(present, hn::Gt(hn::Or(columns, rows), hn::Set(d, -1)));
-    const auto small = hn::And(sampled, hn::Lt(hn::Or(columns, rows), hn::Set(d, 2)));  // both are 0 or 1
-    const auto other = hn::AndNot(small, sampled);
+    const auto upto_2 = hn::And(sampled, hn::Lt(hn::Or(columns, rows), hn::Set(d, 2)));  // both are 0 or 1
     const VT word = hn::Or(hn::Or(i0, hn::ShiftLeft<8>(i1)), hn::Or(hn::ShiftLeft<16>(i2), number));
     number = hn::Add(number, next);
-    const int n = out.small.count;
-    hn::StoreU(hn::Compress(p0, small), d, out.small.corner[0] + n);
-    hn::StoreU(hn::Compress(p1, small), d, out.small.corner[1] + n);
-    hn::StoreU(hn::Compress(p2, small), d, out.small.corner[2] + n);
-    hn::StoreU(hn::Compress(word, small), d, out.small.word + n);
-    out.small.count = n + int(hn::CountTrue(d, small));
-    if (hn::AllFalse(d, other)) continue;
+    append(out.upto_2, upto_2, p0, p1, p2, word);
+    const auto larger = hn::AndNot(upto_2, sampled);
+    if (hn::AllFalse(d, larger)) continue;
+    const auto upto_4 = hn::And(larger, hn::Lt(hn::Or(columns, rows), hn::Set(d, 4)));
+    const auto other = hn::AndNot(upto_4, larger);
+    append(out.upto_4, upto_4, p0, p1, p2, word);
     hn::StoreU(hn::Compress(word, other), d, out.other + out.others);
     out.others += int(hn::CountTrue(d, other));
   }
 }
 
-/// An edge function at the four samples, minus 1 where the edge does not own its points: covered where not negative.
+/// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
+/// negative. A column on it is `across` less, a row on `up` more.
 struct SmallEdge {
-  VT at[4], not_owned;  ///< samples (0,0), (1,0), (0,1), (1,1); 0 or 1
+  VT first, across, up, not_owned;  ///< the last 0 or 1
 
   HWY_INLINE void set(VT ax, VT ay, VT bx, VT by, VT sign, VT sample_x, VT sample_y, bool upper_left) {
     const DT d;
@@ -154,11 +174,9 @@ struct SmallEdge {
     const VT slope = hn::ShiftLeft<16>(dy);
     not_owned = hn::Add(hn::BroadcastSignBit(upper_left ? hn::Add(slope, dx) : hn::Sub(slope, dx)), hn::Set(d, 1));
     const VT e = hn::Sub(hn::Mul(dx, hn::Sub(sample_y, ay)), hn::Mul(dy, hn::Sub(sample_x, ax)));
-    const VT across = hn::ShiftLeft<8>(dy), up = hn::ShiftLeft<8>(dx);
-    at[0] = hn::Sub(e, not_owned);
-    at[1] = hn::Sub(at[0], across);
-    at[2] = hn::Add(at[0], up);
-    at[3] = hn::Add(at[1], up);
+    first = hn::Sub(e, not_owned);
+    across = hn::ShiftLeft<8>(dy);
+    up = hn::ShiftLeft<8>(dx);
   }
 };
 
@@ -173,70 +191,78 @@ HWY_INLINE VT row_index(VT y, int size) {
                  hn::ShiftLeft<2>(hn::And(y, hn::Set(d, 3))));
 }
 
-/// Lists the covered samples of small triangles.
-HWY_INLINE void cover_small(const TriangleList& in, const GeometryState& state, bool upper_left, const TileRect& rect,
-                            const PackedLimits& limit, FragmentList& out) {
+/// Lists the covered samples of the vector of triangles at `i`, whose boxes hold at most kSide x kSide samples.
+template <int kSide>
+HWY_INLINE void cover_small(const TriangleList& in, int i, const GeometryState& state, bool upper_left,
+                            const TileRect& rect, const PackedLimits& limit, FragmentList& out) {
   const DT d;
   const VT round_up = hn::Set(d, 255), zero = hn::Zero(d);
   const bool drop_positive = culled(state, !upper_left), drop_negative = culled(state, upper_left);
-  out.count = 0;
-  for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
-    const VT p0 = hn::Load(d, in.corner[0] + i), p1 = hn::Load(d, in.corner[1] + i), p2 = hn::Load(d, in.corner[2] + i);
-    const VT word = hn::Load(d, in.word + i);
-    // Canonical order: smallest (y, x) first, the others as they follow.
-    const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
-    const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
-    const VT q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
-    const VT q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
-    const VT q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
-    const VT corners = hn::And(word, hn::Set(d, 0xFFFFFF));
-    const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
-    const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
-    const VT vertices =
-        hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
-    const VT named = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), word));
+  const VT p0 = hn::Load(d, in.corner[0] + i), p1 = hn::Load(d, in.corner[1] + i), p2 = hn::Load(d, in.corner[2] + i);
+  const VT word = hn::Load(d, in.word + i);
+  // Canonical order: smallest (y, x) first, the others as they follow.
+  const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
+  const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
+  const VT q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
+  const VT q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
+  const VT q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
+  const VT corners = hn::And(word, hn::Set(d, 0xFFFFFF));
+  const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
+  const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
+  const VT vertices =
+      hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
+  const VT named = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), word));
 
-    const VT x0 = lower_half(q0), x1 = lower_half(q1), x2 = lower_half(q2);
-    const VT y0 = upper_half(q0), y1 = upper_half(q1), y2 = upper_half(q2);
-    const VT area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
-    const VT sign = hn::BroadcastSignBit(area);
-    auto drawn = hn::And(hn::FirstN(d, size_t(in.count - i)), hn::Ne(area, zero));
-    if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
-    if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
+  const VT x0 = lower_half(q0), x1 = lower_half(q1), x2 = lower_half(q2);
+  const VT y0 = upper_half(q0), y1 = upper_half(q1), y2 = upper_half(q2);
+  const VT area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
+  const VT sign = hn::BroadcastSignBit(area);
+  auto drawn = hn::And(hn::FirstN(d, size_t(in.count - i)), hn::Ne(area, zero));
+  if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
+  if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
 
-    const VT column = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), hn::Set(d, limit.low_x));
-    const VT row = hn::Max(hn::ShiftRight<8>(hn::Add(y0, round_up)), hn::Set(d, limit.low_y));
-    const VT sample_x = hn::ShiftLeft<8>(column), sample_y = hn::ShiftLeft<8>(row);
-    SmallEdge e0, e1, e2;
-    e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, upper_left);
-    e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, upper_left);
-    e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, upper_left);
-    const auto two_columns = hn::Lt(column, hn::Set(d, limit.last_x)), two_rows = hn::Lt(row, hn::Set(d, limit.last_y));
-    const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
-    const VT one = hn::Set(d, 1), size = hn::Sub(hn::Xor(area, sign), sign);
-    const VT at_x[2] = {column_index(px), column_index(hn::Add(px, one))};
-    const VT at_y[2] = {row_index(py, rect.size), row_index(hn::Add(py, one), rect.size)};
-    for (int s = 0; s < 4; ++s) {
-      auto covered = hn::And(drawn, hn::Gt(hn::Or(hn::Or(e0.at[s], e1.at[s]), e2.at[s]), hn::Set(d, -1)));
-      if (s & 1) covered = hn::And(covered, two_columns);
-      if (s & 2) covered = hn::And(covered, two_rows);
+  const VT column = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), hn::Set(d, limit.low_x));
+  const VT row = hn::Max(hn::ShiftRight<8>(hn::Add(y0, round_up)), hn::Set(d, limit.low_y));
+  const VT sample_x = hn::ShiftLeft<8>(column), sample_y = hn::ShiftLeft<8>(row);
+  SmallEdge e0, e1, e2;
+  e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, upper_left);
+  e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, upper_left);
+  e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, upper_left);
+  const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
+  const VT size = hn::Sub(hn::Xor(area, sign), sign), past_x = hn::Set(d, limit.last_x + 1),
+           past_y = hn::Set(d, limit.last_y + 1);
+  VT at_x[kSide];
+  for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
+  for (int y = 0; y < kSide; ++y) {
+    const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), rect.size);
+    const auto in_rows = y == 0 ? drawn : hn::And(drawn, hn::Lt(hn::Add(row, hn::Set(d, y)), past_y));
+    VT f0 = e0.first, f1 = e1.first, f2 = e2.first;
+    for (int x = 0; x < kSide; ++x) {
+      auto covered = hn::And(in_rows, hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(d, -1)));
+      if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
       const int n = out.count;
-      hn::StoreU(hn::Compress(hn::Add(e1.at[s], e1.not_owned), covered), d, out.e1 + n);
-      hn::StoreU(hn::Compress(hn::Add(e2.at[s], e2.not_owned), covered), d, out.e2 + n);
+      hn::StoreU(hn::Compress(hn::Add(f1, e1.not_owned), covered), d, out.e1 + n);
+      hn::StoreU(hn::Compress(hn::Add(f2, e2.not_owned), covered), d, out.e2 + n);
       hn::StoreU(hn::Compress(size, covered), d, out.area + n);
       hn::StoreU(hn::Compress(named, covered), d, out.word + n);
-      hn::StoreU(hn::Compress(hn::Add(at_x[s & 1], at_y[s >> 1]), covered), d, out.at + n);
+      hn::StoreU(hn::Compress(hn::Add(at_x[x], at_y), covered), d, out.at + n);
       out.count = n + int(hn::CountTrue(d, covered));
+      f0 = hn::Sub(f0, e0.across);
+      f1 = hn::Sub(f1, e1.across);
+      f2 = hn::Sub(f2, e2.across);
     }
+    e0.first = hn::Add(e0.first, e0.up);
+    e1.first = hn::Add(e1.first, e1.up);
+    e2.first = hn::Add(e2.first, e2.up);
   }
 }
 
 /// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
-HWY_INLINE void fragment_depths(const FragmentList& in, const double* vertex_z, const DepthCommit& commit, float* out) {
+HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthCommit& commit) {
   const D64 d;
   const D32 df;
   const I32 di;
-  alignas(64) double z[3][kMostFragments];
+  double(&z)[3][kMostFragments] = in.corner_z;
   const int padded = (in.count + int(hn::Lanes(d)) - 1) / int(hn::Lanes(d)) * int(hn::Lanes(d));
   for (int i = 0; i < in.count; ++i) {
     const uint32_t word = uint32_t(in.word[i]);
@@ -257,20 +283,17 @@ HWY_INLINE void fragment_depths(const FragmentList& in, const double* vertex_z, 
     const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
     const V64 in_range =
         hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
-    hn::Store(hn::DemoteTo(df, in_range), df, out + i);
+    hn::Store(hn::DemoteTo(df, in_range), df, in.z + i);
   }
 }
 
-/// Draws a cluster's small triangles under LESS or LEQUAL. `first_id`: that of the cluster's first triangle.
-HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z, const GeometryState& state,
-                           bool upper_left, const TileRect& rect, const PackedLimits& limit, uint32_t first_id,
-                           DepthCommit& commit) {
-  FragmentList fragments;
-  cover_small(triangles, state, upper_left, rect, limit, fragments);
-  if (fragments.count == 0) return;
+/// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
+/// triangle.
+HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
+                                 DepthCommit& commit) {
   commit.fragments += uint64_t(fragments.count);
-  alignas(64) float z[kMostFragments];
-  fragment_depths(fragments, vertex_z, commit, z);
+  fragment_depths(fragments, vertex_z, commit);
+  const float* z = fragments.z;
   uint64_t changed[kMaxTilePixels / kBlockPixels / 64] = {};
   const bool first_wins = commit.func == DepthFunc::less;
   for (int i = 0; i < fragments.count; ++i) {  // no branch on what the depth test says: it is anyone's guess
@@ -287,6 +310,35 @@ HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z
   for (size_t k = 0; k < std::size(changed); ++k)
     for (uint64_t rest = changed[k]; rest != 0; rest &= rest - 1)
       commit.finish_block(int(64 * k) + std::countr_zero(rest));
+  fragments.count = 0;
+}
+
+/// Draws a cluster's small triangles under LESS or LEQUAL.
+template <int kSide>
+HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z, const GeometryState& state,
+                           bool upper_left, const TileRect& rect, const PackedLimits& limit, uint32_t first_id,
+                           FragmentList& fragments, DepthCommit& commit) {
+  const int lanes = int(hn::Lanes(DT()));
+  for (int i = 0; i < triangles.count; i += lanes) {
+    if (fragments.count + (kSide * kSide + 1) * lanes > int(kMostFragments))
+      commit_fragments(fragments, vertex_z, first_id, commit);
+    cover_small<kSide>(triangles, i, state, upper_left, rect, limit, fragments);
+  }
+}
+
+/// Draws those of a cluster's triangles whose box holds at most 4x4 samples; the others are left in `work.found.other`.
+/// Its vertices are in `work`, none needs care and all are within kPackedLimit of the tile's middle.
+inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const GeometryState& state,
+                                 bool upper_left, const TileRect& rect, uint32_t first_id, ClusterScratch& work,
+                                 DepthCommit& commit) {
+  const PackedLimits limit(rect);
+  const double* z = work.vertices.z;
+  FragmentList& fragments = work.fragments;
+  pack_corners(work.vertices, cluster.vertices, rect.size * 128, work.packed);
+  find_candidates(work.packed, mesh, cluster, limit, work.found);
+  draw_small<2>(work.found.upto_2, z, state, upper_left, rect, limit, first_id, fragments, commit);
+  draw_small<4>(work.found.upto_4, z, state, upper_left, rect, limit, first_id, fragments, commit);
+  if (fragments.count != 0) commit_fragments(fragments, z, first_id, commit);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

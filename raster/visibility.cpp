@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "raster/coverage-inl.h"
@@ -80,15 +81,30 @@ int all_triangles(const Cluster& cluster, uint8_t* out) {
   return cluster.triangles;
 }
 
-// Whether every block under the box (in 1/256 pixel) is already nearer than `near`.
-bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
-  const int blocks = rect.size / kBlockSize;
-  const int x0 = std::clamp(box.x0 >> 10, 0, blocks - 1), x1 = std::clamp(box.x1 >> 10, 0, blocks - 1);
-  const int y0 = std::clamp(box.y0 >> 10, 0, blocks - 1), y1 = std::clamp(box.y1 >> 10, 0, blocks - 1);
+// Whether every block under the box, in blocks of the tile and inclusive, is already nearer than `near`.
+HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, int x0, int y0, int x1, int y1, float near) {
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
       if (!(near > tile.far[y * blocks + x])) return false;
   return true;
+}
+
+// The same for a box in 1/256 pixel.
+HWY_INLINE bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
+  const int blocks = rect.size / kBlockSize;
+  return hidden_blocks(tile, blocks, std::clamp(box.x0 >> 10, 0, blocks - 1), std::clamp(box.y0 >> 10, 0, blocks - 1),
+                       std::clamp(box.x1 >> 10, 0, blocks - 1), std::clamp(box.y1 >> 10, 0, blocks - 1), near);
+}
+
+// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
+HWY_INLINE bool hidden_draw(const VisibilityTile& tile, const TileRect& rect, const ClusterDraw& draw,
+                            const WindowTransform& t) {
+  const int last = rect.size - 1;
+  return hidden_blocks(tile, rect.size / kBlockSize, std::clamp(draw.x0 - rect.x, 0, last) / kBlockSize,
+                       std::clamp(draw.y0 - rect.y, 0, last) / kBlockSize,
+                       std::clamp(draw.x1 - rect.x, 0, last) / kBlockSize,
+                       std::clamp(draw.y1 - rect.y, 0, last) / kBlockSize,
+                       std::min(std::max(draw.near_depth, t.depth_low), t.depth_high));
 }
 
 // Whether the blocks under a triangle's box hide it: cheaper than setting it up.
@@ -100,16 +116,17 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit,
-                  RasterCounts& counts) {
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work,
+                  DepthCommit& commit, RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
+  const WindowTransform& t = in.view.window;
+  if (commit.skip_hidden && hidden_draw(commit.tile, rect, draw, t)) return;
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
-  const WindowTransform& t = in.view.window;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
-  WindowVertices v;
+  WindowVertices& v = work.vertices;
   window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
-  alignas(64) uint8_t triangle[kMostCandidates];
+  uint8_t* triangle = work.triangle;
   int count = 0;
   if (v.any_needs_care) {
     count = all_triangles(cluster, triangle);
@@ -122,14 +139,9 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0), middle = rect.size * 128;
     const int32_t farthest = std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
     if (commit.skip_hidden && farthest < kPackedLimit) {
-      const PackedLimits limit(rect);
-      Candidates found;
-      alignas(64) int32_t packed[kClusterVertices];
-      pack_corners(v, cluster.vertices, middle, packed);
-      find_candidates(packed, mesh, cluster, limit, found);
-      draw_small(found.small, v.z, in.state, t.upper_left, rect, limit, visible_id(position, 0, false), commit);
-      count = found.others;
-      for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(found.other[i]) >> 24);
+      draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
+      count = work.found.others;
+      for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
     } else
       count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
@@ -163,6 +175,27 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   }
 }
 
+// Positions in the tile's list, nearest clusters first: by 256 steps of depth, which is order enough, since any order
+// gives the same image.
+void nearest_first(const TileDraws& in, std::span<uint32_t> order) {
+  constexpr size_t kSteps = 256;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const uint32_t i : in.list) {
+    const float near = in.draws[i].near_depth;
+    high = std::max(high, near);
+    if (near > -std::numeric_limits<float>::infinity()) low = std::min(low, near);
+  }
+  const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
+  const auto step = [&](uint32_t i) {
+    const float near = in.draws[in.list[i]].near_depth;
+    return near >= low ? 1 + std::min(size_t((near - low) * scale), kSteps - 2) : 0;
+  };
+  uint32_t next[kSteps + 1] = {};
+  for (uint32_t i = 0; i < order.size(); ++i) ++next[step(i) + 1];
+  for (size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
+  for (uint32_t i = 0; i < order.size(); ++i) order[next[step(i)]++] = i;
+}
+
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                           RasterCounts& counts) {
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
@@ -172,16 +205,13 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   const DepthFunc func = in.state.depth_func;
   const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
   DepthCommit commit{out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins};
+  ClusterScratch work;
   if (!commit.skip_hidden) {
-    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, counts);
+    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, counts);
   } else {
     std::vector<uint32_t> order(in.list.size());
-    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto near_depth = [&](uint32_t i) { return in.draws[in.list[i]].near_depth; };
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      return near_depth(a) < near_depth(b) || (near_depth(a) == near_depth(b) && a < b);
-    });
-    for (const uint32_t i : order) draw_cluster(in, rect, i, commit, counts);
+    nearest_first(in, order);
+    for (const uint32_t i : order) draw_cluster(in, rect, i, work, commit, counts);
   }
   counts.fragments += commit.fragments;
 }
