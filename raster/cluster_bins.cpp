@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "raster/fixed_point.h"
 
 namespace trueshade {
 namespace {
@@ -43,6 +44,18 @@ bool pixel_span(const Interval& ndc, const WindowTransform& t, int axis, int low
   return first <= last;
 }
 
+// Whether a box in front of the near plane lies wholly where place_vertices() finds nothing that needs care.
+bool needs_no_care(const WindowTransform& t, const Interval& x, const Interval& y, const Interval& z,
+                   const Interval& w) {
+  constexpr double kInside = double(kVectorLimit) / 2.0;
+  const auto fits = [&](const Interval& ndc, int axis) {
+    const double scale = std::abs(double(t.scale[axis])), offset = std::abs(double(t.offset[axis]));
+    return std::max(std::abs(ndc.low), std::abs(ndc.high)) * scale + offset < kInside;
+  };
+  return !t.float_snap && w.low >= 0x1p-100 && (t.depth_clamp || z.high <= w.low) && fits(quotient(x, w), 0) &&
+         fits(quotient(y, w), 1);
+}
+
 struct Binner {
   const View& view;
   bool culling;
@@ -58,6 +71,7 @@ struct Binner {
   bool bound(const InstanceTransform& instance, const Cluster& cluster, ClusterDraw& draw) const {
     const WindowTransform& t = view.window;
     draw.near_depth = -std::numeric_limits<float>::infinity();
+    draw.plain = false;
     cover(t.x0, t.y0, t.x1 - 1, t.y1 - 1, draw);
     if (!culling) return true;
     const Interval x = row_interval(instance.clip[0], cluster), y = row_interval(instance.clip[1], cluster),
@@ -71,6 +85,7 @@ struct Binner {
     if (!pixel_span(quotient(x, w), t, 0, t.x0, t.x1, x0, x1) || !pixel_span(quotient(y, w), t, 1, t.y0, t.y1, y0, y1))
       return false;
     cover(x0, y0, x1, y1, draw);
+    draw.plain = needs_no_care(t, x, y, z, w);
     const Interval depth = quotient(z, w);
     const double nearest = std::min(depth.low * t.z_scale, depth.high * t.z_scale) + t.z_offset;
     draw.near_depth = float(nearest - std::abs(nearest) * 0x1p-20 - 0x1p-24);
@@ -103,7 +118,7 @@ std::vector<ClusterDraw> seen_clusters(const Scene& scene, const ClusteredScene&
     size_t instance = size_t(std::upper_bound(row.first.begin(), row.first.end(), at) - row.first.begin()) - 1;
     for (; at < end; ++at) {
       while (at >= row.first[instance + 1]) ++instance;
-      ClusterDraw draw{uint32_t(instance), uint32_t(at - row.first[instance]), 0.0f, 0, 0, 0, 0};
+      ClusterDraw draw{uint32_t(instance), uint32_t(at - row.first[instance]), 0.0f, false, 0, 0, 0, 0};
       const Cluster& cluster = clusters.meshes[scene.instances[instance].mesh].clusters[draw.cluster];
       if (binner.bound(view.instances[instance], cluster, draw)) seen[size_t(chunk)].push_back(draw);
     }

@@ -23,6 +23,7 @@ struct Cluster {
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
   std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
+  std::array<std::vector<float>, 3> normal;    ///< object space, alike
   std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
   std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };

@@ -11,6 +11,7 @@
 #include "raster/coverage-inl.h"
 #include "raster/interpolate-inl.h"
 #include "raster/store-inl.h"
+#include "raster/triangle_runs-inl.h"
 #include "scenes/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,7 +21,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kSlot = kClusterVertices;
 
 void copy_stream(const std::vector<float>& from, const uint32_t* vertex, int count, float absent, float* to) {
-  for (int i = 0; i < count; ++i) to[i] = from.empty() ? absent : from[vertex[i]];
+  if (from.empty()) return void(std::fill_n(to, count, absent));
+  const float* value = from.data();
+  for (int i = 0; i < count; ++i) to[i] = value[vertex[i]];
 }
 
 // World position and unit world normal of a slot's vertices; the object-space values are there already.
@@ -46,6 +49,20 @@ void to_world(const InstanceTransform& t, VisibleVertices& work, size_t at, int 
   }
 }
 
+// The records of a slot, from its streams.
+void fill_records(VisibleVertices& work, size_t at, int count) {
+  VertexRecord* record = work.record.data() + at;
+  for (int i = 0; i < count; ++i) {
+    record[i].x = work.x[at + size_t(i)];
+    record[i].y = work.y[at + size_t(i)];
+    record[i].u = work.u[at + size_t(i)];
+  }
+  for (int c = 0; c < work.record_attributes; ++c) {
+    const float* from = work.stream[kRecordStream[c]].data() + at;
+    for (int i = 0; i < count; ++i) record[i].attribute[c] = from[i];
+  }
+}
+
 // Transforms the vertices of one seen cluster into its slot.
 void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int32_t slot, bool need_uv,
                VisibleVertices& work) {
@@ -59,10 +76,11 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
     const size_t grown = std::max(2 * work.x.size(), at + kSlot);
     work.x.resize(grown), work.y.resize(grown), work.u.resize(grown);
     for (auto& stream : work.stream) stream.resize(grown);
+    work.record.resize(grown);
   }
   WindowVertices window;
   window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y),
-                  window);
+                  draw.plain, window);
   std::copy_n(window.x, cluster.vertices, work.x.data() + at);
   std::copy_n(window.y, cluster.vertices, work.y.data() + at);
   std::copy_n(window.u, cluster.vertices, work.u.data() + at);
@@ -70,13 +88,15 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
   for (size_t c = 0; c < 3; ++c) {
     std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices,
                 work.stream[size_t(kPosition) + c].data() + at);
-    copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
+    std::copy_n(&clusters.normal[c][cluster.first_vertex], cluster.vertices,
+                work.stream[size_t(kNormal) + c].data() + at);
   }
   for (size_t c = 0; c < 4; ++c)
     copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
   for (size_t c = 0; c < 2 && need_uv; ++c)
     copy_stream(mesh.uv[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kUv) + c].data() + at);
   to_world(in.view.instances[draw.instance], work, at, cluster.vertices);
+  fill_records(work, at, cluster.vertices);
 }
 
 // Gives every seen cluster a slot and every pixel the three vertices of its triangle.
@@ -84,41 +104,49 @@ void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTil
                   VisibleVertices& work, SurfaceTile& out) {
   const int pixels = rect.size * rect.size;
   work.slot_of.resize(std::max(work.slot_of.size(), in.list.size()), -1);
-  work.position_of.clear();
+  work.seen.clear();
   for (auto& corner : work.corner) corner.assign(size_t(pixels), 0);
+  uint32_t* corner[3] = {work.corner[0].data(), work.corner[1].data(), work.corner[2].data()};
   out.covered_pixels = 0;
+  uint32_t last = 0;  // of the pixel before
   for (int i = 0; i < pixels; ++i) {
     const uint32_t id = visible.id[i];
     out.covered[i] = id == 0 ? 0 : -1;
-    if (i > 0 && id != 0 && id == visible.id[i - 1]) {
-      for (auto& corner : work.corner) corner[size_t(i)] = corner[size_t(i) - 1];
-      out.object[i] = out.object[i - 1];
-      out.material[i] = out.material[i - 1];
-      ++out.covered_pixels;
+    out.covered_pixels += id != 0;
+    if (id == last) {
+      const int from = i == 0 ? 0 : i - 1;
+      for (auto* c : corner) c[i] = c[from];
+      out.object[i] = i == 0 ? 0 : out.object[from];
+      out.material[i] = i == 0 ? 0 : out.material[from];
       continue;
     }
+    last = id;
     if (id == 0) {
       out.object[i] = out.material[i] = 0;
       continue;
     }
-    ++out.covered_pixels;
     const uint32_t position = id_position(id);
-    int32_t& slot = work.slot_of[position];
+    int32_t slot = work.slot_of[position];
     if (slot < 0) {
-      slot = int32_t(work.position_of.size());
-      work.position_of.push_back(position);
+      slot = int32_t(work.seen.size());
+      work.slot_of[position] = slot;
+      const ClusterDraw& draw = in.draws[in.list[position]];
+      const Instance& instance = in.scene.instances[draw.instance];
+      const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
+      const uint32_t first = mesh.clusters[draw.cluster].first_triangle;
+      work.seen.push_back({position,
+                           draw.instance + 1,
+                           instance.material + 1,
+                           {&mesh.corner[0][first], &mesh.corner[1][first], &mesh.corner[2][first]}});
       fill_slot(in, rect, position, slot, need_uv, work);
     }
-    const ClusterDraw& draw = in.draws[in.list[position]];
-    const Instance& instance = in.scene.instances[draw.instance];
-    const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
-    const size_t triangle = mesh.clusters[draw.cluster].first_triangle + id_triangle(id);
-    for (size_t k = 0; k < 3; ++k)
-      work.corner[k][size_t(i)] = uint32_t(slot) * uint32_t(kSlot) + mesh.corner[k][triangle];
-    out.object[i] = draw.instance + 1;
-    out.material[i] = instance.material + 1;
+    const SeenCluster& seen = work.seen[size_t(slot)];
+    const uint32_t triangle = id_triangle(id), base = uint32_t(slot) * uint32_t(kSlot);
+    for (int k = 0; k < 3; ++k) corner[k][i] = base + seen.corner[k][triangle];
+    out.object[i] = seen.object;
+    out.material[i] = seen.material;
   }
-  for (const uint32_t position : work.position_of) work.slot_of[position] = -1;
+  for (const SeenCluster& seen : work.seen) work.slot_of[seen.position] = -1;
 }
 
 struct StreamGroup {
@@ -134,6 +162,11 @@ int stream_groups(const GBufferState& planes, bool need_uv, StreamGroup out[4]) 
   out[count++] = {kAlbedo, 4, planes.albedo};
   if (need_uv) out[count++] = {kUv, 2, planes.uv};
   return count;
+}
+
+bool all_smooth(const StreamGroup* group, int groups) {
+  return std::all_of(group, group + groups,
+                     [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
 }
 
 void interpolate_tile(const TileRect& rect, const GeometryState& state, const StreamGroup* group, int groups,
@@ -345,11 +378,19 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
                            const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
                            SurfaceTile& out) {
+  const bool colored =
+      std::any_of(in.scene.meshes.begin(), in.scene.meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
+  work.record_attributes = colored ? int(kStreams) : need_uv ? kRecordUv + 2 : kRecordUv;
   find_corners(in, rect, visible, need_uv, work, out);
   if (out.covered_pixels == 0) return;
   StreamGroup group[4];
   const int groups = stream_groups(planes, need_uv, group);
-  interpolate_tile(rect, in.state, group, groups, work, out);
+  if (all_smooth(group, groups)) {
+    interpolate_runs(rect, visible, work, work.record_attributes, out);
+    for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], rect.size * rect.size, 1.0f);
+  } else {
+    interpolate_tile(rect, in.state, group, groups, work, out);
+  }
   interpolate_careful(in, rect, group, groups, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_planes(in, rect, planes, model, group, groups, out);

@@ -125,7 +125,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   const Cluster& cluster = mesh.clusters[draw.cluster];
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices& v = work.vertices;
-  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
+  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, draw.plain, v);
   uint8_t* triangle = work.triangle;
   int count = 0;
   if (v.any_needs_care) {

@@ -14,6 +14,7 @@ struct ClusterDraw {
   uint32_t instance;
   uint32_t cluster;         ///< of the instance's mesh
   float near_depth;         ///< no fragment of it is nearer; -infinity where nothing is known
+  bool plain;               ///< its bounds say that no vertex needs care (vertex_stage-inl.h)
   uint16_t x0, y0, x1, y1;  ///< pixels it may touch, inclusive, window coordinates, y up
 };
 
