@@ -168,7 +168,8 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
   const float* position[3];
   for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
-    const V32 x = hn::LoadU(df, position[0] + i), y = hn::LoadU(df, position[1] + i), z = hn::LoadU(df, position[2] + i);
+    const V32 x = hn::LoadU(df, position[0] + i), y = hn::LoadU(df, position[1] + i),
+              z = hn::LoadU(df, position[2] + i);
     V32 clip[4];
     for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], x, y, z);
     if (plain) {
