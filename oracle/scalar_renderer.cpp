@@ -62,20 +62,56 @@ Real vertex_depth(const VertexValues& v, const GeometryState& state) {
   return z * ((far - near) / 2) + (near + far) / 2;
 }
 
+/// Fixed-point depth of so many bits, 0 for floats.
+int depth_bits(const GeometryState& state) {
+  return state.depth_format == Format::d24 ? 24 : state.depth_format == Format::d16 ? 16 : 0;
+}
+
+/// GL 4.6 core, 14.6.5: m factor + r units, m the larger slope, r a code (llvmpipe: two) or the unit of the largest
+/// |z|.
+void set_polygon_offset(const Pipeline& pipeline, DrawnTriangle& t) {
+  const GeometryState& state = pipeline.geometry;
+  if (state.polygon_offset_factor == 0 && state.polygon_offset_units == 0) return;
+  Real slope = 0, largest = 0, terms = 0;
+  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z));
+  for (int axis = 0; axis < 2; ++axis) {
+    Real change = 0;  // of z, over a pixel
+    for (int i = 0; i < 3; ++i) {
+      const int64_t px = axis == 0 ? kSubpixels : 0, py = axis == 1 ? kSubpixels : 0;
+      const Real step = Real(t.window.edge(i, px, py) - t.window.edge(i, 0, 0));
+      change += step * t.depth[size_t(i)];
+      terms += std::fabs(step / Real(t.window.twice_area)) * largest;
+    }
+    slope = std::max(slope, std::fabs(change / Real(t.window.twice_area)));
+  }
+  const int bits = depth_bits(state);
+  const Real code = 1 / (std::ldexp(Real(1), bits) - 1);
+  const float most = float(std::clamp(largest, 0x1p-126L, 0x1p127L));
+  const Real unit = bits == 0                                   ? std::ldexp(Real(1), std::ilogb(most) - 23)
+                    : pipeline.profile == NumericProfile::ideal ? code
+                                                                : 2 * code;
+  t.offset = slope * Real(state.polygon_offset_factor) + unit * Real(state.polygon_offset_units);
+  // Six roundings in double of terms that may cancel.
+  t.offset_bound = terms * std::fabs(Real(state.polygon_offset_factor)) * 0x1p-49L + std::fabs(t.offset) * 0x1p-50L;
+}
+
 Fragment fragment_of(const DrawnTriangle& t, uint32_t index, const GeometryState& state, int x, int y) {
   Fragment f;
   f.instance = t.instance;
   f.triangle = t.triangle;
   f.window = index;
-  const Real low = std::min(state.depth_near, state.depth_far), high = std::max(state.depth_near, state.depth_far);
+  const bool whole = (state.polygon_offset_factor != 0 || state.polygon_offset_units != 0) && !state.depth_clamp;
+  const Real low = whole ? 0 : std::min(state.depth_near, state.depth_far);
+  const Real high = whole ? 1 : std::max(state.depth_near, state.depth_far);
   f.depth = std::clamp(depth_at(t, x, y), low, high);
-  f.depth_code = float(f.depth);
+  f.depth_code = held_depth(state, float(f.depth));
   // The renderer's double formula has some ten roundings; where they cannot reach the next float, its code is ours.
   Real largest = 1;
-  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z));
-  const Real slack = largest * 0x1p-47L;
-  const auto code = [&](Real z) { return float(std::clamp(z, low, high)); };
-  if (code(f.depth - slack) != code(f.depth + slack)) f.depth_bound = float(float_spacing(double(f.depth)));
+  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z) + std::fabs(t.offset));
+  const Real slack = largest * 0x1p-47L + t.offset_bound;
+  const auto code = [&](Real z) { return held_depth(state, float(std::clamp(z, low, high))); };
+  const float below = code(f.depth - slack), above = code(f.depth + slack);
+  if (below != above) f.depth_bound = std::max(float(float_spacing(double(f.depth))), above - below);
   return f;
 }
 
@@ -119,6 +155,7 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
       for (const WindowTriangle& window : polygon.pieces) {
         DrawnTriangle piece{window, instance, triangle, {}, values[state.provoking == Provoking::last ? 2 : 0]};
         for (size_t i = 0; i < 3; ++i) piece.depth[i] = vertex_depth(window.values[i], state);
+        set_polygon_offset(pipeline, piece);
         frame.triangles.push_back(piece);
       }
       const PixelRect box = pixel_bounds(polygon, viewport, frame.width, frame.height);
@@ -136,7 +173,7 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
 
 Visible visible_fragment(const std::vector<Fragment>& fragments, const GeometryState& state) {
   Visible result;
-  float stored = state.clear_depth, stored_bound = 0;
+  float stored = held_depth(state, state.clear_depth), stored_bound = 0;
   for (size_t i = 0; i < fragments.size(); ++i) {
     const float z = fragments[i].depth_code, bound = fragments[i].depth_bound;
     bool passes = false;
@@ -191,10 +228,20 @@ ValueRange value_at(const DrawnTriangle& t, size_t index, Interpolation interpol
   return range;
 }
 
+float held_depth(const GeometryState& state, float z) {
+  if (depth_bits(state) == 0) return z;
+  const float largest = float(std::ldexp(1.0, depth_bits(state)) - 1);
+  const auto product = double(z * largest);  // a float, as GL_RULES section 2 has it
+  double code = std::floor(product);
+  const double rest = product - code;
+  if (rest > 0.5 || (rest == 0.5 && std::fmod(code, 2.0) != 0.0)) code += 1.0;
+  return float(code / double(largest));
+}
+
 long double depth_at(const DrawnTriangle& t, int x, int y) {
   const std::array<Real, 3> weight = weights(t, Interpolation::noperspective, x, y);
   // The same sum from differences: exactly constant where the vertices agree.
-  return t.depth[0] + (weight[1] * (t.depth[1] - t.depth[0]) + weight[2] * (t.depth[2] - t.depth[0]));
+  return t.depth[0] + (weight[1] * (t.depth[1] - t.depth[0]) + weight[2] * (t.depth[2] - t.depth[0])) + t.offset;
 }
 
 long double fragment_w(const DrawnTriangle& t, int x, int y) {
@@ -204,39 +251,152 @@ long double fragment_w(const DrawnTriangle& t, int x, int y) {
   return sum;
 }
 
+namespace {
+
+Real falloff_at(const Light& light, Falloff falloff, Real d) {
+  const Real range = light.range, k0 = light.attenuation.x, k1 = light.attenuation.y, k2 = light.attenuation.z;
+  switch (falloff) {
+    case Falloff::none:
+      return 1;
+    case Falloff::linear_range:
+      return std::max(Real(0), 1 - d / range);
+    case Falloff::linear:
+      return 1 - d / range;
+    case Falloff::quadratic:
+      return 1 / (1 + k1 * d + k2 * d * d);
+    case Falloff::attenuation:
+      return std::min(1 / (k0 + k1 * d + k2 * d * d), Real(1e18));
+    case Falloff::inverse_square:
+      return d > 0 ? std::max(Real(0), 1 - std::pow(d / range, 4)) * std::min(1 / (d * d), Real(1e18)) : 0;
+  }
+  return 1;
+}
+
+Real smoothstep(Real e0, Real e1, Real x) {
+  if (!(e0 < e1)) return x > e0 ? 1 : 0;
+  const Real t = std::clamp((x - e0) / (e1 - e0), Real(0), Real(1));
+  return t * t * (3 - 2 * t);
+}
+
+Real cone_at(const Light& light, Cone cone, Real c) {
+  const Real outer_rad = Real(light.cone_rad) + Real(light.penumbra_rad);
+  const Real inner = std::cos(Real(light.cone_rad)), outer = std::cos(outer_rad);
+  switch (cone) {
+    case Cone::none:
+      return 1;
+    case Cone::smooth_cutoff:
+      return smoothstep(outer, outer * (1 - 0.1L) + 0.1L, c);
+    case Cone::smooth_penumbra:
+      return smoothstep(outer, inner, c);
+    case Cone::exponent:
+      if (float(outer_rad) >= 3.14159265f) return 1;
+      return c >= outer ? std::pow(std::max(c, Real(0)), Real(light.spot_exponent)) : 0;
+    case Cone::squared_penumbra: {
+      const Real scale = 1 / std::max(0.001L, inner - outer);
+      const Real t = std::clamp(c * scale - outer * scale, Real(0), Real(1));
+      return t * t;
+    }
+  }
+  return 1;
+}
+
+Real specular_of(const LightModel& model, Real shininess, const Vector& n, const Vector& l, const Vector& v) {
+  const Real n_l = dot(n, l);
+  if (model.specular == Specular::none) return 0;
+  if (model.specular_masked && n_l <= 0) return 0;
+  Real cosine = 0;
+  if (model.specular == Specular::phong) {
+    const Real twice = 2 * std::clamp(n_l, Real(0), Real(1));
+    cosine = std::clamp(dot({twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]}, v), Real(0), Real(1));
+  } else {
+    cosine = std::max(Real(0), dot(n, unit({l[0] + v[0], l[1] + v[1], l[2] + v[2]})));
+    if (model.renormalize) cosine = std::min(cosine, Real(1));
+  }
+  return std::pow(cosine, shininess);
+}
+
+/// What the falloff's roundings are relative to.
+Real falloff_size(const Light& light, Falloff falloff, Real d) {
+  const Real ratio = d / Real(light.range), f = std::fabs(falloff_at(light, falloff, d));
+  if (falloff == Falloff::linear || falloff == Falloff::linear_range) return 1 + ratio;
+  if (falloff != Falloff::inverse_square || d == 0) return f;
+  return ratio < 2 ? (1 + ratio * ratio * ratio * ratio) * std::min(1 / (d * d), Real(1e18)) : 0;
+}
+
+/// How far a hard edge of the light's cone is from the cosine; a soft one has none.
+Real edge_distance(const Light& light, Cone cone, Real c) {
+  const bool step = cone == Cone::exponent ||
+                    ((cone == Cone::smooth_cutoff || cone == Cone::smooth_penumbra) && light.penumbra_rad == 0.0f);
+  return step ? std::fabs(c - std::cos(Real(light.cone_rad) + Real(light.penumbra_rad))) : 1;
+}
+
+}  // namespace
+
 std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model) {
+  return lit_sum(surface, scene, model).color;
+}
+
+LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& model,
+               const std::array<double, 3>& view_axis) {
   const Vector position = {surface.position[0], surface.position[1], surface.position[2]};
   Vector n = {surface.normal[0], surface.normal[1], surface.normal[2]};
   if (model.renormalize) n = unit(n);
-  const Vector view = unit(difference(vector_of(scene.camera.eye), position));
-  Vector sum{};
+  Vector view = {view_axis[0], view_axis[1], view_axis[2]};
+  if (model.viewer == Viewer::local) view = unit(difference(vector_of(scene.camera.eye), position));
+  const bool own = reads_specular_plane(model), last = model.order == TermOrder::albedo_last;
+  const Real shininess = own ? Real(surface.shininess) : Real(model.shininess);
+  Vector sum{}, size{};
+  for (size_t k = 0; k < 3; ++k) {
+    if (model.emission) sum[k] = surface.emission[k];
+    sum[k] += Real(model.global_ambient[int(k)]) * (last ? 1 : Real(surface.albedo[k]));
+    size[k] = sum[k];
+  }
+  LitSum out;
   for (const Light& light : scene.lights) {
-    const Vector color = vector_of(light.color);
+    Vector color = vector_of(light.color);
+    for (Real& c : color) c *= Real(model.damping);
     if (light.type == LightType::ambient) {
-      for (size_t k = 0; k < 3; ++k) sum[k] += Real(surface.albedo[k]) * color[k];
+      for (size_t k = 0; k < 3; ++k) sum[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
+      for (size_t k = 0; k < 3; ++k) size[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
       continue;
     }
     Vector to_light{};
-    Real falloff = 1;
+    Real strength = 1, strength_size = 1;
     if (light.type == LightType::directional) {
       to_light = difference({}, vector_of(light.direction));
     } else {
       const Vector offset = difference(vector_of(light.position), position);
       const Real d = std::sqrt(dot(offset, offset));
       to_light = unit(offset);
-      falloff = model.falloff == Falloff::linear_range
-                    ? std::max(Real(0), 1 - d / Real(light.range))
-                    : 1 / (1 + Real(light.attenuation.y) * d + Real(light.attenuation.z) * d * d);
+      strength = falloff_at(light, model.falloff, d), strength_size = falloff_size(light, model.falloff, d);
+      if (light.type == LightType::spot) {
+        const Real c = dot(to_light, difference({}, vector_of(light.direction)));
+        strength *= cone_at(light, model.cone, c);
+        out.nearest_threshold = std::min(out.nearest_threshold, double(edge_distance(light, model.cone, c)));
+      }
     }
     const Real n_l = dot(n, to_light);
-    const Vector half = {to_light[0] + view[0], to_light[1] + view[1], to_light[2] + view[2]};
-    const Real n_h = std::max(Real(0), dot(n, unit(half)));
-    const Real specular = model.specular_masked && n_l <= 0 ? 0 : std::pow(n_h, Real(model.shininess));
-    const Vector ks = vector_of(model.specular_color);
-    for (size_t k = 0; k < 3; ++k)
-      sum[k] += (Real(surface.albedo[k]) * std::max(Real(0), n_l) + ks[k] * specular) * color[k] * falloff;
+    out.nearest_threshold = std::min(out.nearest_threshold, double(std::fabs(n_l)));
+    Real diffuse = model.diffuse == Diffuse::clamped ? std::max(Real(0), n_l) : n_l;
+    if (model.specular == Specular::phong && model.diffuse == Diffuse::clamped) diffuse = std::min(diffuse, Real(1));
+    const Real specular = specular_of(model, shininess, n, to_light, view);
+    for (size_t k = 0; k < 3; ++k) {
+      const Real albedo = surface.albedo[k];
+      const Real ks = model.specular_source == SpecularSource::albedo ? albedo
+                      : own                                           ? Real(surface.specular[k])
+                                                                      : Real(model.specular_color[int(k)]);
+      const Real ambient = model.order == TermOrder::with_ambient ? albedo * Real(light.ambient[int(k)]) : 0;
+      const Real reflected = last ? diffuse + specular : albedo * diffuse + ks * specular;
+      sum[k] += (ambient + reflected * color[k]) * strength;
+      size[k] += (ambient + (last ? 2 : albedo + ks) * color[k]) * strength_size;
+    }
   }
-  return {double(sum[0]), double(sum[1]), double(sum[2])};
+  for (size_t k = 0; k < 3; ++k) {
+    if (last) sum[k] *= Real(surface.albedo[k]), size[k] *= Real(surface.albedo[k]);
+    out.color[k] = double(model.clamp_result ? std::clamp(sum[k], Real(0), Real(1)) : sum[k]);
+    out.magnitude[k] = double(size[k]);
+  }
+  return out;
 }
 
 }  // namespace trueshade::oracle

@@ -22,7 +22,7 @@ struct Fragment {
   uint32_t triangle = 0;  ///< index in the mesh, of the triangle as submitted
   uint32_t window = 0;    ///< index into ScalarFrame::triangles
   long double depth = 0;  ///< window z, exact plane of the snapped triangle, clamped as the state says
-  float depth_code = 0;   ///< depth rounded to float
+  float depth_code = 0;   ///< depth rounded to float, and to what the depth format holds
   float depth_bound = 0;  ///< |renderer's depth - depth| stays within this; 0 where depth_code is exact for certain
 };
 
@@ -32,6 +32,8 @@ struct DrawnTriangle {
   uint32_t instance = 0, triangle = 0;
   std::array<long double, 3> depth{};  ///< window z at the vertices
   VertexValues provoking{};            ///< of the original triangle
+  long double offset = 0;              ///< what glPolygonOffset adds
+  long double offset_bound = 0;        ///< |renderer's offset - offset| stays within this
 };
 
 /// An interpolated value and what the renderer's may be: within `ulp` of `value`, and inside [lo, hi].
@@ -61,7 +63,10 @@ Visible visible_fragment(const std::vector<Fragment>& fragments, const GeometryS
 /// Value `index` (a ValueIndex plus a component) at pixel (x, y), y up.
 ValueRange value_at(const DrawnTriangle& triangle, size_t index, Interpolation interpolation, int x, int y);
 
-/// Depth at pixel (x, y), unclamped by the depth range.
+/// The number a depth format of `state` holds for a float z in [0, 1]: the nearest code k as k / largest.
+float held_depth(const GeometryState& state, float z);
+
+/// Depth at pixel (x, y), with its offset, unclamped by the depth range.
 long double depth_at(const DrawnTriangle& triangle, int x, int y);
 
 /// gl_FragCoord.w: 1 / w interpolated in the window.
@@ -69,9 +74,20 @@ long double fragment_w(const DrawnTriangle& triangle, int x, int y);
 
 struct Surface {
   std::array<double, 3> position{}, normal{}, albedo{};
+  std::array<double, 3> specular{}, emission{};  ///< where the model reads them
+  double shininess = 0;
 };
 
 /// Sum of the lights as real numbers: docs/arithmetic.md section 8 without its roundings.
+struct LitSum {
+  std::array<double, 3> color{};
+  std::array<double, 3> magnitude{};  ///< what roundings of the terms are relative to: their sizes before cancellation
+  double nearest_threshold = 1;       ///< the least distance of an N.L from 0, or a hard cone's cosine from its edge
+};
+
+///   view_axis: of the camera, where the model's viewer is infinite
+LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& model,
+               const std::array<double, 3>& view_axis = {0, 0, 1});
 std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model);
 
 /// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.

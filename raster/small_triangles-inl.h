@@ -283,7 +283,12 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
     const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
     const V64 in_range =
         hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
-    hn::Store(hn::DemoteTo(df, in_range), df, in.z + i);
+    V32 depth = hn::DemoteTo(df, in_range);
+    if (commit.rule.largest_code != 0.0f) {
+      const V32 largest = hn::Set(df, commit.rule.largest_code);
+      depth = hn::Div(hn::Round(hn::Mul(depth, largest)), largest);
+    }
+    hn::Store(depth, df, in.z + i);
   }
 }
 
@@ -326,8 +331,9 @@ HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z
   }
 }
 
-/// Draws those of a cluster's triangles whose box holds at most 4x4 samples; the others are left in `work.found.other`.
-/// Its vertices are in `work`, none needs care and all are within kPackedLimit of the tile's middle.
+/// Draws those of a cluster's triangles whose box holds at most 4x4 samples, without polygon offset; the others are
+/// left in `work.found.other`. Its vertices are in `work`, none needs care and all are within kPackedLimit of the
+/// tile's middle.
 inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const GeometryState& state,
                                  bool upper_left, const TileRect& rect, uint32_t first_id, ClusterScratch& work,
                                  DepthCommit& commit) {

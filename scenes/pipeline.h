@@ -59,6 +59,8 @@ struct GeometryState {
   ClipOrigin clip_origin = ClipOrigin::lower_left;
   ClipDepth clip_depth = ClipDepth::negative_one_to_one;
   Provoking provoking = Provoking::last;  ///< the vertex a flat attribute follows
+  Format depth_format = Format::d32f;     ///< one of kDepthFormats: what depths are rounded to before they are compared
+  float polygon_offset_factor = 0.0f, polygon_offset_units = 0.0f;  ///< glPolygonOffset, each within 1e18; 0, 0 is off
   bool operator==(const GeometryState&) const = default;
 };
 
@@ -117,8 +119,8 @@ struct Execution {
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
   bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
-  bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
+  bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
 };
 
 /// Throws Error(usage) naming the field and its range.

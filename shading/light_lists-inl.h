@@ -54,19 +54,24 @@ Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
 // roundings, is past the light's cut: then the kernel's own d2 is past it at every pixel. A light without a cut is
 // never dropped: to pixels whose positions are infinite (a half plane overflowed) every distance is, and ambient light
 // is there too.
+HWY_INLINE bool out_of_reach(const LightTable& lights, const Box& box, uint32_t light) {
+  float d2 = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    const float place = lights.position[c][light];
+    const float gap = std::max(std::max(box.low[c] - place, place - box.high[c]), 0.0f);
+    d2 += gap * gap;
+  }
+  const float cut2 = lights.cut2[light];
+  return (cut2 != std::numeric_limits<float>::infinity() && d2 * (1.0f - 0x1p-20f) >= cut2) ||
+         dark_over(lights, light, box.low, box.high);
+}
+
 template <class Candidate>
 void reaching_lights(const LightTable& lights, const Box& box, size_t count, const Candidate& candidate,
                      std::vector<uint32_t>& out) {
   for (size_t k = 0; k < count; ++k) {
     const uint32_t light = candidate(k);
-    float d2 = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-      const float place = lights.position[c][light];
-      const float gap = std::max(std::max(box.low[c] - place, place - box.high[c]), 0.0f);
-      d2 += gap * gap;
-    }
-    const float cut2 = lights.cut2[light];
-    if (cut2 == std::numeric_limits<float>::infinity() || !(d2 * (1.0f - 0x1p-20f) >= cut2)) out.push_back(light);
+    if (!out_of_reach(lights, box, light)) out.push_back(light);
   }
 }
 
@@ -91,7 +96,7 @@ void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vec
     if (hn::AllTrue(d, out_of_reach)) continue;
     hn::Store(hn::IfThenElse(out_of_reach, zero, hn::Set(d, 1.0f)), d, reach);
     for (size_t k = 0; k < lanes && i + k < lights.size(); ++k)
-      if (reach[k] != 0.0f) out.push_back(uint32_t(i + k));
+      if (reach[k] != 0.0f && !dark_over(lights, i + k, box.low, box.high)) out.push_back(uint32_t(i + k));
   }
 }
 

@@ -96,4 +96,23 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
   return table;
 }
 
+bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]) {
+  if (table.kind[light] != LightKind::coned) return false;
+  double distance2 = 0.0, radius2 = 0.0, axis2 = 0.0, along = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double half = (double(high[c]) - double(low[c])) * 0.5, axis = double(table.axis[c][light]);
+    const double v = double(table.position[c][light]) - (double(low[c]) + half);
+    distance2 += v * v, radius2 += half * half, axis2 += axis * axis, along += v * axis;
+  }
+  const double distance = std::sqrt(distance2), radius = std::sqrt(radius2), length = std::sqrt(axis2);
+  // Nearer or farther, the kernel's squares have too few bits for the slack below. False for NaN.
+  if (!(distance > radius && distance - radius > 1e-15 && distance < 1e18)) return false;
+  // The largest cosine to the axis over the sphere about the box: the angle to its centre less that of its radius.
+  const double cosine = along / (distance * length), sine_r = radius / distance;
+  const double cosine_r = std::sqrt(1.0 - sine_r * sine_r);
+  const double most =
+      cosine >= cosine_r ? 1.0 : cosine * cosine_r + std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) * sine_r;
+  return most * length + 1e-5 < double(table.dark_cosine[light]);  // some ten roundings of 2^-24
+}
+
 }  // namespace trueshade

@@ -36,6 +36,10 @@ struct LightTable {
   size_t size() const { return type.size(); }
 };
 
+/// Whether a light with a cone leaves the whole box between two corners dark: its cone is exactly 0 there, in the
+/// kernel's own operations. False for lights without one, and where it cannot tell.
+bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]);
+
 /// Streams padded with lights that reach nothing to a multiple of 16.
 LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera);
 

@@ -20,8 +20,15 @@ std::string qualifier(Interpolation interpolation) {
   return {};
 }
 
+constexpr size_t kMostPlanes = 8;  // GL_MAX_DRAW_BUFFERS, at least
+
 bool has_ids(const std::vector<GlslPlane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
+}
+
+/// Whether fragments know their object and material.
+bool carries_ids(const Pipeline& pipeline, const GlslOptions& options) {
+  return reads_materials(pipeline.light_model) || has_ids(planes_of(pipeline, options));
 }
 
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -31,12 +38,15 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   for (size_t i = 0; i < planes.size(); ++i)
     text += "layout(location = " + std::to_string(i) + ") out " +
             (planes[i].format == Format::r32ui ? "uint " : "vec4 ") + planes[i].output + ";\n";
-  text += "\nvoid main() {\n";
+  text += reads_materials(pipeline.light_model) ? "uniform samplerBuffer materials;\n" : "";
+  text += "\nvoid main() {\n" + material_text(pipeline.light_model, options);
   for (const GlslPlane& plane : planes) {
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
     if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
-    if (plane.name == "albedo") text += albedo_text(options) + ";\n";
+    if (plane.name == "albedo") text += "albedo;\n";
+    if (plane.name == "specular") text += "gloss;\n";
+    if (plane.name == "emission") text += "vec4(emission, 1.0);\n";
     if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
     if (plane.name == "id.object") text += "ids.x;\n";
     if (plane.name == "id.material") text += "ids.y;\n";
@@ -95,11 +105,13 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
   add("normal", "normal", g.normal.format);
   add("albedo", "albedo", g.albedo.format);
   if (options.uv) add("uv", "uv", g.uv.format);
+  if (reads_specular_plane(pipeline.light_model)) add("specular", "specular", g.specular);
+  if (pipeline.light_model.emission) add("emission", "emission", g.emission);
   const bool w = info(planes[0].format).channels == 4;
   if (options.ids || !w) add("id.object", "object", Format::r32ui);
   if (options.ids) {
     add("id.material", "material", Format::r32ui);
-    if (options.primitive) add("id.primitive", "primitive", Format::r32ui);
+    if (options.primitive && planes.size() < kMostPlanes) add("id.primitive", "primitive", Format::r32ui);
   }
   return planes;
 }
@@ -124,7 +136,7 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
   if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
-  if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
+  if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   return text;
 }
 
@@ -132,8 +144,7 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string text;
   for (const GlslPlane& plane : planes)
-    if (plane.name == "position" || plane.name == "normal" || plane.name == "albedo")
-      text += "uniform sampler2D " + plane.sampler + ";\n";
+    if (plane.format != Format::r32ui && plane.name != "uv") text += "uniform sampler2D " + plane.sampler + ";\n";
   const GlslPlane& coverage = coverage_plane(planes);
   if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
   if (pipeline.gbuffer.position_from_depth)
@@ -151,6 +162,8 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
          (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
          "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
+         (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
+         (pipeline.light_model.emission ? "  vec3 emission = texelFetch(emission_plane, pixel, 0).rgb;\n" : "") +
          surface_text(pipeline.light_model);
 }
 
@@ -162,6 +175,23 @@ std::string lit_call_text(const LightModel& model, const std::string& buffer, co
     text +=
         ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i >= 2 ? ".xyz" : "");
   return text + ")";
+}
+
+bool reads_materials(const LightModel& model) {
+  return reads_specular_plane(model) || maps_metals(model) || model.emission;
+}
+
+std::string material_text(const LightModel& model, const GlslOptions& options) {
+  std::string text = "  vec4 albedo = " + albedo_text(options) + ";\n";
+  if (!reads_materials(model)) return text;
+  text +=
+      "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
+      "  vec4 glow = texelFetch(materials, 2 * int(ids.y) - 1);\n  vec3 emission = glow.rgb;\n";
+  if (maps_metals(model))
+    text +=
+        "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
+        "  albedo.rgb = albedo.rgb * (1.0 - glow.a);\n";
+  return text;
 }
 
 std::string albedo_text(const GlslOptions& options) { return options.vertex_color ? "color * base" : "base"; }
@@ -206,7 +236,7 @@ void main() {
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
   if (options.uv) text += "  texcoord = vertex_uv;\n";
-  if (has_ids(planes_of(pipeline, options))) text += "  ids = instance_ids;\n";
+  if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }
 

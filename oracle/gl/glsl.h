@@ -63,6 +63,11 @@ std::string glsl_float(float value);  ///< a literal that reads back as the same
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
 /// The surface's colour in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
+/// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
+/// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
+bool reads_materials(const LightModel& model);
+/// `vec4 albedo` of a fragment, and from its material `vec4 gloss` and `vec3 emission` where the model reads them.
+std::string material_text(const LightModel& model, const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
 /// `vec3 lit(P, N, V, albedo, [gloss,] place, color[, k][, axis, cone][, ambient])`: what one light adds; in the order

@@ -85,6 +85,12 @@ ConeNumbers cone_numbers(const Light& light, Cone cone) {
   return {};
 }
 
+/// 2 / max(roughness, 0.04)^4 - 2 as the nearest integer from 1 to 8192.
+float shininess_of_glossiness(float roughness) {
+  const double r = std::max(double(roughness), 0.04);
+  return float(std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0));
+}
+
 std::vector<float> light_records(const Scene& scene, const LightModel& model) {
   const LightLayout layout(model);
   std::vector<float> out;
@@ -203,6 +209,20 @@ GLuint SceneBuffers::light_texels(const LightModel& model) {
     uploaded_ = model;
   }
   return lights_.texture;
+}
+
+GLuint SceneBuffers::material_texels(const LightModel& model) {
+  if (material_layout_ == model.specular_source) return materials_.texture;
+  std::vector<float> records;
+  for (const Material& m : scene_->materials) {
+    const float shininess = maps_metals(model) ? shininess_of_glossiness(m.roughness) : m.shininess;
+    for (const float v : {m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess, m.emission.r,
+                          m.emission.g, m.emission.b, m.metallic})
+      records.push_back(v);
+  }
+  materials_ = make_texel_buffer(records);
+  material_layout_ = model.specular_source;
+  return materials_.texture;
 }
 
 }  // namespace trueshade::oracle

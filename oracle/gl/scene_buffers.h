@@ -42,6 +42,8 @@ class SceneBuffers {
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
+  /// Material records as material_text() reads them.
+  GLuint material_texels(const LightModel& model);
 
  private:
   struct MeshBuffers {
@@ -56,8 +58,9 @@ class SceneBuffers {
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
-  GlTexelBuffer lights_;
-  std::optional<LightModel> uploaded_;  ///< whose records lights_ holds
+  GlTexelBuffer lights_, materials_;
+  std::optional<LightModel> uploaded_;             ///< whose records lights_ holds
+  std::optional<SpecularSource> material_layout_;  ///< of what materials_ holds
 };
 
 /// A spot light's cone as shaders read it: LightLayout says what the numbers are.

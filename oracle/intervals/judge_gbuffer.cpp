@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
@@ -26,7 +29,9 @@ class GBufferJudge {
         profile_(profile),
         depth_(plane_of(capture, pipeline, "depth")),
         object_(plane_of(capture, pipeline, "id.object")),
-        material_(plane_of(capture, pipeline, "id.material")) {
+        material_(plane_of(capture, pipeline, "id.material")),
+        specular_(plane_of(capture, pipeline, "specular")),
+        emission_(plane_of(capture, pipeline, "emission")) {
     const GBufferState& g = pipeline.gbuffer;
     const AttributePlane all[] = {
         {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
@@ -53,7 +58,7 @@ class GBufferJudge {
   bool is_clear(int x, int y) const {
     if (object_ && object_.stored(x, y, 0) != 0) return false;
     if (material_ && material_.stored(x, y, 0) != 0) return false;
-    if (depth_ && depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth)) return false;
+    if (depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0))) return false;
     for (const AttributePlane& p : planes_)
       for (int c = 0; c < p.view.channels; ++c)
         if (p.view.stored(x, y, c) != 0) return false;
@@ -81,7 +86,7 @@ class GBufferJudge {
       double largest = 0;
       for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
       m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest),
-                   depth_.stored(x, y_top, 0), pixel, profile_);
+                   held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)), pixel, profile_);
     }
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
@@ -96,9 +101,41 @@ class GBufferJudge {
         }
         Range range = value_of(point, piece, values, p, k);
         if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
+        if (p.first == kAlbedo && k < 3) {
+          if (specular_)
+            m.channel_is(specular_, "specular", k, specular_of(material, range, k), specular_.stored(x, y_top, k),
+                         pixel, profile_);
+          if (maps_metals(pipeline_.light_model)) range = tinted(range, double(1.0f - material.metallic));
+        }
         m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
       }
+    constant_planes(material, x, y_top, pixel, m);
     return m;
+  }
+
+  /// What the material alone decides: the shininess and the emission.
+  void constant_planes(const Material& material, int x, int y_top, uint32_t pixel, Match& m) const {
+    if (specular_) {
+      const double r = std::max(double(material.roughness), 0.04);
+      const double s = maps_metals(pipeline_.light_model) ? std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0)
+                                                          : double(material.shininess);
+      m.channel_is(specular_, "specular", 3, {s, s, s}, specular_.stored(x, y_top, 3), pixel, profile_);
+    }
+    for (int k = 0; k < 3 && emission_; ++k) {
+      const double e = double(material.emission[k]);
+      m.channel_is(emission_, "emission", k, {e, e, e}, emission_.stored(x, y_top, k), pixel, profile_);
+    }
+  }
+
+  /// The specular colour: the material's, or 0.04 (1 - metallic) + base metallic, of four roundings at most.
+  Range specular_of(const Material& material, const Range& base, int k) const {
+    const double given = double(material.specular_color[k]);
+    if (!maps_metals(pipeline_.light_model)) return {given, given, given};
+    if (material.metallic == 0.0f) return {double(0.04f), double(0.04f), double(0.04f)};
+    const double metallic = double(material.metallic), rest = double(0.04f) * (1 - metallic);
+    const double v =
+        4 * std::max(profile_.arithmetic.roundoff, 0x1p-24) * (rest + std::fabs(base.high) * metallic) + kSmallestFloat;
+    return {rest + base.value * metallic, rest + base.low * metallic - v, rest + base.high * metallic + v};
   }
 
   Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p,
@@ -137,7 +174,7 @@ class GBufferJudge {
   Projector projector_;
   const Pipeline pipeline_;
   const Profile profile_;
-  PlaneView depth_, object_, material_;
+  PlaneView depth_, object_, material_, specular_, emission_;
   std::vector<AttributePlane> planes_;
   CandidateMap candidates_;
 };

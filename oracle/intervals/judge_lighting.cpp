@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/shading.h"
+#include "oracle/intervals/surface.h"
 #include "oracle/intervals/tally.h"
 #include "oracle/scalar_renderer.h"
 
@@ -23,7 +27,10 @@ class LightingJudge {
         albedo_(required(capture, "albedo")),
         object_(plane_of(capture, pipeline, "id.object")),
         count_(plane_of(capture, pipeline, "light.count")),
+        specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
+        emission_(pipeline.light_model.emission ? required(capture, "emission") : PlaneView{}),
         viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
+    view_axis_ = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
     if (pipeline.gbuffer.position_from_depth) {
       depth_ = required(capture, "depth");
       invert();
@@ -48,7 +55,7 @@ class LightingJudge {
   }
 
   bool covered(int x, int y) const {
-    return object_ ? object_.stored(x, y, 0) != 0 : depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth);
+    return object_ ? object_.stored(x, y, 0) != 0 : !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0));
   }
 
   /// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error.
@@ -66,6 +73,11 @@ class LightingJudge {
       s.normal[size_t(k)] = fetched(normal_, x, y, k);
     }
     for (int k = 0; k < 4; ++k) s.albedo[size_t(k)] = k < albedo_.channels ? fetched(albedo_, x, y, k) : Bounded{1, 0};
+    for (int k = 0; k < 3; ++k) {
+      if (specular_) s.specular[size_t(k)] = fetched(specular_, x, y, k);
+      if (emission_) s.emission[size_t(k)] = fetched(emission_, x, y, k);
+    }
+    if (specular_) s.shininess = specular_.stored(x, y, 3);
     if (!position_) s.position = position_from_depth(x, y);
     return s;
   }
@@ -79,7 +91,8 @@ class LightingJudge {
   const Scene& scene_;
   const Pipeline pipeline_;
   const Profile profile_;
-  PlaneView color_, normal_, albedo_, object_, count_, position_, depth_;
+  PlaneView color_, normal_, albedo_, object_, count_, specular_, emission_, position_, depth_;
+  std::array<double, 3> view_axis_;
   Viewport viewport_;
   Matrix4 world_from_clip_{};
 };
@@ -118,9 +131,12 @@ Bounded3 LightingJudge::position_from_depth(int x, int y) const {
     return Bounded{at - 1, 3 * v * (std::fabs(at) + 1)};
   };
   const double z = depth_.stored(x, y, 0);
+  const bool codes = pipeline_.geometry.depth_format != Format::d32f;
+  const double fetch = codes && z != 1 ? z * profile_.fetch_error : 0;  // a code is read as a float
   std::array<Bounded, 4> p = {
       ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
-      Bounded{(z - offset) / scale, 4 * v * (std::fabs(z) + std::fabs(offset)) / std::fabs(scale)}, Bounded{1, 0}};
+      Bounded{(z - offset) / scale, (4 * v * (std::fabs(z) + std::fabs(offset)) + fetch) / std::fabs(scale)},
+      Bounded{1, 0}};
   if (pipeline_.geometry.clip_origin == ClipOrigin::upper_left) p[1].value = -p[1].value;
   std::array<Bounded, 4> h;
   for (size_t r = 0; r < 4; ++r)
@@ -138,7 +154,10 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
   for (int k = 0; k < 3; ++k) {
     Bounded c = lit.color[size_t(k)];
     c.value += change[size_t(k)];
-    m.channel_is(color_, "color", k, range_of(c), color_.stored(x, y, k), pixel, profile_);
+    Range range = range_of(c);
+    if (pipeline_.light_model.clamp_result)
+      range = {std::clamp(range.value, 0.0, 1.0), std::clamp(range.low, 0.0, 1.0), std::clamp(range.high, 0.0, 1.0)};
+    m.channel_is(color_, "color", k, range, color_.stored(x, y, k), pixel, profile_);
   }
   return m.legal;
 }
@@ -161,7 +180,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   if (!covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_at(x, y);
-  const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, profile_.arithmetic, profile_.exact_planes);
+  const LitRange lit =
+      lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic, profile_.exact_planes);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;

@@ -30,6 +30,21 @@ inline constexpr GoldenFrame kGoldenFrames[] = {
     {"builtin:circle", "many-lights", 200, 150, "b3b35243c9ea2478ca69dab08514428b2554d21a854842980cad287596f62afd"},
     {"builtin:circle", "many-lights", 800, 800, "19fb26401f10284da6c15b234376ac91a0995563e27db40e408f26dcdce9b416"},
     {"builtin:circle", "touchdesigner", 200, 150, "a664717ba76afedcc23bf1bed519fbd48f51bee7886a9715487e6a091339f213"},
+    {"builtin:city", "gl-fixed", 200, 150, "a1c4c09062d4d28f0cc057f02f49de3aef8ac83efb820ba18a0435f939d22566"},
+    {"builtin:rabbits", "gl-fixed", 200, 150, "e2746ace9f9356b098b957095ea2cf1e6bb979109886d002b1e193cc6a6270d4"},
+    {"builtin:sphere", "gl-fixed", 200, 150, "efd30f7244aca401ebedf63c5e45181b53e052ce07617f080aa9283ccd08a71a"},
+    {"builtin:red", "gl-fixed", 200, 150, "9cdec48256846d6e4fa4750bfac2b547fe731c9adca7f4640ebddc3da822eee6"},
+    {"builtin:cornell", "gl-fixed", 200, 150, "3676a44e9921bc99287aba142efaf9014b2845d94b4bf4f16f016410f97e79fa"},
+    {"builtin:circle", "gl-fixed", 200, 150, "7e8834e69b5c26fda69e4ced9d9967ede778ade800bfa62e1ea5e701e425c0b6"},
+    {"builtin:city", "punctual", 200, 150, "ca9e26de406603ccbc2638455a236f741eba4f9baf55039566e49520c0624fce"},
+    {"builtin:rabbits", "punctual", 200, 150, "5c302d0ec861187c7c545db2d7fbf20c2295437e9e8e3ebfa4f02293ac5161f3"},
+    {"builtin:sphere", "punctual", 200, 150, "07035f158de9968e2becded326e64d4f72d03d7f9bb193dc3747ca7edfe53ad0"},
+    {"builtin:red", "punctual", 200, 150, "3ceb8cab711fed7251c598792a15beebf5d0b4605acb4cf7e6bcdb06f535d845"},
+    {"builtin:cornell", "punctual", 200, 150, "5ff9d04dad12afc127f6eae96fe1a79ea9466c17339f6211f5ffbb0a21e77824"},
+    {"builtin:circle", "punctual", 200, 150, "155bd7b878652001c8ec6d1bb2fd3a014c3173ac09f6274f2ad66517ed87051d"},
+    {"builtin:atrium", "many-lights", 200, 150, "a6c74d389ee87813a5f86fb080c918c5235ade4e605767347bae832bf264b664"},
+    {"builtin:atrium", "many-lights", 800, 800, "3db7c70e68f9f68cfb1fb160e9608b8b766e31e0331cd080733b5b5cf41576a5"},
+    {"builtin:atrium", "touchdesigner", 200, 150, "9aa6c8d69abe07218c962698eb8ae9e19a25c0bd1007e43ebf32885506aed78c"},
 };
 
 }  // namespace trueshade

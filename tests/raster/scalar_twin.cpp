@@ -90,6 +90,11 @@ Pipeline random_pipeline(Random& random) {
   state.depth_func = DepthFunc(random() % 8);
   state.clear_depth = one_of(random, {1.0f, 1.0f, 0.5f, 0.0f});
   state.depth_clamp = random() % 3 == 0;
+  state.depth_format = one_of(random, {Format::d32f, Format::d32f, Format::d24, Format::d16});
+  if (random() % 3 == 0) {
+    state.polygon_offset_factor = one_of(random, {0.0f, 1.0f, -2.0f, 0.375f});
+    state.polygon_offset_units = one_of(random, {0.0f, 1.0f, -3.0f, 500.0f, -0.75f});
+  }
   state.cull_face = CullFace(random() % 4);
   if (random() % 2 == 0) state.cull_face = CullFace::none;
   state.front_face = FrontFace(random() % 2);
@@ -121,7 +126,10 @@ void check_pixel(const oracle::ScalarFrame& frame, const oracle::Fragment& fragm
   const oracle::DrawnTriangle& t = frame.triangles[fragment.window];
   const double depth_off = std::fabs(double((long double)(planes.depth[i]) - fragment.depth));
   CAPTURE(planes.depth[i], double(fragment.depth));
-  REQUIRE(depth_off <= std::max(0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth))));
+  const Format format = pipeline.geometry.depth_format;
+  const double code = format == Format::d32f ? 0 : 1.01 / double(info(format).largest_code(0));
+  REQUIRE(depth_off <=
+          std::max({code, 0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth)), double(fragment.depth_bound)}));
   if (fragment.depth_bound == 0) REQUIRE(planes.depth[i] == fragment.depth_code);
   const GBufferState& g = pipeline.gbuffer;
   for (size_t k = 0; k < 3; ++k) {
