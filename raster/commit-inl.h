@@ -13,6 +13,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
@@ -110,21 +111,31 @@ struct DepthCommit {
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
-  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+  /// Depths of a vector of samples; NaN where not covered, which passes no comparison.
+  HWY_INLINE V32 depths(M64 covered, V64 e1, V64 e2) const {
     const D64 d;
-    const D32 df;
-    const U32 du;
-    fragments += hn::CountTrue(d, covered);
     const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e1, hn::Set(d, g1)), hn::Mul(e2, hn::Set(d, g2))));
     const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
     const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
-    // Lanes that are not covered become NaN, which passes no comparison below.
     const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    V32 z = hn::DemoteTo(df, hn::IfThenElse(covered, in_range, nan));
+    V32 z = hn::DemoteTo(D32(), hn::IfThenElse(covered, in_range, nan));
     if (rule.largest_code != 0.0f) {
-      const V32 largest = hn::Set(df, rule.largest_code);
+      const V32 largest = hn::Set(D32(), rule.largest_code);
       z = hn::Div(hn::Round(hn::Mul(z, largest)), largest);
     }
+    return z;
+  }
+  float depth(double e1, double e2) const {
+    const double plane = z0 + (e1 * g1 + e2 * g2);
+    const double in_hull = std::min(std::max(plane, z_low), z_high);
+    return rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
+  }
+
+  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+    const D32 df;
+    const U32 du;
+    fragments += hn::CountTrue(D64(), covered);
+    const V32 z = depths(covered, e1, e2);
     const V32 there = hn::Load(df, tile.depth + at);
     const auto there_id = hn::Load(du, tile.id + at);
     const auto my_id = hn::Set(du, id);
@@ -164,9 +175,7 @@ struct DepthCommit {
 
   bool scalar(int at, double e1, double e2) {
     ++fragments;
-    const double plane = z0 + (e1 * g1 + e2 * g2);
-    const double in_hull = std::min(std::max(plane, z_low), z_high);
-    const float z = rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
+    const float z = depth(e1, e2);
     if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
     tile.depth[at] = z;
     tile.id[at] = id;
@@ -180,6 +189,34 @@ struct DepthCommit {
     for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
     tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
+};
+
+/// Lists the fragments whose depth is the one stored.
+struct TieCommit {
+  VisibilityTile& tile;
+  DepthCommit test;  ///< for its depths
+  std::vector<DepthFragment>& out;
+  bool skip_hidden;
+  uint32_t id = 0;
+
+  template <class T>
+  void begin(const TriangleSetup<T>& s) {
+    test.begin(s);
+  }
+  bool hidden(int block) const { return test.hidden(block); }
+  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+    const D32 df;
+    alignas(64) float z[HWY_MAX_BYTES / sizeof(float)];
+    hn::Store(test.depths(covered, e1, e2), df, z);
+    for (size_t i = 0; i < hn::Lanes(df); ++i)
+      if (z[i] == tile.depth[size_t(at) + i]) out.push_back({at + int(i), id});
+    return false;
+  }
+  bool scalar(int at, double e1, double e2) {
+    if (test.depth(e1, e2) == tile.depth[at]) out.push_back({at, id});
+    return false;
+  }
+  void finish_block(int) {}
 };
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -54,6 +54,7 @@ struct View {
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
+  std::array<float, 16> clip_from_world;     ///< row-major; for the geometry of lights
 };
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "raster/coverage-inl.h"
@@ -116,8 +117,9 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high)));
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work,
-                  DepthCommit& commit, RasterCounts& counts) {
+template <class Commit>
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work, Commit& commit,
+                  RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const WindowTransform& t = in.view.window;
   // Corners' depths bound fragments from below unless an offset may bring these nearer.
@@ -139,14 +141,19 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const float near = t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high));
     if (cull && hidden_box(commit.tile, rect, box, near)) return;
     const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0), middle = rect.size * 128;
-    const int32_t farthest = std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
-    if (commit.skip_hidden && !t.depth.offsets() && farthest < kPackedLimit) {
-      draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
-      count = work.found.others;
-      for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
-    } else {
-      count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+    [[maybe_unused]] const int32_t farthest =
+        std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
+    bool drawn = false;
+    if constexpr (std::is_same_v<Commit, DepthCommit>) {
+      if (commit.skip_hidden && !t.depth.offsets() && farthest < kPackedLimit) {
+        draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
+        count = work.found.others;
+        for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
+        drawn = true;
+      }
     }
+    if (!drawn)
+      count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
@@ -221,6 +228,31 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   counts.fragments += commit.fragments;
 }
 
+// Keeps the pixels where not the visible fragment alone has the stored depth.
+void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& fragments) {
+  std::sort(fragments.begin(), fragments.end(), [](const DepthFragment& a, const DepthFragment& b) {
+    return a.at < b.at || (a.at == b.at && a.id < b.id);
+  });
+  size_t kept = 0;
+  for (size_t i = 0, end = 0; i < fragments.size(); i = end) {
+    while (end < fragments.size() && fragments[end].at == fragments[i].at) ++end;
+    if (end == i + 1 && fragments[i].id == visible.id[fragments[i].at]) continue;
+    for (size_t k = i; k < end; ++k) fragments[kept++] = fragments[k];
+  }
+  fragments.resize(kept);
+}
+
+void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                                   std::vector<DepthFragment>& out) {
+  out.clear();
+  const WindowTransform& t = in.view.window;
+  TieCommit commit{visible, {visible, DepthFunc::equal, t.depth_low, t.depth_high, culling, t.depth}, out, culling};
+  RasterCounts again;
+  ClusterScratch work;
+  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, again);
+  keep_shared(visible, out);
+}
+
 void clip_corners_simd(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -240,11 +272,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(fragments_at_equal_depth_simd);
 HWY_EXPORT(clip_corners_simd);
 
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                              std::vector<DepthFragment>& out) {
+  HWY_DYNAMIC_DISPATCH(fragments_at_equal_depth_simd)(in, rect, culling, visible, out);
 }
 
 void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "raster/region.h"
 #include "shading/light_term-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +24,7 @@ struct Box {
   int pixels;
 };
 
-Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
+inline Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
   const DF d;
   const DI di;
   const VF inf = hn::Set(d, std::numeric_limits<float>::infinity());
@@ -76,7 +77,7 @@ void reaching_lights(const LightTable& lights, const Box& box, size_t count, con
 }
 
 // The whole table against one box, a vector of lights at a time.
-void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
+inline void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
   const DF d;
   const size_t lanes = hn::Lanes(d);
   const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f),
@@ -98,6 +99,14 @@ void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vec
     for (size_t k = 0; k < lanes && i + k < lights.size(); ++k)
       if (reach[k] != 0.0f && !dark_over(lights, i + k, box.low, box.high)) out.push_back(uint32_t(i + k));
   }
+}
+
+// Blocks of the region whose first block is (bx, by); returns how many.
+inline int region_blocks(int blocks, int bx, int by, int out[kRegionBlocks * kRegionBlocks]) {
+  int count = 0;
+  for (int y = by; y < std::min(by + kRegionBlocks, blocks); ++y)
+    for (int x = bx; x < std::min(bx + kRegionBlocks, blocks); ++x) out[count++] = y * blocks + x;
+  return count;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/light_mesh.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -20,17 +21,23 @@ bool lit_at(Falloff falloff, float d2, float range) {
   return std::sqrt(d2) < range && 1.0f - u * u > 0.0f;
 }
 
-float cut_distance2(Falloff falloff, float range) {
+// The least float that is not inside; `inside` holds below one value and not from there on.
+template <class Inside>
+float least_outside(const Inside& inside) {
   uint32_t low = 0, high = std::bit_cast<uint32_t>(kInfinity);
-  if (lit_at(falloff, std::numeric_limits<float>::max(), range)) return kInfinity;
-  while (low < high) {  // least bit pattern, and so least float, that is not lit
+  if (inside(std::numeric_limits<float>::max())) return kInfinity;
+  while (low < high) {  // least bit pattern, and so least float
     const uint32_t middle = low + (high - low) / 2;
-    if (lit_at(falloff, std::bit_cast<float>(middle), range))
+    if (inside(std::bit_cast<float>(middle)))
       low = middle + 1;
     else
       high = middle;
   }
   return std::bit_cast<float>(low);
+}
+
+float cut_distance2(Falloff falloff, float range) {
+  return least_outside([&](float d2) { return lit_at(falloff, d2, range); });
 }
 
 bool placed(LightType type) { return type == LightType::point || type == LightType::spot; }
@@ -72,6 +79,7 @@ void push(LightTable& table, const Light& light, const LightModel& model, float 
   table.k1.push_back(light.attenuation.y);
   table.k2.push_back(light.attenuation.z);
   table.cut2.push_back(cut2);
+  table.extent2.push_back(kInfinity);
   table.edge.push_back(cone.edge);
   table.slope.push_back(cone.slope);
   table.dark_cosine.push_back(cone.dark);
@@ -94,6 +102,16 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
   for (size_t i = lights_in_all; i % 16 != 0; ++i) push(table, nowhere, model, 0.0f);
   table.type.resize(lights_in_all);
   return table;
+}
+
+void bound_by_extents(LightTable& table, std::span<const Light> lights, const LightVolumes& volumes,
+                      bool draws_meshes) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const LightExtent extent = drawn_extent(lights[i], volumes);
+    if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
+    table.extent2[i] = least_outside([&](float d2) { return std::sqrt(d2) < lights[i].range; });
+    table.cut2[i] = std::min(table.cut2[i], table.extent2[i]);
+  }
 }
 
 bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]) {

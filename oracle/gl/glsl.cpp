@@ -66,20 +66,6 @@ std::string position_text(const GBufferState& g) {
 )";
 }
 
-std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
-  const LightModel& model = pipeline.light_model;
-  std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
-  text += surface_uniforms_text(pipeline, options);
-  text += "uniform samplerBuffer lights;  // " + std::to_string(LightLayout(model).texels()) +
-          " texels a light\n"
-          "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
-  text += light_function_text(model, options);
-  text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
-  text += "  vec3 sum = " + sum_start_text(model) +
-          ";\n  for (int i = 0; i < light_count; ++i)\n    sum += " + lit_call_text(model, "lights", "i") + ";\n";
-  return text + target_text(model, "sum") + "}\n";
-}
-
 }  // namespace
 
 std::string glsl_header(int version, std::string_view purpose) {
@@ -247,8 +233,10 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2
 }
 
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {
-  return {vertex_text(pipeline, options), geometry_fragment_text(pipeline, options),
-          fullscreen_vertex_text(options.version), light_fragment_text(pipeline, options)};
+  const Pipeline drawn = drawn_pipeline(pipeline);
+  GlslShaders shaders{vertex_text(drawn, options), geometry_fragment_text(drawn, options), {}, {}, {}};
+  set_light_shaders(drawn, options, shaders);
+  return shaders;
 }
 
 }  // namespace trueshade::oracle

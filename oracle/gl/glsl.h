@@ -36,12 +36,22 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
 /// The plane whose texel tells whether a surface was drawn: its w (1, cleared to 0) or, for ids, the number itself.
 const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 
-/// Four shaders that draw a frame. The files of `trueshade glsl` have these names.
+/// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
+/// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with light_vert:
+/// the draw before the lights of deferred-volumes, empty where there is none.
 struct GlslShaders {
-  std::string geometry_vert, geometry_frag, light_vert, light_frag;
+  std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
   bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
+/// Of these the light pass, by the pipeline's strategy. Error(usage) for extents that one shader cannot tell apart.
+void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders);
+/// The pipeline as OpenGL draws it: with the planes that surfaces really have.
+inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
+  Pipeline p = pipeline;
+  p.gbuffer = surface_planes(pipeline);
+  return p;
+}
 
 /// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
 /// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers

@@ -227,6 +227,9 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
 
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture) {
+  if (blends_lights(pipeline.strategy))
+    throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not judged: its lights are blended draw by draw",
+                "forward-loop or deferred-loop");
   const Profile p = resolved(profile, pipeline);
   const LightingJudge judge(scene, pipeline, p, capture);
   std::vector<RowTally> rows(size_t(pipeline.height));
