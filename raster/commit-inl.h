@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "raster/alpha-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -27,8 +28,9 @@ struct CountCommit {
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}
+  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
-  HWY_INLINE bool vector(int at, M64 covered, V64, V64) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64*) {
     const D64 d;
     constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
     alignas(64) double one[kLanes];
@@ -37,7 +39,7 @@ struct CountCommit {
       counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
     return false;
   }
-  bool scalar(int at, double, double) {
+  bool scalar(int at, double, double, double) {
     ++counts[at];
     return false;
   }
@@ -73,7 +75,8 @@ struct DepthCommit {
   VisibilityTile& tile;
   DepthFunc func;
   float range_low, range_high;
-  bool skip_hidden;  ///< use the blocks' largest depths
+  bool skip_hidden;            ///< use the blocks' largest depths
+  AlphaTest* alpha = nullptr;  ///< of the material drawn; null: every fragment counts
   uint64_t fragments = 0;
   uint32_t id = 0;
   double z0 = 0, g1 = 0, g2 = 0, z_low = 0, z_high = 0;
@@ -83,15 +86,20 @@ struct DepthCommit {
   void begin(const TriangleSetup<T>& s) {
     z0 = s.z0, g1 = s.g1, g2 = s.g2, z_low = s.z_low, z_high = s.z_high;
     nearest = std::min(std::max(float(z_low), range_low), range_high);
+    if (alpha != nullptr) alpha->set_edges(s);
+  }
+  /// Before begin(), for a piece of a triangle that needed care.
+  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+    if (alpha != nullptr) alpha->set_piece(v, fan, index, t);
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
-  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D64 d;
     const D32 df;
     const U32 du;
     fragments += hn::CountTrue(d, covered);
-    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e1, hn::Set(d, g1)), hn::Mul(e2, hn::Set(d, g2))));
+    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e[1], hn::Set(d, g1)), hn::Mul(e[2], hn::Set(d, g2))));
     const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
     const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
     // Lanes that are not covered become NaN, which passes no comparison below.
@@ -129,17 +137,36 @@ struct DepthCommit {
         break;
     }
     if (hn::AllFalse(df, pass)) return false;
+    if (alpha != nullptr) {
+      pass = hn::And(pass, opaque(e, pass));
+      if (hn::AllFalse(df, pass)) return false;
+    }
     hn::Store(hn::IfThenElse(pass, z, there), df, tile.depth + at);
     hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, tile.id + at);
     return true;
   }
 
-  bool scalar(int at, double e1, double e2) {
+  /// Lanes of `asked` that the alpha test keeps.
+  HWY_NOINLINE hn::Mask<D32> opaque(const V64 e[3], hn::Mask<D32> asked) const {
+    const D64 d;
+    const V64 one = hn::PromoteTo(d, hn::IfThenElseZero(asked, hn::Set(D32(), 1.0f)));
+    return alpha->opaque(e, hn::Gt(one, hn::Zero(d)));
+  }
+  HWY_NOINLINE bool opaque(double e0, double e1, double e2) const {
+    const D64 d;
+    const D32 df;
+    const V64 e[3] = {hn::Set(d, e0), hn::Set(d, e1), hn::Set(d, e2)};
+    const auto kept = alpha->opaque(e, hn::FirstN(d, 1));
+    return hn::GetLane(hn::IfThenElseZero(kept, hn::Set(df, 1.0f))) != 0.0f;
+  }
+
+  bool scalar(int at, double e0, double e1, double e2) {
     ++fragments;
     const double plane = z0 + (e1 * g1 + e2 * g2);
     const double in_hull = std::min(std::max(plane, z_low), z_high);
     const float z = float(std::min(std::max(in_hull, double(range_low)), double(range_high)));
     if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
+    if (alpha != nullptr && !opaque(e0, e1, e2)) return false;
     tile.depth[at] = z;
     tile.id[at] = id;
     return true;

@@ -10,6 +10,7 @@
 #include "raster/careful.h"
 #include "raster/coverage-inl.h"
 #include "raster/interpolate-inl.h"
+#include "raster/maps-inl.h"
 #include "raster/store-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -135,8 +136,33 @@ int stream_groups(const GBufferState& planes, bool need_uv, StreamGroup out[4]) 
   return count;
 }
 
-void interpolate_tile(const TileRect& rect, const GeometryState& state, const StreamGroup* group, int groups,
-                      const VisibleVertices& work, SurfaceTile& out) {
+// The maps of pixels whose triangles needed no care.
+HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& visible, const Weights& w, int i,
+                                  const VisibleVertices& work, SurfaceTile& out) {
+  const D64 d;
+  const D32 df;
+  alignas(64) double plain[kMostLanes];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    const uint32_t id = visible.id[size_t(i) + k];
+    plain[k] = id != 0 && !id_careful(id) ? 1.0 : 0.0;
+  }
+  V64 edge_x[3], edge_y[3];
+  edge_slopes(w, edge_x, edge_y);
+  const BarycentricSlopes along_x = slopes(w.at, edge_x, w.u), along_y = slopes(w.at, edge_y, w.u);
+  UvPoint at;
+  for (int c = 0; c < 2; ++c) {
+    const float* stream = work.stream[size_t(kUv) + size_t(c)].data();
+    V64 a[3];
+    for (int k = 0; k < 3; ++k) a[k] = hn::PromoteTo(d, hn::GatherIndex(df, stream, w.vertex[k]));
+    coordinate_slopes(along_x, along_y, in.view.maps.uv_how, a[0], a[1], a[2], at.x[c], at.y[c]);
+  }
+  apply_maps(in.view.maps, at, hn::Gt(hn::Load(d, plain), hn::Zero(d)), i, work, out);
+}
+
+void interpolate_tile(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
+                      const VisibilityTile& visible, const VisibleVertices& work, SurfaceTile& out) {
+  const GeometryState& state = in.state;
+  const bool textured = in.view.maps.textured();
   const D64 d;
   const D32 df;
   const I32 di;
@@ -155,6 +181,7 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
       for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
         hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df,
                   out.plane[c] + i);
+    if (textured) apply_tile_maps(in, visible, w, i, work, out);
   }
 }
 
@@ -201,7 +228,7 @@ void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const Strea
 
 // The attributes of one piece at the lanes it owns; the other lanes keep what they have.
 void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups, int at,
-                       SurfaceTile& out) {
+                       const SceneMaps& maps, const VisibleVertices& work, SurfaceTile& out) {
   const D64 d;
   const D32 df;
   const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
@@ -219,6 +246,20 @@ void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const
       hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
     }
   }
+  if (!maps.textured()) return;
+  V64 edge_x[3], edge_y[3];
+  for (int i = 0; i < 3; ++i) {
+    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
+    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
+  }
+  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
+  UvPoint uv;
+  for (int c = 0; c < 2; ++c) {
+    const double* a = s.attribute[kUv + c];
+    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
+                      uv.y[c]);
+  }
+  apply_maps(maps, uv, owned, at, work, out);
 }
 
 // Pixels of triangles that were clipped or are too large for the vector path: a few triangles, each over many pixels.
@@ -249,7 +290,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
         M64 owned = open;
         for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
         if (hn::AllFalse(d, owned)) continue;
-        interpolate_piece(s, e, owned, group, groups, i, out);
+        interpolate_piece(s, e, owned, group, groups, i, in.view.maps, work, out);
         open = hn::AndNot(owned, open);
       }
     }
@@ -302,11 +343,12 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
 
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
                            const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+  need_uv = need_uv || in.view.maps.textured();
   find_corners(in, rect, visible, need_uv, work, out);
   if (out.covered_pixels == 0) return;
   StreamGroup group[4];
   const int groups = stream_groups(planes, need_uv, group);
-  interpolate_tile(rect, in.state, group, groups, work, out);
+  interpolate_tile(in, rect, group, groups, visible, work, out);
   interpolate_careful(in, rect, group, groups, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_planes(in, rect, planes, group, groups, out);

@@ -125,7 +125,8 @@ View make_view(const Scene& scene, const Pipeline& pipeline) {
             pipeline.profile,
             window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
             {},
-            inverse_rows(clip)};
+            inverse_rows(clip),
+            scene_maps(scene, pipeline.gbuffer)};
   view.instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)
     view.instances.push_back(instance_transform(clip, instance.world_from_object));

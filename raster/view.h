@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/texture.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
@@ -36,6 +37,7 @@ struct View {
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
+  SceneMaps maps{};                          ///< what materials do with textures
 };
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,

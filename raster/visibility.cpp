@@ -99,7 +99,24 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, DepthCommit& commit,
+// The alpha test of the cluster's material; null if it has none.
+AlphaTest* alpha_test(const TileDraws& in, const Instance& instance, AlphaTest& test) {
+  const SceneMaps& maps = in.view.maps;
+  if (!maps.textured() || maps.material[instance.material].alpha_cutoff == 0.0f) return nullptr;
+  test.maps = &maps.material[instance.material];
+  test.uv_how = maps.uv_how;
+  test.alpha_how = maps.albedo_how;
+  return &test;
+}
+
+void set_source(const TileDraws& in, const Instance& instance, const Cluster& cluster, const size_t corner[3],
+                AlphaTest& test) {
+  uint32_t vertex[3];
+  for (size_t k = 0; k < 3; ++k) vertex[k] = in.clusters.meshes[instance.mesh].vertex[cluster.first_vertex + corner[k]];
+  test.set_source(in.scene.meshes[instance.mesh], vertex, in.state.provoking == Provoking::last ? 2 : 0);
+}
+
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, AlphaTest& alpha, DepthCommit& commit,
                   RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -123,12 +140,15 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
+  const Instance& instance = in.scene.instances[draw.instance];
+  commit.alpha = alpha_test(in, instance, alpha);
   for (int i = 0; i < count; ++i) {
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
+    if (commit.alpha != nullptr) set_source(in, instance, cluster, corner, alpha);
     if (careful) {
       ClipVertex clip[3];
       clip_corners(in, position, triangle[i], clip);
@@ -144,6 +164,10 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (commit.skip_hidden && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
+    if (commit.alpha != nullptr) {
+      const double inverse_w[3] = {v.u[corner[0]], v.u[corner[1]], v.u[corner[2]]};
+      alpha.set_piece(window, inverse_w);
+    }
     if (setup.samples() <= 4)
       cover_samples(setup, rect, commit);
     else
@@ -160,8 +184,9 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   const DepthFunc func = in.state.depth_func;
   const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
   DepthCommit commit{out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins};
+  AlphaTest alpha;
   if (!commit.skip_hidden) {
-    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, counts);
+    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, alpha, commit, counts);
   } else {
     std::vector<uint32_t> order(in.list.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -169,7 +194,7 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
       return near_depth(a) < near_depth(b) || (near_depth(a) == near_depth(b) && a < b);
     });
-    for (const uint32_t i : order) draw_cluster(in, rect, i, commit, counts);
+    for (const uint32_t i : order) draw_cluster(in, rect, i, alpha, commit, counts);
   }
   counts.fragments += commit.fragments;
 }
