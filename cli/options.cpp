@@ -60,11 +60,17 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
+std::vector<std::string_view> target_names() {
+  std::vector<std::string_view> names;
+  for (const Format format : kTargetFormats) names.push_back(info(format).name);
+  return names;
+}
+
 Format target_from_text(const std::string& text) {
-  constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
-  if (std::find(std::begin(kTargets), std::end(kTargets), text) == std::end(kTargets))
-    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(kTargets));
-  return *format_from_name(text);
+  const std::optional<Format> format = format_from_name(text);
+  if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
+    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(target_names()));
+  return *format;
 }
 
 std::vector<std::string> aovs_from_text(const std::string& list) {
@@ -122,7 +128,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  render->add_option("--target", texts.target, "Format the image is stored in: rgba8, rgba16f, rgba32f");
+  render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");

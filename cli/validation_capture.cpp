@@ -1,14 +1,16 @@
 #include "cli/validation_capture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "core/error.h"
 #include "core/half.h"
 #include "core/image_io.h"
+#include "core/small_float.h"
+#include "core/srgb.h"
 
 namespace trueshade {
 namespace {
@@ -31,37 +33,40 @@ Format stored_format(const Pipeline& pipeline, const std::string& plane) {
   return plane == "depth" ? Format::d32f : Format::r32ui;
 }
 
-/// The code k whose value a file stored as float or half: k / 255, rounded, as drivers read it back (GL_RULES section 3
-/// measured k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off.
-std::optional<uint8_t> code_of(double value, bool half) {
-  const double code = std::nearbyint(value * 255.0);
-  if (!(code >= 0.0 && code <= 255.0)) return std::nullopt;
-  const double reach = code / 255.0 * (half ? 0x1p-10 : 2 * 0x1p-23);
-  return std::fabs(value - code / 255.0) <= reach ? std::optional(uint8_t(code)) : std::nullopt;
+/// The code k whose value a file stored: k / largest, rounded, as drivers read it back (GL_RULES section 3 measured
+/// k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off, or in a 16-bit code.
+std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo& from) {
+  const double code = std::nearbyint(value * largest);
+  if (!(code >= 0.0 && code <= largest)) return std::nullopt;
+  if (from.small_float() && largest > 1023) return std::nullopt;  // halves have not that many values
+  const double off = from.number_class == NumberClass::unorm
+                         ? 0.51 / from.largest_code(0)
+                         : code / largest * (from.small_float() ? 0x1p-10 : 0x1p-22);
+  return std::fabs(value - code / largest) <= off ? std::optional(uint32_t(code)) : std::nullopt;
 }
 
-/// Stores one value at `texel`; false where the format has no such value.
-bool store(double value, Format format, bool from_half, uint8_t* texel) {
-  const FormatInfo layout = info(format);
-  if (layout.number_class == NumberClass::unorm) {
-    const std::optional<uint8_t> code = code_of(value, from_half);
-    *texel = code.value_or(0);
-    return code.has_value();
-  }
+/// The sRGB code whose linear value that is: within what llvmpipe's decoding is off (GL_RULES section 3: 2.5 %).
+std::optional<uint32_t> srgb_code_of(double value) {
+  const uint32_t code = srgb8_from_linear(float(value));
+  const double exact = double(kLinearOfSrgb8[code]);
+  return std::fabs(value - exact) <= 0.025 * exact ? std::optional(code) : std::nullopt;
+}
+
+/// What a channel of that format holds for a value; nothing where there is no such value.
+std::optional<uint32_t> bits_of(double value, const FormatInfo& layout, int channel, const FormatInfo& from) {
+  if (layout.srgb_channel(channel)) return srgb_code_of(value);
+  if (layout.number_class == NumberClass::unorm) return code_of(value, layout.largest_code(channel), from);
   if (layout.number_class == NumberClass::integer) {
-    if (!(value >= 0.0 && value <= kLargestWhole && value == std::floor(value))) return false;
-    const auto whole = uint32_t(value);
-    std::memcpy(texel, &whole, sizeof whole);
-    return true;
+    if (!(value >= 0.0 && value <= kLargestWhole && value == std::floor(value))) return std::nullopt;
+    return uint32_t(value);
   }
   const auto number = float(value);
-  if (layout.bytes_per_channel == 4) {
-    std::memcpy(texel, &number, sizeof number);
-    return true;
-  }
-  const uint16_t half = half_from_float(number, HalfRound::toward_zero);
-  std::memcpy(texel, &half, sizeof half);
-  return std::isnan(number) || float_from_half(half) == number;
+  const int bits = layout.bits[size_t(channel)];
+  if (bits == 32) return std::bit_cast<uint32_t>(number);
+  const uint32_t small = bits == 16 ? half_from_float(number, HalfRound::toward_zero)
+                                    : unsigned_from_float(number, bits, HalfRound::toward_zero);
+  const float held = bits == 16 ? float_from_half(uint16_t(small)) : float_from_unsigned(small, bits);
+  return std::isnan(number) || held == number ? std::optional(small) : std::nullopt;
 }
 
 /// The format of a plane of `channels` components whose pipeline format is `wanted`: formats of four components that
@@ -85,8 +90,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
                       name + " has " + std::to_string(from.channels) + " channels, and " +
                           std::string(info(wanted).name) + " has " + std::to_string(to.channels),
                       "write all of R G B A");
-  const bool half = from.bytes_per_channel == 2;
-  if (half && to.number_class == NumberClass::floating && to.bytes_per_channel == 4)
+  if (from.small_float() && to.number_class == NumberClass::floating && to.bytes_per_channel == 4)
     throw bad_capture(where, name + " is stored as half, and the pipeline's as " + std::string(info(wanted).name),
                       "write it as float, or name half formats in --pipeline");
   Image image(given.width, given.height, format);
@@ -94,11 +98,13 @@ Image converted(const std::string& where, const std::string& name, const Image& 
     for (int x = 0; x < given.width; ++x)
       for (int k = 0; k < to.channels; ++k) {
         const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? 1.0 : 0.0;
-        if (!store(value, format, half, image.texel(x, y) + k * to.bytes_per_channel))
+        const std::optional<uint32_t> bits = bits_of(value, to, k, from);
+        if (!bits)
           throw bad_capture(where,
                             name + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " +
                                 std::to_string(value) + ", which " + std::string(to.name) + " does not hold",
                             "name the plane's format in --pipeline, or capture before it is converted");
+        image.set_code(x, y, k, *bits);
       }
   return image;
 }
@@ -144,6 +150,8 @@ void store_as(const Pipeline& pipeline, const std::string& where, oracle::Captur
         where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
         "give the capture's size, or none");
   if (capture.color.width > 0) {
+    if (capture.color.format == Format::rgba8 && pipeline.target == Format::srgb8_a8)
+      capture.color.format = Format::srgb8_a8;  // a PNG holds codes, whatever they stand for
     if (capture.color.format == Format::rgba8 && pipeline.target != Format::rgba8)
       throw bad_capture(where,
                         "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits",

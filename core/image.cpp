@@ -7,6 +7,8 @@
 
 #include "core/half.h"
 #include "core/sha256.h"
+#include "core/small_float.h"
+#include "core/srgb.h"
 
 namespace trueshade {
 namespace {
@@ -25,6 +27,32 @@ void make_nans_one(uint8_t* bytes, size_t size, Word infinity, Word quiet_nan) {
   }
 }
 
+/// The same for words of two 11-bit floats and a 10-bit one.
+void make_packed_nans_one(uint8_t* bytes, size_t size) {
+  for (size_t i = 0; i < size; i += sizeof(uint32_t)) {
+    uint32_t word;
+    std::memcpy(&word, bytes + i, sizeof word);
+    for (const int first : {0, 11, 22}) {
+      const uint32_t fraction = first == 22 ? 5 : 6, field = (32u << fraction) - 1, infinity = 31u << fraction;
+      if (((word >> first) & field) > infinity)
+        word = (word & ~(field << first)) | (infinity | 1u << (fraction - 1)) << first;
+    }
+    std::memcpy(bytes + i, &word, sizeof word);
+  }
+}
+
+/// Where a channel of a packed word begins.
+int first_bit(const FormatInfo& layout, int channel) {
+  int first = 0;
+  for (int c = 0; c < channel; ++c) first += layout.bits[size_t(c)];
+  return first;
+}
+
+uint32_t mask_of(const FormatInfo& layout, int channel) {
+  const int bits = layout.bits[size_t(channel)];
+  return bits == 32 ? ~0u : (1u << bits) - 1;
+}
+
 }  // namespace
 
 Image::Image(int w, int h, Format f) : width(w), height(h), format(f) {
@@ -32,19 +60,47 @@ Image::Image(int w, int h, Format f) : width(w), height(h), format(f) {
   texels.resize(row_bytes() * size_t(h));
 }
 
-double Image::value(int x, int y, int channel) const {
+uint32_t Image::code(int x, int y, int channel) const {
   const FormatInfo layout = info(format);
   assert(x >= 0 && x < width && y >= 0 && y < height && channel >= 0 && channel < layout.channels);
-  const uint8_t* bytes = texel(x, y) + channel * layout.bytes_per_channel;
-  if (layout.number_class == NumberClass::unorm) return double(float(*bytes) / 255.0f);
-  if (layout.bytes_per_channel == 2) {
-    uint16_t half;
-    std::memcpy(&half, bytes, sizeof half);
-    return double(float_from_half(half));
+  uint32_t word = 0;
+  if (layout.packed()) {
+    std::memcpy(&word, texel(x, y), sizeof word);
+    return (word >> first_bit(layout, channel)) & mask_of(layout, channel);
+  }
+  std::memcpy(&word, texel(x, y) + channel * layout.bytes_per_channel, size_t(layout.bytes_per_channel));
+  return word;
+}
+
+void Image::set_code(int x, int y, int channel, uint32_t bits) {
+  const FormatInfo layout = info(format);
+  assert(x >= 0 && x < width && y >= 0 && y < height && channel >= 0 && channel < layout.channels);
+  assert((bits & ~mask_of(layout, channel)) == 0);
+  if (!layout.packed()) {
+    std::memcpy(texel(x, y) + channel * layout.bytes_per_channel, &bits, size_t(layout.bytes_per_channel));
+    return;
   }
   uint32_t word;
-  std::memcpy(&word, bytes, sizeof word);
-  return layout.number_class == NumberClass::integer ? double(word) : double(std::bit_cast<float>(word));
+  std::memcpy(&word, texel(x, y), sizeof word);
+  const int first = first_bit(layout, channel);
+  word = (word & ~(mask_of(layout, channel) << first)) | bits << first;
+  std::memcpy(texel(x, y), &word, sizeof word);
+}
+
+double Image::value(int x, int y, int channel) const {
+  const FormatInfo layout = info(format);
+  const uint32_t bits = code(x, y, channel);
+  if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[bits]);
+  if (layout.number_class == NumberClass::unorm) return double(float(bits) / float(layout.largest_code(channel)));
+  if (layout.number_class == NumberClass::integer) return double(bits);
+  switch (const int size = layout.bits[size_t(channel)]) {
+    case 32:
+      return double(std::bit_cast<float>(bits));
+    case 16:
+      return double(float_from_half(uint16_t(bits)));
+    default:
+      return double(float_from_unsigned(bits, size));
+  }
 }
 
 std::string image_hash(const Image& image) {
@@ -58,7 +114,9 @@ std::string image_hash(const Image& image) {
   for (size_t done = 0; done < image.texels.size(); done += chunk.size()) {
     const size_t size = std::min(kChunkBytes, image.texels.size() - done);
     chunk.assign(image.texels.data() + done, image.texels.data() + done + size);
-    if (layout.bytes_per_channel == 2)
+    if (layout.packed())
+      make_packed_nans_one(chunk.data(), size);
+    else if (layout.bytes_per_channel == 2)
       make_nans_one<uint16_t>(chunk.data(), size, 0x7c00, 0x7e00);
     else
       make_nans_one<uint32_t>(chunk.data(), size, 0x7f800000, 0x7fc00000);

@@ -10,7 +10,7 @@
 namespace trueshade {
 
 /// Stored texels of one plane. Rows run from the top of the picture down, without padding; channels R, G, B, A;
-/// multi-byte channels little-endian. These bytes are what `--hash` hashes.
+/// multi-byte channels and packed words little-endian. These bytes are what `--hash` hashes.
 struct Image {
   int width = 0, height = 0;  ///< pixels
   Format format = Format::rgba8;
@@ -23,7 +23,13 @@ struct Image {
   uint8_t* texel(int x, int y) { return texels.data() + offset(x, y); }  ///< y counts from the top
   const uint8_t* texel(int x, int y) const { return texels.data() + offset(x, y); }
 
-  /// Value of one channel: unorm as RN(code / 255), half and float as they are, integers converted. y from the top.
+  /// Bits of one channel as they are stored, in the lowest places. y from the top.
+  uint32_t code(int x, int y, int channel) const;
+  /// Replaces them; `bits` has none above the channel's.
+  void set_code(int x, int y, int channel, uint32_t bits);
+
+  /// Value of one channel, as a float: unorm RN(code / largest), sRGB decoded to linear, floats of any size as they
+  /// are; integers converted. y from the top.
   double value(int x, int y, int channel) const;
 
  private:
@@ -38,7 +44,8 @@ struct NamedImage {
   Image image;
 };
 
-/// SHA-256 of the stored bytes, 64 hex digits; every NaN counts as the quiet NaN 7FC00000 (half: 7E00).
+/// SHA-256 of the stored bytes, 64 hex digits; every NaN counts as the quiet NaN 7FC00000 (half: 7E00; 11 and
+/// 10 bits: 7E0, 3F0).
 std::string image_hash(const Image& image);
 
 }  // namespace trueshade

@@ -28,7 +28,7 @@ struct FileChannel {
 OIIO::TypeDesc stored_type(const FileChannel& channel) {
   const FormatInfo layout = info(channel.image->format);
   if (layout.number_class == NumberClass::integer) return OIIO::TypeDesc::UINT32;
-  return layout.bytes_per_channel == 2 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+  return layout.small_float() ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;  // a half holds 11 and 10 bits too
 }
 
 std::vector<FileChannel> exr_channels(const std::string& path, const Image& color, std::span<const NamedImage> aovs) {
@@ -51,16 +51,33 @@ uint8_t unorm8(float value) {
   return uint8_t(std::nearbyint(255.0f * clamped));
 }
 
-/// Rows [first, end) as a PNG holds them: unorm codes untouched, numbers sRGB-encoded, alpha linear.
+template <typename Number>
+void append(std::vector<uint8_t>& rows, Number number) {
+  const auto* bytes = reinterpret_cast<const uint8_t*>(&number);
+  rows.insert(rows.end(), bytes, bytes + sizeof number);
+}
+
+/// A code of fewer bits than 16 as the nearest of 16 bits: the PNG specification's (12.4) linear equation.
+uint16_t widened_code(uint32_t code, uint32_t largest) { return uint16_t((code * 65535u + largest / 2) / largest); }
+
+bool is_deep(const FormatInfo& layout) { return layout.number_class == NumberClass::unorm && layout.bits[0] > 8; }
+
+/// Rows [first, end) as a PNG holds them: unorm codes untouched where they are 8 or 16 bits, widened where they are 10;
+/// numbers sRGB-encoded, alpha linear.
 void pack_png_rows(const Image& color, int first, int end, std::vector<uint8_t>& rows) {
   rows.clear();
-  if (info(color.format).number_class == NumberClass::unorm) {
+  const FormatInfo layout = info(color.format);
+  if (layout.number_class == NumberClass::unorm && !layout.packed()) {
     rows.assign(color.texel(0, first), color.texel(0, first) + size_t(end - first) * color.row_bytes());
     return;
   }
   for (int y = first; y < end; ++y)
     for (int x = 0; x < color.width; ++x)
-      for (int channel = 0; channel < info(color.format).channels; ++channel) {
+      for (int channel = 0; channel < layout.channels; ++channel) {
+        if (is_deep(layout)) {
+          append(rows, widened_code(color.code(x, y, channel), layout.largest_code(channel)));
+          continue;
+        }
         const auto value = float(color.value(x, y, channel));
         rows.push_back(channel == 3 ? unorm8(value) : srgb8_from_linear(value));
       }
@@ -73,14 +90,13 @@ void pack_exr_rows(std::span<const FileChannel> channels, int first, int end, st
     for (int x = 0; x < channels[0].image->width; ++x)
       for (const FileChannel& source : channels) {
         const FormatInfo layout = info(source.image->format);
-        if (layout.number_class == NumberClass::unorm) {
-          const auto value = float(source.image->value(x, y, source.channel));
-          const auto* bytes = reinterpret_cast<const uint8_t*>(&value);
-          rows.insert(rows.end(), bytes, bytes + sizeof value);
-        } else {
-          const uint8_t* bytes = source.image->texel(x, y) + source.channel * layout.bytes_per_channel;
-          rows.insert(rows.end(), bytes, bytes + layout.bytes_per_channel);
-        }
+        const uint32_t code = source.image->code(x, y, source.channel);
+        if (layout.number_class == NumberClass::unorm)
+          append(rows, float(source.image->value(x, y, source.channel)));
+        else if (layout.small_float())
+          append(rows, layout.packed() ? uint16_t(code << (15 - layout.bits[size_t(source.channel)])) : uint16_t(code));
+        else
+          append(rows, code);
       }
 }
 
@@ -121,16 +137,17 @@ class Encoder {
 
 std::vector<uint8_t> png_bytes(const std::string& path, const Image& color, const Metadata& metadata) {
   const FormatInfo layout = info(color.format);
-  OIIO::ImageSpec spec(color.width, color.height, layout.channels, OIIO::TypeDesc::UINT8);
+  const OIIO::TypeDesc type = is_deep(layout) ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+  OIIO::ImageSpec spec(color.width, color.height, layout.channels, type);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // or the writer would divide by alpha
-  if (layout.number_class == NumberClass::floating) spec.attribute("oiio:ColorSpace", "sRGB");
+  if (layout.number_class == NumberClass::floating || layout.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
   Encoder png(path, "png");
   png.open("memory.png", spec, metadata);
   std::vector<uint8_t> rows;
   for (int first = 0; first < color.height; first += kRowsAtOnce) {
     const int end = std::min(first + kRowsAtOnce, color.height);
     pack_png_rows(color, first, end, rows);
-    png.write(first, end, OIIO::TypeDesc::UINT8, rows);
+    png.write(first, end, type, rows);
   }
   return png.close();
 }

@@ -12,9 +12,11 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;  ///< key, va
 
 /// Writes one picture; the ending of `path` (.png, .exr) chooses the file format. The file appears whole or not at all:
 /// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io) or Error(usage) for an ending.
-///   PNG: rgba8 codes as they are; float formats sRGB-encoded (IEC 61966-2-1) to 8 bits; alpha unassociated.
-///   EXR: single part, ZIP; `color` as R G B A (half stays half, unorm as RN(k/255)); each aov under its channel names
-///        (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X.., id.object, ...); PNG ignores `aovs`.
+///   PNG: unorm codes as they are, rgba16 in 16 bits, rgb10_a2 widened to 16 (RN(k * 65535 / 1023)); float formats
+///        sRGB-encoded (IEC 61966-2-1) to 8 bits; alpha unassociated, and none where the format has none.
+///   EXR: single part, ZIP; `color` as R G B A (halves and smaller floats as half, unorm as float RN(k/largest), sRGB
+///        decoded to linear); each aov under its channel names (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X..,
+///        id.object, ...); PNG ignores `aovs`.
 /// Date and software fields are constant, so equal images are equal files.
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
                  const Metadata& metadata);
@@ -42,9 +44,9 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
-/// where a plane has so few components; halves of those are widened), 8 bits RGBA of a PNG. Memory grows with the rows
-/// decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no plane at
-/// all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
+/// where a plane has so few components; halves of those are widened), RGBA of 8 or 16 bits of a PNG. Memory grows with
+/// the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no
+/// plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
 std::vector<NamedImage> read_planes(const std::string& path);
 
 }  // namespace trueshade

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "core/format.h"
+
 namespace trueshade {
 
 /// Whose bits a frame has where OpenGL leaves a choice (GL_RULES section 0).
@@ -23,6 +25,12 @@ constexpr std::optional<NumericProfile> profile_from_name(std::string_view name)
   for (size_t i = 0; i < std::size(kProfileNames); ++i)
     if (kProfileNames[i] == name) return NumericProfile(i);
   return std::nullopt;
+}
+
+/// Whether a profile promises the bits of a colour target of that format. What it does not promise, it refuses.
+constexpr bool profile_has(NumericProfile profile, Format target) {
+  if (profile == NumericProfile::ideal) return true;
+  return target == Format::rgba8 || target == Format::rgba16f || target == Format::rgba32f;
 }
 
 }  // namespace trueshade

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -91,9 +92,10 @@ enum Kind : uint8_t { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba =
 size_t texel_bytes(uint8_t kind) { return kind == kRgba ? 4 : kind == kRgb ? 3 : kind == kGreyAlpha ? 2 : 1; }
 
 void check_kind(const std::string& where, std::span<const uint8_t> header, PngKinds kinds) {
-  if (kinds == PngKinds::rgba && (header[8] != 8 || header[9] != kRgba))
-    throw refused(where, "its texels are not 8 bits RGBA", "write RGBA: alpha is judged too");
-  if (header[8] != 8) throw refused(where, "its channels are not of 8 bits", "write 8 bits a channel");
+  if (kinds == PngKinds::rgba && ((header[8] != 8 && header[8] != 16) || header[9] != kRgba))
+    throw refused(where, "its texels are not RGBA of 8 or 16 bits", "write RGBA: alpha is judged too");
+  if (kinds == PngKinds::any && header[8] != 8)
+    throw refused(where, "its channels are not of 8 bits", "write 8 bits a channel");
   if (header[10] != 0 || header[11] != 0 || header[12] != 0)
     throw refused(where, "it is interlaced, or compressed in an unknown way", "write it without interlacing");
 }
@@ -139,8 +141,9 @@ void spread(const std::string& where, uint8_t kind, const Palette& palette, cons
 Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKinds kinds) {
   std::unique_ptr<Inflater> texels;
   Palette palette;
-  int width = 0, height = 0;
+  Image image;
   uint8_t kind = kRgba;
+  size_t texel = 0;  // bytes, in the file
   for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
     const size_t length = word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
@@ -149,8 +152,10 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKi
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
       check_kind(where, data, kinds);
-      width = int(word_at(data, 0)), height = int(word_at(data, 4)), kind = data[9];
-      texels = std::make_unique<Inflater>(where, (size_t(width) * texel_bytes(kind) + 1) * size_t(height));
+      kind = data[9], texel = texel_bytes(kind) * data[8] / 8;
+      image.format = data[8] == 16 ? Format::rgba16 : Format::rgba8;
+      image.width = int(word_at(data, 0)), image.height = int(word_at(data, 4));
+      texels = std::make_unique<Inflater>(where, (size_t(image.width) * texel + 1) * size_t(image.height));
     } else if (name == "PLTE" && kind == kPalette) {
       palette.set_colors(where, data);
     } else if (name == "tRNS" && kind != kRgba) {
@@ -164,15 +169,20 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKi
     at += length + kChunkOverhead;
   }
   std::vector<uint8_t> rows = texels->finish();
-  Image image(width, height, Format::rgba8);
-  const size_t row_bytes = size_t(width) * texel_bytes(kind);
+  image.texels.resize(image.row_bytes() * size_t(image.height));
+  const size_t row_bytes = size_t(image.width) * texel;
   const uint8_t* above = nullptr;
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < image.height; ++y) {
     uint8_t* row = rows.data() + size_t(y) * (row_bytes + 1);
-    unfilter(where, row[0], row + 1, above, row_bytes, texel_bytes(kind));
-    spread(where, kind, palette, row + 1, size_t(width), image.texel(0, y));
+    unfilter(where, row[0], row + 1, above, row_bytes, texel);
+    if (image.format == Format::rgba8)
+      spread(where, kind, palette, row + 1, size_t(image.width), image.texel(0, y));
+    else
+      std::copy(row + 1, row + 1 + row_bytes, image.texel(0, y));
     above = row + 1;
   }
+  if (image.format == Format::rgba16)  // most significant byte first, in the file
+    for (size_t i = 0; i < image.texels.size(); i += 2) std::swap(image.texels[i], image.texels[i + 1]);
   return image;
 }
 

@@ -209,7 +209,7 @@ std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint
 
 std::vector<NamedImage> png_planes(const std::string& path, std::span<const uint8_t> bytes) {
   const ImageFileInfo header = png_header(path, bytes);
-  check_size(path, header.width, header.height, 4);
+  check_size(path, header.width, header.height, 8);
   std::vector<NamedImage> planes;
   planes.push_back({"color", png_pixels(path, bytes)});
   return planes;

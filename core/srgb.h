@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <limits>
 
 namespace trueshade {
 
@@ -29,6 +31,25 @@ inline constexpr std::array<double, 255> kSrgbCodeStarts = [] {
   std::array<double, 255> starts{};
   for (size_t k = 0; k < starts.size(); ++k) starts[k] = linear_from_srgb((double(k) + 0.5) / 255.0);
   return starts;
+}();
+
+/// The same as floats: the least float that has code k + 1, and infinity at the end.
+inline constexpr std::array<float, 256> kSrgbCodeFloats = [] {
+  std::array<float, 256> starts{};
+  for (size_t k = 0; k < kSrgbCodeStarts.size(); ++k) {
+    const auto near = float(kSrgbCodeStarts[k]);
+    const bool below = double(near) < kSrgbCodeStarts[k];
+    starts[k] = below ? std::bit_cast<float>(std::bit_cast<uint32_t>(near) + 1) : near;
+  }
+  starts[255] = std::numeric_limits<float>::infinity();
+  return starts;
+}();
+
+/// The linear value of each 8-bit sRGB code, rounded once.
+inline constexpr std::array<float, 256> kLinearOfSrgb8 = [] {
+  std::array<float, 256> values{};
+  for (size_t k = 0; k < values.size(); ++k) values[k] = float(linear_from_srgb(double(k) / 255.0));
+  return values;
 }();
 
 /// The nearest 8-bit sRGB code of a linear value, clamped to [0, 255]; NaN gives 0. A search, so no pow() takes part.

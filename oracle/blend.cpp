@@ -8,31 +8,66 @@
 namespace trueshade::oracle {
 namespace {
 
-/// Nearest integer to 255 x, ties to even, by remainders rather than by a rounding mode; the product is a float's.
-int code_of(float x) {
+/// Bits of a channel of a fixed-point format, 0 where the format is none: a list of its own.
+int unorm_bits(Format format, size_t channel) {
+  if (format == Format::rgba8 || format == Format::srgb8_a8) return 8;
+  if (format == Format::rgba16) return 16;
+  if (format == Format::rgb10_a2) return channel == 3 ? 2 : 10;
+  return 0;
+}
+
+bool has_alpha(Format format) { return format != Format::rgb16f && format != Format::r11g11b10f; }
+bool is_srgb(Format format, size_t channel) { return format == Format::srgb8_a8 && channel < 3; }
+
+/// Nearest integer to x times the largest code, ties to even, by remainders rather than by a rounding mode; the product
+/// is a float's.
+int code_of(float x, int largest) {
   if (!(x > 0.0f)) return 0;
-  if (x >= 1.0f) return 255;
-  const double product = double(x * 255.0f);
+  if (x >= 1.0f) return largest;
+  const double product = double(x * float(largest));
   const int below = int(product);
   const double rest = product - double(below);
   return rest > 0.5 || (rest == 0.5 && below % 2 != 0) ? below + 1 : below;
 }
 
+/// IEC 61966-2-1 both ways, by powers in long double.
+int srgb_code_of(float linear) {
+  if (!(linear > 0.0f)) return 0;
+  if (linear >= 1.0f) return 255;
+  const long double x = linear, code = x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L;
+  return int(std::floor(code * 255.0L + 0.5L));
+}
+float linear_of_srgb(int code) {
+  const long double x = code / 255.0L;
+  return float(x <= 0.04045L ? x / 12.92L : std::pow((x + 0.055L) / 1.055L, 2.4L));
+}
+
 float unit(float x) { return x >= 1.0f ? 1.0f : x > 0.0f ? x : 0.0f; }
 
-/// The half float next to x, toward zero or nearest, as the multiple of its unit in the last place.
-float half_of(float x, HalfRound round) {
-  if (std::isnan(x) || std::isinf(x)) return x;
-  const double magnitude = std::fabs(double(x));
+/// The float next to x, toward zero or nearest, of those with `fraction` bits of fraction and the exponents of a half:
+/// the multiple of its unit in the last place. Below 10 bits it has no sign and never rounds to infinity.
+float small_of(float x, int fraction, HalfRound round) {
+  const bool has_sign = fraction == 10;
+  if (std::isnan(x)) return x;
+  if (!has_sign && std::signbit(x)) return 0.0f;
+  if (std::isinf(x)) return x;
+  const double magnitude = std::fabs(double(x)), largest = std::ldexp(2.0 - std::ldexp(1.0, -fraction), 15);
   int exponent = 0;
   std::frexp(magnitude, &exponent);  // magnitude in [2^(exponent - 1), 2^exponent)
-  const double ulp = std::ldexp(1.0, std::max(exponent - 11, -24));
+  const double ulp = std::ldexp(1.0, std::max(exponent - 1 - fraction, -14 - fraction));
   double units = std::floor(magnitude / ulp);
   const double rest = magnitude / ulp - units;
   if (round == HalfRound::nearest && (rest > 0.5 || (rest == 0.5 && std::fmod(units, 2.0) != 0.0))) units += 1.0;
   double result = units * ulp;
-  if (result > 65504.0) result = round == HalfRound::nearest ? std::numeric_limits<double>::infinity() : 65504.0;
+  if (result > largest)
+    result = round == HalfRound::nearest && has_sign ? std::numeric_limits<double>::infinity() : largest;
   return float(std::copysign(result, double(x)));
+}
+
+float small_of(float x, Format format, size_t channel, HalfRound round) {
+  if (format == Format::rgba16f || format == Format::rgb16f) return small_of(x, 10, round);
+  if (format == Format::r11g11b10f) return small_of(x, channel == 2 ? 5 : 6, round);
+  return x;
 }
 
 /// Factors and operands are of any number; T is float for values, int for codes (whose one is 255).
@@ -135,22 +170,24 @@ Rgba blended_codes(const BlendState& state, const Rgba& source, const Rgba& stor
   Operands<int> in{{}, {}, {}, 255};
   Rgba out;
   for (size_t c = 0; c < 4; ++c) {
-    in.source[c] = code_of(source[c]);
+    in.source[c] = code_of(source[c], 255);
     in.destination[c] = int(stored[c]);
-    in.constant[c] = code_of(state.constant[c]);
+    in.constant[c] = code_of(state.constant[c], 255);
   }
   for (size_t c = 0; c < 4; ++c) out[c] = float(blended_code(c == 3 ? state.alpha : state.rgb, c, in));
   return out;
 }
 
-Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source, const Rgba& stored) {
+Rgba blended_values(const BlendState& state, NumericProfile profile, Format format, const Rgba& source,
+                    const Rgba& stored) {
   Operands<float> in{source, stored, state.constant, 1.0f};
-  const bool unorm = format == Format::rgba8;
-  for (size_t c = 0; unorm && c < 4; ++c) {
+  for (size_t c = 0; unorm_bits(format, 0) > 0 && c < 4; ++c) {
     in.source[c] = unit(source[c]);
-    in.destination[c] = stored[c] / 255.0f;
+    in.destination[c] = stored[c] / float((1 << unorm_bits(format, c)) - 1);
     in.constant[c] = unit(state.constant[c]);
+    if (is_srgb(format, c)) in.destination[c] = linear_of_srgb(int(stored[c]));
   }
+  if (!has_alpha(format)) in.destination[3] = 1.0f;
   const auto zero_source = [](const BlendTerm& t) { return takes_factors(t) && t.src == BlendFactor::zero; };
   const auto zero_destination = [](const BlendTerm& t) { return takes_factors(t) && t.dst == BlendFactor::zero; };
   const auto same = [](const BlendTerm& t) { return !takes_factors(t) || t.src == t.dst; };
@@ -188,26 +225,27 @@ Rgba blended_values(const BlendState& state, NumericProfile profile, Format form
 
 }  // namespace
 
-Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round, const Rgba& source,
-                   const Rgba& stored) {
-  const bool unorm = format == Format::rgba8;
+Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round,
+                   const Rgba& source, const Rgba& stored) {
+  const bool unorm = unorm_bits(format, 0) > 0;
   const bool codes = unorm && profile != NumericProfile::ideal;
   Rgba out = !state.enabled ? source
              : codes        ? blended_codes(state, source, stored)
                             : blended_values(state, profile, format, source, stored);
   for (size_t c = 0; c < 4; ++c) {
     const BlendTerm& term = c == 3 ? state.alpha : state.rgb;
-    if (!state.mask[c]) {
+    if (!state.mask[c] || (c == 3 && !has_alpha(format))) {
       out[c] = stored[c];
       continue;
     }
-    const bool accumulates = unorm && !codes && state.enabled && term == kAccumulate;
+    const int largest = (1 << unorm_bits(format, c)) - 1;
+    const bool accumulates = unorm && !codes && state.enabled && term == kAccumulate && !is_srgb(format, c);
     if (accumulates)
-      out[c] = std::fmin(255.0f, stored[c] + float(code_of(source[c])));
+      out[c] = std::fmin(float(largest), stored[c] + float(code_of(source[c], largest)));
     else if (unorm && !(codes && state.enabled))
-      out[c] = float(code_of(out[c]));
-    else if (format == Format::rgba16f)
-      out[c] = half_of(out[c], half_round);
+      out[c] = float(is_srgb(format, c) ? srgb_code_of(out[c]) : code_of(out[c], largest));
+    else if (!unorm)
+      out[c] = small_of(out[c], format, c, half_round);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "core/format.h"
 #include "core/numeric_profile.h"
+#include "core/srgb.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -20,57 +21,109 @@ using DI = hn::RebindToSigned<DF>;
 using DU = hn::RebindToUnsigned<DF>;
 using VF = hn::Vec<DF>;
 
-/// q(x): RNE(255 * clamp(x)) as a float; NaN gives 0. Compares, because Min and Max treat NaN differently by target.
-HWY_INLINE VF unorm8_code(VF x) {
+/// [0, 1]; NaN gives 0. Compares, because Min and Max treat NaN differently by target.
+HWY_INLINE VF clamped_unit(VF x) {
   const DF d;
-  const VF one = hn::Set(d, 1.0f);
-  const VF positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
-  return hn::Round(hn::Mul(hn::IfThenElse(hn::Gt(positive, one), one, positive), hn::Set(d, 255.0f)));
+  const VF one = hn::Set(d, 1.0f), positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+  return hn::IfThenElse(hn::Gt(positive, one), one, positive);
 }
 
-/// The float a half float holds after storing x; by integers, since Highway's own conversion truncates on some targets.
-HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
+/// q(x): RNE(largest * clamp(x)) as a float, the product rounded to float first.
+HWY_INLINE VF unorm_code(VF x, float largest) { return hn::Round(hn::Mul(clamped_unit(x), hn::Set(DF(), largest))); }
+HWY_INLINE VF unorm8_code(VF x) { return unorm_code(x, 255.0f); }
+
+/// The nearest sRGB code of a linear value: how many codes begin at or below it. NaN gives 0.
+HWY_INLINE VF srgb8_code(VF x) {
+  const DF d;
+  const DI di;
+  auto code = hn::Zero(di);
+  for (int step = 128; step > 0; step /= 2) {
+    const VF start = hn::GatherIndex(d, kSrgbCodeFloats.data(), hn::Add(code, hn::Set(di, step - 1)));
+    code = hn::Add(code, hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(x, start)), hn::Set(di, step)));
+  }
+  return hn::ConvertTo(d, code);
+}
+
+/// Quiet, as every NaN is stored.
+HWY_INLINE VF one_nan() { return hn::BitCast(DF(), hn::Set(DU(), 0x7FC00000u)); }
+
+/// The float next to a magnitude that has `kFraction` bits of fraction and a half's exponents: 1 + 2^-kFraction is one,
+/// and so are the multiples of 2^(-14 - kFraction) below 2^-14. Finite values stop at the largest one, or, for
+/// `nearest` halves, go to infinity as IEEE 754 says. Integers do it: Highway's own conversion truncates on some
+/// targets.
+template <int kFraction>
+HWY_INLINE VF rounded_magnitude(VF magnitude, bool nearest) {
   const DF d;
   const DU du;
-  const auto bits = hn::BitCast(du, x);
-  const auto sign = hn::And(bits, hn::Set(du, 0x80000000u));
-  const VF magnitude = hn::Abs(x);
-  const auto magnitude_bits = hn::BitCast(du, magnitude);
-  const bool nearest = mode == HalfRound::nearest;
-  // Normal halves keep 10 mantissa bits of 23; subnormal ones are multiples of 2^-24.
-  const auto odd = hn::And(hn::ShiftRight<13>(magnitude_bits), hn::Set(du, 1u));
-  const auto bumped = nearest ? hn::Add(magnitude_bits, hn::Add(odd, hn::Set(du, 0xFFFu))) : magnitude_bits;
-  const VF normal = hn::BitCast(d, hn::And(bumped, hn::Set(du, 0xFFFFE000u)));
-  const VF scaled = hn::Mul(magnitude, hn::Set(d, 0x1p24f));
-  const VF tiny = hn::Mul(nearest ? hn::Round(scaled) : hn::Trunc(scaled), hn::Set(d, 0x1p-24f));
-  const VF inf = hn::BitCast(d, hn::Set(du, 0x7F800000u)), most = hn::Set(d, 65504.0f);
+  constexpr int kDropped = 23 - kFraction;
+  constexpr uint32_t kRest = (1u << kDropped) - 1;
+  constexpr float kUnit = kFraction == 10 ? 0x1p-24f : kFraction == 6 ? 0x1p-20f : 0x1p-19f;
+  const auto bits = hn::BitCast(du, magnitude);
+  const auto odd = hn::And(hn::ShiftRight<kDropped>(bits), hn::Set(du, 1u));
+  const auto bumped = nearest ? hn::Add(bits, hn::Add(odd, hn::Set(du, kRest / 2))) : bits;
+  const VF normal = hn::BitCast(d, hn::And(bumped, hn::Set(du, ~kRest)));
+  const VF scaled = hn::Mul(magnitude, hn::Set(d, 1.0f / kUnit));
+  const VF tiny = hn::Mul(nearest ? hn::Round(scaled) : hn::Trunc(scaled), hn::Set(d, kUnit));
+  const VF inf = hn::BitCast(d, hn::Set(du, 0x7F800000u)),
+           most = hn::Set(d, 65536.0f - 32768.0f / float(1 << kFraction));
   VF result = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d, 0x1p-14f)), tiny, normal);
-  result = hn::IfThenElse(hn::Gt(result, most), nearest ? inf : most, result);
-  result = hn::IfThenElse(hn::Eq(magnitude, inf), inf, result);
-  result = hn::IfThenElse(hn::Eq(x, x), result, hn::BitCast(d, hn::Set(du, 0x7FC00000u)));
-  return hn::BitCast(
-      d, hn::Or(hn::BitCast(du, hn::Abs(result)), hn::IfThenElseZero(hn::RebindMask(du, hn::Eq(x, x)), sign)));
+  result = hn::IfThenElse(hn::Gt(result, most), nearest && kFraction == 10 ? inf : most, result);
+  return hn::IfThenElse(hn::Eq(magnitude, inf), inf, result);
 }
 
-/// The float that a shader reads from code k: the nearest to k / 255, or llvmpipe's k * RN(1 / 255), which differs in
-/// 126 of the 256 codes.
-HWY_INLINE VF unorm8_value(VF code, NumericProfile profile) {
+/// The float a half float holds after storing x.
+HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
+  const DU du;
+  const auto sign = hn::And(hn::BitCast(du, x), hn::Set(du, 0x80000000u));
+  const VF result = rounded_magnitude<10>(hn::Abs(x), mode == HalfRound::nearest);
+  return hn::IfThenElse(hn::Eq(x, x), hn::BitCast(DF(), hn::Or(hn::BitCast(du, result), sign)), one_nan());
+}
+
+/// The float an unsigned float of 6 or 5 bits of fraction holds after storing x: negative ones give 0.
+template <int kFraction>
+HWY_INLINE VF rounded_to_unsigned(VF x, HalfRound mode) {
   const DF d;
-  return profile == NumericProfile::ideal ? hn::Div(code, hn::Set(d, 255.0f))
-                                          : hn::Mul(code, hn::Set(d, 1.0f / 255.0f));
+  const VF result =
+      rounded_magnitude<kFraction>(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), mode == HalfRound::nearest);
+  return hn::IfThenElse(hn::Eq(x, x), result, one_nan());
 }
 
-/// What reading back gives after storing x in a channel of `format`.
-HWY_INLINE VF stored_value(VF x, Format format, HalfRound mode, NumericProfile profile) {
+/// What channel c of a format holds after storing x: the code as a float, or the float itself.
+HWY_INLINE VF encoded(VF x, Format format, int c, HalfRound mode) {
   switch (format) {
     case Format::rgba8:
-      return unorm8_value(unorm8_code(x), profile);
+      return unorm8_code(x);
+    case Format::srgb8_a8:
+      return c == 3 ? unorm8_code(x) : srgb8_code(x);
+    case Format::rgb10_a2:
+      return unorm_code(x, c == 3 ? 3.0f : 1023.0f);
+    case Format::rgba16:
+      return unorm_code(x, 65535.0f);
+    case Format::r11g11b10f:
+      return c == 2 ? rounded_to_unsigned<5>(x, mode) : rounded_to_unsigned<6>(x, mode);
     case Format::rgb16f:
     case Format::rgba16f:
       return rounded_to_half(x, mode);
     default:
       return x;
   }
+}
+
+/// The float that a shader reads from what channel c holds: for codes the nearest to k / largest, or llvmpipe's
+/// k * RN(1 / largest), which differs in 126 of 256 codes.
+HWY_INLINE VF decoded(VF held, Format format, int c, NumericProfile profile) {
+  const FormatInfo layout = info(format);
+  if (layout.number_class != NumberClass::unorm) return held;
+  const DF d;
+  if (layout.srgb_channel(c)) return hn::GatherIndex(d, kLinearOfSrgb8.data(), hn::ConvertTo(DI(), held));
+  const auto largest = float(layout.largest_code(c));
+  return profile == NumericProfile::ideal ? hn::Div(held, hn::Set(d, largest))
+                                          : hn::Mul(held, hn::Set(d, 1.0f / largest));
+}
+
+/// What reading back gives after storing x in channel c of `format`.
+HWY_INLINE VF stored_value(VF x, Format format, int c, HalfRound mode, NumericProfile profile) {
+  return decoded(encoded(x, format, c, mode), format, c, profile);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -332,12 +332,13 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
     for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] *= base[c];
   }
   for (int g = 0; g < groups; ++g) {
-    if (info(group[g].plane.format).bytes_per_channel == 4) continue;
-    for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
+    const Format format = group[g].plane.format;
+    if (info(format).bytes_per_channel == 4) continue;
+    for (int c = 0; c < group[g].count; ++c) {
+      float* plane = out.plane[group[g].first + c];
       for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
-        hn::Store(
-            stored_value(hn::Load(d, out.plane[c] + i), group[g].plane.format, planes.half_round, in.view.profile), d,
-            out.plane[c] + i);
+        hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, in.view.profile), d, plane + i);
+    }
   }
 }
 

@@ -67,10 +67,10 @@ struct PlaneState {
   bool operator==(const PlaneState&) const = default;
 };
 
-/// The planes the light pass reads, in the formats that round them. position, normal, uv: rgba32f, rgba16f or rgb16f;
-/// albedo: these or rgba8. Depth is d32f, ids are r32ui. The planes `specular` (RGB the specular colour, A the
-/// shininess; rgba32f or rgba16f) and `emission` (rgba32f, rgba16f, rgb16f or rgba8) exist where the light model reads
-/// them; they hold what the material makes of the pixel.
+/// The planes the light pass reads, in the formats that round them. position, uv: kPositionFormats; normal:
+/// kNormalFormats; albedo: kAlbedoFormats. Ids are r32ui. The planes `specular` (RGB the specular colour, A the
+/// shininess; kSpecularFormats) and `emission` (kEmissionFormats) exist where the light model reads them; they hold
+/// what the material makes of the pixel.
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
   Format specular = Format::rgba32f, emission = Format::rgba32f;
@@ -103,7 +103,7 @@ struct Pipeline {
   LightVolumes light_volumes;
   BlendState blend = kAddLight;  ///< of deferred-volumes, a light's draws; forward-multipass always has kAddLight
   Strategy strategy = Strategy::deferred_loop;
-  Format target = Format::rgba8;  ///< rgba8, rgba16f or rgba32f
+  Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;
   bool operator==(const Pipeline&) const = default;
 };

@@ -1,6 +1,7 @@
 #include "scenes/pipeline_json.h"
 
 #include <array>
+#include <vector>
 
 #include "scenes/presets.h"
 
@@ -227,27 +228,30 @@ void read_geometry(const json::Node& node, GeometryState& g) {
   read_choice(node, "provoking", g.provoking, kProvoking);
 }
 
-Format read_format(const json::Node& node, Names names) { return *format_from_name(names[node.choice(names)]); }
+void read_format(const json::Node& object, std::string_view key, Format& format, std::span<const Format> allowed) {
+  const auto node = object.find(key);
+  if (!node) return;
+  std::vector<std::string_view> names;
+  for (const Format f : allowed) names.push_back(info(f).name);
+  format = allowed[node->choice(names)];
+}
 
-void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& plane) {
-  constexpr std::string_view kFormats[] = {"rgba32f", "rgba16f", "rgb16f", "rgba8"};  // rgba8 for albedo alone
+void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& plane, std::span<const Format> allowed) {
   const auto node = gbuffer.find(key);
   if (!node) return;
   node->check_keys(kObjects[kPlane]);
-  if (const auto format = node->find("format"))
-    plane.format = read_format(*format, Names(kFormats).first(key == "albedo" ? 4 : 3));
+  read_format(*node, "format", plane.format, allowed);
   read_choice(*node, "interpolation", plane.interpolation, kInterpolations);
 }
 
 void read_gbuffer(const json::Node& node, GBufferState& g) {
   node.check_keys(kObjects[kGBuffer]);
-  read_plane(node, "position", g.position);
-  read_plane(node, "normal", g.normal);
-  read_plane(node, "albedo", g.albedo);
-  read_plane(node, "uv", g.uv);
-  constexpr std::string_view kFormats[] = {"rgba32f", "rgba16f", "rgb16f", "rgba8"};  // specular has an alpha
-  if (const auto format = node.find("specular_format")) g.specular = read_format(*format, Names(kFormats).first(2));
-  if (const auto format = node.find("emission_format")) g.emission = read_format(*format, kFormats);
+  read_plane(node, "position", g.position, kPositionFormats);
+  read_plane(node, "normal", g.normal, kNormalFormats);
+  read_plane(node, "albedo", g.albedo, kAlbedoFormats);
+  read_plane(node, "uv", g.uv, kPositionFormats);
+  read_format(node, "specular_format", g.specular, kSpecularFormats);
+  read_format(node, "emission_format", g.emission, kEmissionFormats);
   read_flag(node, "position_from_depth", g.position_from_depth);
   read_choice(node, "half_round", g.half_round, kHalfRounds);
 }
@@ -340,7 +344,6 @@ std::string pipeline_json(const Pipeline& pipeline) {
 }
 
 Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
-  constexpr std::string_view kTargets[] = {"rgba8", "rgba16f", "rgba32f"};
   node.check_keys(kObjects[kRoot]);
   if (const auto version = node.find("version")) version->integer(1, 1);
   Pipeline p = base;
@@ -357,7 +360,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   if (const auto volumes = node.find("light_volumes")) read_light_volumes(*volumes, p.light_volumes);
   if (const auto blend = node.find("blend")) read_blend(*blend, p.blend);
   read_choice(node, "strategy", p.strategy, kStrategyNames);
-  if (const auto target = node.find("target")) p.target = read_format(*target, kTargets);
+  read_format(node, "target", p.target, kTargetFormats);
   read_choice(node, "profile", p.profile, kProfileNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
     node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions",

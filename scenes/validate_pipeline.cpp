@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <span>
 
 #include "core/error.h"
 #include "scenes/pipeline.h"
@@ -25,9 +25,12 @@ void require_enumerator(Enum value, Enum last, const char* field) {
   require(value <= last, field, std::to_string(int(value)), "an enumerator of its type");
 }
 
-void require_format(Format format, std::initializer_list<Format> allowed, const char* field, const char* range) {
+void require_format(Format format, std::span<const Format> allowed, const char* field) {
+  std::string names;
+  for (const Format f : allowed)
+    names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(info(f).name);
   require(std::find(allowed.begin(), allowed.end(), format) != allowed.end(), field, std::string(info(format).name),
-          range);
+          names.c_str());
 }
 
 void check_geometry(const GeometryState& g) {
@@ -45,18 +48,14 @@ void check_geometry(const GeometryState& g) {
 }
 
 void check_gbuffer(const GBufferState& g) {
-  constexpr const char* kFloats = "rgba32f, rgba16f or rgb16f";
-  require_format(g.position.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.position.format",
-                 kFloats);
-  require_format(g.normal.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.normal.format", kFloats);
-  require_format(g.uv.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f}, "gbuffer.uv.format", kFloats);
-  require_format(g.albedo.format, {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8},
-                 "gbuffer.albedo.format", "rgba32f, rgba16f, rgb16f or rgba8");
+  require_format(g.position.format, kPositionFormats, "gbuffer.position.format");
+  require_format(g.normal.format, kNormalFormats, "gbuffer.normal.format");
+  require_format(g.uv.format, kPositionFormats, "gbuffer.uv.format");
+  require_format(g.albedo.format, kAlbedoFormats, "gbuffer.albedo.format");
   for (const PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})
     require_enumerator(plane->interpolation, Interpolation::noperspective, "gbuffer: interpolation");
-  require_format(g.specular, {Format::rgba32f, Format::rgba16f}, "gbuffer.specular", "rgba32f or rgba16f");
-  require_format(g.emission, {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8}, "gbuffer.emission",
-                 "rgba32f, rgba16f, rgb16f or rgba8");
+  require_format(g.specular, kSpecularFormats, "gbuffer.specular");
+  require_format(g.emission, kEmissionFormats, "gbuffer.emission");
   require_enumerator(g.half_round, HalfRound::nearest, "gbuffer.half_round");
 }
 
@@ -108,9 +107,13 @@ void validate(const Pipeline& pipeline) {
   check_light_volumes(pipeline.light_volumes);
   check_blend(pipeline.blend);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
-  require_format(pipeline.target, {Format::rgba8, Format::rgba16f, Format::rgba32f}, "target",
-                 "rgba8, rgba16f or rgba32f");
+  require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
+  if (!profile_has(pipeline.profile, pipeline.target))
+    throw Error(ErrorKind::usage, "target",
+                std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +
+                    std::string(info(pipeline.target).name),
+                "use the profile ideal, or a target it promises: rgba8, rgba16f, rgba32f");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

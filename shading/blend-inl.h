@@ -9,9 +9,10 @@
 
 #include <hwy/highway.h>
 
-#include "core/blend_state.h"
-#include "core/numeric_profile.h"
+#include <array>
+
 #include "raster/store-inl.h"
+#include "shading/blend.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -63,7 +64,8 @@ HWY_INLINE VF factor_value(BlendFactor factor, int c, const BlendInputs& in) {
   return in.one;
 }
 
-/// What a state comes to under a profile, decided once for all pixels.
+/// What a state comes to in a target, decided once for all pixels. What pixels hold, their stored form, is codes as
+/// floats or the floats themselves; only the format's own channels are touched.
 struct BlendPlan {
   struct Group {
     BlendTerm term;
@@ -72,11 +74,42 @@ struct BlendPlan {
   bool factored;  ///< (S op D) * factor
   bool flushes;   ///< denormal operands and results of arithmetic count as 0, their sign kept
   bool copies;    ///< where one term is dropped the other has no product either: no arithmetic, nothing to flush
+
+  BlendTarget target;
+  FormatInfo layout;
+  bool enabled;
+  bool codes;                     ///< blended in codes, as llvmpipe does
+  std::array<bool, 4> written;    ///< by channel: the format has it, and the mask lets it through
+  std::array<float, 4> constant;  ///< as equations read it: clamped for unorm, or in codes
+
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
+  bool unorm() const { return layout.number_class == NumberClass::unorm; }
+  /// Light upon light in fixed point: codes are added (DESIGN, settled 4); not where codes are no linear values.
+  bool adds_codes(int c) const { return unorm() && !codes && !layout.srgb_channel(c) && group(c).term == kAccumulate; }
+  float largest(int c) const { return float(layout.largest_code(c)); }
 };
 
-inline BlendPlan blend_plan(const BlendState& state, NumericProfile profile, Format format) {
-  BlendPlan plan{{state.rgb, false, false}, {state.alpha, false, false}, false, false, false};
+inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) {
+  BlendPlan plan{{state.rgb, false, false},
+                 {state.alpha, false, false},
+                 false,
+                 false,
+                 false,
+                 target,
+                 info(target.format),
+                 state.enabled,
+                 false,
+                 state.mask,
+                 state.constant};
+  plan.codes = plan.unorm() && target.profile != NumericProfile::ideal;
+  for (int c = 0; c < 4; ++c) {
+    plan.written[size_t(c)] = plan.written[size_t(c)] && c < plan.layout.channels;
+    const VF constant = hn::Set(DF(), state.constant[size_t(c)]);
+    if (plan.codes)
+      plan.constant[size_t(c)] = hn::GetLane(unorm_code(constant, plan.largest(c)));
+    else if (plan.unorm())
+      plan.constant[size_t(c)] = hn::GetLane(clamped_unit(constant));
+  }
   for (BlendPlan::Group* group : {&plan.rgb, &plan.alpha}) {
     BlendTerm& term = group->term;
     if (term.equation == BlendEquation::min || term.equation == BlendEquation::max)
@@ -84,8 +117,8 @@ inline BlendPlan blend_plan(const BlendState& state, NumericProfile profile, For
     group->drop_source = term.src == BlendFactor::zero;
     group->drop_destination = term.dst == BlendFactor::zero;
   }
-  if (profile == NumericProfile::ideal) return plan;
-  plan.flushes = format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
+  if (target.profile == NumericProfile::ideal) return plan;
+  plan.flushes = target.format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
   // llvmpipe works on whole RGBA vectors: it leaves a product out, or factors, only where both groups allow it.
   plan.factored = plan.rgb.term.src == plan.rgb.term.dst && plan.alpha.term.src == plan.alpha.term.dst;
   const BlendFactor kept = plan.rgb.drop_source ? plan.rgb.term.dst : plan.rgb.term.src;
@@ -160,6 +193,52 @@ HWY_INLINE VF blended_codes(const BlendPlan& plan, int c, const BlendInputs& in)
   const VF source = code_product(in.source[c], factor_value(term.src, c, in));
   const VF destination = code_product(in.destination[c], factor_value(term.dst, c, in));
   return greater(lesser(combined(term.equation, source, destination), in.one), hn::Zero(DF()));
+}
+
+/// What blending off, or a clear, leaves of x in channel c.
+HWY_INLINE VF encoded_alone(const BlendPlan& plan, VF x, int c) {
+  const VF held = encoded(x, plan.target.format, c, plan.target.half_round);
+  return plan.unorm() ? held : hn::IfThenElse(hn::Eq(held, held), held, one_nan());
+}
+
+HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF stored[4], BlendInputs& in) {
+  const DF d;
+  in.one = hn::Set(d, plan.codes ? 255.0f : 1.0f);
+  for (int c = 0; c < 4; ++c) {
+    in.constant[c] = hn::Set(d, plan.constant[size_t(c)]);
+    if (plan.codes) {
+      in.source[c] = unorm_code(source[c], plan.largest(c));
+      in.destination[c] = stored[c];
+    } else {
+      in.source[c] = plan.unorm() ? clamped_unit(source[c]) : source[c];
+      in.destination[c] = decoded(stored[c], plan.target.format, c, NumericProfile::ideal);
+    }
+  }
+  if (plan.layout.channels < 4) in.destination[3] = in.one;  // a missing alpha is 1
+  in.source_alpha = plan.codes ? in.source[3] : flushed(plan, in.source[3]);
+}
+
+/// Blends a vector of fragments into the pixels `stored` holds, in their stored form: blend_pixels() in registers.
+/// Fixed point: `ideal` blends values and rounds once, except that light upon light adds codes; llvmpipe blends codes.
+inline void blend_vectors(const BlendPlan& plan, const VF source[4], VF stored[4]) {
+  const DF d;
+  VF out[4];
+  if (!plan.enabled) {
+    for (int c = 0; c < 4; ++c) out[c] = encoded_alone(plan, source[c], c);
+  } else {
+    BlendInputs in;
+    set_inputs(plan, source, stored, in);
+    for (int c = 0; c < 4; ++c) {
+      if (plan.codes)
+        out[c] = blended_codes(plan, c, in);
+      else if (plan.adds_codes(c))
+        out[c] = lesser(hn::Add(stored[c], unorm_code(in.source[c], plan.largest(c))), hn::Set(d, plan.largest(c)));
+      else
+        out[c] = encoded_alone(plan, blended_values(plan, c, in), c);
+    }
+  }
+  for (int c = 0; c < 4; ++c)
+    if (plan.written[size_t(c)]) stored[c] = out[c];
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

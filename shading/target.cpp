@@ -6,23 +6,30 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "core/half.h"
+#include "core/small_float.h"
 #include "raster/store-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// RGBA8 codes of a tile, red in the low byte.
-void pack_unorm8(const ColorTile& color, int pixels, uint32_t* out) {
+/// Codes of `count` channels of a tile from `first` on, the first in the lowest bits. `color` holds them already, or
+/// values to encode.
+void pack_codes(const ColorTile& color, bool encode, int pixels, Format format, int first, int count, uint32_t* out) {
   const DF d;
   const DI di;
+  const FormatInfo layout = info(format);
   for (int i = 0; i < pixels; i += int(hn::Lanes(d))) {
     auto packed = hn::Zero(di);
-    for (int c = 3; c >= 0; --c)
-      packed = hn::Or(hn::ShiftLeft<8>(packed), hn::ConvertTo(di, unorm8_code(hn::Load(d, color.plane[c] + i))));
+    for (int c = first + count - 1; c >= first; --c) {
+      const VF value = hn::Load(d, color.plane[c] + i);
+      const VF code = encode ? encoded(value, format, c, HalfRound::toward_zero) : value;
+      packed = hn::Or(hn::ShiftLeftSame(packed, layout.bits[size_t(c)]), hn::ConvertTo(di, code));
+    }
     hn::Store(hn::BitCast(DU(), packed), DU(), out + i);
   }
 }
@@ -32,7 +39,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace trueshade {
-HWY_EXPORT(pack_unorm8);
+HWY_EXPORT(pack_codes);
 
 namespace {
 
@@ -45,18 +52,54 @@ void for_each_texel(const TileRect& rect, Image& image, const Write& write) {
       write(tile_index(rect.size, x, y), image.texel(rect.x + x, image.height - 1 - (rect.y + y)));
 }
 
+uint32_t channel_bits(float value, int bits, bool unorm, HalfRound half_round) {
+  if (unorm)
+    return uint32_t(value * float((1u << bits) - 1) + 0.5f);  // a read-back value RN(k / largest) gives k again
+  if (bits == 32) return std::bit_cast<uint32_t>(value);
+  return bits == 16 ? half_from_float(value, half_round) : unsigned_from_float(value, bits, half_round);
+}
+
 void write_channels(const float* value, Format format, HalfRound half_round, uint8_t* texel) {
   const FormatInfo f = info(format);
-  for (int c = 0; c < f.channels; ++c) {
-    if (f.bytes_per_channel == 4) {
-      std::memcpy(texel + 4 * c, value + c, 4);
-    } else if (f.bytes_per_channel == 2) {
-      const uint16_t half = half_from_float(value[c], half_round);
-      std::memcpy(texel + 2 * c, &half, 2);
-    } else {
-      texel[c] = uint8_t(value[c] * 255.0f + 0.5f);  // a read-back value RN(k / 255) gives k again
-    }
+  uint32_t word = 0;
+  for (int c = 0, first = 0; c < f.channels; first += f.bits[size_t(c)], ++c) {
+    const uint32_t code = channel_bits(value[c], f.bits[size_t(c)], f.number_class == NumberClass::unorm, half_round);
+    word |= f.packed() ? code << first : 0;
+    if (!f.packed()) std::memcpy(texel + c * f.bytes_per_channel, &code, size_t(f.bytes_per_channel));
   }
+  if (f.packed()) std::memcpy(texel, &word, sizeof word);
+}
+
+/// Words of a tile, one a texel and plane, into their places.
+void write_words(const uint32_t* words, int at_byte, const TileRect& rect, Image& target) {
+  const int width = std::min(rect.size, target.width - rect.x), height = std::min(rect.size, target.height - rect.y);
+  const bool whole = info(target.format).bytes_per_texel() == 4;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; x += kBlockSize) {
+      const uint32_t* from = words + tile_index(rect.size, x, y);
+      uint8_t* to = target.texel(rect.x + x, target.height - 1 - (rect.y + y)) + at_byte;
+      const int count = std::min(kBlockSize, width - x);
+      if (whole) std::memcpy(to, from, size_t(4 * count));
+      for (int i = 0; i < count && !whole; ++i)
+        std::memcpy(to + i * info(target.format).bytes_per_texel(), from + i, 4);
+    }
+}
+
+void write_tile(const ColorTile& color, bool encode, const TileRect& rect, HalfRound half_round, Image& target) {
+  const FormatInfo layout = info(target.format);
+  if (layout.number_class == NumberClass::unorm) {
+    alignas(64) uint32_t words[kMaxTilePixels];
+    const int channels = layout.bytes_per_channel == 2 ? 2 : 4;  // of a word
+    for (int first = 0; first < layout.channels; first += channels) {
+      HWY_DYNAMIC_DISPATCH(pack_codes)(color, encode, rect.size * rect.size, target.format, first, channels, words);
+      write_words(words, first * layout.bytes_per_channel, rect, target);
+    }
+    return;
+  }
+  for_each_texel(rect, target, [&](int i, uint8_t* texel) {
+    const float value[4] = {color.plane[0][i], color.plane[1][i], color.plane[2][i], color.plane[3][i]};
+    write_channels(value, target.format, half_round, texel);
+  });
 }
 
 struct Planes {
@@ -74,20 +117,11 @@ Planes planes_of(std::string_view name) {
 }  // namespace
 
 void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target) {
-  if (target.format == Format::rgba8) {
-    alignas(64) uint32_t packed[kMaxTilePixels];
-    HWY_DYNAMIC_DISPATCH(pack_unorm8)(color, rect.size * rect.size, packed);
-    const int width = std::min(rect.size, target.width - rect.x), height = std::min(rect.size, target.height - rect.y);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; x += kBlockSize)
-        std::memcpy(target.texel(rect.x + x, target.height - 1 - (rect.y + y)), packed + tile_index(rect.size, x, y),
-                    size_t(4 * std::min(kBlockSize, width - x)));
-    return;
-  }
-  for_each_texel(rect, target, [&](int i, uint8_t* texel) {
-    const float value[4] = {color.plane[0][i], color.plane[1][i], color.plane[2][i], color.plane[3][i]};
-    write_channels(value, target.format, half_round, texel);
-  });
+  write_tile(color, true, rect, half_round, target);
+}
+
+void write_stored(const ColorTile& stored, const TileRect& rect, Image& target) {
+  write_tile(stored, false, rect, HalfRound::toward_zero, target);
 }
 
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,

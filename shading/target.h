@@ -10,6 +10,9 @@ namespace trueshade {
 /// the image, whose rows run from the top down while the tile's y points up.
 void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target);
 
+/// The same for a tile whose pixels are in their stored form, as blend_pixels() leaves them.
+void write_stored(const ColorTile& stored, const TileRect& rect, Image& target);
+
 /// Writes one plane of a tile into an AOV image of the same size.
 /// Names are aov_names(); pixels without a surface get 0, depth its stored value.
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,

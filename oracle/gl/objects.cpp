@@ -14,6 +14,14 @@ GlFormat gl_format(Format format) {
   switch (format) {
     case Format::rgba8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::srgb8_a8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::rgb10_a2:
+      return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV};
+    case Format::rgba16:
+      return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT};
+    case Format::r11g11b10f:
+      return {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV};
     case Format::rgb16f:
       return {GL_RGB16F, GL_RGB, GL_HALF_FLOAT};
     case Format::rgba16f:
@@ -28,6 +36,10 @@ GlFormat gl_format(Format format) {
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
     case Format::d32f:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::d24:
+      return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
+    case Format::d16:
+      return {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT};
   }
   return {};
 }

@@ -23,6 +23,14 @@ std::string gl_name(Format format) {
   switch (format) {
     case Format::rgba8:
       return "GL_RGBA8";
+    case Format::srgb8_a8:
+      return "GL_SRGB8_ALPHA8";
+    case Format::rgb10_a2:
+      return "GL_RGB10_A2";
+    case Format::rgba16:
+      return "GL_RGBA16";
+    case Format::r11g11b10f:
+      return "GL_R11F_G11F_B10F";
     case Format::rgb16f:
       return "GL_RGB16F";
     case Format::rgba16f:
@@ -37,6 +45,10 @@ std::string gl_name(Format format) {
       return "GL_R32UI";
     case Format::d32f:
       return "GL_DEPTH_COMPONENT32F";
+    case Format::d24:
+      return "GL_DEPTH_COMPONENT24";
+    case Format::d16:
+      return "GL_DEPTH_COMPONENT16";
   }
   return {};
 }

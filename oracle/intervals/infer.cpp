@@ -8,12 +8,13 @@ namespace {
 
 class Inquiry {
  public:
-  Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture) : scene_(scene), pipeline_(pipeline), capture_(capture) {
+  Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture)
+      : scene_(scene), pipeline_(pipeline), capture_(capture) {
     const auto look = [&](const Image& image) {
       if (image.width == 0) return;
       const FormatInfo f = info(image.format);
       unorm_ = unorm_ || f.number_class == NumberClass::unorm;
-      half_ = half_ || (f.number_class == NumberClass::floating && f.bytes_per_channel == 2);
+      half_ = half_ || f.small_float();
     };
     look(capture.color);
     for (const NamedImage& p : capture.planes) look(p.image);
@@ -36,7 +37,8 @@ class Inquiry {
  private:
   uint64_t against(const Profile& profile, bool lighting, const char* knob, const std::string& value) {
     uint64_t violations = judge_gbuffer(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
-    if (lighting && lit_) violations += judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
+    if (lighting && lit_)
+      violations += judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
     result_.tried.push_back({knob, value, violations});
     return violations;
   }
@@ -47,8 +49,9 @@ class Inquiry {
       SnapRule rule;
     };
     // The likeliest first: of those that explain the image, the first is taken.
-    constexpr Grid grids[] = {{8, SnapRule::nearest}, {8, SnapRule::toward_zero}, {4, SnapRule::nearest}, {6, SnapRule::nearest},
-                              {10, SnapRule::nearest}, {12, SnapRule::nearest}, {8, SnapRule::nearest_0_6}};
+    constexpr Grid grids[] = {{8, SnapRule::nearest},    {8, SnapRule::toward_zero}, {4, SnapRule::nearest},
+                              {6, SnapRule::nearest},    {10, SnapRule::nearest},    {12, SnapRule::nearest},
+                              {8, SnapRule::nearest_0_6}};
     for (const Grid& grid : grids) {
       Profile p = loose_;
       p.subpixel_bits = grid.bits;
@@ -65,7 +68,8 @@ class Inquiry {
     Profile snapped = loose_, unsnapped = loose_;
     snapped.plane_origin = PlaneOrigin::snapped;
     unsnapped.plane_origin = PlaneOrigin::unsnapped;
-    const bool a = against(snapped, false, "plane origin", "snapped") == 0, b = against(unsnapped, false, "plane origin", "unsnapped") == 0;
+    const bool a = against(snapped, false, "plane origin", "snapped") == 0,
+               b = against(unsnapped, false, "plane origin", "unsnapped") == 0;
     if (a || b) result_.plane_origin = a && b ? PlaneOrigin::either : a ? PlaneOrigin::snapped : PlaneOrigin::unsnapped;
     if (a != b) loose_.plane_origin = *result_.plane_origin;
   }
@@ -75,7 +79,8 @@ class Inquiry {
       Profile truncated = loose_, nearest = loose_;
       truncated.half = HalfStore::toward_zero;
       nearest.half = HalfStore::nearest;
-      const bool a = against(truncated, true, "half", text(truncated.half)) == 0, b = against(nearest, true, "half", text(nearest.half)) == 0;
+      const bool a = against(truncated, true, "half", text(truncated.half)) == 0,
+                 b = against(nearest, true, "half", text(nearest.half)) == 0;
       if (a || b) result_.half = a && b ? HalfStore::either : a ? HalfStore::toward_zero : HalfStore::nearest;
       if (a != b) loose_.half = *result_.half;
     }
@@ -113,10 +118,12 @@ Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capt
 }
 
 std::string text(const Inference& i) {
-  std::string line = i.subpixel_bits ? std::to_string(*i.subpixel_bits) + " bits, " + text(*i.snap) : "no grid explains it";
+  std::string line =
+      i.subpixel_bits ? std::to_string(*i.subpixel_bits) + " bits, " + text(*i.snap) : "no grid explains it";
   line += std::string("; planes ") + (i.plane_origin ? text(*i.plane_origin) : "of neither origin");
   line += std::string("; half ") + (i.half ? text(*i.half) : "not told");
-  line += "; unorm " + (i.unorm_reach ? "within " + std::to_string(*i.unorm_reach).substr(0, 3) : std::string("not told"));
+  line +=
+      "; unorm " + (i.unorm_reach ? "within " + std::to_string(*i.unorm_reach).substr(0, 3) : std::string("not told"));
   return line;
 }
 

@@ -12,17 +12,21 @@ namespace {
 struct AttributePlane {
   const char* name;
   PlaneView view;
-  size_t first;      ///< index in VertexValues
-  int count;         ///< channels interpolated; those after them are constants
-  double rest[2];    ///< channels 2 and 3 where they are not interpolated
+  size_t first;    ///< index in VertexValues
+  int count;       ///< channels interpolated; those after them are constants
+  double rest[2];  ///< channels 2 and 3 where they are not interpolated
   Interpolation interpolation;
 };
 
 class GBufferJudge {
  public:
   GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
-      : projector_(scene, pipeline, profile), pipeline_(pipeline), profile_(profile), depth_(plane_of(capture, pipeline, "depth")),
-        object_(plane_of(capture, pipeline, "id.object")), material_(plane_of(capture, pipeline, "id.material")) {
+      : projector_(scene, pipeline, profile),
+        pipeline_(pipeline),
+        profile_(profile),
+        depth_(plane_of(capture, pipeline, "depth")),
+        object_(plane_of(capture, pipeline, "id.object")),
+        material_(plane_of(capture, pipeline, "id.material")) {
     const GBufferState& g = pipeline.gbuffer;
     const AttributePlane all[] = {
         {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
@@ -32,7 +36,8 @@ class GBufferJudge {
     for (const AttributePlane& p : all)
       if (p.view && !(g.position_from_depth && p.first == kPosition)) planes_.push_back(p);
     if (planes_.empty() && !depth_ && !object_ && !material_)
-      throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane", "capture depth, position, normal, albedo, uv or ids");
+      throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
+                  "capture depth, position, normal, albedo, uv or ids");
     candidates_ = find_candidates(projector_);
   }
 
@@ -75,7 +80,8 @@ class GBufferJudge {
     if (depth_) {
       double largest = 0;
       for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
-      m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest), depth_.stored(x, y_top, 0), pixel, profile_);
+      m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest),
+                   depth_.stored(x, y_top, 0), pixel, profile_);
     }
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
@@ -84,7 +90,8 @@ class GBufferJudge {
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
         if (k >= p.count) {
-          if (stored != p.rest[k - 2]) m.note(p.name, k, {p.rest[k - 2], p.rest[k - 2], p.rest[k - 2]}, stored, 1);
+          const double rest = p.view.constant(p.rest[k - 2], k);
+          if (stored != rest) m.note(p.name, k, {rest, rest, rest}, stored, 1);
           continue;
         }
         Range range = value_of(point, piece, values, p, k);
@@ -94,7 +101,8 @@ class GBufferJudge {
     return m;
   }
 
-  Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p, int k) const {
+  Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p,
+                 int k) const {
     const size_t index = p.first + size_t(k);
     if (p.interpolation == Interpolation::flat) {
       const size_t corner = pipeline_.geometry.provoking == Provoking::last ? 2 : 0;
@@ -111,7 +119,8 @@ class GBufferJudge {
     if (profile_.exact_planes) {
       const auto times = [&](double v) { return double(float(float(v) * float(tint))); };
       const Range f{double(float(r.value)), double(float(r.low)), double(float(r.high))};
-      if (tint >= 0) return {times(f.value), std::min(times(f.low), times(f.value)), std::max(times(f.high), times(f.value))};
+      if (tint >= 0)
+        return {times(f.value), std::min(times(f.low), times(f.value)), std::max(times(f.high), times(f.value))};
       return {times(f.value), times(f.high), times(f.low)};
     }
     const double a = r.low * tint, b = r.high * tint;
@@ -120,7 +129,8 @@ class GBufferJudge {
   }
 
   /// Candidates that may be seen, the nominal one first.
-  std::vector<const Candidate*> legal_candidates(std::span<const Candidate> all, const Candidate*& nominal, bool& certain) const;
+  std::vector<const Candidate*> legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
+                                                 bool& certain) const;
   void judge_pixel(int x, int y_top, RowTally& row) const;
   PixelClass class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const;
 
@@ -142,7 +152,8 @@ bool ruled_out(const Projector& p, const Candidate& earlier, const Candidate& la
   const Candidate &winner = last_wins ? later : earlier, &loser = last_wins ? earlier : later;
   if (!winner.certain) return false;
   const bool points = winner.low == winner.high && loser.low == loser.high && winner.low == loser.low;
-  return points || (p.clip_of(earlier.instance, earlier.triangle) == p.clip_of(later.instance, later.triangle) && earlier.piece == later.piece);
+  return points || (p.clip_of(earlier.instance, earlier.triangle) == p.clip_of(later.instance, later.triangle) &&
+                    earlier.piece == later.piece);
 }
 
 std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
@@ -180,7 +191,8 @@ PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate*
   if (seen == nominal) return !bounded ? PixelClass::undefined : m.second ? PixelClass::store_2 : PixelClass::exact;
   const bool doubt = (seen != nullptr && !seen->certain) || (nominal != nullptr && !nominal->certain);
   if (!doubt) return PixelClass::depth_tie;
-  const bool cut = (seen != nullptr && !seen->certain && seen->cut) || (nominal != nullptr && !nominal->certain && nominal->cut);
+  const bool cut =
+      (seen != nullptr && !seen->certain && seen->cut) || (nominal != nullptr && !nominal->certain && nominal->cut);
   return cut ? PixelClass::clip : PixelClass::edge;
 }
 
@@ -245,7 +257,8 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
 
 }  // namespace
 
-StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture) {
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                           const Capture& capture) {
   const Profile p = resolved(profile, pipeline);
   const GBufferJudge judge(scene, pipeline, p, capture);
   std::vector<RowTally> rows(size_t(pipeline.height));

@@ -15,9 +15,15 @@ constexpr size_t kMostBranches = 8;  // 256 sums; beyond that the hull of all of
 class LightingJudge {
  public:
   LightingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
-      : scene_(scene), pipeline_(pipeline), profile_(profile), color_(required(capture, "color")), normal_(required(capture, "normal")),
-        albedo_(required(capture, "albedo")), object_(plane_of(capture, pipeline, "id.object")),
-        count_(plane_of(capture, pipeline, "light.count")), viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
+      : scene_(scene),
+        pipeline_(pipeline),
+        profile_(profile),
+        color_(required(capture, "color")),
+        normal_(required(capture, "normal")),
+        albedo_(required(capture, "albedo")),
+        object_(plane_of(capture, pipeline, "id.object")),
+        count_(plane_of(capture, pipeline, "light.count")),
+        viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
     if (pipeline.gbuffer.position_from_depth) {
       depth_ = required(capture, "depth");
       invert();
@@ -25,7 +31,8 @@ class LightingJudge {
       position_ = required(capture, "position");
       depth_ = plane_of(capture, pipeline, "depth");
     }
-    if (!object_ && !depth_) throw Error(ErrorKind::bad_input, "capture", "does not say where a surface is", "capture id.object or depth");
+    if (!object_ && !depth_)
+      throw Error(ErrorKind::bad_input, "capture", "does not say where a surface is", "capture id.object or depth");
   }
 
   void judge_row(int y, RowTally& row) const {
@@ -35,7 +42,8 @@ class LightingJudge {
  private:
   PlaneView required(const Capture& capture, std::string_view name) const {
     const PlaneView view = plane_of(capture, pipeline_, name);
-    if (!view) throw Error(ErrorKind::bad_input, "capture", "has no plane " + std::string(name), "lighting is judged from it");
+    if (!view)
+      throw Error(ErrorKind::bad_input, "capture", "has no plane " + std::string(name), "lighting is judged from it");
     return view;
   }
 
@@ -43,12 +51,12 @@ class LightingJudge {
     return object_ ? object_.stored(x, y, 0) != 0 : depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth);
   }
 
-  /// A channel as the shader reads it; unorm codes k as k / 255 with the profile's fetch error.
+  /// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error.
   Bounded fetched(const PlaneView& view, int x, int y, int channel) const {
     const double stored = view.stored(x, y, channel);
-    if (view.number_class != NumberClass::unorm) return {stored, 0};
-    const double value = stored / 255;
-    return {value, stored == 0 || stored == 255 ? 0 : value * profile_.fetch_error};
+    if (!view.unorm()) return {stored, 0};
+    const double largest = view.layout.largest_code(channel), value = stored / largest;
+    return {value, stored == 0 || stored == largest ? 0 : value * profile_.fetch_error};
   }
 
   ShadedSurface surface_at(int x, int y) const {
@@ -86,7 +94,8 @@ void LightingJudge::invert() {
     size_t pivot = c;
     for (size_t r = c + 1; r < 4; ++r)
       if (std::fabs(a[r][c]) > std::fabs(a[pivot][c])) pivot = r;
-    if (a[pivot][c] == 0) throw Error(ErrorKind::bad_input, "camera", "its matrix has no inverse", "position from depth needs one");
+    if (a[pivot][c] == 0)
+      throw Error(ErrorKind::bad_input, "camera", "its matrix has no inverse", "position from depth needs one");
     std::swap(a[c], a[pivot]);
     for (size_t k = 8; k-- > c;) a[c][k] /= a[c][c];
     for (size_t r = 0; r < 4; ++r) {
@@ -109,8 +118,9 @@ Bounded3 LightingJudge::position_from_depth(int x, int y) const {
     return Bounded{at - 1, 3 * v * (std::fabs(at) + 1)};
   };
   const double z = depth_.stored(x, y, 0);
-  std::array<Bounded, 4> p = {ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
-                              Bounded{(z - offset) / scale, 4 * v * (std::fabs(z) + std::fabs(offset)) / std::fabs(scale)}, Bounded{1, 0}};
+  std::array<Bounded, 4> p = {
+      ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
+      Bounded{(z - offset) / scale, 4 * v * (std::fabs(z) + std::fabs(offset)) / std::fabs(scale)}, Bounded{1, 0}};
   if (pipeline_.geometry.clip_origin == ClipOrigin::upper_left) p[1].value = -p[1].value;
   std::array<Bounded, 4> h;
   for (size_t r = 0; r < 4; ++r)
@@ -140,7 +150,11 @@ void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
     const double c = double(scene_.clear[k]);
     m.channel_is(color_, "color", k, {c, c, c}, color_.stored(x, y, k), pixel, profile_);
   }
-  row.take(x, y, !m.legal ? PixelClass::violation : m.second ? PixelClass::store_2 : PixelClass::exact, m, "nothing drawn");
+  row.take(x, y,
+           !m.legal   ? PixelClass::violation
+           : m.second ? PixelClass::store_2
+                      : PixelClass::exact,
+           m, "nothing drawn");
 }
 
 void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
@@ -154,7 +168,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   const auto others = [&](Match& m) {
     if (color_.channels > 3) {
       const Bounded alpha = pipeline_.light_model.alpha_from_albedo ? surface.albedo[3] : Bounded{1, 0};
-      m.channel_is(color_, "color", 3, range_of(alpha), color_.stored(x, y, 3), uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), profile_);
+      m.channel_is(color_, "color", 3, range_of(alpha), color_.stored(x, y, 3),
+                   uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), profile_);
     }
     const double lights = count_ ? count_.stored(x, y, 0) : 0;
     if (count_ && (lights < lit.lights_low || lights > lit.lights_high))
@@ -190,7 +205,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
 
 }  // namespace
 
-StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture) {
+StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                            const Capture& capture) {
   const Profile p = resolved(profile, pipeline);
   const LightingJudge judge(scene, pipeline, p, capture);
   std::vector<RowTally> rows(size_t(pipeline.height));

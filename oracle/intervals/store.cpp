@@ -6,27 +6,30 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr double kLargestHalf = 65504;
+/// Floats with the exponents of a half, and `fraction` bits of fraction; no sign below 10.
+struct SmallFloat {
+  int fraction;
+  bool has_sign() const { return fraction == 10; }
+  double largest() const { return std::ldexp(2 - std::ldexp(1.0, -fraction), 15); }
+  double spacing(double x) const { return std::ldexp(1.0, (x == 0 ? -14 : std::max(std::ilogb(x), -14)) - fraction); }
 
-double half_spacing(double x) {
-  int exponent = x == 0 ? -14 : std::max(std::ilogb(x), -14);
-  return std::ldexp(1.0, exponent - 10);
-}
+  double below(double x) const {
+    const double unit = spacing(x), found = std::floor(x / unit) * unit;
+    if (found > largest()) return x == HUGE_VAL ? x : largest();
+    return found < -largest() ? -HUGE_VAL : found;
+  }
+  double above(double x) const { return -below(-x); }
 
-double half_toward_zero(double x) {
-  const double magnitude = std::min(half_below(std::fabs(x)), kLargestHalf);
-  return std::copysign(magnitude, x);
-}
-
-double half_nearest(double x) {
-  if (std::fabs(x) >= 65520) return std::copysign(HUGE_VAL, x);  // half way to the half that is not there
-  const double below = half_below(x), above = half_above(x);
-  if (below == above) return x;
-  if (x - below != above - x) return x - below < above - x ? below : above;
-  return std::fmod(below / half_spacing(x), 2) == 0 ? below : above;
-}
-
-double stored_half(double x, HalfStore mode) { return mode == HalfStore::toward_zero ? half_toward_zero(x) : half_nearest(x); }
+  double toward_zero(double x) const { return std::copysign(std::min(below(std::fabs(x)), largest()), x); }
+  double nearest(double x) const {
+    if (std::fabs(x) >= largest() + spacing(largest()) / 2) return std::copysign(HUGE_VAL, x);
+    const double low = below(x), high = above(x);
+    if (low == high) return x;
+    if (x - low != high - x) return x - low < high - x ? low : high;
+    return std::fmod(low / spacing(x), 2) == 0 ? low : high;
+  }
+  double stored(double x, HalfStore mode) const { return mode == HalfStore::toward_zero ? toward_zero(x) : nearest(x); }
+};
 
 double float_below(double x) {
   const auto f = float(x);
@@ -43,41 +46,69 @@ void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   t.second_side = up >= down ? 1 : -1;
 }
 
-/// RNE(fl32(x * 255)) of a float x in [0, 1], as GL_RULES section 3 measured it.
-double nearest_code(double x) { return std::nearbyint(double(float(std::clamp(x, 0.0, 1.0)) * 255.0f)); }
+/// Codes within `reach` of the ends of a range of codes.
+void set_reach(LegalTexel& t, double low, double high, double reach, double largest) {
+  if (reach == 1.0) {
+    t.low = std::max(0.0, std::floor(low));
+    t.high = std::min(largest, std::ceil(high));
+  } else {
+    t.low = std::max(0.0, std::ceil(low - reach));
+    t.high = std::min(largest, std::floor(high + reach));
+  }
+}
 
-LegalTexel unorm8(const Range& r, const Profile& profile) {
+LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   const auto scaled = [&](double x, double direction) {
-    const double clamped = std::clamp(x, 0.0, 1.0) * 255;
+    const double clamped = std::clamp(x, 0.0, 1.0) * largest;
     return clamped * (1 + direction * 0x1p-24);  // the product is a float before it is rounded
   };
-  const double low = scaled(r.low, -1), high = std::min(255.0, scaled(r.high, 1)), value = scaled(r.value, 0);
+  // RNE(fl32(x * largest)) of a float x in [0, 1], as GL_RULES section 3 measured it.
+  const auto nearest_code = [&](double x) {
+    return std::nearbyint(double(float(std::clamp(x, 0.0, 1.0)) * float(largest)));
+  };
+  const double low = scaled(r.low, -1), high = std::min(largest, scaled(r.high, 1)), value = scaled(r.value, 0);
   LegalTexel t;
   t.nominal = nearest_code(r.value);
   if (profile.unorm_reach == 0.5) {
     t.low = nearest_code(float_below(r.low));
     t.high = nearest_code(float_above(r.high));
-  } else if (profile.unorm_reach == 1.0) {
-    t.low = std::max(0.0, std::floor(low));
-    t.high = std::min(255.0, std::ceil(high));
   } else {
-    t.low = std::max(0.0, std::ceil(low - profile.unorm_reach));
-    t.high = std::min(255.0, std::floor(high + profile.unorm_reach));
+    set_reach(t, low, high, profile.unorm_reach, largest);
   }
   if (r.low < r.high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
   return t;
 }
 
-LegalTexel half(const Range& r, const Profile& profile) {
+LegalTexel srgb8(const Range& r, const Profile& profile) {
+  const auto scaled = [](double x) {
+    const double c = std::clamp(x, 0.0, 1.0);
+    return 255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
+  };
+  const bool exact = profile.exact_planes;
+  const double slack = profile.unorm_reach == 1.0 ? 0.002 : 0;
+  const double low = scaled(r.low), high = scaled(r.high), value = scaled(r.value);
+  LegalTexel t;
+  t.nominal = std::nearbyint(value);
+  set_reach(t, std::max(0.0, low - slack), std::min(255.0, high + slack),
+            exact ? 0.5 : std::max(0.6, profile.unorm_reach), 255);
+  if (low < high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
+  return t;
+}
+
+LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) {
+  if (!grid.has_sign()) r = {std::max(0.0, r.value), std::max(0.0, r.low), std::max(0.0, r.high)};
   LegalTexel t;
   if (profile.half == HalfStore::either) {
-    t = {half_toward_zero(r.value), half_below(r.low), half_above(r.high)};
-    if (r.high > kLargestHalf) t.high = HUGE_VAL;  // to the largest half or to infinity
-    if (r.low < -kLargestHalf) t.low = -HUGE_VAL;
+    t = {grid.toward_zero(r.value), grid.below(r.low), grid.above(r.high)};
+    if (r.high > grid.largest()) t.high = HUGE_VAL;  // to the largest or to infinity
+    if (r.low < -grid.largest()) t.low = -HUGE_VAL;
   } else {
-    t = {stored_half(r.value, profile.half), stored_half(r.low, profile.half), stored_half(r.high, profile.half)};
+    t = {grid.stored(r.value, profile.half), grid.stored(r.low, profile.half), grid.stored(r.high, profile.half)};
   }
-  const double spacing = half_spacing(r.value);
+  if (!grid.has_sign())
+    for (double* end : {&t.nominal, &t.low, &t.high})
+      if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
+  const double spacing = grid.spacing(r.value);
   const bool truncates = profile.half != HalfStore::nearest;
   const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);
   const double above = truncates && t.nominal < 0 ? t.nominal : t.nominal + (truncates ? spacing : spacing / 2);
@@ -87,16 +118,14 @@ LegalTexel half(const Range& r, const Profile& profile) {
 
 }  // namespace
 
-double half_below(double x) {
-  const double spacing = half_spacing(x), below = std::floor(x / spacing) * spacing;
-  if (below > kLargestHalf) return x == HUGE_VAL ? x : kLargestHalf;
-  return below < -kLargestHalf ? -HUGE_VAL : below;
-}
-double half_above(double x) { return -half_below(-x); }
-
-LegalTexel legal_texel(const Range& range, NumberClass number_class, int bytes_per_channel, const Profile& profile) {
-  if (number_class == NumberClass::unorm) return unorm8(range, profile);
-  if (bytes_per_channel == 2) return half(range, profile);
+LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile) {
+  const FormatInfo layout = info(format);
+  if (layout.srgb_channel(channel)) return srgb8(range, profile);
+  if (layout.number_class == NumberClass::unorm) return unorm(range, double(layout.largest_code(channel)), profile);
+  if (layout.small_float()) {
+    const int bits = layout.bits[size_t(channel)];
+    return small_float(range, {bits == 16 ? 10 : bits - 5}, profile);
+  }
   return {range.value, float_below(range.low), float_above(range.high)};
 }
 

@@ -11,11 +11,11 @@ namespace {
 constexpr size_t kWorst = 32;
 
 /// One unit in the last place of what the plane stores at `value`.
-double unit_of(const PlaneView& view, double value) {
-  if (view.number_class != NumberClass::floating) return 1;
-  if (!std::isfinite(value)) return 1;
-  const int exponent = value == 0 ? -126 : std::max(std::ilogb(value), -126);
-  return view.bytes == 2 ? std::ldexp(1.0, std::max(exponent, -14) - 10) : std::ldexp(1.0, exponent - 23);
+double unit_of(const PlaneView& view, int channel, double value) {
+  if (view.layout.number_class != NumberClass::floating || !std::isfinite(value)) return 1;
+  const int exponent = value == 0 ? -126 : std::max(std::ilogb(value), -126), bits = view.layout.bits[size_t(channel)];
+  if (!view.layout.small_float()) return std::ldexp(1.0, exponent - 23);
+  return std::ldexp(1.0, std::max(exponent, -14) - (bits == 16 ? 10 : bits - 5));
 }
 
 bool worse(const WorstPixel& a, const WorstPixel& b) {
@@ -39,12 +39,12 @@ std::string_view text(PixelClass c) {
 
 PlaneView::PlaneView(const Image* i) : image(i) {
   if (i == nullptr) return;
-  const FormatInfo f = info(i->format);
-  channels = f.channels, number_class = f.number_class, bytes = f.bytes_per_channel;
+  layout = info(i->format);
+  channels = layout.channels;
 }
 
 double PlaneView::stored(int x, int y, int channel) const {
-  return number_class == NumberClass::unorm ? double(image->texel(x, y)[channel]) : image->value(x, y, channel);
+  return unorm() ? double(image->code(x, y, channel)) : image->value(x, y, channel);
 }
 
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
@@ -60,15 +60,16 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
 void Match::note(const char* name, int at, const LegalTexel& value, double stored, double unit) {
   legal = false;
   const double width = std::isfinite(value.high - value.low) ? value.high - value.low : 0;
-  double outside = std::isnan(stored) ? HUGE_VAL : std::max(value.low - stored, stored - value.high) / std::max(unit, width);
+  double outside =
+      std::isnan(stored) ? HUGE_VAL : std::max(value.low - stored, stored - value.high) / std::max(unit, width);
   if (!(outside > excess)) return;
   excess = outside, plane = name, channel = at, legal_value = value, given = stored;
 }
 
-void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored, uint32_t pixel,
-                       const Profile& profile) {
-  const LegalTexel texel = legal_texel(range, view.number_class, view.bytes, profile);
-  if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, texel.nominal));
+void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
+                       uint32_t pixel, const Profile& profile) {
+  const LegalTexel texel = legal_texel(range, view.image->format, at, profile);
+  if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, at, texel.nominal));
   if (!view.quantised()) {
     const double bound = std::max(texel.high - range.value, range.value - texel.low);
     if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - range.value) / bound);
@@ -77,7 +78,8 @@ void Match::channel_is(const PlaneView& view, const char* name, int at, const Ra
   ++stored_values;
   const auto taken = int8_t(stored < texel.nominal ? -1 : stored > texel.nominal ? 1 : 0);
   second = second || taken != 0;
-  if (view.bytes == 2 && profile.half == HalfStore::either) return;  // which neighbour is the nominal one is not known
+  if (view.layout.small_float() && profile.half == HalfStore::either)
+    return;  // which neighbour is the nominal one is not known
   const auto side = int8_t(texel.second_chance > 0 ? texel.second_side : taken);
   if (taken != 0 || texel.second_chance > 0)
     choices.push_back({pixel, float(range.value), float(texel.second_chance), side, taken});
@@ -99,17 +101,20 @@ void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::s
   const char* name = match.plane;
   std::string place = name;
   if (!place.empty()) place += std::string(".") + kChannel[match.channel & 3];
-  worst.push_back({x, y, c, place, match.legal_value.low, match.legal_value.high, match.legal_value.nominal, match.given, match.excess, surface});
+  worst.push_back({x, y, c, place, match.legal_value.low, match.legal_value.high, match.legal_value.nominal,
+                   match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);
 }
 
 Profile resolved(const Profile& profile, const Pipeline& pipeline) {
   Profile p = profile;
-  if (p.exact_planes) p.half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.exact_planes)
+    p.half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
   return p;
 }
 
-StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height, std::vector<RowTally>& rows) {
+StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
+                        std::vector<RowTally>& rows) {
   StageVerdict v;
   v.stage = stage;
   v.profile = profile.name;

@@ -13,15 +13,17 @@ namespace trueshade::oracle {
 /// A plane of the capture, with what its format means for a store. Values of unorm planes are codes.
 struct PlaneView {
   const Image* image = nullptr;
+  FormatInfo layout = info(Format::rgba32f);
   int channels = 0;
-  NumberClass number_class = NumberClass::floating;
-  int bytes = 4;
 
   PlaneView() = default;
   explicit PlaneView(const Image* i);
   explicit operator bool() const { return image != nullptr; }
   double stored(int x, int y, int channel) const;  ///< y from the top
-  bool quantised() const { return number_class == NumberClass::unorm || bytes == 2; }
+  bool unorm() const { return layout.number_class == NumberClass::unorm; }
+  bool quantised() const { return unorm() || layout.small_float(); }
+  /// A constant a shader writes, as stored() has it: exactly stored by every format.
+  double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
 };
 
 /// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
@@ -41,8 +43,8 @@ struct Match {
   uint64_t stored_values = 0;
 
   /// Judges one channel.
-  void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored, uint32_t pixel,
-                  const Profile& profile);
+  void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
+                  uint32_t pixel, const Profile& profile);
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 
@@ -62,6 +64,7 @@ struct RowTally {
 /// The profile as it applies: `ideal` follows the pipeline's half_round.
 Profile resolved(const Profile& profile, const Pipeline& pipeline);
 
-StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height, std::vector<RowTally>& rows);
+StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
+                        std::vector<RowTally>& rows);
 
 }  // namespace trueshade::oracle

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -67,6 +68,56 @@ TEST_CASE("a PNG of a float image is sRGB-encoded with linear alpha") {
   REQUIRE(file->read_image(0, 0, 0, 4, TypeDesc::UINT8, read.data()));
   for (size_t x = 0; x < 12; ++x) CHECK(int(read[4 * x]) == codes[x]);
   CHECK(int(read[3]) == 128);  // alpha 0.5: 127.5 to even
+}
+
+TEST_CASE("a PNG holds 16-bit codes untouched and 10-bit ones widened") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("deep.png");
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const Image sixteen = gradient(37, 71, Format::rgba16);
+  write_image(path, sixteen, {}, {});
+  std::vector<uint16_t> codes(37 * 71 * 4);
+  const auto file = ImageInput::open(path, &config);
+  REQUIRE(file);
+  REQUIRE(file->spec().format == TypeDesc::UINT16);
+  REQUIRE(file->read_image(0, 0, 0, 4, TypeDesc::UINT16, codes.data()));
+  CHECK(std::memcmp(codes.data(), sixteen.texels.data(), sixteen.texels.size()) == 0);
+  CHECK(read_planes(path).front().image.texels == sixteen.texels);
+  CHECK(read_planes(path).front().image.format == Format::rgba16);
+
+  Image ten(1024, 1, Format::rgb10_a2);
+  for (int x = 0; x < 1024; ++x)
+    for (int c = 0; c < 4; ++c) ten.set_code(x, 0, c, uint32_t(c == 3 ? x % 4 : (x + 300 * c) % 1024));
+  write_image(path, ten, {}, {});
+  codes.resize(1024 * 4);
+  const auto widened = ImageInput::open(path, &config);
+  REQUIRE(widened);
+  REQUIRE(widened->read_image(0, 0, 0, 4, TypeDesc::UINT16, codes.data()));
+  for (int x = 0; x < 1024; ++x)
+    for (int c = 0; c < 4; ++c)
+      CHECK(int(codes[size_t(4 * x + c)]) == int(std::lround(ten.code(x, 0, c) * 65535.0 / (c == 3 ? 3 : 1023))));
+}
+
+TEST_CASE("an EXR holds every target's values, smaller floats as halves") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("target.exr");
+  for (const Format format : kTargetFormats) {
+    INFO(info(format).name);
+    Image image(7, 5, format);
+    for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = uint8_t(i * 7 % 59);  // no NaN in any format
+    write_image(path, image, {}, {});
+    const auto file = ImageInput::open(path);
+    REQUIRE(file);
+    const int channels = info(format).channels;
+    REQUIRE(file->spec().nchannels == channels);
+    CHECK(file->spec().format == (info(format).small_float() ? TypeDesc::HALF : TypeDesc::FLOAT));
+    std::vector<float> values(size_t(7 * 5 * channels));
+    REQUIRE(file->read_image(0, 0, 0, channels, TypeDesc::FLOAT, values.data()));
+    for (int i = 0; i < 35; ++i)
+      for (int c = 0; c < channels; ++c)
+        CHECK(double(values[size_t(i * channels + c)]) == image.value(i % 7, i / 7, c));
+  }
 }
 
 TEST_CASE("an EXR holds colour and planes under their channel names, bit for bit") {

@@ -25,6 +25,34 @@ TEST_CASE("a texel's value is what its format says") {
   CHECK(one_texel<uint32_t>(Format::r32ui, 0xffffffff).value(0, 0, 0) == 4294967295.0);
 }
 
+TEST_CASE("packed texels are little-endian words with red in the lowest bits") {
+  Image tens(1, 1, Format::rgb10_a2);
+  const uint32_t word = 0x3FFu | 1u << 10 | 512u << 20 | 2u << 30;
+  std::memcpy(tens.texels.data(), &word, 4);
+  CHECK(tens.texels == std::vector<uint8_t>{0xFF, 0x07, 0x00, 0xA0});
+  CHECK(tens.value(0, 0, 0) == 1.0);
+  CHECK(tens.value(0, 0, 1) == double(1.0f / 1023.0f));
+  CHECK(tens.code(0, 0, 2) == 512);
+  CHECK(tens.value(0, 0, 3) == double(2.0f / 3.0f));
+  Image floats(1, 1, Format::r11g11b10f);
+  floats.set_code(0, 0, 0, 0x3C0);
+  floats.set_code(0, 0, 1, 0x7BF);
+  floats.set_code(0, 0, 2, 0x3DF);
+  CHECK(floats.value(0, 0, 0) == 1.0);
+  CHECK(floats.value(0, 0, 1) == 65024.0);
+  CHECK(floats.value(0, 0, 2) == 64512.0);
+  CHECK(floats.texels == std::vector<uint8_t>{0xC0, 0xFB, 0xFD, 0xF7});
+}
+
+TEST_CASE("16-bit codes, sRGB codes and fixed-point depths stand for their values") {
+  CHECK(one_texel<uint16_t>(Format::rgba16, 1).value(0, 0, 3) == double(1.0f / 65535.0f));
+  CHECK(one_texel<uint16_t>(Format::rgba16, 65535).value(0, 0, 0) == 1.0);
+  CHECK(one_texel<uint8_t>(Format::srgb8_a8, 188).value(0, 0, 1) == Approx(.502886458).epsilon(6e-8));
+  CHECK(one_texel<uint8_t>(Format::srgb8_a8, 188).value(0, 0, 3) == double(188.0f / 255.0f));
+  CHECK(one_texel<uint32_t>(Format::d24, 0x800000).value(0, 0, 0) == double(8388608.0f / 16777215.0f));
+  CHECK(one_texel<uint16_t>(Format::d16, 0x8000).value(0, 0, 0) == double(32768.0f / 65535.0f));
+}
+
 TEST_CASE("an image is hashed as its bytes, rows from the top, without padding") {
   Image image(3, 2, Format::rgba8);
   for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = uint8_t(i);
@@ -45,6 +73,18 @@ TEST_CASE("all NaNs hash alike, infinities and numbers do not") {
         image_hash(one_texel<uint16_t>(Format::rgba16f, 0x7e00)));
   CHECK(image_hash(one_texel<uint16_t>(Format::rgba16f, 0xfc00)) !=
         image_hash(one_texel<uint16_t>(Format::rgba16f, 0x7c00)));
+}
+
+TEST_CASE("NaNs of 11 and 10 bits hash alike too") {
+  const auto word = [](uint32_t r, uint32_t g, uint32_t b) {
+    Image image(1, 1, Format::r11g11b10f);
+    const uint32_t bits = r | g << 11 | b << 22;
+    std::memcpy(image.texels.data(), &bits, sizeof bits);
+    return image_hash(image);
+  };
+  CHECK(word(0x7C1, 0x7FF, 0x3E1) == word(0x7E0, 0x7E0, 0x3F0));
+  CHECK(word(0x7C0, 0x7E0, 0x3F0) != word(0x7E0, 0x7E0, 0x3F0));
+  CHECK(word(1, 0x7C0, 0x3E0) != word(1, 0x7C0, 0x3F0));
 }
 
 TEST_CASE("a long image is hashed in chunks to the same digest as at once") {

@@ -27,6 +27,19 @@ TEST_CASE("sRGB codes are the nearest ones, to the float at which each begins") 
   }
 }
 
+TEST_CASE("as floats, code starts are the least floats of their codes, and codes' values the nearest to theirs") {
+  for (size_t k = 0; k < kSrgbCodeStarts.size(); ++k) {
+    const float start = kSrgbCodeFloats[k];
+    CHECK(code_by_pow(start) == int(k) + 1);
+    CHECK(code_by_pow(std::nextafter(start, 0.0f)) == int(k));
+  }
+  CHECK(std::isinf(kSrgbCodeFloats[255]));
+  for (size_t k = 0; k < 256; ++k) {
+    const long double x = static_cast<long double>(k) / 255.0L;
+    CHECK(kLinearOfSrgb8[k] == float(x <= 0.04045L ? x / 12.92L : std::pow((x + 0.055L) / 1.055L, 2.4L)));
+  }
+}
+
 TEST_CASE("GL_RULES row 36: sRGB codes") {
   CHECK(int(srgb8_from_linear(0.5f)) == 188);
   CHECK(int(srgb8_from_linear(0.18f)) == 118);

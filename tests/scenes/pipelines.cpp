@@ -146,7 +146,9 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"light_model": {"damping": -1}})", "p.json: /light_model/damping: found -1"},
       {R"({"light_model": {"global_ambient": [0, 0, 2e18]}})", "p.json: /light_model/global_ambient/2: found 2e+18"},
       {R"({"gbuffer": {"specular_format": "rgb16f"}})", "p.json: /gbuffer/specular_format: found \"rgb16f\""},
-      {R"({"target": "d32f"})", "p.json: /target: found \"d32f\" (one of rgba8 rgba16f rgba32f)"},
+      {R"({"target": "d32f"})",
+       "p.json: /target: found \"d32f\" (one of rgba8 srgb8_a8 rgb10_a2 rgba16 "
+       "r11g11b10f rgb16f rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
   };
@@ -182,6 +184,22 @@ TEST_CASE("pipelines out of range are named by field") {
                       p.geometry.depth_near = 1.0f;
                     }),
                     "gbuffer.position_from_depth");
+}
+
+TEST_CASE("what a profile does not promise it refuses") {
+  const auto to = [](Format target) {
+    return invalid([&](Pipeline& p) {
+      p.profile = NumericProfile::mesa_llvmpipe_22_3;
+      p.target = target;
+    });
+  };
+  CHECK_STARTS_WITH(to(Format::srgb8_a8), "target: mesa-llvmpipe-22.3 does not promise the bits of srgb8_a8");
+  for (const Format target : kTargetFormats) {
+    Pipeline p;
+    p.target = target;
+    CHECK_NOTHROW(validate(p));
+    CHECK(pipeline_from_json(pipeline_json(p), "p", {}) == p);
+  }
 }
 
 TEST_CASE("light volumes and blending out of range are named by field") {
