@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@ struct Capture {
   std::string driver;              ///< vendor, renderer and version in one line
   Image color;                     ///< the target; empty if none was captured
   std::vector<NamedImage> planes;  ///< named as `--aov` names them; any subset
+  std::array<int, 2> drawn_at{};   ///< where its lower left pixel was in the driver's window: floats round there
 
   const Image* plane(std::string_view name) const {
     for (const NamedImage& p : planes)

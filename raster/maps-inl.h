@@ -80,6 +80,13 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint& at, Mask64 o
       hn::Store(hn::IfThenElse(ours, hn::Mul(there, rgba[c]), there), df, out.plane[kAlbedo + c] + i);
     }
   }
+  if (maps.specular) {
+    sample(*maps.specular, at, owned, rgba);
+    for (int c = 0; c < 3; ++c) {
+      const V32 there = hn::Load(df, out.plane[kSpecular + c] + i);
+      hn::Store(hn::IfThenElse(ours, rgba[c], there), df, out.plane[kSpecular + c] + i);
+    }
+  }
   if (!maps.normal) return;
   sample(*maps.normal, at, owned, rgba);
   alignas(64) float texel[3][kMostLanes];

@@ -12,6 +12,7 @@
 #include "raster/interpolate-inl.h"
 #include "raster/maps-inl.h"
 #include "raster/store-inl.h"
+#include "scenes/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -321,29 +322,76 @@ void rebuild_positions(const TileDraws& in, const TileRect& rect, const Visibili
   }
 }
 
-// Albedo times the material's colour, then every plane as its format stores it.
-void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const StreamGroup* group,
-                  int groups, SurfaceTile& out) {
+// What a light model reads of a material beside its base colour.
+struct MaterialValues {
+  float specular[4];  // colour and shininess
+  float emission[3];
+  float metallic;     // 0 where the model maps no metals
+  bool specular_map;  // its texel is in the specular plane already
+};
+
+MaterialValues material_values(const Material& m, const LightModel& model, bool specular_map) {
+  const bool metals = maps_metals(model);
+  const float shininess = metals ? shininess_of_roughness(m.roughness) : m.shininess;
+  return {{m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess},
+          {m.emission.r, m.emission.g, m.emission.b},
+          metals ? m.metallic : 0.0f,
+          specular_map};
+}
+
+// docs/arithmetic.md section 7. `base`: the base colour of the pixel.
+void fill_material_planes(const MaterialValues& m, const LightModel& model, int i, SurfaceTile& out) {
+  for (int c = 0; c < 3 && model.emission; ++c) out.plane[kEmission + c][i] = m.emission[c];
+  if (!maps_metals(model)) {
+    for (int c = 0; c < 4 && reads_specular_plane(model); ++c) {
+      float& specular = out.plane[kSpecular + c][i];
+      specular = m.specular_map && c < 3 ? m.specular[c] * specular : m.specular[c];
+    }
+    return;
+  }
+  for (int c = 0; c < 3; ++c) {
+    float& albedo = out.plane[kAlbedo + c][i];
+    out.plane[kSpecular + c][i] = 0.04f * (1.0f - m.metallic) + albedo * m.metallic;
+    albedo = albedo * (1.0f - m.metallic);
+  }
+  out.plane[kSpecular + 3][i] = m.specular[3];
+}
+
+void store_plane(int first, int count, Format format, const GBufferState& planes, NumericProfile profile, int pixels,
+                 SurfaceTile& out) {
   const DF d;
+  if (info(format).bytes_per_channel == 4) return;
+  for (int c = 0; c < count; ++c) {
+    float* plane = out.plane[first + c];
+    for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
+      hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, profile), d, plane + i);
+  }
+}
+
+// Albedo times the material's colour, then every plane as its format stores it.
+void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
+                  const StreamGroup* group, int groups, SurfaceTile& out) {
   const int pixels = rect.size * rect.size;
+  const bool materials = model.emission || reads_specular_plane(model) || maps_metals(model);
+  std::vector<MaterialValues> values;
+  for (size_t m = 0; m < in.scene.materials.size() && materials; ++m)
+    values.push_back(material_values(in.scene.materials[m], model,
+                                     in.view.maps.textured() && in.view.maps.material[m].specular.has_value()));
   for (int i = 0; i < pixels; ++i) {
     if (out.covered[i] == 0) continue;
     const glm::vec4& base = in.scene.materials[out.material[i] - 1].base_color;
     for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] *= base[c];
+    if (materials) fill_material_planes(values[out.material[i] - 1], model, i, out);
   }
-  for (int g = 0; g < groups; ++g) {
-    const Format format = group[g].plane.format;
-    if (info(format).bytes_per_channel == 4) continue;
-    for (int c = 0; c < group[g].count; ++c) {
-      float* plane = out.plane[group[g].first + c];
-      for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
-        hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, in.view.profile), d, plane + i);
-    }
-  }
+  for (int g = 0; g < groups; ++g)
+    store_plane(group[g].first, group[g].count, group[g].plane.format, planes, in.view.profile, pixels, out);
+  if (reads_specular_plane(model)) store_plane(kSpecular, 4, planes.specular, planes, in.view.profile, pixels, out);
+  if (model.emission) store_plane(kEmission, 3, planes.emission, planes, in.view.profile, pixels, out);
 }
 
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
-                           const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out) {
+                           const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
+                           SurfaceTile& out) {
   need_uv = need_uv || in.view.maps.textured();
   find_corners(in, rect, visible, need_uv, work, out);
   if (out.covered_pixels == 0) return;
@@ -352,7 +400,7 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   interpolate_tile(in, rect, group, groups, visible, work, out);
   interpolate_careful(in, rect, group, groups, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
-  store_planes(in, rect, planes, group, groups, out);
+  store_planes(in, rect, planes, model, group, groups, out);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
@@ -362,9 +410,9 @@ HWY_AFTER_NAMESPACE();
 namespace trueshade {
 HWY_EXPORT(resolve_surfaces_simd);
 
-void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
                       const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out) {
-  HWY_DYNAMIC_DISPATCH(resolve_surfaces_simd)(in, rect, planes, visible, need_uv, work, out);
+  HWY_DYNAMIC_DISPATCH(resolve_surfaces_simd)(in, rect, planes, model, visible, need_uv, work, out);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

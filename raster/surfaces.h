@@ -10,10 +10,15 @@ namespace trueshade {
 /// Attribute streams of a vertex, in the order the planes of SurfaceTile have.
 enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams = 12 };
 
+/// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess, emission.
+enum MaterialPlane : int { kSpecular = kStreams, kEmission = kStreams + 4, kPlanes = kStreams + 7 };
+
 /// The G-buffer of one tile, in tile_index() order: values as they read back from the stored formats.
 struct SurfaceTile {
-  alignas(64) int32_t covered[kMaxTilePixels];        ///< -1 with a surface, 0 without; the others mean nothing there
-  alignas(64) float plane[kStreams][kMaxTilePixels];  ///< world position, world normal, albedo RGBA, uv
+  alignas(64) int32_t covered[kMaxTilePixels];  ///< -1 with a surface, 0 without; the others mean nothing there
+  /// world position, world normal, albedo RGBA, uv; then, where the light model reads them, specular RGB and shininess,
+  /// emission RGB
+  alignas(64) float plane[kPlanes][kMaxTilePixels];
   alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
   int covered_pixels;
 };
@@ -29,8 +34,9 @@ struct VisibleVertices {
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'
-/// formats. `need_uv`: fill the uv planes. `work` is scratch, kept between tiles to save allocation.
-void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+/// formats. `model`: which planes the material fills. `need_uv`: fill the uv planes. `work` is scratch, kept between
+/// tiles to save allocation.
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
                       const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out);
 
 }  // namespace trueshade

@@ -56,8 +56,10 @@ TextureView view_of(const Texture& texture, const Sampler& sampler) {
   return view;
 }
 
-SceneMaps scene_maps(const Scene& scene, const GBufferState& planes) {
-  SceneMaps maps{{}, planes.uv.interpolation, planes.albedo.interpolation};
+SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
+  const bool specular =
+      reads_specular_plane(pipeline.light_model) && pipeline.light_model.specular_source == SpecularSource::material;
+  SceneMaps maps{{}, pipeline.gbuffer.uv.interpolation, pipeline.gbuffer.albedo.interpolation};
   if (std::none_of(scene.materials.begin(), scene.materials.end(),
                    [](const Material& m) { return m.textured() || m.masked(); }))
     return maps;

@@ -25,7 +25,8 @@ TextureView view_of(const Texture& texture, const Sampler& sampler);
 
 /// What a material does with textures. Absent maps are not read.
 struct MaterialMaps {
-  std::optional<TextureView> color, specular, normal;
+  std::optional<TextureView> color, normal;
+  std::optional<TextureView> specular;  ///< where the light model reads the material's specular colour
   float normal_scale;
   float base_alpha, alpha_cutoff;  ///< cutoff 0: no test
   bool any() const { return color || specular || normal; }
@@ -37,7 +38,7 @@ struct SceneMaps {
   Interpolation uv_how, albedo_how;    ///< of texture coordinates and of vertex colours
   bool textured() const { return !material.empty(); }
 };
-SceneMaps scene_maps(const Scene& scene, const GBufferState& planes);
+SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline);
 
 /// A place in a texture and how it moves from pixel to pixel, in units of u and v.
 struct TexturePoint {

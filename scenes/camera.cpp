@@ -56,4 +56,11 @@ Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one) {
   return m;
 }
 
+glm::vec3 view_axis(const Camera& camera) {
+  if (!camera.clip_from_world) return glm::vec3(-unit(glm::dvec3(camera.target) - glm::dvec3(camera.eye)));
+  const std::array<float, 16>& m = *camera.clip_from_world;
+  const glm::dvec3 w(m[3], m[7], m[11]);
+  return glm::vec3(-unit(dot(w, w) > 0.0 ? w : glm::dvec3(m[2], m[6], m[10])));
+}
+
 }  // namespace trueshade

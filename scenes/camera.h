@@ -23,6 +23,10 @@ struct Camera {
 /// height. `zero_to_one`: 0 <= z <= w instead. A matrix handed over by an engine is taken as it is.
 Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one = false);
 
+/// The view's z axis in the world, from the scene to the viewer, of unit length: minus the row of w, or where that has
+/// no direction (an orthographic matrix) minus the row of z. OpenGL's viewer at infinity, (0, 0, 1) in eye space.
+glm::vec3 view_axis(const Camera& camera);
+
 /// a * b, each element ((a0*b0 + a1*b1) + a2*b2) + a3*b3.
 Matrix4 product(const Matrix4& a, const Matrix4& b);
 

@@ -83,4 +83,9 @@ constexpr bool reads_specular_plane(const LightModel& model) {
   return model.specular != Specular::none && model.specular_source >= SpecularSource::material;
 }
 
+/// Whether the albedo is the base colour times (1 - metallic).
+constexpr bool maps_metals(const LightModel& model) {
+  return model.specular_source == SpecularSource::metallic_roughness;
+}
+
 }  // namespace trueshade

@@ -115,6 +115,7 @@ struct Execution {
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
   bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
+  bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
 };
 

@@ -1,5 +1,8 @@
 #include "scenes/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/builtin.h"
@@ -35,6 +38,11 @@ Scene scene_of(Mesh mesh) {
 std::string name_without_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }  // npos + 1 is 0
 
 }  // namespace
+
+float shininess_of_roughness(float roughness) {
+  const double r = std::max(double(roughness), 0.04), r2 = r * r;
+  return float(std::clamp(std::nearbyint(2.0 / (r2 * r2) - 2.0), 1.0, 8192.0));
+}
 
 uint64_t Scene::triangle_count() const {
   uint64_t count = 0;

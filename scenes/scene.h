@@ -34,6 +34,9 @@ struct Material {
   bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }
 };
 
+/// glTF's roughness as a Blinn-Phong exponent: 2 / max(roughness, 0.04)^4 - 2 to the nearest integer from 1 to 8192.
+float shininess_of_roughness(float roughness);
+
 /// One drawing of a mesh. Geometry is stored once however often it is drawn.
 struct Instance {
   uint32_t mesh = 0;                    ///< index into Scene::meshes

@@ -76,13 +76,12 @@ struct FrameWork {
     const TileRect where = rect(tile);
     const TileDraws draws{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
-    resolve_surfaces(draws, where, pipeline.gbuffer, s.visible, need_uv, s.vertices, s.surface);
+    resolve_surfaces(draws, where, pipeline.gbuffer, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
     counts.covered += uint64_t(s.surface.covered_pixels);
     const double middle = now_ms();
-    const float eye[3] = {scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z};
     const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
-    light_tile(s.surface, where.size, lights, pipeline.light_model, eye, clear, execution.light_culling, s.lights,
-               s.color, counts.light);
+    light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
+               execution.compiled_models, s.lights, s.color, counts.light);
     store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
     for (NamedImage& aov : out.aovs)
       store_aov(aov.name, s.visible, s.surface, s.color, where, pipeline.gbuffer.half_round, aov.image);
@@ -194,7 +193,7 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
       bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins),
-              make_light_table(scene.lights, pipeline.light_model), need_uv, frame},
+              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv, frame},
              progress);
 
   FrameStats& stats = frame.stats;

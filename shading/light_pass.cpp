@@ -6,48 +6,35 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "shading/light_lists-inl.h"
-#include "shading/light_term-inl.h"
+#include "shading/light_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Adds one light to the sums of a vector of pixels.
-struct LightAdder {
-  const LightTerms terms;
-  LightCounts& counts;
-  uint32_t* light_count;  ///< per pixel, of the tile
-
-  HWY_INLINE void add(const PixelVector& px, size_t light, int at, VF sum[3]) {
-    const DF d;
-    const DI di;
-    const LightTerm term = terms(px, light);
-    if (hn::AllFalse(d, term.adds)) return;
-    for (int k = 0; k < 3; ++k) sum[k] = hn::Add(sum[k], hn::IfThenElseZero(term.adds, term.color[k]));
-    if (terms.lights.type[light] == LightType::ambient) return;
-    counts.evaluated_pairs += hn::Lanes(d);
-    counts.lit_pairs += hn::CountTrue(d, term.lit);
-    const auto one_more = hn::IfThenElseZero(hn::RebindMask(di, term.lit), hn::Set(di, 1));
-    int32_t* count = reinterpret_cast<int32_t*>(light_count) + at;
-    hn::Store(hn::Add(hn::Load(di, count), one_more), di, count);
-  }
-};
-
-void light_block(const SurfaceTile& surface, int block, const std::vector<uint32_t>& list, LightAdder& adder,
-                 const float eye[3], const float clear[4], ColorTile& out) {
+template <class Shape>
+void light_block(const SurfaceTile& surface, int block, const std::vector<uint32_t>& list,
+                 const LightTerms<Shape>& terms, const float clear[4], ColorTile& out, LightCounts& counts) {
   const DF d;
+  const DI di;
   for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d))) {
-    const PixelVector px = load_pixels(surface, i, adder.terms.model, eye);
-    VF sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    if (!hn::AllFalse(d, px.covered))
-      for (const uint32_t light : list) adder.add(px, light, i, sum);
+    const PixelVector px = terms.load(surface, i);
+    LightSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(di), 0};
+    if (!hn::AllFalse(d, px.covered)) {
+      for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(surface, i, px, c);
+      add_lights(terms, px, list, sum);
+      for (int c = 0; c < 3; ++c) sum.color[c] = terms.finished(px, sum.color[c], c);
+    }
     for (int c = 0; c < 3; ++c)
-      hn::Store(hn::IfThenElse(px.covered, sum[c], hn::Set(d, clear[c])), d, out.plane[c] + i);
-    const VF alpha =
-        adder.terms.model.alpha_from_albedo ? hn::Load(d, surface.plane[kAlbedo + 3] + i) : hn::Set(d, 1.0f);
-    hn::Store(hn::IfThenElse(px.covered, alpha, hn::Set(d, clear[3])), d, out.plane[3] + i);
+      hn::Store(hn::IfThenElse(px.covered, sum.color[c], hn::Set(d, clear[c])), d, out.plane[c] + i);
+    hn::Store(hn::IfThenElse(px.covered, terms.alpha(surface, i), hn::Set(d, clear[3])), d, out.plane[3] + i);
+    int32_t* light_count = reinterpret_cast<int32_t*>(out.light_count) + i;
+    hn::Store(sum.lights, di, light_count);
+    counts.evaluated_pairs += sum.evaluated * hn::Lanes(d);
+    for (size_t lane = 0; lane < hn::Lanes(d); ++lane) counts.lit_pairs += uint64_t(light_count[lane]);
   }
 }
 
@@ -61,38 +48,71 @@ int region_blocks(int blocks, int bx, int by, int out[kRegionBlocks * kRegionBlo
   return count;
 }
 
-void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                     const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
-                     LightCounts& counts) {
-  const int blocks = tile / kBlockSize;
-  std::fill_n(out.light_count, size_t(tile) * size_t(tile), 0u);
+/// What light_tile() is given.
+struct TileWork {
+  const SurfaceTile& surface;
+  int tile;
+  const LightTable& lights;
+  const LightModel& model;
+  const float* clear;
+  bool culling;
+  LightLists& work;
+  ColorTile& out;
+  LightCounts& counts;
+};
+
+template <class Shape>
+void light_tile_of(const Shape& shape, const TileWork& in) {
+  const int blocks = in.tile / kBlockSize;
   int all_blocks[kMaxTilePixels / kBlockPixels];
   for (int i = 0; i < blocks * blocks; ++i) all_blocks[i] = i;
-  work.tile.clear();
-  if (culling) {
-    reaching_lights_of_scene(lights, surface_box(surface, all_blocks, blocks * blocks), work.tile);
+  in.work.tile.clear();
+  if (in.culling) {
+    reaching_lights_of_scene(in.lights, surface_box(in.surface, all_blocks, blocks * blocks), in.work.tile);
   } else {
-    for (uint32_t i = 0; i < lights.size(); ++i) work.tile.push_back(i);
+    for (uint32_t i = 0; i < in.lights.size(); ++i) in.work.tile.push_back(i);
   }
-  counts.tile_pairs += uint64_t(surface.covered_pixels) * work.tile.size();
+  in.counts.tile_pairs += uint64_t(in.surface.covered_pixels) * in.work.tile.size();
 
-  LightAdder adder{{lights, model, exponent_of_shininess(model.shininess)}, counts, out.light_count};
+  const LightTerms<Shape> terms(in.lights, in.model, shape);
   for (int by = 0; by < blocks; by += kRegionBlocks) {
     for (int bx = 0; bx < blocks; bx += kRegionBlocks) {
       int block[kRegionBlocks * kRegionBlocks];
       const int count = region_blocks(blocks, bx, by, block);
-      const std::vector<uint32_t>* list = &work.tile;
-      if (culling) {
-        work.region.clear();
-        const Box box = surface_box(surface, block, count);
+      const std::vector<uint32_t>* list = &in.work.tile;
+      if (in.culling) {
+        in.work.region.clear();
+        const Box box = surface_box(in.surface, block, count);
         if (box.pixels > 0)
           reaching_lights(
-              lights, box, work.tile.size(), [&](size_t k) { return work.tile[k]; }, work.region);
-        list = &work.region;
+              in.lights, box, in.work.tile.size(), [&](size_t k) { return in.work.tile[k]; }, in.work.region);
+        list = &in.work.region;
       }
-      for (int i = 0; i < count; ++i) light_block(surface, block[i], *list, adder, eye, clear, out);
+      for (int i = 0; i < count; ++i) light_block(in.surface, block[i], *list, terms, in.clear, in.out, in.counts);
     }
   }
+}
+
+/// The kernel compiled for the model's shape, or the general one.
+template <size_t kIndex = 0>
+void light_tile_compiled(const TileWork& in) {
+  if constexpr (kIndex == std::size(kCompiledShapes)) {
+    light_tile_of(AnyShape{shape_of(in.model, false)}, in);
+  } else if (kCompiledShapes[kIndex] == shape_of(in.model, kCompiledShapes[kIndex].power >= 0)) {
+    light_tile_of(CompiledShape<kIndex>{}, in);
+  } else {
+    light_tile_compiled<kIndex + 1>(in);
+  }
+}
+
+void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
+                     const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
+                     LightCounts& counts) {
+  const TileWork in{surface, tile, lights, model, clear, culling, work, out, counts};
+  if (compiled)
+    light_tile_compiled(in);
+  else
+    light_tile_of(AnyShape{shape_of(model, false)}, in);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
@@ -103,9 +123,9 @@ namespace trueshade {
 HWY_EXPORT(light_tile_simd);
 
 void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
+                const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
                 LightCounts& counts) {
-  HWY_DYNAMIC_DISPATCH(light_tile_simd)(surface, tile, lights, model, eye, clear, culling, work, out, counts);
+  HWY_DYNAMIC_DISPATCH(light_tile_simd)(surface, tile, lights, model, clear, culling, compiled, work, out, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

@@ -27,9 +27,10 @@ struct LightLists {
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha
 /// included. Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by
-/// tile, by 16x16 region and by vector: never changes a bit.
+/// tile, by 16x16 region and by vector: never changes a bit. `compiled`: by the kernel compiled for the model's shape,
+/// where there is one (shading/light_shape.h); never changes a bit either.
 void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                const float eye[3], const float clear[4], bool culling, LightLists& work, ColorTile& out,
+                const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
                 LightCounts& counts);
 
 }  // namespace trueshade

@@ -3,22 +3,40 @@
 #include <span>
 #include <vector>
 
+#include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/light_model.h"
+#include "shading/power.h"
 
 namespace trueshade {
 
-/// A frame's lights as the light pass reads them, a stream per field, in scene order.
+/// What a kernel does with a light.
+enum class LightKind : uint8_t {
+  placed,  ///< point, or a spot that the model gives no cone
+  coned,   ///< a spot with a cone
+  other,   ///< ambient, directional
+};
+
+/// A frame's lights as the light pass reads them, a stream per field, in scene order; and the viewer they have in
+/// common.
 struct LightTable {
   std::vector<LightType> type;
+  std::vector<LightKind> kind;
   std::vector<float> position[3];  ///< directional: minus the direction the light travels
-  std::vector<float> color[3];
-  std::vector<float> range, k1, k2;
+  std::vector<float> color[3];     ///< times the model's damping
+  std::vector<float> ambient[3];
+  std::vector<float> range, range2, k0, k1, k2;  ///< range2: range * range
   std::vector<float> cut2;  ///< the least squared distance at which the falloff is 0; infinity if it never is
+  // Cones (docs/arithmetic.md section 8); lights without one have numbers that give 1.
+  std::vector<float> axis[3];      ///< minus the direction the light travels
+  std::vector<float> edge, slope;  ///< smooth: e0 and w; exponent: e0; squared: offset and scale
+  std::vector<float> dark_cosine;  ///< the cone is exactly 0 where the cosine is below; -2: nowhere
+  std::vector<Exponent> spot_exponent;
+  float eye[3], view_axis[3];
   size_t size() const { return type.size(); }
 };
 
 /// Streams padded with lights that reach nothing to a multiple of 16.
-LightTable make_light_table(std::span<const Light> lights, const LightModel& model);
+LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera);
 
 }  // namespace trueshade

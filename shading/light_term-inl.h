@@ -10,17 +10,14 @@
 
 #include "raster/surfaces.h"
 #include "scenes/light_model.h"
+#include "shading/falloff-inl.h"
+#include "shading/light_shape.h"
 #include "shading/light_table.h"
 #include "shading/specular-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<DF>;
-using VF = hn::Vec<DF>;
-using MF = hn::Mask<DF>;
 
 HWY_INLINE VF dot3(const VF a[3], const VF b[3]) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
@@ -36,39 +33,9 @@ HWY_INLINE VF inverse_length(VF l2) {
 struct PixelVector {
   MF covered;
   VF p[3], n[3], v[3], albedo[3];
+  VF specular[3];  ///< colour; with `exponents`, where surfaces have their own
+  SurfaceExponents exponents;
 };
-
-HWY_INLINE PixelVector load_pixels(const SurfaceTile& s, int i, const LightModel& model, const float eye[3]) {
-  const DF d;
-  PixelVector out;
-  out.covered = hn::RebindMask(d, hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), s.covered + i))));
-  for (int c = 0; c < 3; ++c) {
-    out.p[c] = hn::Load(d, s.plane[kPosition + c] + i);
-    out.n[c] = hn::Load(d, s.plane[kNormal + c] + i);
-    out.albedo[c] = hn::Load(d, s.plane[kAlbedo + c] + i);
-    out.v[c] = hn::Sub(hn::Set(d, eye[c]), out.p[c]);
-  }
-  const VF toward = inverse_length(dot3(out.v, out.v));
-  for (int c = 0; c < 3; ++c) out.v[c] = hn::Mul(out.v[c], toward);
-  if (model.renormalize) {
-    const VF unit = inverse_length(dot3(out.n, out.n));
-    for (int c = 0; c < 3; ++c) out.n[c] = hn::Mul(out.n[c], unit);
-  }
-  return out;
-}
-
-/// pow(max(N.H, 0), shininess) by way of its square where the exponent is even.
-HWY_INLINE VF specular_term(const PixelVector& px, const VF l[3], const LightModel& model, const Exponent& exponent) {
-  const DF d;
-  VF h[3];
-  for (int c = 0; c < 3; ++c) h[c] = hn::Add(l[c], px.v[c]);
-  const VF h2 = dot3(h, h), nh = dot3(px.n, h), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const VF t = hn::IfThenElseZero(hn::Gt(nh, zero), nh);
-  const VF quotient = exponent.squared ? hn::Div(hn::Mul(t, t), h2) : hn::Div(t, hn::Sqrt(h2));
-  VF x = hn::IfThenElseZero(hn::Gt(h2, zero), quotient);
-  if (model.renormalize) x = hn::IfThenElse(hn::Gt(x, one), one, x);
-  return rounded_power(x, exponent);
-}
 
 /// What one light does to a vector of pixels.
 struct LightTerm {
@@ -77,68 +44,231 @@ struct LightTerm {
   VF color[3];  ///< what it adds
 };
 
-/// Terms of the lights of a table under one model (docs/arithmetic.md section 8).
+/// A light on its way through the formulas: the steps of several are interleaved, so that none waits for itself.
+struct LightChain {
+  size_t light;
+  VF to_light[3];  ///< D, then L
+  VF d2, nl;       ///< D . D; N . D, then N . L
+  VF strength;     ///< falloff times cone
+  VF cosine;       ///< what is raised to the shininess, then its power
+  LightTerm term;
+};
+
+/// Terms of the lights of a table under one model. Shape: CompiledShape or AnyShape.
+template <class Shape>
 struct LightTerms {
   const LightTable& lights;
   const LightModel& model;
+  const Shape form;
   const Exponent exponent;
+
+  LightTerms(const LightTable& table, const LightModel& light_model, const Shape& shape)
+      : lights(table), model(light_model), form(shape), exponent(exponent_of(light_model)) {}
+
+  HWY_INLINE bool has_gloss() const {
+    return form.shape.specular != Specular::none && form.shape.source >= SpecularSource::material;
+  }
+
+  HWY_INLINE PixelVector load(const SurfaceTile& s, int i) const {
+    const DF d;
+    PixelVector out;
+    out.covered = hn::RebindMask(d, hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), s.covered + i))));
+    for (int c = 0; c < 3; ++c) {
+      out.p[c] = hn::Load(d, s.plane[kPosition + c] + i);
+      out.n[c] = hn::Load(d, s.plane[kNormal + c] + i);
+      out.albedo[c] = hn::Load(d, s.plane[kAlbedo + c] + i);
+      out.v[c] = hn::Sub(hn::Set(d, lights.eye[c]), out.p[c]);
+    }
+    const VF toward = inverse_length(dot3(out.v, out.v));
+    for (int c = 0; c < 3; ++c)
+      out.v[c] = model.viewer == Viewer::local ? hn::Mul(out.v[c], toward) : hn::Set(d, lights.view_axis[c]);
+    if (form.shape.renormalize) {
+      const VF unit = inverse_length(dot3(out.n, out.n));
+      for (int c = 0; c < 3; ++c) out.n[c] = hn::Mul(out.n[c], unit);
+    }
+    for (int c = 0; c < 3; ++c)
+      out.specular[c] = has_gloss() ? hn::Load(d, s.plane[kSpecular + c] + i) : hn::Set(d, model.specular_color[c]);
+    if (has_gloss())
+      out.exponents = surface_exponents(hn::Load(d, s.plane[kSpecular + 3] + i), out.covered,
+                                        form.shape.specular == Specular::blinn_phong);
+    return out;
+  }
+
+  /// D, its square and N . D; which pixels the light adds something to, as far as these tell.
+  HWY_INLINE void approach(const PixelVector& px, bool directional, LightChain& at) const {
+    const DF d;
+    for (int c = 0; c < 3; ++c) {
+      const VF place = hn::Set(d, lights.position[c][at.light]);
+      at.to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
+    }
+    at.nl = dot3(px.n, at.to_light);
+    at.d2 = dot3(at.to_light, at.to_light);
+    const MF in_range =
+        directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, lights.cut2[at.light])));
+    at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
+    at.term.adds = adds_unlit() ? in_range : at.term.lit;
+  }
+
+  /// Falloff and unit length; of a directional light they are 1 already.
+  HWY_INLINE void fall_off(bool directional, LightChain& at) const {
+    const DF d;
+    const VF one = hn::Set(d, 1.0f);
+    at.strength = one;
+    if (directional) return;
+    const VF distance = hn::Sqrt(at.d2);
+    const VF inverse = hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), hn::Div(one, distance));
+    at.nl = hn::Mul(at.nl, inverse);
+    for (int c = 0; c < 3; ++c) at.to_light[c] = hn::Mul(at.to_light[c], inverse);
+    at.strength = falloff_of(form.shape.falloff, lights, at.light, distance, at.d2, inverse);
+  }
+
+  /// The cone of a light whose kind is `coned`: outside it the light adds nothing.
+  HWY_INLINE void narrow(LightChain& at) const {
+    const DF d;
+    const VF cone = cone_of(form.shape.cone, lights, at.light, at.to_light);
+    const MF inside = hn::Gt(cone, hn::Zero(d));
+    at.term.lit = hn::And(at.term.lit, inside);
+    at.term.adds = hn::And(at.term.adds, inside);
+    at.strength = hn::Mul(at.strength, cone);
+  }
+
+  HWY_INLINE void narrow_if(LightChain& at) const {
+    if (lights.kind[at.light] == LightKind::coned) narrow(at);
+  }
+
+  /// The cosine of the specular term, or its square where the exponent is that of a square.
+  HWY_INLINE void reflect(const PixelVector& px, LightChain& at) const {
+    const DF d;
+    const VF zero = hn::Zero(d);
+    at.cosine = zero;
+    if (form.shape.specular == Specular::none) return;
+    if (form.shape.specular == Specular::phong) {
+      VF r[3];
+      const VF twice = hn::Mul(hn::Set(d, 2.0f), at_most(positive(at.nl), 1.0f));
+      for (int c = 0; c < 3; ++c) r[c] = hn::Sub(hn::Mul(twice, px.n[c]), at.to_light[c]);
+      at.cosine = at_most(positive(dot3(r, px.v)), 1.0f);
+      return;
+    }
+    VF h[3];
+    for (int c = 0; c < 3; ++c) h[c] = hn::Add(at.to_light[c], px.v[c]);
+    const VF h2 = dot3(h, h), t = positive(dot3(px.n, h));
+    VF quotient;
+    if (has_gloss() && !px.exponents.agree)
+      quotient = hn::IfThenElse(px.exponents.odd, hn::Div(t, hn::Sqrt(h2)), hn::Div(hn::Mul(t, t), h2));
+    else
+      quotient = squared(px) ? hn::Div(hn::Mul(t, t), h2) : hn::Div(t, hn::Sqrt(h2));
+    at.cosine = hn::IfThenElseZero(hn::Gt(h2, zero), quotient);
+    if (form.shape.renormalize) at.cosine = at_most(at.cosine, 1.0f);
+  }
+
+  /// The cosine to the shininess.
+  HWY_INLINE void shine(const PixelVector& px, LightChain& at) const {
+    if (form.shape.specular == Specular::none) return;
+    if (has_gloss())
+      at.cosine = px.exponents.agree ? rounded_power<-1>(at.cosine, px.exponents.common)
+                                     : rounded_power(at.cosine, px.exponents);
+    else
+      at.cosine = power_of_model(form, at.cosine);
+    if (form.shape.specular_masked && adds_unlit()) at.cosine = hn::IfThenElseZero(at.term.lit, at.cosine);
+  }
+
+  HWY_INLINE void color(const PixelVector& px, LightChain& at) const {
+    const DF d;
+    const bool shines = form.shape.specular != Specular::none, tinted = form.shape.source == SpecularSource::albedo;
+    VF c = form.shape.diffuse == Diffuse::clamped ? positive(at.nl) : at.nl;
+    if (form.shape.specular == Specular::phong && form.shape.diffuse == Diffuse::clamped) c = at_most(c, 1.0f);
+    const VF f = at.strength, s = at.cosine;
+    const VF all = shines && tinted ? hn::Add(c, s) : c;  // what the albedo multiplies
+    for (int k = 0; k < 3; ++k) {
+      const VF albedo = px.albedo[k], color = hn::Set(d, lights.color[k][at.light]);
+      const VF ks = tinted ? albedo : px.specular[k];
+      VF reflected = hn::Mul(albedo, all);
+      if (shines && !tinted) reflected = hn::Add(reflected, hn::Mul(ks, s));
+      switch (form.shape.order) {
+        case TermOrder::factored:
+          at.term.color[k] = hn::Mul(reflected, hn::Mul(color, f));
+          break;
+        case TermOrder::separate:
+          at.term.color[k] = hn::Mul(hn::Mul(hn::Mul(c, albedo), color), f);
+          if (shines) at.term.color[k] = hn::Add(at.term.color[k], hn::Mul(hn::Mul(hn::Mul(color, s), ks), f));
+          break;
+        case TermOrder::albedo_last:
+          at.term.color[k] = hn::Mul(hn::Mul(all, f), color);
+          break;
+        case TermOrder::with_ambient: {
+          const VF ambient = hn::Mul(albedo, hn::Set(d, lights.ambient[k][at.light]));
+          at.term.color[k] = hn::Mul(hn::Add(ambient, hn::Mul(reflected, color)), f);
+          break;
+        }
+      }
+    }
+  }
+
+  /// One light. Where `adds` is empty nothing else is computed.
+  HWY_INLINE LightTerm operator()(const PixelVector& px, size_t light) const {
+    const DF d;
+    if (lights.type[light] == LightType::ambient) return ambient(px, light);
+    const bool directional = lights.type[light] == LightType::directional;
+    LightChain at;
+    at.light = light;
+    approach(px, directional, at);
+    if (hn::AllFalse(d, at.term.adds)) return at.term;
+    fall_off(directional, at);
+    if (lights.kind[light] == LightKind::coned) narrow(at);
+    reflect(px, at);
+    shine(px, at);
+    color(px, at);
+    return at.term;
+  }
+
+  /// What the sum starts from, before any light.
+  HWY_INLINE VF start(const SurfaceTile& s, int i, const PixelVector& px, int k) const {
+    const DF d;
+    VF sum = hn::Zero(d);
+    if (model.emission) sum = hn::Load(d, s.plane[kEmission + k] + i);
+    if (model.global_ambient == glm::vec3(0.0f)) return sum;
+    const VF given = hn::Set(d, model.global_ambient[k]);
+    const VF share = model.order == TermOrder::albedo_last ? given : hn::Mul(px.albedo[k], given);
+    return model.emission ? hn::Add(sum, share) : share;
+  }
+
+  /// What becomes of a sum, or of what one light adds where each is stored by itself.
+  HWY_INLINE VF finished(const PixelVector& px, VF sum, int k) const {
+    if (form.shape.order == TermOrder::albedo_last) sum = hn::Mul(sum, px.albedo[k]);
+    return model.clamp_result ? at_most(positive(sum), 1.0f) : sum;
+  }
+
+  HWY_INLINE VF alpha(const SurfaceTile& s, int i) const {
+    const DF d;
+    const VF a = model.alpha_from_albedo ? hn::Load(d, s.plane[kAlbedo + 3] + i) : hn::Set(d, 1.0f);
+    return model.clamp_result ? at_most(positive(a), 1.0f) : a;
+  }
+
+ private:
+  /// Whether a light adds anything to pixels that face away.
+  HWY_INLINE bool adds_unlit() const {
+    return form.shape.order == TermOrder::with_ambient || form.shape.diffuse == Diffuse::unclamped ||
+           (form.shape.specular != Specular::none && !form.shape.specular_masked);
+  }
+
+  HWY_INLINE bool squared(const PixelVector& px) const {
+    return has_gloss() ? px.exponents.common.squared : form.shape.squared;
+  }
+
+  template <size_t kIndex>
+  HWY_INLINE VF power_of_model(const CompiledShape<kIndex>&, VF x) const {
+    return rounded_power<kCompiledShapes[kIndex].power>(x, exponent);
+  }
+  HWY_INLINE VF power_of_model(const AnyShape&, VF x) const { return rounded_power<-1>(x, exponent); }
 
   HWY_INLINE LightTerm ambient(const PixelVector& px, size_t light) const {
     const DF d;
     LightTerm out;
     out.adds = px.covered;
     out.lit = hn::Lt(hn::Zero(d), hn::Zero(d));
-    for (int k = 0; k < 3; ++k) out.color[k] = hn::Mul(px.albedo[k], hn::Set(d, lights.color[k][light]));
-    return out;
-  }
-
-  HWY_INLINE VF falloff(VF distance, size_t light) const {
-    const DF d;
-    const VF one = hn::Set(d, 1.0f);
-    if (model.falloff == Falloff::linear_range) {
-      const VF f = hn::Sub(one, hn::Div(distance, hn::Set(d, lights.range[light])));
-      return hn::IfThenElseZero(hn::Gt(f, hn::Zero(d)), f);
-    }
-    const VF linear = hn::Add(one, hn::Mul(hn::Set(d, lights.k1[light]), distance));
-    return hn::Div(one, hn::Add(linear, hn::Mul(hn::Mul(hn::Set(d, lights.k2[light]), distance), distance)));
-  }
-
-  /// Where `adds` is empty nothing else is computed.
-  HWY_INLINE LightTerm operator()(const PixelVector& px, size_t light) const {
-    const DF d;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    if (lights.type[light] == LightType::ambient) return ambient(px, light);
-    const bool directional = lights.type[light] == LightType::directional;
-    VF to_light[3];
-    for (int c = 0; c < 3; ++c) {
-      const VF place = hn::Set(d, lights.position[c][light]);
-      to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
-    }
-    const VF d2 = dot3(to_light, to_light), raw_nl = dot3(px.n, to_light);
-    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(d2, hn::Set(d, lights.cut2[light])));
-    LightTerm out;
-    out.lit = hn::And(in_range, hn::Gt(raw_nl, zero));
-    out.adds = model.specular_masked ? out.lit : in_range;
-    if (hn::AllFalse(d, out.adds)) return out;
-
-    VF strength = one, nl = raw_nl;
-    if (!directional) {
-      const VF distance = hn::Sqrt(d2);
-      const VF inverse = hn::IfThenElseZero(hn::Gt(d2, zero), hn::Div(one, distance));
-      nl = hn::Mul(raw_nl, inverse);
-      for (int c = 0; c < 3; ++c) to_light[c] = hn::Mul(to_light[c], inverse);
-      strength = falloff(distance, light);
-    }
-    const VF c = hn::IfThenElseZero(hn::Gt(nl, zero), nl);
-    const VF s = specular_term(px, to_light, model, exponent);
     for (int k = 0; k < 3; ++k) {
-      const VF color = hn::Set(d, lights.color[k][light]), ks = hn::Set(d, model.specular_color[k]);
-      if (model.order == TermOrder::factored) {
-        out.color[k] = hn::Mul(hn::Add(hn::Mul(px.albedo[k], c), hn::Mul(ks, s)), hn::Mul(color, strength));
-      } else {
-        const VF diffuse = hn::Mul(hn::Mul(hn::Mul(c, px.albedo[k]), color), strength);
-        out.color[k] = hn::Add(diffuse, hn::Mul(hn::Mul(hn::Mul(color, s), ks), strength));
-      }
+      const VF color = hn::Set(d, lights.color[k][light]);
+      out.color[k] = form.shape.order == TermOrder::albedo_last ? color : hn::Mul(px.albedo[k], color);
     }
     return out;
   }

@@ -34,16 +34,12 @@ double exp2_of(double t) {
 
 }  // namespace
 
-Exponent exponent_of_shininess(float shininess) {
-  const bool integer = shininess <= 8192.0f && shininess == std::nearbyint(shininess);
-  const int whole = integer ? int(shininess) : -1;
-  Exponent out{integer && whole % 2 == 0, whole, 0, double(shininess)};
-  if (out.squared) {
-    out.integer = whole / 2;
-    out.value = double(out.integer);
-  }
-  while (out.integer > 0 && (out.integer >> (out.top_bit + 1)) != 0) ++out.top_bit;
-  return out;
+Exponent exponent_of(float exponent, bool squares) {
+  const bool integer = exponent <= 8192.0f && exponent == std::nearbyint(exponent);
+  if (!integer) return {false, -1, double(exponent)};
+  const int whole = int(exponent);
+  const bool squared = squares && whole % 2 == 0;
+  return {squared, squared ? whole / 2 : whole, double(squared ? whole / 2 : whole)};
 }
 
 double power(double x, double p) { return x > 0.0 ? exp2_of(p * log2_of(x)) : 0.0; }

@@ -151,6 +151,7 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
 
   GlFrame frame;
   frame.capture.driver = context_->info().line();
+  frame.capture.drawn_at = {draw.shift_x, draw.shift_y};
   if (!options.rgb16f && wants_rgb16f(pipeline.gbuffer))
     frame.notes.push_back("rgb16f is not renderable on this driver: its planes are rgba16f");
   if (options.ids && !options.primitive)

@@ -62,7 +62,7 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
       if (x + 0.5 < low[0] || x + 0.5 > high[0]) continue;
       const Coverage cover = coverage_at(piece, p.profile(), state.clip_origin, x + 0.5, y + 0.5);
       if (cover.cover == Cover::no) continue;
-      const SurfacePoint point(piece, p.profile(), p.viewport(), x + 0.5, y + 0.5);
+      const SurfacePoint point(piece, p.profile(), p.window_reach(), x + 0.5, y + 0.5);
       const Range z = stored_depth(point, state, p.profile(), largest);
       Candidate c = base;
       c.cut = piece.cut || piece.leaves_view;

@@ -21,7 +21,7 @@ struct AttributePlane {
 class GBufferJudge {
  public:
   GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
-      : projector_(scene, pipeline, profile),
+      : projector_(scene, pipeline, profile, capture.drawn_at),
         pipeline_(pipeline),
         profile_(profile),
         depth_(plane_of(capture, pipeline, "depth")),
@@ -75,7 +75,7 @@ class GBufferJudge {
     std::vector<Piece> pieces;
     projector_.pieces(c.instance, c.triangle, pieces);
     const Piece& piece = pieces[c.piece];
-    const SurfacePoint point(piece, profile_, projector_.viewport(), sx, sy);
+    const SurfacePoint point(piece, profile_, projector_.window_reach(), sx, sy);
     bounded = point.bounded();
     if (depth_) {
       double largest = 0;

@@ -15,8 +15,8 @@ constexpr Range kAnything{0, -HUGE_VAL, HUGE_VAL};
 
 }  // namespace
 
-SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y)
-    : piece_(piece), profile_(profile) {
+SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
+    : piece_(piece), profile_(profile), window_reach_(window_reach) {
   const auto& v = piece.v;
   double reach[2] = {0, 0};
   for (const WindowVertex& p : v)
@@ -41,12 +41,10 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Vie
     lambda_[0][i] = edge[i] / area_;
   }
   if (area_ == 0) {
-    bounded_ = false;
+    no_plane(x, y);
     return;
   }
   condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
-  reach_x_ = std::max(std::abs(double(viewport.x)), std::abs(double(viewport.x) + viewport.width));
-  reach_y_ = std::max(std::abs(double(viewport.y)), std::abs(double(viewport.y) + viewport.height));
   if (points) return;
 
   // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's reach.
@@ -63,7 +61,7 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Vie
   }
   const double smallest_area = std::fabs(area_) - area_change;
   if (!(smallest_area > 0)) {
-    bounded_ = false;
+    no_plane(x, y);
     return;
   }
   double shift[2] = {0, 0};
@@ -76,6 +74,29 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Vie
   }
 }
 
+void SurfacePoint::no_plane(double x, double y) {
+  bounded_ = false;
+  if (profile_.exact_planes || profile_.plane_origin == PlaneOrigin::unsnapped) return;
+  tiny_ = Tiny::hull;
+  if (profile_.plane_origin == PlaneOrigin::snapped) return;
+  bool same = true;
+  float_piece_ = std::make_unique<Piece>(piece_);
+  for (WindowVertex& v : float_piece_->v) {
+    same = same && v.plane == v.exact && v.plane_reach == v.float_reach;
+    v.plane = v.exact, v.plane_reach = v.float_reach;
+  }
+  tiny_ = same ? Tiny::anything : Tiny::hull_and_plane;
+  if (!same) unsnapped_ = std::make_unique<SurfacePoint>(*float_piece_, profile_, window_reach_, x, y);
+}
+
+Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const {
+  Range r{plane.value, HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < 3; ++i) r.low = std::min(r.low, value[i] - error[i]), r.high = std::max(r.high, value[i] + error[i]);
+  const double width = r.high - r.low;
+  r.low = std::min(r.low - width, plane.low), r.high = std::max(r.high + width, plane.high);
+  return {std::clamp(r.value, r.low, r.high), r.low, r.high};
+}
+
 double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
   const double v = profile_.arithmetic.roundoff;
   double gx = 0, gy = 0, largest = 0, spread = 0;
@@ -86,7 +107,7 @@ double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
     spread = std::max(spread, std::fabs(n[i] - n[(i + 1) % 3]));
   }
   gx = std::fabs(gx), gy = std::fabs(gy);
-  const double anchored = gx * reach_x_ + gy * reach_y_;
+  const double anchored = gx * window_reach_[0] + gy * window_reach_[1];
   const double sums_x = 2 * spread * span_y_ / std::fabs(area_), sums_y = 2 * spread * span_x_ / std::fabs(area_);  // G
   const double det = 3 * condition_ * v + profile_.arithmetic.divide + v;
   const double setup = (4 * v * sums_x + gx * det) * span_x_ + (4 * v * sums_y + gy * det) * span_y_;
@@ -113,7 +134,8 @@ Range SurfacePoint::affine(const std::array<double, 3>& value, const std::array<
 Range SurfacePoint::depth() const {
   std::array<double, 3> z{}, error{};
   for (size_t i = 0; i < 3; ++i) z[i] = piece_.v[i].z, error[i] = piece_.v[i].z_error;
-  if (!bounded_) return {z[0], -HUGE_VAL, HUGE_VAL};
+  if (!bounded()) return {z[0], -HUGE_VAL, HUGE_VAL};
+  if (!bounded_) return of_tiny(z, error, unsnapped_ ? unsnapped_->depth() : Range{z[0], z[0], z[0]});
   if (!profile_.exact_planes) return affine(z, error);
   double at = z[0], largest = 1;
   for (size_t i = 0; i < 3; ++i) {
@@ -127,7 +149,9 @@ Range SurfacePoint::depth() const {
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
-  if (!bounded_) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  if (!bounded_)
+    return of_tiny(value, error, unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
   const bool smooth = interpolation == Interpolation::smooth;
   if (!smooth && !profile_.exact_planes) return affine(value, error);
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a piece's planes may give at a sample: depth and attributes as ranges (GL_RULES section 9, "plane origin").
 #include <array>
+#include <memory>
 
 #include "oracle/intervals/store.h"
 #include "oracle/intervals/window.h"
@@ -16,19 +17,26 @@ namespace trueshade::oracle {
 /// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine functions is monotone along every line where its divisor keeps its sign: the
 /// extremes are at the box's corners.
 ///
-/// Float planes a0 + gx x + gy y, |x| <= X, |y| <= Y in pixels, add, with v the roundoff and N the largest vertex value:
+/// Float planes a0 + gx x + gy y of the driver's window, |x| <= X, |y| <= Y in pixels from its corner (where Mesa 22.3
+/// has a0: llvmpipe/lp_state_setup.c, emit_coef4), add, with v the roundoff and N the largest vertex value:
 ///   setup      gx = (dN1 dy2 - dN2 dy1) / det: 4 v G + |gx| (3 K v + divide + v), G and K the same sums with | | in
 ///              place of - over |det|; it acts over the triangle's own extent, since a0 is made from the same gx
 ///   anchor     a0 = N - gx x - gy y: 3 v (|gx| X + |gy| Y) + 2 v N
 ///   evaluation 3 v (|gx| X + |gy| Y) + 2 v |a0|, |a0| <= N + |gx| X + |gy| Y
 ///   stepping from a tile's corner to its pixels: 2 v (|gx| X + |gy| Y)
 /// and a perspective quotient N / D adds (dN + |a| dD) / D and the division.
+///
+/// Where the box allows a triangle without area no plane through its vertices is bounded. Yet a fragment is only there if
+/// the snapped triangle covers the sample, and its values are then a mean of the vertices' (14.6.1: barycentrics in [0, 1]):
+/// their hull, widened by its own width for the gradients of slivers, 8 v span^2 / |A| of the width, span < 1/4 pixel, |A| at
+/// least 2^-24 (the finest grid known, 12 bits). A plane through vertices that are not snapped is added where the profile has those.
 class SurfacePoint {
  public:
-  SurfacePoint(const Piece& piece, const Profile& profile, const Viewport& viewport, double x, double y);
+  /// reach: the X and Y above, Projector::window_reach().
+  SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
-  /// False where the box allows a triangle without area: its planes are then anything (UNDEFINED).
-  bool bounded() const { return bounded_; }
+  /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
+  bool bounded() const { return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_); }
 
   /// Window depth before any clamp.
   Range depth() const;
@@ -37,16 +45,22 @@ class SurfacePoint {
   Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error, Interpolation interpolation) const;
 
  private:
+  enum class Tiny : uint8_t { anything, hull, hull_and_plane };
+  void no_plane(double x, double y);
+  Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
   double plane_error(const std::array<double, 3>& vertex) const;
   Range affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const;
 
   const Piece& piece_;
   const Profile& profile_;
   bool bounded_ = true;
+  Tiny tiny_ = Tiny::anything;              ///< what is known where bounded_ is not true
+  std::unique_ptr<Piece> float_piece_;      ///< the piece with vertices not snapped, and
+  std::unique_ptr<SurfacePoint> unsnapped_; ///< its planes
   int points_ = 1;                          ///< 1 where the vertices are points, 5 otherwise
   std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
   std::array<double, 3> dx_{}, dy_{};       ///< their gradients, 1/pixel
-  double reach_x_ = 0, reach_y_ = 0;        ///< X, Y
+  const Pair window_reach_;                 ///< X, Y
   double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
 };
 

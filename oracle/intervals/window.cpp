@@ -86,10 +86,13 @@ bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, doub
   return by != ay ? by < ay : bx > ax;
 }
 
-Projector::Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile)
+Projector::Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at)
     : scene_(scene), pipeline_(pipeline), profile_(profile),
       viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)),
-      clip_from_world_(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
+      drawn_at_(drawn_at), clip_from_world_(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
+  const double corner[2] = {double(viewport_.x) + drawn_at[0], double(viewport_.y) + drawn_at[1]};
+  window_reach_ = {std::max(std::fabs(corner[0]), std::fabs(corner[0] + viewport_.width)),
+                   std::max(std::fabs(corner[1]), std::fabs(corner[1] + viewport_.height))};
   const GeometryState& state = pipeline.geometry;
   const double near = double(state.depth_near), far = double(state.depth_far);
   const bool zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
@@ -181,7 +184,7 @@ bool Projector::near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rec
       const double at = (ndc + 1) * half + corner[a];
       // Clip error, two float operations of the viewport, a whole subpixel of snapping, and our own 2^-22.
       const double reach = half * (m.error[size_t(a)] + std::fabs(ndc) * m.error[3]) * one_over_w * room +
-                           0x1p-22 * (std::fabs(ndc) * 2 * half + std::fabs(at)) + std::ldexp(1.2, -profile_.subpixel_bits);
+                           0x1p-22 * (std::fabs(ndc) * 2 * half + std::fabs(at + drawn_at_[size_t(a)])) + std::ldexp(1.2, -profile_.subpixel_bits);
       low[a] = std::min(low[a], at - reach);
       high[a] = std::max(high[a], at + reach);
     }
@@ -255,7 +258,8 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
     v.exact[axis] = ndc * half + (half + corner);
     // GL_RULES section 9: fp32 divide and viewport, 2^-23 (2 |x/w| px/2 + |xw|); and what the clip error comes to.
     const double error = exact ? 0 : half * (c.error[axis] + std::fabs(ndc) * c.error[3]) / room +
-                                         0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis]));
+                                         0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis] + drawn_at_[axis]));
+    v.float_reach[axis] = error;
     const double along = half * (c.along[axis] + std::fabs(ndc) * c.along[3]) / std::max(w - c.along[3], 0x1p-20 * w);
     snap(v, a, c, error, along, leaves_view);
   }

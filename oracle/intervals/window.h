@@ -17,6 +17,7 @@ struct WindowVertex {
   Pair exact{};                     ///< of the real coordinates: equal where two triangles share the vertex
   Pair low{}, high{};               ///< the box of the snapped vertex, that coverage is computed from
   Pair plane{}, plane_reach{};      ///< the vertex that attribute planes go through: within reach of plane
+  Pair float_reach{};               ///< what float arithmetic alone makes of `exact`
   double z = 0, z_error = 0;        ///< window depth
   double u = 0, u_error = 0;        ///< 1 / w
   std::array<double, 3> weight{};   ///< in clip space, of the vertices of the triangle submitted
@@ -53,7 +54,8 @@ bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, doub
 /// Vertices of a scene into the window, under a profile.
 class Projector {
  public:
-  Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
+  /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
+  Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {});
 
   /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh have none.
   bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
@@ -64,7 +66,8 @@ class Projector {
   /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix A).
   std::array<std::array<float, 4>, 3> clip_of(uint32_t instance, uint32_t triangle) const;
 
-  const Viewport& viewport() const { return viewport_; }
+  /// The largest |x|, |y| of the viewport in the driver's window, where planes are made.
+  const Pair& window_reach() const { return window_reach_; }
   const Matrix4& clip_from_world() const { return clip_from_world_; }
   const Profile& profile() const { return profile_; }
   const Pipeline& pipeline() const { return pipeline_; }
@@ -94,6 +97,8 @@ class Projector {
   const Pipeline pipeline_;
   const Profile profile_;
   Viewport viewport_;
+  std::array<int, 2> drawn_at_;
+  Pair window_reach_{};
   Matrix4 clip_from_world_;
   std::vector<InstanceMatrix> matrices_;
   double z_scale_, z_offset_;

@@ -73,3 +73,10 @@ TEST_CASE("Every OpenGL design knows ambient and directional lights, and eyes in
 TEST_CASE("Every OpenGL design draws large meshes, a draw an instance, as we do") {
   check_designs(builtin_scene("rabbits,objects=3,lights=6"), presets().front());
 }
+
+TEST_CASE("Every OpenGL design draws our picture under Lambert's law alone") {
+  Preset lambert = presets().front();
+  lambert.pipeline.light_model.specular = Specular::none;  // drops the term where GLSL is emitted
+  lambert.pipeline.light_model.specular_color = glm::vec3(0.0f);
+  check_designs(builtin_scene("city,objects=300,lights=50"), lambert);
+}
