@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "core/half.h"
-#include "raster/code_values.h"
+#include "core/srgb.h"
 #include "raster/texture.h"
 #include "raster/vertex_stage-inl.h"
 
@@ -119,11 +119,11 @@ HWY_INLINE void fetch(TextureFormat format, const TextureView::Level& level, int
   const uint8_t* at = level.bytes + (size_t(y) * size_t(level.width) + size_t(x)) * size_t(bytes_per_texel(format));
   switch (format) {
     case TextureFormat::rgba8:
-      for (size_t c = 0; c < 4; ++c) out[c][lane] = kValueOfUnorm8[at[c]];
+      for (size_t c = 0; c < 4; ++c) out[c][lane] = float(at[c]) / 255.0f;
       break;
     case TextureFormat::srgb8_a8:
-      for (size_t c = 0; c < 3; ++c) out[c][lane] = kLinearOfSrgb8Code[at[c]];
-      out[3][lane] = kValueOfUnorm8[at[3]];
+      for (size_t c = 0; c < 3; ++c) out[c][lane] = kLinearOfSrgb8[at[c]];
+      out[3][lane] = float(at[3]) / 255.0f;
       break;
     case TextureFormat::rgba16f:
       for (size_t c = 0; c < 4; ++c) out[c][lane] = float_from_half(uint16_t(at[2 * c] | at[2 * c + 1] << 8));

@@ -68,8 +68,8 @@ SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
       if (!slot.used()) return std::nullopt;
       return view_of(scene.textures[size_t(slot.texture)], slot.sampler);
     };
-    maps.material.push_back(
-        {view(m.color_map), view(m.specular_map), view(m.normal_map), m.normal_scale, m.base_color.a, m.alpha_cutoff});
+    maps.material.push_back({view(m.color_map), view(m.normal_map), specular ? view(m.specular_map) : std::nullopt,
+                             m.normal_scale, m.base_color.a, m.alpha_cutoff});
   }
   return maps;
 }

@@ -119,9 +119,9 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
 void GlPeer::Work::draw_scene(GLuint program) {
   glUseProgram(program);
   if (options.instance_uniforms)
-    renderer.buffers().draw_instances(program);
+    renderer.buffers().draw_each_instance(program);
   else
-    renderer.buffers().draw_instances();
+    renderer.buffers().draw_instances(program);
 }
 
 void GlPeer::Work::draw_gbuffer() {

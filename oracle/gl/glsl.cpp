@@ -31,12 +31,16 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   for (size_t i = 0; i < planes.size(); ++i)
     text += "layout(location = " + std::to_string(i) + ") out " +
             (planes[i].format == Format::r32ui ? "uint " : "vec4 ") + planes[i].output + ";\n";
+  if (options.maps) text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
   text += "\nvoid main() {\n";
+  if (options.maps)
+    text += std::string("  vec4 surface_color = ") + (options.vertex_color ? "color * " : "") +
+            "texture(color_map, texcoord) * base;\n  if (surface_color.a < alpha_cutoff) discard;\n";
   for (const GlslPlane& plane : planes) {
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
     if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
-    if (plane.name == "albedo") text += albedo_text(options) + ";\n";
+    if (plane.name == "albedo") text += (options.maps ? "surface_color" : albedo_text(options)) + ";\n";
     if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
     if (plane.name == "id.object") text += "ids.x;\n";
     if (plane.name == "id.material") text += "ids.y;\n";
@@ -123,7 +127,7 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (options.vertex_color) declare(g.albedo.interpolation, "vec4", "color");
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
-  if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
   if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
   return text;
 }
@@ -205,7 +209,7 @@ void main() {
     text +=
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
-  if (options.uv) text += "  texcoord = vertex_uv;\n";
+  if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
   if (has_ids(planes_of(pipeline, options))) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }

@@ -118,6 +118,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
+  options.maps = buffers_->has_maps();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;
@@ -163,7 +164,7 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height),
                      draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
-  buffers_->draw_instances();
+  buffers_->draw_instances(program.geometry);
   timer.end("geometry");
   draw_lights(target, program.light, *buffers_, pipeline, draw);
   timer.end("lights");

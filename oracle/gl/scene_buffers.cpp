@@ -106,10 +106,13 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
   return out;
 }
 
-SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene) {
+SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene), maps_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    if (runs_.empty() || runs_.back().mesh != scene.instances[i].mesh) runs_.push_back({scene.instances[i].mesh, i, 0});
+    const Instance& instance = scene.instances[i];
+    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh &&
+                      (!maps_.used() || runs_.back().material == instance.material);
+    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0});
     ++runs_.back().count;
   }
 }
@@ -159,12 +162,13 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
 }
 
-void SceneBuffers::draw_instances() const {
+void SceneBuffers::draw_instances(GLuint program, int map_unit) const {
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   for (const InstanceRun& run : runs_) {
     const MeshBuffers& mesh = meshes_[run.mesh];
+    if (maps_.used()) maps_.bind(program, run.material, map_unit);
     glBindVertexArray(mesh.array);
     glBindBuffer(GL_ARRAY_BUFFER, instances_);
     point_at_instances(run.first);
@@ -172,7 +176,7 @@ void SceneBuffers::draw_instances() const {
   }
 }
 
-void SceneBuffers::draw_instances(GLuint program) const {
+void SceneBuffers::draw_each_instance(GLuint program) const {
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };

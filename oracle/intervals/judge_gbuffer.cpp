@@ -2,6 +2,7 @@
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/judge.h"
+#include "oracle/intervals/map_range.h"
 #include "oracle/intervals/patch.h"
 #include "oracle/intervals/tally.h"
 
@@ -86,6 +87,7 @@ class GBufferJudge {
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
     const Material& material = projector_.scene().materials[instance.material];
+    const auto texel = color_texel(projector_, material, piece, point, values, sx, sy);
     for (const AttributePlane& p : planes_)
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
@@ -95,7 +97,12 @@ class GBufferJudge {
           continue;
         }
         Range range = value_of(point, piece, values, p, k);
+        if (p.first == kAlbedo && texel) range = product(range, (*texel)[size_t(k)], profile_);
         if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
+        if (p.first == kAlbedo && texel) {
+          m.lookup_is(p.view, p.name, k, range, stored, pixel, profile_);
+          continue;
+        }
         m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
       }
     return m;
@@ -188,7 +195,11 @@ std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Can
 }
 
 PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
-  if (seen == nominal) return !bounded ? PixelClass::undefined : m.second ? PixelClass::store_2 : PixelClass::exact;
+  if (seen == nominal) {
+    if (!bounded) return PixelClass::undefined;
+    return m.tex ? PixelClass::tex : m.second ? PixelClass::store_2 : PixelClass::exact;
+  }
+  if ((seen != nullptr && seen->masked) || (nominal != nullptr && nominal->masked)) return PixelClass::tex;
   const bool doubt = (seen != nullptr && !seen->certain) || (nominal != nullptr && !nominal->certain);
   if (!doubt) return PixelClass::depth_tie;
   const bool cut =
