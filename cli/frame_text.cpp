@@ -20,6 +20,7 @@ JsonObject scene_json(const RenderedFrame& result) {
   const Scene& scene = result.scene;
   JsonObject json;
   json.put("spec", scene.spec).put("hash", "sha256:" + result.scene_hash);
+  if (!scene.timeline.empty()) json.put_raw("time", json_number(result.time));
   json.put("meshes", uint64_t(scene.meshes.size())).put("instances", uint64_t(scene.instances.size()));
   json.put("triangles", scene.triangle_count()).put("lights", uint64_t(scene.lights.size()));
   return json;
@@ -41,11 +42,13 @@ std::string hash_line(const RenderedFrame& result) {
 }
 
 Metadata metadata_of(const RenderedFrame& result) {
-  return {{"trueshade:imageHash", "sha256:" + result.image_hash},
-          {"trueshade:pipeline", pipeline_json(result.pipeline)},
-          {"trueshade:scene", result.scene.spec},
-          {"trueshade:sceneHash", "sha256:" + result.scene_hash},
-          {"trueshade:version", kVersion}};
+  Metadata metadata = {{"trueshade:imageHash", "sha256:" + result.image_hash},
+                       {"trueshade:pipeline", pipeline_json(result.pipeline)},
+                       {"trueshade:scene", result.scene.spec},
+                       {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
+  if (!result.scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(result.time));
+  metadata.emplace_back("trueshade:version", kVersion);
+  return metadata;
 }
 
 std::vector<StatLine> stat_lines(const RenderedFrame& result) {

@@ -14,6 +14,7 @@ struct RenderedFrame {
   const Scene& scene;
   Pipeline pipeline;
   Execution execution;
+  double time;  ///< seconds, that the scene stands at
   Frame frame;
   std::string image_hash;           ///< 64 hex digits
   std::string scene_hash;           ///< 64 hex digits; empty where nobody asks

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "oracle/intervals/profile.h"
 #include "scenes/presets.h"
+#include "scenes/scene.h"
 #include "shading/frame.h"
 
 namespace trueshade {
@@ -52,6 +53,24 @@ Size size_from_text(const std::string& text) {
   if (*width > kMaxSide || *height > kMaxSide)
     throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "render in parts");
   return {int(*width), int(*height)};
+}
+
+double time_from_text(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= -kLatestTime && value <= kLatestTime))
+    throw usage("--time", "'" + text + "' is no number of seconds within 1e6", "give one, like 1.5");
+  return value;
+}
+
+FrameRange frames_from_text(const std::string& text) {
+  constexpr int64_t kMostFrames = 1000000;
+  const size_t dash = text.find('-');
+  const auto first = integer(std::string_view(text).substr(0, dash));
+  const auto last = dash == std::string::npos ? first : integer(std::string_view(text).substr(dash + 1));
+  if (!first || !last || *first < 0 || *last < *first || *last >= kMostFrames)
+    throw usage("--frames", "'" + text + "' is no range of frames below 1000000", "give FIRST-LAST, like 0-47");
+  return {int(*first), int(*last)};
 }
 
 NumericProfile profile_from_text(const std::string& text) {
@@ -102,7 +121,7 @@ void check_outputs(const RenderOptions& options) {
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, target, profile, aov, threads, tile;
+  std::optional<std::string> size, time, frames, target, profile, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -128,6 +147,10 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  render->add_option("--time", texts.time, "Time of the scene's timeline, seconds");
+  render->add_option(
+      "--frames", texts.frames,
+      "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
   render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
@@ -155,6 +178,9 @@ void check_simd(const std::string& name) {
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.frames) options.frames = frames_from_text(*texts.frames);
   if (texts.target) options.target = target_from_text(*texts.target);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);

@@ -12,6 +12,11 @@ struct Size {
   int width, height;  ///< pixels
 };
 
+/// Frames of a timeline, first to last; frame n is at n / fps.
+struct FrameRange {
+  int first, last;
+};
+
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
 struct PipelineOptions {
   std::string scene;                  ///< a file or builtin:NAME
@@ -24,9 +29,11 @@ struct PipelineOptions {
 
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
-  std::vector<std::string> outputs;  ///< .png, .exr or .html
-  std::vector<std::string> aovs;     ///< planes for .exr outputs, each one of aov_names()
-  std::string simd = "best";         ///< stays alive for execution.simd, see execution_of()
+  std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name()
+  double time = 0.0;                 ///< seconds; not read where there are frames
+  std::optional<FrameRange> frames;
+  std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
+  std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/frame_name.h"
 #include "cli/frame_text.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
@@ -35,8 +36,7 @@ std::vector<std::string> planes_to_render(const RenderOptions& options) {
 }
 
 /// Draws result.frame; for a report also a few times more, as the first frame pays for memory and threads.
-void draw(const RenderOptions& options, RenderedFrame& result) {
-  const PreparedScene prepared(result.scene);
+void draw(const RenderOptions& options, const PreparedScene& prepared, RenderedFrame& result) {
   {
     ProgressBar bar("rendering", "tiles");
     result.frame = render_frame(prepared, result.pipeline, result.execution, planes_to_render(options),
@@ -53,10 +53,10 @@ void draw(const RenderOptions& options, RenderedFrame& result) {
   std::sort(result.repeated_ms.begin(), result.repeated_ms.end());
 }
 
-void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
-  const std::span<const NamedImage> asked_for(result.frame.aovs.data(), options.aovs.size());
+void write_outputs(const std::vector<std::string>& paths, size_t aovs, const RenderedFrame& result) {
+  const std::span<const NamedImage> asked_for(result.frame.aovs.data(), aovs);
   const Metadata metadata = metadata_of(result);
-  for (const std::string& path : options.outputs) {
+  for (const std::string& path : paths) {
     if (is_report(path)) {
       const std::string page = report_page(result);
       write_file(path, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
@@ -66,21 +66,47 @@ void write_outputs(const RenderOptions& options, const RenderedFrame& result) {
   }
 }
 
+/// Draws the scene as it stands, writes its files and prints what was asked for but JSON, which comes back.
+std::string render_one(const RenderOptions& options, const std::vector<std::string>& paths,
+                       const PreparedScene& prepared, RenderedFrame& result) {
+  draw(options, prepared, result);
+  result.image_hash = image_hash(result.frame.color);
+  if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
+  write_outputs(paths, options.aovs.size(), result);
+  if (options.json) return json_of(result, paths);
+  if (options.hash) print(hash_line(result));
+  if (options.stats) print(stats_text(result));
+  return {};
+}
+
+/// Frame after frame from one scene whose meshes are loaded and clustered once.
+void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& pipeline) {
+  const PreparedScene prepared(scene);
+  std::string documents;
+  for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
+    const double time = double(frame) / scene.timeline.fps;
+    set_time(scene, time);
+    std::vector<std::string> paths;
+    for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
+    RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
+    const std::string document = render_one(options, paths, prepared, result);
+    if (options.json) documents += (documents.empty() ? "" : ",") + document.substr(0, document.size() - 1);
+  }
+  if (options.json) print("{\"frames\":[" + documents + "]}\n");
+}
+
 }  // namespace
 
 void render(const RenderOptions& options) {
   check_folders(options.outputs);
-  const Scene scene = load_scene(options.scene, {}, decode_image);
+  Scene scene = load_scene(options.scene, {}, decode_image);
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
-  RenderedFrame result{scene, pipeline_of(options, scene), execution_of(options), {}, {}, {}, {}};
-  draw(options, result);
-  result.image_hash = image_hash(result.frame.color);
-  if (options.json || !options.outputs.empty()) result.scene_hash = scene_hash(scene);
-  write_outputs(options, result);
-  if (options.json) return print(json_of(result, options.outputs));
-  if (options.hash) print(hash_line(result));
-  if (options.stats) print(stats_text(result));
+  const Pipeline pipeline = pipeline_of(options, scene);
+  if (options.frames) return render_frames(options, scene, pipeline);
+  set_time(scene, options.time);
+  RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};
+  print(render_one(options, options.outputs, PreparedScene(scene), result));
 }
 
 }  // namespace trueshade

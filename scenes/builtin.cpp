@@ -18,6 +18,13 @@ Light point_light(const glm::dvec3& position, const glm::dvec3& color, double ra
   return light;
 }
 
+void add_moving(Scene& scene, const Light& light, const glm::dvec3& u, const glm::dvec3& v, double period,
+                double phase) {
+  scene.timeline.orbits.push_back(
+      {uint32_t(scene.lights.size()), light.position, glm::vec3(u), glm::vec3(v), float(period), float(phase)});
+  scene.lights.push_back(light);
+}
+
 glm::dvec2 even_point(uint32_t index) {
   const double x = 0.5 + 0.7548776662466927 * index, y = 0.5 + 0.5698402909980532 * index;
   return {x - std::floor(x), y - std::floor(y)};

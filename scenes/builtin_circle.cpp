@@ -66,11 +66,12 @@ Scene circle(const Parameters& parameters) {
   Pcg32 random(parameters.seed, 6);
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
-  for (uint32_t i = 0; i < lights; ++i) {
+  for (uint32_t i = 0; i < lights; ++i) {  // the circle turns
     const double turn = double(i) / lights;
     const double noise = random.real();
     const glm::dvec3 at(3.7 * cosine(2.0 * kPi * turn), 0.8 + 1.2 * noise, 3.7 * sine(2.0 * kPi * turn));
-    scene.lights.push_back(point_light(at, ramp(turn + 0.62 + 0.12 * noise) * (0.12 + 0.14 * noise), 5.0 * reach));
+    const Light light = point_light(at, ramp(turn + 0.62 + 0.12 * noise) * (0.12 + 0.14 * noise), 5.0 * reach);
+    add_moving(scene, light, {3.7, 0.0, 0.0}, {0.0, 0.0, 3.7}, 16.0, turn);
   }
   scene.camera.eye = {0.0f, 3.4f, 6.6f};
   scene.camera.target = {0.0f, 0.55f, 0.0f};

@@ -84,24 +84,30 @@ glm::dvec3 lamp_color(const glm::dvec3& at, bool on_roof, Pcg32& random) {
   return {0.85, 0.9, 1.0};
 }
 
-Light street_lamp(uint32_t number, double city_radius, double reach, Pcg32& random) {
+/// Goes to and fro along its street.
+void add_street_lamp(Scene& scene, uint32_t number, double city_radius, double reach, Pcg32& random, Pcg32& drift) {
   const int streets = int(city_radius / kPitch);
   const glm::dvec2 even = even_point(number);
   const double along = (2.0 * even.x - 1.0) * city_radius;
   const double across =
       kPitch * (int(even.y * (2 * streets + 1)) - streets) + (random.below(2) == 0 ? -0.3 : 0.3) * kStreet;
-  const glm::dvec3 at =
-      random.below(2) == 0 ? glm::dvec3(along, 7.0 * reach, across) : glm::dvec3(across, 7.0 * reach, along);
+  const bool along_x = random.below(2) == 0;
+  const glm::dvec3 at = along_x ? glm::dvec3(along, 7.0 * reach, across) : glm::dvec3(across, 7.0 * reach, along);
   const glm::dvec3 color = lamp_color(at, false, random);
-  return point_light(at, color * random.between(0.8, 1.2), 44.0 * reach);
+  const double way = drift.between(10.0, 40.0), period = way * drift.between(0.4, 0.8);
+  add_moving(scene, point_light(at, color * random.between(0.8, 1.2), 44.0 * reach),
+             along_x ? glm::dvec3(way, 0.0, 0.0) : glm::dvec3(0.0, 0.0, way), glm::dvec3(0.0), period, drift.real());
 }
 
-Light roof_lamp(const Building& building, double reach, Pcg32& random) {
+/// Circles above its roof.
+void add_roof_lamp(Scene& scene, const Building& building, double reach, Pcg32& random, Pcg32& drift) {
   const double spread = building.roof_half_width * 0.9;
   const glm::dvec3 at =
       building.roof + glm::dvec3{random.between(-spread, spread), 6.0 * reach, random.between(-spread, spread)};
   const glm::dvec3 color = lamp_color(at, true, random);
-  return point_light(at, color * random.between(0.8, 1.2), 40.0 * reach);
+  const double period = drift.between(4.0, 9.0);
+  add_moving(scene, point_light(at, color * random.between(0.8, 1.2), 40.0 * reach), {3.0 * reach, 0.0, 0.0},
+             {0.0, 0.0, 3.0 * reach}, period, drift.real());
 }
 
 /// A sign before one of the four walls, somewhere between street and roof.
@@ -124,7 +130,7 @@ Scene city(const Parameters& parameters) {
   add_materials(scene);
   scene.meshes.push_back(cube_mesh());
 
-  Pcg32 random(parameters.seed, 1);
+  Pcg32 random(parameters.seed, 1), drift(parameters.seed, 21);
   const uint32_t objects = parameters.objects_or(kObjects);
   const std::vector<Lot> lots = lots_from_centre(objects);
   const double city_radius = 15.0 + 6.4 * std::sqrt(double(objects));  // near 1.6 cubes a building
@@ -140,9 +146,12 @@ Scene city(const Parameters& parameters) {
   const double reach = parameters.reach(kLights);
   for (uint32_t i = 0; i < lights; ++i) {
     const Building& building = buildings[size_t(even_point(i).x * double(buildings.size()))];
-    scene.lights.push_back(i % 8 < 3   ? street_lamp(i, city_radius, reach, random)
-                           : i % 8 < 5 ? roof_lamp(building, reach, random)
-                                       : wall_lamp(building, reach, random));
+    if (i % 8 < 3)
+      add_street_lamp(scene, i, city_radius, reach, random, drift);
+    else if (i % 8 < 5)
+      add_roof_lamp(scene, building, reach, random, drift);
+    else
+      scene.lights.push_back(wall_lamp(building, reach, random));
   }
 
   scene.camera.eye = glm::vec3(glm::dvec3(0.55, 0.46, 0.78) * city_radius);

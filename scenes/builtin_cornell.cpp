@@ -37,7 +37,7 @@ Scene cornell(const Parameters& parameters) {
   scene.instances.push_back({1, 0, placed({0.36, -0.7, 0.32}, {0.6, 0.6, 0.6}, -0.29)});
   scene.instances.push_back({1, 0, placed({-0.34, -0.4, -0.30}, {0.6, 1.2, 0.6}, 0.31)});
 
-  Pcg32 random(parameters.seed, 5);
+  Pcg32 random(parameters.seed, 5), drift(parameters.seed, 25);
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
   for (uint32_t i = 0; i < lights; ++i) {
@@ -51,7 +51,8 @@ Scene cornell(const Parameters& parameters) {
     }
     const glm::dvec3 at{random.between(-0.88, 0.88), random.between(-0.85, 0.8), random.between(-0.7, 1.1)};
     const glm::dvec3 color = color_of_hue(0.381966 * i, 0.7) * random.between(0.28, 0.42);
-    scene.lights.push_back(point_light(at, color, 1.25 * reach));
+    const double period = drift.between(5.0, 11.0);
+    add_moving(scene, point_light(at, color, 1.25 * reach), {0.11, 0.0, 0.0}, {0.0, 0.08, 0.11}, period, drift.real());
   }
   scene.camera.eye = {0.0f, 0.0f, 3.55f};
   scene.camera.fov_y_rad = 0.72f;

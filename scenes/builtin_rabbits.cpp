@@ -126,11 +126,14 @@ Scene rabbits(const Parameters& parameters) {
   }
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
+  Pcg32 drift(parameters.seed, 22);
   for (uint32_t i = 0; i < lights; ++i) {
     const double distance = radius * 1.08 * std::sqrt((i + 0.5) / lights), angle = 2.399963229728653 * i + 1.0;
     const glm::dvec3 at = on_hill(distance, angle) + glm::dvec3(0.0, 0.9 + 0.8 * random.real(), 0.0) * reach;
     const double hue = 0.06 + 0.5 * random.real() * random.real() + (i % 4 == 0 ? 0.5 : 0.0);
-    scene.lights.push_back(point_light(at, color_of_hue(hue, 0.55) * random.between(0.55, 0.85), 2.6 * reach));
+    const Light light = point_light(at, color_of_hue(hue, 0.55) * random.between(0.55, 0.85), 2.6 * reach);
+    const double wide = drift.between(0.3, 0.7) * reach, period = drift.between(4.0, 9.0);
+    add_moving(scene, light, {wide, 0.0, 0.0}, {0.0, 0.4 * wide, wide}, period, drift.real());
   }
   scene.camera.eye = glm::vec3(glm::dvec3(0.25, 0.85, 1.35) * radius);
   scene.camera.target = glm::vec3(glm::dvec3(0.0, 0.20, 0.16) * radius);

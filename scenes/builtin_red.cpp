@@ -116,6 +116,7 @@ Scene red(const Parameters& parameters) {
   Pcg32 random(parameters.seed, 4);
   const uint32_t lights = parameters.lights_or(kLights);
   const double reach = parameters.reach(kLights);
+  Pcg32 drift(parameters.seed, 24);
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {
       Light ambient;
@@ -133,9 +134,12 @@ Scene red(const Parameters& parameters) {
                                            : glm::dvec3(1.0, 0.32, 0.5);
     if (i % 3 == 0) {
       const glm::dvec3 above = ground + glm::dvec3{random.between(-2.0, 2.0), 5.0, random.between(-2.0, 2.0)} * reach;
-      scene.lights.push_back(spot_light(above, ground, color * 0.65, 12.0 * reach));
+      add_moving(scene, spot_light(above, ground, color * 0.65, 12.0 * reach), {1.5 * reach, 0.0, 0.0},
+                 {0.0, 0.0, 1.5 * reach}, 11.0, drift.real());
     } else {
-      scene.lights.push_back(point_light(ground + glm::dvec3(0.0, 1.3 * reach, 0.0), color * 0.5, 6.5 * reach));
+      const double period = drift.between(5.0, 9.0);
+      add_moving(scene, point_light(ground + glm::dvec3(0.0, 1.3 * reach, 0.0), color * 0.5, 6.5 * reach),
+                 {0.7 * reach, 0.0, 0.0}, {0.0, 0.25 * reach, 0.7 * reach}, period, drift.real());
     }
   }
   scene.camera.eye = {1.0f, 11.0f, 23.0f};

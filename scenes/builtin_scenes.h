@@ -29,6 +29,11 @@ struct Parameters {
 /// A point light of both light models: the linear window ends at `range`, the quadratic falloff is 1/12 there.
 Light point_light(const glm::dvec3& position, const glm::dvec3& color, double range);
 
+/// Adds a light that goes round an ellipse, or to and fro where one axis is 0; see Orbit. Its place at time 0 is its
+/// own.
+void add_moving(Scene& scene, const Light& light, const glm::dvec3& u, const glm::dvec3& v, double period,
+                double phase);
+
 /// Point `index` of an endless sequence in the unit square that fills it evenly from the start (Martin Roberts, "The
 /// Unreasonable Effectiveness of Quasirandom Sequences", 2018: R2).
 glm::dvec2 even_point(uint32_t index);

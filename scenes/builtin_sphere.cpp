@@ -29,8 +29,11 @@ Scene sphere(const Parameters& parameters) {
     // Every sixth is close and bright, so that the ball has spots; the others fill.
     const bool is_spot = i % 6 == 0;
     const glm::dvec3 color = color_of_hue(hue, is_spot ? 0.35 : 0.85) * (is_spot ? 0.75 : random.between(0.11, 0.21));
-    scene.lights.push_back(
-        point_light(direction * (2.0 + (is_spot ? 0.3 * reach : height)), color, (is_spot ? 3.0 : 6.0) * reach));
+    const glm::dvec3 at = direction * (2.0 + (is_spot ? 0.3 * reach : height));
+    const glm::dvec3 across =
+        glm::dvec3(-at.z, 0.0, at.x) * (is_spot ? 1.0 : -1.0);  // the close ones against the others
+    add_moving(scene, point_light(at, color, (is_spot ? 3.0 : 6.0) * reach), {at.x, 0.0, at.z}, across,
+               is_spot ? 24.0 : 15.0, 0.0);
   }
   scene.camera.eye = {0.0f, 1.2f, 5.4f};
   scene.camera.fov_y_rad = 0.85f;

@@ -5,16 +5,16 @@
 #include <cmath>
 
 namespace trueshade::json {
-namespace {
-
-constexpr double kLargest = 1e18;  // in double: 1e18f is a little less
-
 std::string number_text(double value) {
   char buffer[32];
   const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
   (void)code;  // 32 characters hold any double
   return std::string(buffer, end);
 }
+
+namespace {
+
+constexpr double kLargest = 1e18;  // in double: 1e18f is a little less
 
 /// What a value is, for an error; a long string is cut.
 std::string shown(const Value& value) {

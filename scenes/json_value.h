@@ -95,6 +95,9 @@ void append_pointer(std::string& pointer, std::string_view key);
 /// Appends a string in quotes, escaped.
 void append_string(std::string& out, std::string_view text);
 
+/// The shortest text that reads back as the same number.
+std::string number_text(double value);
+
 /// Appends the shortest number that reads back as the same float. Zero has no sign.
 void append_number(std::string& out, float value);
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/builtin.h"
+#include "scenes/light_generators.h"
 #include "scenes/load_geometry.h"
 #include "scenes/scene_defaults.h"
 #include "scenes/scene_json.h"
@@ -31,7 +32,7 @@ Scene scene_of(Mesh mesh) {
   ring.intensity = 0.3;
   ring.range = float(3.0 * bounds.radius);
   ring.attenuation = {1.0f, 0.0f, float(1.0 / (bounds.radius * bounds.radius))};
-  add_ring(scene.lights, ring);
+  add_ring(scene, ring);
   return scene;
 }
 

@@ -12,6 +12,7 @@
 #include "scenes/light.h"
 #include "scenes/mesh.h"
 #include "scenes/texture.h"
+#include "scenes/timeline.h"
 
 namespace trueshade {
 
@@ -44,7 +45,8 @@ struct Instance {
   glm::mat4x3 world_from_object{1.0f};  ///< affine: 4 columns of 3
 };
 
-/// Everything that is drawn, at one time. Instances are drawn in order; lights are summed in order.
+/// Everything that is drawn, at one time: 0 where it was just loaded. Instances are drawn in order; lights are summed
+/// in order.
 struct Scene {
   std::string spec;  ///< what the user wrote: `builtin:city,seed=3`, or the file's name without its folder
   std::vector<Mesh> meshes;
@@ -55,6 +57,8 @@ struct Scene {
   Camera camera;
   glm::vec4 clear{0.0f};      ///< linear RGBA of the target where nothing is drawn
   std::string pipeline_text;  ///< JSON of the scene file's "pipeline", for pipeline_from_json(); empty if it has none
+
+  Timeline timeline;  ///< what set_time() moves
 
   uint64_t triangle_count() const;  ///< over all instances
 };
@@ -76,6 +80,17 @@ using ImageDecoder =
 /// Throws Error(bad_input or limit) unless every index, number and count is in its stated range: finite positions with
 /// |x| <= 1e18, colours in [0, 1e18], ranges > 0, unit directions, indices below the vertex count.
 void validate(const Scene& scene, const SceneLimits& limits = {});
+
+/// Largest |x|, |y|, |z| of a mesh's vertices.
+glm::dvec3 reach_of(const Mesh& mesh);
+
+/// Moves instances, lights, camera and colours to a time in seconds, |time| <= 1e6; meshes stay. The same bits whatever
+/// the time was before. Error(usage) for a time out of range, Error(bad_input) where what moves leaves its range.
+inline constexpr double kLatestTime = 1e6;
+void set_time(Scene& scene, double time);
+
+/// validate() of what set_time() moves. Throws Error(bad_input) with the time.
+void validate_moving(const Scene& scene, double time);
 
 /// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
 /// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/pcg32.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -46,24 +45,6 @@ Camera camera_seeing(const Bounds& bounds) {
   camera.near = float(0.2 * (distance - bounds.radius));
   camera.far = float(distance + 4.0 * bounds.radius);
   return camera;
-}
-
-void add_ring(std::vector<Light>& lights, const LightRing& ring) {
-  Pcg32 random(ring.seed, 9);
-  for (uint32_t i = 0; i < ring.count; ++i) {
-    const double turn = double(i) / ring.count, angle = 2.0 * kPi * turn;
-    const double ramp = turn * double(ring.colors.size());
-    const size_t first = size_t(ramp) % ring.colors.size(), second = (first + 1) % ring.colors.size();
-    const double part = ramp - std::floor(ramp);
-    const double bright = 1.0 - ring.noise * random.real(), rise = 0.5 * ring.radius * ring.noise * random.real();
-    Light light;
-    light.position = glm::vec3(ring.centre + glm::dvec3(ring.radius * cosine(angle), rise, ring.radius * sine(angle)));
-    light.color = glm::vec3((glm::dvec3(ring.colors[first]) * (1.0 - part) + glm::dvec3(ring.colors[second]) * part) *
-                            (ring.intensity * bright));
-    light.range = ring.range;
-    light.attenuation = ring.attenuation;
-    lights.push_back(light);
-  }
 }
 
 }  // namespace trueshade

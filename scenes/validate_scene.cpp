@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "scenes/json_value.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -169,15 +170,9 @@ void check_camera(const Camera& camera, const Part& part) {
                "a target away from the eye and an up that is not along the view");
 }
 
-/// Largest |x|, |y|, |z| of each mesh's vertices.
 std::vector<glm::dvec3> mesh_reaches(const Scene& scene) {
   std::vector<glm::dvec3> reaches;
-  for (const Mesh& mesh : scene.meshes) {
-    glm::dvec3 reach(0.0);
-    for (size_t c = 0; c < 3; ++c)
-      for (const float x : mesh.position[c]) reach[int(c)] = std::max(reach[int(c)], std::abs(double(x)));
-    reaches.push_back(reach);
-  }
+  for (const Mesh& mesh : scene.meshes) reaches.push_back(reach_of(mesh));
   return reaches;
 }
 
@@ -192,13 +187,17 @@ void check_world_reach(const Instance& instance, const glm::dvec3& reach, const 
   }
 }
 
+void check_transform(const Instance& instance, const Part& part) {
+  for (int column = 0; column < 4; ++column)
+    part.require(within(instance.world_from_object[column], -kLargest, kLargest),
+                 "the transform is not finite or over 1e18", "finite numbers");
+}
+
 void check_instance(const Scene& scene, const Instance& instance, const Part& part) {
   part.require(instance.mesh < scene.meshes.size(), "the mesh index is beyond the meshes", "an existing mesh");
   part.require(instance.material < scene.materials.size(), "the material index is beyond the materials",
                "an existing material");
-  for (int column = 0; column < 4; ++column)
-    part.require(within(instance.world_from_object[column], -kLargest, kLargest),
-                 "the transform is not finite or over 1e18", "finite numbers");
+  check_transform(instance, part);
 }
 
 void check_limit(const std::string& spec, const char* what, uint64_t count, uint64_t limit) {
@@ -208,6 +207,13 @@ void check_limit(const std::string& spec, const char* what, uint64_t count, uint
 }
 
 }  // namespace
+
+glm::dvec3 reach_of(const Mesh& mesh) {
+  glm::dvec3 reach(0.0);
+  for (size_t c = 0; c < 3; ++c)
+    for (const float x : mesh.position[c]) reach[int(c)] = std::max(reach[int(c)], std::abs(double(x)));
+  return reach;
+}
 
 void validate(const Scene& scene, const SceneLimits& limits) {
   const std::string& spec = scene.spec;
@@ -229,6 +235,22 @@ void validate(const Scene& scene, const SceneLimits& limits) {
   check_camera(scene.camera, Part{spec, "camera", {}});
   Part{spec, "clear", {}}.require(is_color(scene.clear), "the colour is out of range",
                                   "RGB in [0, 1e18], alpha in [0, 1]");
+}
+
+void validate_moving(const Scene& scene, double time) {
+  const Timeline& timeline = scene.timeline;
+  const std::string spec = scene.spec + ": time " + json::number_text(time);
+  const auto part = [&](const char* kind, size_t index) { return Part{spec, kind, index}; };
+  for (const MovingInstance& moving : timeline.instances) {
+    check_transform(scene.instances[moving.instance], part("instance", moving.instance));
+    check_world_reach(scene.instances[moving.instance], moving.reach, part("instance", moving.instance));
+  }
+  for (const MaterialMotion& motion : timeline.materials)
+    check_material(scene.materials[motion.material], {}, part("material", motion.material));
+  for (const LightMotion& motion : timeline.lights)
+    check_light(scene.lights[motion.light], part("light", motion.light));
+  for (const Orbit& orbit : timeline.orbits) check_light(scene.lights[orbit.light], part("light", orbit.light));
+  if (!timeline.camera.empty()) check_camera(scene.camera, Part{spec, "camera", {}});
 }
 
 }  // namespace trueshade

@@ -44,7 +44,7 @@ struct Frame {
 struct ClusteredScene;
 
 /// Scene with its meshes split into clusters, built once; frames of any pipeline are drawn from it.
-/// Borrows the scene, which must outlive it unchanged.
+/// Borrows the scene, which must outlive it with its meshes unchanged; set_time() may move it between frames.
 class PreparedScene {
  public:
   explicit PreparedScene(const Scene& scene);

@@ -1,6 +1,10 @@
+#include "scenes/scene_json.h"
+
 #include <cmath>
+#include <set>
 
 #include "expect_error.h"
+#include "scenes/json_value.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 #include "scratch_folder.h"
@@ -167,6 +171,55 @@ TEST_CASE("bad scenes are refused at their pointer") {
                     "s.json: /objects/0/geometry: no.ply: No such file");
   CHECK_STARTS_WITH(refusal(with("lights", R"([{"type": "ring", "count": 1048577, "radius": 1}])"), ErrorKind::limit),
                     "s.json: /lights/0: the lights are over the limit");
+}
+
+std::string documentation() {
+  std::ifstream file(TRUESHADE_SOURCE_DIR "/docs/scenes.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The scenes that docs/scenes.md shows: its blocks of JSON.
+std::vector<std::string> documented_scenes(const std::string& text) {
+  std::vector<std::string> scenes;
+  constexpr std::string_view kStart = "```json\n";
+  for (size_t at = text.find(kStart); at != std::string::npos; at = text.find(kStart, at)) {
+    at += kStart.size();
+    scenes.push_back(text.substr(at, text.find("```", at) - at));
+  }
+  return scenes;
+}
+
+/// Every key of every object of a text, behind the object's name where one reader reads it.
+void collect_keys(const json::Value& value, std::set<std::string>& keys) {
+  if (const auto* array = std::get_if<std::unique_ptr<json::Array>>(&value.is))
+    for (const json::Value& element : **array) collect_keys(element, keys);
+  if (const auto* members = std::get_if<std::unique_ptr<json::Members>>(&value.is))
+    for (const auto& [key, member] : **members) {
+      keys.insert(key);
+      collect_keys(member, keys);
+    }
+}
+
+TEST_CASE("the scenes of the documentation load at every time; every key is in one of them or named beside them") {
+  const std::string page = documentation();
+  const std::vector<std::string> scenes = documented_scenes(page);
+  REQUIRE(scenes.size() >= 2);
+  std::set<std::string> shown;
+  for (const std::string& text : scenes) {
+    INFO(text);
+    collect_keys(json::parse(text, "docs/scenes.md"), shown);
+    const ScratchFolder scratch;
+    std::string own = text;  // the dragon is an asset that not everyone has
+    if (const size_t at = own.find("dragon_vrip_res2.ply.gz"); at != std::string::npos) own.replace(at, 23, "t.ply");
+    scratch.write("t.ply", kTriangle);
+    Scene scene = load_scene(scratch.write("s.json", own));
+    for (const double time : {0.0, 0.45, 3.0, 1000.0}) CHECK_NOTHROW(set_time(scene, time));
+  }
+  for (const json::ObjectKeys& object : scene_object_keys())
+    for (const std::string_view key : object.keys) {
+      INFO(object.object << " " << key);
+      CHECK((shown.count(std::string(key)) == 1 || page.find("`" + std::string(key) + "`") != std::string::npos));
+    }
 }
 
 TEST_CASE("files of unknown endings, absent files and long texts are refused") {
