@@ -39,6 +39,10 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
+    for (const Material& m : scene.materials)
+      if (m.normal_map.used())
+        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal map cannot be judged yet",
+                    "validate the scene without it");
     candidates_ = find_candidates(projector_);
   }
 
