@@ -1,6 +1,7 @@
 #include "cli/driver_capture.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,23 @@ double total_ms(const std::vector<oracle::GlPass>& passes) {
   return total;
 }
 
+void mark_changes(const Image& a, const Image& b, std::vector<bool>& changed) {
+  const size_t texel = size_t(info(a.format).bytes_per_texel());
+  for (size_t i = 0; i < changed.size(); ++i)
+    if (std::memcmp(&a.texels[i * texel], &b.texels[i * texel], texel) != 0) changed[i] = true;
+}
+
+/// Pixels that are not the same, bit for bit, in two captures of one driver.
+uint64_t changed_pixels(const oracle::Capture& a, const oracle::Capture& b) {
+  std::vector<bool> changed(size_t(a.color.width) * size_t(a.color.height));
+  mark_changes(a.color, b.color, changed);
+  for (size_t i = 0; i < a.planes.size(); ++i) mark_changes(a.planes[i].image, b.planes[i].image, changed);
+  return uint64_t(std::count(changed.begin(), changed.end(), true));
+}
+
 /// Passes of the frame of median time, out of those that fit the budget; `first` where none does.
 std::vector<oracle::GlPass> timed_passes(oracle::GlRenderer& renderer, const Pipeline& pipeline,
-                                         std::vector<oracle::GlPass> first, int& frames) {
+                                         const std::vector<oracle::GlPass>& first, int& frames) {
   frames = 1;
   std::vector<std::vector<oracle::GlPass>> repeated;
   double spent_ms = total_ms(first);
@@ -43,14 +58,26 @@ std::vector<oracle::GlPass> timed_passes(oracle::GlRenderer& renderer, const Pip
   return *middle;
 }
 
+oracle::GlDraw moved() {
+  oracle::GlDraw draw;
+  draw.shift_x = 64;
+  draw.shift_y = 32;
+  return draw;
+}
+
 }  // namespace
 
 DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline) {
   const oracle::GlContext context(driver_named(driver));
   oracle::GlRenderer renderer(context, scene);
   oracle::GlFrame frame = renderer.draw(pipeline);
-  DriverFrame drawn{std::move(frame.capture), context.info().subpixel_bits, 0, {}, std::move(frame.notes)};
-  for (const oracle::GlPass& pass : timed_passes(renderer, pipeline, std::move(frame.passes), drawn.timed_frames))
+  DriverFrame drawn;
+  drawn.capture = std::move(frame.capture);
+  drawn.subpixel_bits = context.info().subpixel_bits;
+  drawn.notes = std::move(frame.notes);
+  drawn.repeat_changes = changed_pixels(drawn.capture, renderer.draw(pipeline).capture);
+  drawn.move_changes = changed_pixels(drawn.capture, renderer.draw(pipeline, moved()).capture);
+  for (const oracle::GlPass& pass : timed_passes(renderer, pipeline, frame.passes, drawn.timed_frames))
     drawn.passes.push_back({pass.name, pass.ms});
   return drawn;
 }

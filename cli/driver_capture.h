@@ -19,6 +19,9 @@ struct DriverFrame {
   int subpixel_bits = 0;  ///< GL_SUBPIXEL_BITS
   int timed_frames = 0;   ///< how many the median is of
   std::vector<Pass> passes;
+  /// Pixels of which something stored differs from the first frame's: in the same frame drawn again, which OpenGL rules
+  /// out (4.6 core, appendix A, rule 1), and in one moved by whole pixels (14.2), which drivers are known not to keep.
+  uint64_t repeat_changes = 0, move_changes = 0;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
 };
 

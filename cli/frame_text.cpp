@@ -48,6 +48,8 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
   if (!result.scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(result.time));
   metadata.emplace_back("trueshade:version", kVersion);
+  if (result.frame.view_scale > 0)
+    metadata.emplace_back("trueshade:viewScale", std::to_string(result.frame.view_scale));
   return metadata;
 }
 
@@ -81,6 +83,8 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
       time("light_ms", "light, all threads [ms]", s.light_ms),
       time("total_ms", "this frame, planes included [ms]", s.total_ms)};
+  if (result.frame.view_scale > 0)
+    lines.push_back(count("view_scale", "count at the top of the heat map", result.frame.view_scale));
   if (!result.repeated_ms.empty())
     lines.push_back(time("frame_ms", "time per frame [ms]", result.repeated_ms[result.repeated_ms.size() / 2]));
   return lines;

@@ -18,13 +18,16 @@ struct Section {
 std::vector<Section> sections() {
   Section scenes{"scenes", "Scenes (render builtin:NAME)", {}}, rows{"presets", "Presets (--preset)", {}};
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
+  Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
   for (const BuiltinInfo& scene : builtin_scenes()) scenes.entries.emplace_back(scene.name, scene.description);
   for (const Preset& preset : presets()) rows.entries.emplace_back(preset.name, preset.source);
   for (const Format format : kFormats) formats.entries.emplace_back(info(format).name, "");
   for (const std::string_view name : aov_names()) planes.entries.emplace_back(name, "");
+  planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
+  for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  return {scenes, rows, {"strategies", "Strategies", {{"deferred-loop", ""}}}, formats, planes, simd};
+  return {scenes, rows, {"strategies", "Strategies", {{"deferred-loop", ""}}}, formats, planes, views, simd};
 }
 
 std::string json_of(const std::vector<Section>& list) {

@@ -79,6 +79,12 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
+ImageView view_from_text(const std::string& text) {
+  const std::optional<ImageView> view = view_from_name(text);
+  if (!view) throw usage("--view", "there is no view '" + text + "'", "one of: " + joined(kViewNames));
+  return *view;
+}
+
 std::vector<std::string_view> target_names() {
   std::vector<std::string_view> names;
   for (const Format format : kTargetFormats) names.push_back(info(format).name);
@@ -92,19 +98,23 @@ Format target_from_text(const std::string& text) {
   return *format;
 }
 
+std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
+
+/// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
 std::vector<std::string> aovs_from_text(const std::string& list) {
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
     const std::string name = list.substr(begin, end - begin);
-    const auto known = aov_names();
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + joined(known));
+    if (!is_aov_name(name))
+      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
     if (std::find(names.begin(), names.end(), name) != names.end())
       throw usage("--aov", "plane '" + name + "' is named twice", "name it once");
     names.push_back(name);
     begin = end + 1;
   }
+  const auto named = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (named("depth") && !named("Z")) names.emplace_back("Z");
   return names;
 }
 
@@ -121,7 +131,7 @@ void check_outputs(const RenderOptions& options) {
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, time, frames, target, profile, aov, threads, tile;
+  std::optional<std::string> size, time, frames, target, profile, view, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -153,7 +163,8 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
   render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
-  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + joined(aov_names()));
+  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + plane_names());
+  render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
   render->add_option("--tile", texts.tile, "Tile side: 8, 16, 32, 48 or 64; never changes a pixel");
@@ -183,6 +194,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.frames) options.frames = frames_from_text(*texts.frames);
   if (texts.target) options.target = target_from_text(*texts.target);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.view) options.view = view_from_text(*texts.view);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
@@ -240,8 +252,10 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
-  if (std::find(std::begin(kDrivers), std::end(kDrivers), options.driver) == std::end(kDrivers))
-    throw usage("--driver", "there is no driver '" + options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
+    throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.driver && !options.gbuffer_file.empty())
+    throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
   if (options.held_to && !oracle::profile_named(*options.held_to))
     throw usage("--profile", "there is no profile '" + *options.held_to + "'",
                 "one of: " + joined(oracle::profile_names()));

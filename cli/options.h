@@ -25,6 +25,7 @@ struct PipelineOptions {
   std::optional<Size> size;
   std::optional<Format> target;
   std::optional<NumericProfile> profile;
+  std::optional<ImageView> view;
 };
 
 /// `trueshade render`
@@ -32,7 +33,7 @@ struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name()
   double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
-  std::vector<std::string> aovs;  ///< planes for .exr outputs, each one of aov_names()
+  std::vector<std::string> aovs;  ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
@@ -59,7 +60,7 @@ struct GlslFilesOptions {
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
-  std::string driver = "default";        ///< default, llvmpipe or softpipe; not read where there is a capture
+  std::optional<std::string> driver;     ///< default, llvmpipe or softpipe; none where there is a capture
   std::optional<std::string> held_to;    ///< what profile to hold the driver to; nothing: what OpenGL promises of any
   std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here

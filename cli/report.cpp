@@ -4,19 +4,16 @@
 #include <array>
 
 #include "cli/page.h"
-#include "cli/planes_to_view.h"
 #include "cli/version.h"
 #include "core/fp_env.h"
+#include "shading/derived_planes.h"
+#include "shading/heat_map.h"
+#include "shading/view_image.h"
 
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kPlanes[] = {"depth", "position", "normal", "albedo", "light.count"};
-
-const Image& plane(const RenderedFrame& result, std::string_view name) {
-  const auto& aovs = result.frame.aovs;
-  return std::find_if(aovs.begin(), aovs.end(), [name](const NamedImage& aov) { return aov.name == name; })->image;
-}
+constexpr std::string_view kPlanes[] = {"Z", "position", "normal", "albedo", "light.count", "id.object"};
 
 std::string value_of(const std::vector<StatLine>& lines, std::string_view key) {
   return std::find_if(lines.begin(), lines.end(), [key](const StatLine& line) { return line.key == key; })->value;
@@ -25,7 +22,7 @@ std::string value_of(const std::vector<StatLine>& lines, std::string_view key) {
 std::string heat_ramp(uint32_t most) {
   std::string stops;
   for (int i = 0; i <= 10; ++i) {
-    const std::array<uint8_t, 3> rgb = heat_color(i / 10.0);
+    const std::array<uint8_t, 3> rgb = heat_color(256 * i / 10);
     stops += ", rgb(" + std::to_string(rgb[0]) + ' ' + std::to_string(rgb[1]) + ' ' + std::to_string(rgb[2]) + ')';
   }
   return "<span class=ramp>0 <i style=\"background: linear-gradient(to right" + stops + ")\"></i> " +
@@ -49,18 +46,16 @@ std::string heading(const RenderedFrame& result, const std::vector<StatLine>& li
 }
 
 std::string pictures(const RenderedFrame& result) {
-  const float clear = result.pipeline.geometry.clear_depth;
-  const Image& depth = plane(result, "depth");
-  const uint32_t most = largest_count(plane(result, "light.count"));
+  const std::vector<NamedImage>& planes = result.frame.aovs;
+  const Image& counts = plane_named(planes, "light.count");
+  const uint32_t most = heat_scale(counts);
   return "<h2>G-buffer</h2>\n<div class=pictures>\n" +
-         figure(normal_view(plane(result, "normal"), depth, clear), "Normal", "world space, (N + 1) / 2") +
-         figure(albedo_view(plane(result, "albedo"), depth, clear), "Albedo", "sRGB-encoded") +
-         figure(depth_view(depth, clear), "Depth", "near is bright, logarithmic") +
-         figure(position_view(plane(result, "position"), depth, clear), "Position",
+         figure(view_image(ImageView::normal, planes), "Normal", "world space, (N + 1) / 2") +
+         figure(view_image(ImageView::albedo, planes), "Albedo", "sRGB-encoded") +
+         figure(view_image(ImageView::depth, planes), "Depth", "distance along the view axis, near is bright") +
+         figure(view_image(ImageView::position, planes), "Position",
                 "world x, y, z as red, green, blue, each over its extent") +
-         figure(heat_view(plane(result, "light.count"), most), "Lights per pixel",
-                "that reach and face it" + heat_ramp(most)) +
-         "</div>\n";
+         figure(heat_image(counts, most), "Lights per pixel", "that reach and face it" + heat_ramp(most)) + "</div>\n";
 }
 
 std::string table(const std::vector<StatLine>& lines) {

@@ -24,10 +24,12 @@ double timed(Job job) {
 }
 
 void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
-  DriverFrame frame = drawn_by_driver(options.driver, scene, v.pipeline);
+  DriverFrame frame = drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
   v.timed_frames = frame.timed_frames;
+  v.repeat_changes = frame.repeat_changes;
+  v.move_changes = frame.move_changes;
   v.notes = std::move(frame.notes);
   // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
   if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
@@ -66,7 +68,7 @@ bool judge_opengl(const ValidationOptions& options) {
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }
   print(options.json ? validation_json(v) : validation_text(v));
-  return v.verdict.violations() == 0;
+  return passes(v);
 }
 
 }  // namespace trueshade

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,19 +17,26 @@ struct Validation {
   oracle::Capture capture;
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
-  std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
-  int timed_frames = 0;                   ///< whose median the passes are
-  std::vector<std::string> notes;         ///< what a reader must know before the figures
-  double draw_ms = 0, judge_ms = 0;       ///< wall time, upload and reading files included
+  std::vector<DriverFrame::Pass> passes;                 ///< empty for a capture from files
+  int timed_frames = 0;                                  ///< whose median the passes are
+  std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing for a capture from files
+  std::vector<std::string> notes;                        ///< what a reader must know before the figures
+  double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
 };
+
+/// Whether every pixel is in its legal set, and the driver drew the same again.
+bool passes(const Validation& validation);
 
 /// EXACT and STORE-2 pixels among all of a stage.
 double exact_share(const oracle::StageVerdict& stage);
 
+/// How often the driver contradicts itself, in one line; empty for a capture from files.
+std::string invariance_line(const Validation& validation);
+
 /// What the driver was held to, the tightest profile, and the verdict, each in one line.
 std::string profile_line(const oracle::Profile& profile);
 std::string tightest_line(const oracle::Inference& inferred);
-std::string conclusion(const oracle::Verdict& verdict);
+std::string conclusion(const Validation& validation);
 
 /// What the command says: lines for people, or one JSON document.
 std::string validation_text(const Validation& validation);

@@ -134,8 +134,7 @@ std::string heading(const Validation& v) {
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage);
   for (const DriverFrame::Pass& pass : v.passes) html += fact(number(pass.ms, "%.1f") + " ms", pass.name);
   html += fact(number(v.judge_ms / 1000, "%.1f") + " s", "judging");
-  return html + "</div>\n<p" + (v.verdict.violations() > 0 ? " class=bad" : "") +
-         ">Verdict: " + escaped(conclusion(v.verdict)) + ".</p>\n";
+  return html + "</div>\n<p" + (passes(v) ? "" : " class=bad") + ">Verdict: " + escaped(conclusion(v)) + ".</p>\n";
 }
 
 }  // namespace

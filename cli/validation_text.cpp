@@ -87,10 +87,21 @@ std::string tightest_line(const oracle::Inference& inferred) {
   return text(inferred) + (inferred.known_as.empty() ? "; no named profile explains it" : "; as " + inferred.known_as);
 }
 
-std::string conclusion(const oracle::Verdict& v) {
+bool passes(const Validation& v) { return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0; }
+
+std::string invariance_line(const Validation& v) {
+  if (!v.repeat_changes || !v.move_changes) return {};
+  return "drawn again " + std::to_string(*v.repeat_changes) + " pixels change; moved by (64, 32) " +
+         std::to_string(*v.move_changes) + " do";
+}
+
+std::string conclusion(const Validation& validation) {
+  const oracle::Verdict& v = validation.verdict;
   const uint64_t violations = v.violations();
   if (violations > 0)
     return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set";
+  if (validation.repeat_changes.value_or(0) > 0)
+    return "every pixel is explained, yet the same frame drawn again is another";
   return std::string("every pixel is explained") + (v.suspicious() ? ", yet the image is not what chance makes" : "");
 }
 
@@ -109,11 +120,12 @@ std::string validation_text(const Validation& v) {
   for (const DriverFrame::Pass& pass : v.passes) times += pass.name + ' ' + real(pass.ms, "%.1f") + " ms, ";
   if (v.timed_frames > 1) times += "(median of " + std::to_string(v.timed_frames) + " frames) ";
   lines += row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
+  if (v.repeat_changes) lines += row("invariance", invariance_line(v));
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
     lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
   lines += '\n';
   if (v.verdict.inferred) lines += row("tightest", tightest_line(*v.verdict.inferred));
-  return lines + row("verdict", conclusion(v.verdict));
+  return lines + row("verdict", conclusion(v));
 }
 
 std::string validation_json(const Validation& v) {
@@ -129,6 +141,7 @@ std::string validation_json(const Validation& v) {
       .put_raw("passes", passes.text())
       .put("timed_frames", v.timed_frames)
       .put_raw("notes", notes.text());
+  if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes).put("move_changes", *v.move_changes);
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));
   return json.text() + '\n';
 }

@@ -24,7 +24,7 @@ using M64 = hn::Mask<D64>;
 
 /// Counts covered samples: for overdraw, and for tests of watertightness.
 struct CountCommit {
-  uint16_t* counts;  ///< in tile_index() order
+  uint32_t* counts;  ///< in tile_index() order
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}
@@ -36,7 +36,7 @@ struct CountCommit {
     alignas(64) double one[kLanes];
     hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
     for (size_t i = 0; i < hn::Lanes(d); ++i)
-      counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
+      counts[size_t(at) + i] += one[i] != 0.0;
     return false;
   }
   bool scalar(int at, double, double, double) {

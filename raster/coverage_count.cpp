@@ -24,7 +24,7 @@ struct Batch {
 };
 
 void count_batch(const Batch& batch, const GeometryState& state, const WindowTransform& t, const TileRect& rect,
-                 uint16_t* counts) {
+                 uint32_t* counts) {
   const D32 df;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices v;
@@ -54,13 +54,13 @@ void count_batch(const Batch& batch, const GeometryState& state, const WindowTra
 void count_coverage_simd(std::span<const ClipTriangle> triangles, const GeometryState& state, int width, int height,
                          int tile, NumericProfile profile, std::span<uint16_t> counts) {
   const WindowTransform t = window_transform(state, width, height, profile);
-  std::vector<uint16_t> tile_counts(size_t(tile) * size_t(tile));
+  std::vector<uint32_t> tile_counts(size_t(tile) * size_t(tile));
   for (int ty = 0; ty < height; ty += tile) {
     for (int tx = 0; tx < width; tx += tile) {
       const auto in_tile = [tile](int v) { return std::clamp(v, 0, tile); };
       const TileRect rect{
           tx, ty, tile, {in_tile(t.x0 - tx), in_tile(t.y0 - ty), in_tile(t.x1 - tx), in_tile(t.y1 - ty)}};
-      std::fill(tile_counts.begin(), tile_counts.end(), uint16_t(0));
+      std::fill(tile_counts.begin(), tile_counts.end(), 0u);
       for (size_t from = 0; from < triangles.size(); from += kBatch) {
         Batch batch;
         batch.triangles = std::min(kBatch, triangles.size() - from);

@@ -7,6 +7,7 @@
 #include "core/format.h"
 #include "core/numeric_profile.h"
 #include "scenes/light_model.h"
+#include "scenes/image_view.h"
 
 namespace trueshade {
 
@@ -105,6 +106,7 @@ struct Pipeline {
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;
+  ImageView view = ImageView::lit;  ///< of others the image is rgba8, whatever the target
   bool operator==(const Pipeline&) const = default;
 };
 

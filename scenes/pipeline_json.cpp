@@ -30,8 +30,9 @@ constexpr std::string_view kSpeculars[] = {"blinn_phong", "phong", "none"};
 constexpr std::string_view kSpecularSources[] = {"model", "albedo", "material", "metallic_roughness"};
 constexpr std::string_view kViewers[] = {"local", "infinite"};
 
-constexpr std::string_view kRootKeys[] = {"version",     "preset",        "width", "height",   "geometry", "gbuffer",
-                                          "light_model", "light_volumes", "blend", "strategy", "target",   "profile"};
+constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",         "height", "geometry",
+                                          "gbuffer", "light_model", "light_volumes", "blend",  "strategy",
+                                          "target",  "profile",     "view"};
 constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "depth_far", "depth_func",
                                               "clear_depth", "depth_clamp", "cull_face", "front_face",
                                               "clip_origin", "clip_depth",  "provoking"};
@@ -339,6 +340,7 @@ std::string pipeline_json(const Pipeline& pipeline) {
     w.put("strategy", pipeline.strategy, kStrategyNames);
     w.put("target", info(pipeline.target).name);
     w.put("profile", pipeline.profile, kProfileNames);
+    w.put("view", pipeline.view, kViewNames);
   }
   return out;
 }
@@ -362,6 +364,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   read_choice(node, "strategy", p.strategy, kStrategyNames);
   read_format(node, "target", p.target, kTargetFormats);
   read_choice(node, "profile", p.profile, kProfileNames);
+  read_choice(node, "view", p.view, kViewNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
     node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions",
               "give them different values");

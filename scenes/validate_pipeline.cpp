@@ -109,6 +109,7 @@ void validate(const Pipeline& pipeline) {
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
+  require_enumerator(pipeline.view, ImageView::overdraw, "view");
   if (!profile_has(pipeline.profile, pipeline.target))
     throw Error(ErrorKind::usage, "target",
                 std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +

@@ -1,5 +1,3 @@
-#include "shading/frame.h"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,30 +10,30 @@
 #include "core/fp_env.h"
 #include "raster/cluster_bins.h"
 #include "raster/clusters.h"
+#include "raster/overdraw.h"
 #include "raster/simd_target.h"
 #include "raster/surfaces.h"
 #include "raster/view.h"
 #include "raster/visibility.h"
+#include "shading/draw_frame.h"
 #include "shading/light_pass.h"
+#include "shading/light_planes.h"
 #include "shading/light_table.h"
 #include "shading/target.h"
 
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kAovNames[] = {"depth", "position",  "normal",      "albedo",
-                                          "uv",    "id.object", "id.material", "light.count"};
-
 double now_ms() {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-// Scratch of one thread: about 0.7 MB, kept for the thread's life so that no frame allocates it.
+// Scratch of one thread: about 0.8 MB, kept for the thread's life so that no frame allocates it.
 struct TileScratch {
   VisibilityTile visible;
   SurfaceTile surface;
-  ColorTile color;
+  ColorTile color, extra;  // extra: of planes beside the picture
   VisibleVertices vertices;
   LightLists lights;
 };
@@ -61,6 +59,7 @@ struct FrameWork {
   const ClusterBins bins;
   const LightTable lights;
   bool need_uv;
+  const LightPlanes light_planes;
   Frame& out;
 
   TileRect rect(int tile) const {
@@ -83,8 +82,19 @@ struct FrameWork {
     light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
                execution.compiled_models, s.lights, s.color, counts.light);
     store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
-    for (NamedImage& aov : out.aovs)
-      store_aov(aov.name, s.visible, s.surface, s.color, where, pipeline.gbuffer.half_round, aov.image);
+    light_planes.draw(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
+                      out.aovs);
+    for (NamedImage& aov : out.aovs) {
+      if (light_of_plane(aov.name)) continue;
+      if (aov.name == "specular") {
+        store_specular(s.surface, pipeline.light_model, where, aov.image);
+        continue;
+      }
+      const bool counts_fragments = aov.name == "overdraw";
+      if (counts_fragments) count_fragments(draws, where, s.extra.light_count);
+      store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where,
+                pipeline.gbuffer.half_round, aov.image);
+    }
     counts.geometry_ms += middle - start;
     counts.light_ms += now_ms() - middle;
   }
@@ -123,15 +133,6 @@ void check_memory(const Pipeline& pipeline, const Execution& execution, std::spa
         "a smaller size or fewer planes");
 }
 
-void check_aovs(std::span<const std::string> names) {
-  for (const std::string& name : names) {
-    if (std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames)) continue;
-    std::string known;
-    for (const auto& n : kAovNames) known += (known.empty() ? "" : ", ") + std::string(n);
-    throw Error(ErrorKind::usage, "aov", "there is no plane '" + name + "'", "one or more of " + known);
-  }
-}
-
 void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
   for (const TileCounts& t : tiles) {  // in tile order, so that the sums do not depend on scheduling
     stats.covered_pixels += t.covered;
@@ -163,18 +164,13 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
 
 }  // namespace
 
-std::span<const std::string_view> aov_names() { return kAovNames; }
-
 PreparedScene::PreparedScene(const Scene& scene)
     : scene_(&scene), clusters_(std::make_unique<ClusteredScene>(cluster_scene(scene))) {}
 PreparedScene::~PreparedScene() = default;
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
-Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
-                   std::span<const std::string> aovs, const Progress& progress) {
-  validate(pipeline);
-  validate(execution);
-  check_aovs(aovs);
+Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                 std::span<const std::string> aovs, const Progress& progress) {
   if (pipeline.strategy != Strategy::deferred_loop)
     throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not drawn yet",
                 "deferred-loop");
@@ -193,7 +189,8 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
       bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins),
-              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv, frame},
+              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv,
+              LightPlanes(aovs, scene, pipeline.light_model), frame},
              progress);
 
   FrameStats& stats = frame.stats;
@@ -203,11 +200,6 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   stats.triangles = scene.triangle_count();
   stats.total_ms = now_ms() - start;
   return frame;
-}
-
-Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                   std::span<const std::string> aovs, const Progress& progress) {
-  return render_frame(PreparedScene(scene), pipeline, execution, aovs, progress);
 }
 
 }  // namespace trueshade

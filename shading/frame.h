@@ -31,14 +31,16 @@ struct FrameStats {
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
 };
 
-/// Planes to hand out beside the colour target.
-/// Names: depth position normal albedo uv id.object id.material light.count (lights that light the pixel; 0 = none).
-std::span<const std::string_view> aov_names();
+/// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular uv
+/// id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the scene.
+std::span<const std::string_view> aov_names();  ///< but for light.<i>
+bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
 
 struct Frame {
   Image color;
   std::vector<NamedImage> aovs;  ///< in the order asked for
   FrameStats stats;
+  uint32_t view_scale = 0;  ///< of views that are heat maps: the count at the top of the colour map; else 0
 };
 
 struct ClusteredScene;
@@ -64,7 +66,8 @@ using Progress = std::function<void(int done, int total)>;
 
 /// Draws one frame: geometry pass, light lists, light pass, store. The image is a pure function of scene and pipeline;
 /// `execution`, the machine and the caller's floating-point environment never change a bit of it.
-/// `aovs`: names from aov_names(). Throws Error(usage) for values out of range.
+/// The image is the target, or what pipeline.view shows instead. `aovs`: names, see is_aov_name(). Throws Error(usage)
+/// for values out of range.
 Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {}, const Progress& progress = {});
 Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},

@@ -12,6 +12,7 @@
 #include "core/half.h"
 #include "core/small_float.h"
 #include "raster/store-inl.h"
+#include "shading/light_planes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -126,15 +127,15 @@ void write_stored(const ColorTile& stored, const TileRect& rect, Image& target) 
 
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane) {
-  const uint32_t* integers = name == "id.object"     ? surface.object
-                             : name == "id.material" ? surface.material
-                             : name == "light.count" ? color.light_count
-                                                     : nullptr;
+  const uint32_t* integers = name == "id.object"                           ? surface.object
+                             : name == "id.material"                       ? surface.material
+                             : name == "light.count" || name == "overdraw" ? color.light_count
+                                                                           : nullptr;
   if (integers != nullptr || name == "depth") {
     for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
       if (integers == nullptr)
         std::memcpy(texel, visible.depth + i, 4);
-      else if (surface.covered[i] != 0)
+      else if (surface.covered[i] != 0 || name == "overdraw")
         std::memcpy(texel, integers + i, 4);
     });
     return;
@@ -148,13 +149,25 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
   });
 }
 
+void store_specular(const SurfaceTile& surface, const LightModel& model, const TileRect& rect, Image& plane) {
+  for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
+    if (surface.covered[i] == 0) return;
+    float value[3];
+    for (int c = 0; c < 3; ++c)
+      value[c] = reads_specular_plane(model)                       ? surface.plane[kSpecular + c][i]
+                 : model.specular_source == SpecularSource::albedo ? surface.plane[kAlbedo + c][i]
+                                                                   : model.specular_color[c];
+    std::memcpy(texel, value, sizeof value);
+  });
+}
+
 Format aov_format(std::string_view name, const GBufferState& planes) {
   if (name == "depth") return Format::d32f;
   if (name == "position") return planes.position_from_depth ? Format::rgba32f : planes.position.format;
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;
   if (name == "uv") return planes.uv.format;
-  return Format::r32ui;
+  return name == "specular" || light_of_plane(name) ? Format::rgb32f : Format::r32ui;
 }
 
 }  // namespace trueshade

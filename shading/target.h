@@ -14,9 +14,13 @@ void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_r
 void write_stored(const ColorTile& stored, const TileRect& rect, Image& target);
 
 /// Writes one plane of a tile into an AOV image of the same size.
-/// Names are aov_names(); pixels without a surface get 0, depth its stored value.
+/// Names are planes_to_draw()'s but for light.<i>; pixels without a surface get 0, depth its stored value. Of
+/// `overdraw`, color.light_count holds the counts.
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane);
+
+/// The specular colour that the light model reads of each surface: its own plane, the albedo, or the model's (rgb32f).
+void store_specular(const SurfaceTile& surface, const LightModel& model, const TileRect& rect, Image& plane);
 
 /// The format an AOV of that name has under a pipeline.
 Format aov_format(std::string_view name, const GBufferState& planes);

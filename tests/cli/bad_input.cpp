@@ -43,6 +43,9 @@ TEST_CASE("options out of range are refused by name") {
   check_render_refused({"--aov", "depht", "-o", "x.exr"}, 2, "depht");
   check_render_refused({"--aov", "depth,depth", "-o", "x.exr"}, 2, "twice");
   check_render_refused({"--aov", "depth"}, 2, "EXR");
+  check_render_refused({"--aov", "light.07", "-o", "x.exr"}, 2, "light.07");
+  check_render_refused({"--aov", "light.999", "-o", "x.exr"}, 2, "light.999");
+  check_render_refused({"--view", "wireframe"}, 2, "wireframe");
   check_render_refused({"--no-such-option"}, 2, "--no-such-option");
   check_render_refused({"-o", "x.tiff"}, 2, ".tiff");
   check_render_refused({"-o", "x"}, 2, "'x'");

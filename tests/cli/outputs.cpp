@@ -50,18 +50,60 @@ TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata"
 TEST_CASE("an EXR has the planes asked for under their channel names") {
   const ScratchFolder folder;
   output_of({"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
-             "light.count,depth,position,normal,albedo,uv,id.object,id.material"},
+             "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,light.1,light.tile,"
+             "light.intensity,overdraw"},
             folder.path(""));
   const auto file = OIIO::ImageInput::open(folder.path("x.exr"));
   REQUIRE(file);
   std::vector<std::string> names = file->spec().channelnames;
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"A",           "B",         "G",           "N.X",      "N.Y",
-                                          "N.Z",         "P.X",       "P.Y",         "P.Z",      "R",
-                                          "albedo.A",    "albedo.B",  "albedo.G",    "albedo.R", "depth.Z",
-                                          "id.material", "id.object", "light.count", "uv.X",     "uv.Y"});
+  CHECK(names == std::vector<std::string>{"A",
+                                          "B",
+                                          "G",
+                                          "N.X",
+                                          "N.Y",
+                                          "N.Z",
+                                          "P.X",
+                                          "P.Y",
+                                          "P.Z",
+                                          "R",
+                                          "Z",
+                                          "albedo.A",
+                                          "albedo.B",
+                                          "albedo.G",
+                                          "albedo.R",
+                                          "depth.Z",
+                                          "id.material",
+                                          "id.object",
+                                          "light.0001.B",
+                                          "light.0001.G",
+                                          "light.0001.R",
+                                          "light.count",
+                                          "light.intensity",
+                                          "light.tile",
+                                          "overdraw",
+                                          "specular.B",
+                                          "specular.G",
+                                          "specular.R",
+                                          "uv.X",
+                                          "uv.Y"});
   CHECK(file->spec().channelformat(file->spec().channelindex("R")) == OIIO::TypeDesc::HALF);
   CHECK(file->spec().channelformat(file->spec().channelindex("id.object")) == OIIO::TypeDesc::UINT32);
+}
+
+TEST_CASE("a view is the image: hashed, named in the metadata, a heat map with its scale") {
+  const ScratchFolder folder;
+  const std::string line = output_of({"render", "builtin:cornell", "--size", "31x23", "--target", "rgba32f", "--view",
+                                      "light-count", "-o", "x.png", "--hash"},
+                                     folder.path(""));
+  CHECK(line.ends_with("  31x23  rgba8\n"));
+  const auto file = OIIO::ImageInput::open(folder.path("x.png"));
+  REQUIRE(file);
+  CHECK("sha256:" + line.substr(7, 64) == std::string(file->spec().get_string_attribute("trueshade:imageHash")));
+  CHECK(file->spec().get_string_attribute("trueshade:pipeline").find("\"view\":\"light-count\"") != std::string::npos);
+  const int scale = std::stoi(std::string(file->spec().get_string_attribute("trueshade:viewScale")));
+  CHECK(scale >= 1);
+  CHECK((scale & (scale - 1)) == 0);
 }
 
 TEST_CASE("equal images are equal files, however they were computed") {

@@ -67,6 +67,7 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
         CHECK(outcome.exit_code == 0);
         CHECK(has(outcome.out, driver));
         CHECK(has(outcome.out, "every pixel is explained"));
+        CHECK(has(outcome.out, "drawn again 0 pixels change"));
         CHECK_FALSE(has(outcome.out, "not what chance makes"));
       }
 }
@@ -157,6 +158,7 @@ TEST_CASE("captures that cannot be judged are refused, and nothing is left behin
   check({"--image", "c.png"}, 2, "--gbuffer");
   check({"--gbuffer", "c.exr", "--profile", "voodoo"}, 2, "voodoo");
   check({"--driver", "glide"}, 2, "glide");
+  check({"--driver", "llvmpipe", "--gbuffer", "c.exr"}, 2, "--driver");
   check({"--subpixel-bits", "3"}, 2, "--subpixel-bits");
   check_refused(judged(folder, {"--gbuffer", "c.exr", "-o", "v.txt"}), 2, "v.txt");
   check_refused(run_command({"validate"}), 2, "SCENE");

@@ -47,6 +47,7 @@ Pipeline strange_pipeline() {
   p.gbuffer.emission = Format::rgb16f;
   p.target = Format::rgba16f;
   p.profile = NumericProfile::mesa_llvmpipe_22_3;
+  p.view = ImageView::light_tile;
   p.strategy = Strategy::forward_loop;
   p.light_volumes = {LightExtent::box, LightExtent::cone, 64, 2, CullFace::front, false, false};
   p.blend = {false,
@@ -91,7 +92,7 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("spot":"range","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
         R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
         R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
-        R"("target":"rgba8","profile":"ideal"})");
+        R"("target":"rgba8","profile":"ideal","view":"lit"})");
 }
 
 TEST_CASE("keys present replace, a preset replaces all, whatever their order") {
@@ -150,6 +151,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
        "p.json: /target: found \"d32f\" (one of rgba8 srgb8_a8 rgb10_a2 rgba16 "
        "r11g11b10f rgb16f rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
+      {R"({"view": "wireframe"})", "p.json: /view: found \"wireframe\" (one of lit albedo"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
   };
   for (const auto& [text, start] : cases) CHECK_STARTS_WITH(refusal(text), start);

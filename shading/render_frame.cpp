@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <chrono>
+
+#include "core/error.h"
+#include "core/fp_env.h"
+#include "core/srgb.h"
+#include "scenes/light_shapes.h"
+#include "shading/derived_planes.h"
+#include "shading/draw_frame.h"
+#include "shading/heat_map.h"
+#include "shading/light_planes.h"
+#include "shading/overlay.h"
+#include "shading/view_image.h"
+
+namespace trueshade {
+namespace {
+
+constexpr std::string_view kAovNames[] = {
+    "depth",     "Z",           "position",    "normal",     "albedo",          "specular", "uv",
+    "id.object", "id.material", "light.count", "light.tile", "light.intensity", "overdraw"};
+
+bool is_plane(std::string_view name) {
+  return light_of_plane(name) || std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames);
+}
+
+void check_planes(std::span<const std::string> names, const Scene& scene) {
+  for (const std::string& name : names) {
+    if (!is_aov_name(name)) {
+      std::string known;
+      for (const auto& n : kAovNames) known += std::string(n) + ", ";
+      throw Error(ErrorKind::usage, "aov", "there is no plane '" + name + "'", "one or more of " + known + "light.<i>");
+    }
+    if (const auto light = light_of_plane(name); light && *light >= scene.lights.size())
+      throw Error(ErrorKind::usage, "aov",
+                  "there is no plane '" + name + "': the scene has " + std::to_string(scene.lights.size()) + " lights",
+                  "light.<i> counts from 0");
+  }
+}
+
+void add_missing(std::vector<std::string>& names, const std::vector<std::string>& more) {
+  for (const std::string& name : more)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+bool draws_volumes(ImageView view) { return view == ImageView::light_boxes || view == ImageView::light_edges; }
+
+// The material colours with the light volumes among them.
+Image light_boxes_view(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                       std::span<const NamedImage> planes) {
+  Image image = view_image(ImageView::albedo, planes);
+  const Overlay boxes = overlay(pipeline.view == ImageView::light_edges ? light_box_edges(scene) : light_boxes(scene),
+                                pipeline, execution, plane_named(planes, "depth"));
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (boxes.object.value(x, y, 0) == 0.0) continue;
+      for (int k = 0; k < 3; ++k) image.texel(x, y)[k] = srgb8_from_linear(float(boxes.albedo.value(x, y, k)));
+    }
+  return image;
+}
+
+std::vector<std::string> planes_needed(ImageView view, std::span<const std::string> asked) {
+  std::vector<std::string> names(asked.begin(), asked.end());
+  add_missing(names, planes_of_view(view));
+  if (draws_volumes(view)) add_missing(names, {"albedo", "id.object", "depth"});
+  return names;
+}
+
+}  // namespace
+
+std::span<const std::string_view> aov_names() { return kAovNames; }
+
+bool is_aov_name(std::string_view name) { return is_plane(name); }
+
+Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                   std::span<const std::string> aovs, const Progress& progress) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  validate(pipeline);
+  validate(execution);
+  check_planes(aovs, prepared.scene());
+  const std::vector<std::string> needed = planes_needed(pipeline.view, aovs);
+  Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), progress);
+  const FpScope fp;
+  const std::vector<NamedImage> drawn = std::move(frame.aovs);
+  std::vector<NamedImage> planes;
+  for (const std::string& name : needed) {
+    const auto there = std::find_if(drawn.begin(), drawn.end(), [&](const NamedImage& p) { return p.name == name; });
+    if (there != drawn.end())
+      planes.push_back(*there);
+    else
+      planes.push_back({name, derived_plane(name, prepared.scene(), pipeline, execution.threads, frame.color, drawn)});
+  }
+  if (draws_volumes(pipeline.view))
+    frame.color = light_boxes_view(prepared.scene(), pipeline, execution, planes);
+  else if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
+    frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)));
+  else if (pipeline.view != ImageView::lit)
+    frame.color = view_image(pipeline.view, planes);
+  planes.resize(aovs.size());
+  frame.aovs = std::move(planes);
+  frame.stats.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return frame;
+}
+
+Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                   std::span<const std::string> aovs, const Progress& progress) {
+  return render_frame(PreparedScene(scene), pipeline, execution, aovs, progress);
+}
+
+}  // namespace trueshade

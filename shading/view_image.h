@@ -1,0 +1,25 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "scenes/pipeline.h"
+
+namespace trueshade {
+
+/// Colour of pixels without a surface, sRGB codes.
+inline constexpr uint8_t kEmptyColor[3] = {24, 26, 31};
+
+/// Planes that a view is made of, by their `--aov` names; view_image() finds them by name among those it is given.
+std::vector<std::string> planes_of_view(ImageView view);
+
+/// Planes in colours to look at: rgba8, sRGB codes, alpha 255. docs/views.md has every formula (f64 of the stored
+/// values); equal planes are equal views. Not for `lit`, for heat maps (heat_map.h), nor for `light_boxes`
+/// and `light_edges`, which are drawn from scenes of their own.
+Image view_image(ImageView view, std::span<const NamedImage> planes);
+
+/// The plane that a view shows as a heat map; empty for other views.
+std::string_view heat_plane(ImageView view);
+
+}  // namespace trueshade

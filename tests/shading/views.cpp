@@ -1,0 +1,365 @@
+// Planes beside the picture and views made of them, against formulas (docs/views.md).
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "raster/simd_target.h"
+#include "scenes/presets.h"
+#include "scenes/scene.h"
+#include "shading/frame.h"
+#include "shading/heat_map.h"
+#include "tests/catch.hpp"
+
+using namespace trueshade;
+
+namespace {
+
+Pipeline pipeline_of(std::string_view preset, int width, int height) {
+  Pipeline p = *preset_pipeline(preset);
+  p.width = width;
+  p.height = height;
+  return p;
+}
+
+template <typename Value>
+Value at(const Image& image, int x, int y, int channel = 0) {
+  Value value;
+  std::memcpy(&value, image.texel(x, y) + sizeof value * size_t(channel), sizeof value);
+  return value;
+}
+
+std::array<int, 3> rgb(const Image& image, int x, int y) {
+  const uint8_t* texel = image.texel(x, y);
+  return {texel[0], texel[1], texel[2]};
+}
+
+/// Two squares across the view of a camera at z = 4 that looks down -z: one of side 2 at z = 0, red, and one of side 4
+/// at z = -2, green, both facing the camera; no lights. Seen under 90 degrees they fill pixels whose |x| from the
+/// centre, in half heights, is below 1/4 and 1/3.
+Scene two_squares() {
+  Scene scene;
+  Mesh square;
+  const float corner[4][2] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
+  for (const auto& c : corner) {
+    square.position[0].push_back(c[0]);
+    square.position[1].push_back(c[1]);
+    square.position[2].push_back(0.0f);
+    square.normal[0].push_back(0.0f);
+    square.normal[1].push_back(0.0f);
+    square.normal[2].push_back(1.0f);
+  }
+  square.indices = {0, 1, 2, 0, 2, 3};
+  scene.meshes = {square};
+  scene.materials.resize(2);
+  scene.materials[0].base_color = {1.0f, 0.0f, 0.0f, 1.0f};
+  scene.materials[1].base_color = {0.0f, 1.0f, 0.0f, 1.0f};
+  glm::mat4x3 near(2.0f), far(4.0f);
+  near[3] = {0.0f, 0.0f, 0.0f};
+  far[3] = {0.0f, 0.0f, -2.0f};
+  scene.instances.resize(2);
+  scene.instances[0].world_from_object = near;
+  scene.instances[1].world_from_object = far;
+  scene.instances[1].material = 1;
+  scene.camera.eye = {0.0f, 0.0f, 4.0f};
+  scene.camera.fov_y_rad = 1.57079633f;
+  return scene;
+}
+
+Light bulb(const glm::vec3& place, float range) {
+  Light light;
+  light.position = place;
+  light.range = range;
+  return light;
+}
+
+}  // namespace
+
+TEST_CASE("The colour map's lightness only rises, and no step of 256 is more than twice the mean", "[views]") {
+  const auto lightness = [](const std::array<uint8_t, 3>& code) {  // CIE 1976 L* of sRGB under D65
+    long double linear[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const long double c = code[k] / 255.0L;
+      linear[k] = c <= 0.04045L ? c / 12.92L : std::pow((c + 0.055L) / 1.055L, 2.4L);
+    }
+    const long double y = 0.2126L * linear[0] + 0.7152L * linear[1] + 0.0722L * linear[2];
+    return y > 216.0L / 24389.0L ? 116.0L * std::cbrt(y) - 16.0L : y * 24389.0L / 27.0L;
+  };
+  const long double mean = (lightness(heat_color(256)) - lightness(heat_color(0))) / 256.0L;
+  CHECK(lightness(heat_color(0)) < 4.0L);
+  CHECK(lightness(heat_color(256)) > 96.0L);
+  for (int step = 1; step <= 256; ++step) {
+    const long double rise = lightness(heat_color(step)) - lightness(heat_color(step - 1));
+    INFO("step " << step);
+    CHECK(rise > 0.0L);
+    CHECK(rise < 2.0L * mean);
+  }
+}
+
+TEST_CASE("A heat map's scale is the least power of two that no count exceeds, and its steps are floor(256 n / scale)",
+          "[views]") {
+  Image counts(4, 1, Format::r32ui);
+  const auto put = [&](int x, uint32_t count) { std::memcpy(counts.texel(x, 0), &count, 4); };
+  CHECK(heat_scale(counts) == 1);
+  put(1, 1);
+  CHECK(heat_scale(counts) == 1);
+  put(2, 32);
+  CHECK(heat_scale(counts) == 32);
+  put(3, 33);
+  CHECK(heat_scale(counts) == 64);
+  const Image map = heat_image(counts, 64);
+  const int steps[] = {0, 4, 128, 132};
+  for (int x = 0; x < 4; ++x) {
+    const std::array<uint8_t, 3> expected = heat_color(steps[x]);
+    CHECK(rgb(map, x, 0) == std::array<int, 3>{expected[0], expected[1], expected[2]});
+  }
+}
+
+TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32f image bit for bit", "[views]") {
+  for (const char* spec : {"builtin:cornell", "builtin:circle", "builtin:red,lights=40"})
+    for (const std::string_view preset : {"many-lights", "touchdesigner"}) {
+      const Scene scene = load_scene(spec);
+      const PreparedScene prepared(scene);
+      Pipeline pipeline = pipeline_of(preset, 61, 47);
+      pipeline.target = Format::rgba32f;
+      std::vector<std::string> names{"id.object"};
+      for (size_t i = 0; i < scene.lights.size(); ++i) names.push_back("light." + std::to_string(i));
+      for (const std::string_view simd : simd_targets()) {
+        Execution execution;
+        execution.simd = simd;
+        execution.tile = simd == "scalar" ? 16 : 64;
+        execution.light_culling = simd != "avx2";
+        const Frame frame = render_frame(prepared, pipeline, execution, names);
+        int lit = 0;
+        for (int y = 0; y < pipeline.height; ++y)
+          for (int x = 0; x < pipeline.width; ++x) {
+            if (at<uint32_t>(frame.aovs[0].image, x, y) == 0) continue;
+            for (int k = 0; k < 3; ++k) {
+              float sum = 0.0f;
+              for (size_t i = 1; i < names.size(); ++i) sum += at<float>(frame.aovs[i].image, x, y, k);
+              CAPTURE(spec, preset, simd, x, y, k);
+              REQUIRE(std::bit_cast<uint32_t>(sum) == std::bit_cast<uint32_t>(at<float>(frame.color, x, y, k)));
+              lit += sum > 0.0f;
+            }
+          }
+        CHECK(lit > 61 * 47 / 2);
+      }
+    }
+}
+
+TEST_CASE("Z is the distance along the view axis, whatever the camera's matrix", "[views]") {
+  Scene scene = two_squares();
+  const std::string planes[] = {"Z", "id.object"};
+  const Pipeline pipeline = pipeline_of("many-lights", 60, 60);
+  const auto check = [&] {
+    const Frame frame = render_frame(scene, pipeline, {}, planes);
+    int seen[3] = {};
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const uint32_t object = at<uint32_t>(frame.aovs[1].image, x, y);
+        const float expected[] = {0.0f, 4.0f, 6.0f};
+        CHECK(std::fabs(at<float>(frame.aovs[0].image, x, y) - expected[object]) <= 6.0f * 0x1p-22f);
+        ++seen[object];
+      }
+    for (const int pixels : seen) CHECK(pixels > 0);
+  };
+  check();
+  // An orthographic matrix, column-major: x, y in [-3, 3], z from 1 to 9 before the eye.
+  scene.camera.clip_from_world = {1 / 3.0f, 0, 0, 0, 0, 1 / 3.0f, 0, 0, 0, 0, -0.25f, 0, 0, 0, -0.25f, 1};
+  check();
+}
+
+TEST_CASE("Overdraw counts every covered sample, hidden ones too, and those of culled faces not", "[views]") {
+  Scene scene = two_squares();
+  const std::string planes[] = {"overdraw", "id.object"};
+  Pipeline pipeline = pipeline_of("many-lights", 60, 60);
+  const auto count = [&](int x) {
+    return at<uint32_t>(render_frame(scene, pipeline, {}, planes).aovs[0].image, x, 30);
+  };
+  // Half a height is 30 pixels: the squares reach 7.5 and 10 of them from the centre.
+  CHECK(count(30) == 2);
+  CHECK(count(22) == 2);
+  CHECK(count(36) == 2);
+  CHECK(count(37) == 1);  // the right edge goes through its centre
+  CHECK(count(39) == 1);
+  CHECK(count(40) == 0);
+  scene.instances.push_back(scene.instances[1]);  // behind all: the depth test drops it everywhere
+  CHECK(count(30) == 3);
+  pipeline.geometry.depth_func = DepthFunc::never;
+  CHECK(count(30) == 3);
+  pipeline.geometry.cull_face = CullFace::front;
+  CHECK(count(30) == 0);
+}
+
+TEST_CASE("Overdraw adds up to the fragments of a frame without culling, whatever draws it", "[views]") {
+  const Scene scene = load_scene("builtin:circle");
+  const PreparedScene prepared(scene);
+  const std::string planes[] = {"overdraw"};
+  const Pipeline pipeline = pipeline_of("many-lights", 50, 40);
+  const Image first = render_frame(prepared, pipeline, {}, planes).aovs[0].image;
+  uint64_t sum = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 50; ++x) sum += at<uint32_t>(first, x, y);
+  // Without culling of geometry the counter of fragments is the same sum, from other code.
+  Execution all;
+  all.geometry_culling = false;
+  CHECK(render_frame(prepared, pipeline, all).stats.fragments == sum);
+  for (const std::string_view simd : simd_targets())
+    for (const int tile : {8, 48}) {
+      Execution execution;
+      execution.simd = simd;
+      execution.tile = tile;
+      execution.geometry_culling = tile == 8;
+      CHECK(render_frame(prepared, pipeline, execution, planes).aovs[0].image.texels == first.texels);
+    }
+}
+
+TEST_CASE("light.tile counts the lights whose range meets the box of a square's surfaces", "[views]") {
+  const Scene scene = load_scene("builtin:city,lights=200");
+  const std::string planes[] = {"light.tile", "light.count", "position", "id.object"};
+  const Pipeline pipeline = pipeline_of("many-lights", 100, 75);
+  const Frame frame = render_frame(scene, pipeline, {}, planes);
+  const Image &tile = frame.aovs[0].image, &count = frame.aovs[1].image, &position = frame.aovs[2].image;
+  for (int bottom = 75; bottom > 0; bottom -= 16)
+    for (int left = 0; left < 100; left += 16) {
+      double low[3] = {1e30, 1e30, 1e30}, high[3] = {-1e30, -1e30, -1e30};
+      uint32_t most = 0;
+      for (int y = std::max(bottom - 16, 0); y < bottom; ++y)
+        for (int x = left; x < std::min(left + 16, 100); ++x) {
+          CHECK(at<uint32_t>(tile, x, y) == at<uint32_t>(tile, left, bottom - 1));
+          most = std::max(most, at<uint32_t>(count, x, y));
+          for (int k = 0; k < 3 && at<uint32_t>(frame.aovs[3].image, x, y) != 0; ++k) {
+            low[k] = std::min(low[k], position.value(x, y, k));
+            high[k] = std::max(high[k], position.value(x, y, k));
+          }
+        }
+      uint32_t least_count = 0, most_count = 0;
+      for (const Light& light : scene.lights) {
+        double d2 = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double p = double(light.position[k]), gap = std::max({low[k] - p, p - high[k], 0.0});
+          d2 += gap * gap;
+        }
+        least_count += std::sqrt(d2) < double(light.range) * (1 - 1e-5);
+        most_count += std::sqrt(d2) < double(light.range) * (1 + 1e-5);
+      }
+      const uint32_t counted = at<uint32_t>(tile, left, bottom - 1);
+      CAPTURE(left, bottom);
+      CHECK(counted >= most);
+      CHECK(counted >= least_count);
+      CHECK(counted <= most_count);
+    }
+}
+
+TEST_CASE("light.intensity is the target's luminance, specular the model's colour on surfaces", "[views]") {
+  const Scene scene = load_scene("builtin:cornell");
+  Pipeline pipeline = pipeline_of("many-lights", 40, 30);
+  pipeline.target = Format::rgba32f;
+  const std::string planes[] = {"light.intensity", "specular", "id.object"};
+  const Frame frame = render_frame(scene, pipeline, {}, planes);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const long double exact = 0.2126L * (long double)(frame.color.value(x, y, 0)) +
+                                0.7152L * (long double)(frame.color.value(x, y, 1)) +
+                                0.0722L * (long double)(frame.color.value(x, y, 2));
+      CHECK(std::fabs((long double)(at<float>(frame.aovs[0].image, x, y)) - exact) <= 3.0L * exact * 0x1p-23L);
+      const bool covered = at<uint32_t>(frame.aovs[2].image, x, y) != 0;
+      for (int k = 0; k < 3; ++k)
+        CHECK(at<float>(frame.aovs[1].image, x, y, k) == (covered ? pipeline.light_model.specular_color[k] : 0.0f));
+    }
+}
+
+TEST_CASE("Views of known surfaces have the colours of their formulas", "[views]") {
+  const Scene scene = two_squares();
+  Pipeline pipeline = pipeline_of("many-lights", 60, 60);
+  pipeline.target = Format::rgba32f;
+  const auto shown = [&](ImageView view, int x, int y) {
+    pipeline.view = view;
+    const Image image = render_frame(scene, pipeline).color;
+    REQUIRE(image.format == Format::rgba8);
+    CHECK(image.texel(x, y)[3] == 255);
+    return rgb(image, x, y);
+  };
+  using Rgb = std::array<int, 3>;
+  CHECK(shown(ImageView::albedo, 30, 30) == Rgb{255, 0, 0});
+  CHECK(shown(ImageView::albedo, 39, 30) == Rgb{0, 255, 0});
+  CHECK(shown(ImageView::albedo, 0, 0) == Rgb{24, 26, 31});
+  CHECK(shown(ImageView::normal, 30, 30) == Rgb{128, 128, 255});
+  CHECK(shown(ImageView::specular, 30, 30) == Rgb{137, 137, 137});  // sRGB of 0.25: 136.96
+  CHECK(shown(ImageView::depth, 30, 30) == Rgb{255, 255, 255});
+  CHECK(shown(ImageView::depth, 39, 30) == Rgb{32, 32, 32});  // 0.125 * 255 = 31.9
+  CHECK(shown(ImageView::position, 30, 30)[2] == 255);
+  CHECK(shown(ImageView::position, 39, 30)[2] == 0);
+  CHECK(shown(ImageView::uv, 30, 30) == Rgb{0, 0, 0});
+  const std::array<uint8_t, 3> top = heat_color(256), half = heat_color(128);
+  CHECK(shown(ImageView::overdraw, 30, 30) == Rgb{top[0], top[1], top[2]});
+  CHECK(shown(ImageView::overdraw, 39, 30) == Rgb{half[0], half[1], half[2]});
+}
+
+TEST_CASE("Light volumes are black boxes among the surfaces, tested for depth; one about the camera is not drawn",
+          "[views]") {
+  Scene scene = two_squares();
+  Pipeline pipeline = pipeline_of("many-lights", 60, 60);
+  pipeline.view = ImageView::light_boxes;
+  using Rgb = std::array<int, 3>;
+  const auto centre = [&] { return rgb(render_frame(scene, pipeline).color, 30, 30); };
+  CHECK(centre() == Rgb{255, 0, 0});
+  scene.lights = {bulb({0, 0, -1}, 0.5f)};  // behind the red square
+  CHECK(centre() == Rgb{255, 0, 0});
+  scene.lights.push_back(bulb({0, 0, 4}, 1.0f));  // about the camera
+  CHECK(centre() == Rgb{255, 0, 0});
+  scene.lights.push_back(bulb({0, 0, -1}, 1.25f));  // reaches 0.25 before it
+  CHECK(centre() == Rgb{0, 0, 0});
+  scene.lights = {bulb({0, 0, 1}, std::numeric_limits<float>::infinity())};
+  CHECK(centre() == Rgb{255, 0, 0});
+  // Its front face at z = 2 is 2 from the eye and 1 to each side: half of the half height, 15 pixels of 30.
+  scene.lights = {bulb({0, 0, 1}, 1.0f)};
+  const Image volumes = render_frame(scene, pipeline).color;
+  CHECK(rgb(volumes, 44, 30) == Rgb{0, 0, 0});
+  CHECK(rgb(volumes, 45, 30) == Rgb{24, 26, 31});
+  pipeline.view = ImageView::light_edges;
+  scene.lights[0].color = {3.0f, 1.5f, 0.0f};
+  const Image edges = render_frame(scene, pipeline).color;
+  CHECK(rgb(edges, 30, 30) == Rgb{255, 0, 0});  // seen through the box
+}
+
+TEST_CASE("Every view and plane has one set of bits, however it is drawn, and a view changes no plane", "[views]") {
+  const Scene scene = load_scene("builtin:circle");
+  const PreparedScene prepared(scene);
+  std::vector<std::string> planes(aov_names().begin(), aov_names().end());
+  planes.push_back("light.3");
+  for (size_t view = 0; view < std::size(kViewNames); ++view) {
+    Pipeline pipeline = pipeline_of(view % 2 ? "touchdesigner" : "many-lights", 70, 50);
+    const Frame lit = render_frame(prepared, pipeline, {}, planes);
+    pipeline.view = ImageView(view);
+    const Frame first = render_frame(prepared, pipeline, {}, planes);
+    for (const std::string_view simd : simd_targets())
+      for (const int tile : {8, 32}) {
+        Execution execution;
+        execution.simd = simd;
+        execution.tile = tile;
+        execution.threads = tile == 8 ? 1 : 3;
+        execution.light_culling = execution.geometry_culling = tile == 8;
+        execution.shuffle_tiles = tile == 32;
+        const Frame frame = render_frame(prepared, pipeline, execution, planes);
+        INFO(kViewNames[view] << " " << simd << " tile " << tile);
+        CHECK(frame.color.texels == first.color.texels);
+        for (size_t i = 0; i < planes.size(); ++i) {
+          INFO(planes[i]);
+          CHECK(frame.aovs[i].name == planes[i]);
+          CHECK(frame.aovs[i].image.texels == lit.aovs[i].image.texels);
+        }
+      }
+  }
+}
+
+TEST_CASE("Planes that are not there are refused by name", "[views]") {
+  const Scene scene = load_scene("builtin:cornell");
+  for (const char* name : {"light.", "light.01", "light.-1", "light.x", "Depth", "", "light.99999999999999999999999"}) {
+    const std::string planes[] = {name};
+    CHECK_THROWS_AS(render_frame(scene, pipeline_of("many-lights", 8, 8), {}, planes), Error);
+  }
+  const std::string past[] = {"light." + std::to_string(scene.lights.size())};
+  CHECK_THROWS_WITH(render_frame(scene, pipeline_of("many-lights", 8, 8), {}, past),
+                    Catch::Contains("the scene has " + std::to_string(scene.lights.size()) + " lights"));
+}
