@@ -52,13 +52,15 @@ struct Row {
   uint32_t most_objects;  ///< 0: the scene has no parameter `objects`
 };
 
-constexpr std::array<Row, 6> kRows{{
+constexpr std::array<Row, 8> kRows{{
     {{"city", "a city at night: 2,490 cubes under 757 street and roof lamps"}, builtin::city, 1u << 20},
     {{"rabbits", "125 rabbits of 40,000 triangles each under 100 lamps"}, builtin::rabbits, 1u << 20},
     {{"sphere", "a sphere of 20,000 faces between 100 overlapping lights"}, builtin::sphere, 0},
     {{"red", "a canyon of 4 million vertices under ambient, point and spot lights, 100 in all"}, builtin::red, 0},
     {{"cornell", "the Cornell box with two blocks and coloured lights"}, builtin::cornell, 0},
     {{"circle", "lights on a circle, coloured by a ramp and noise, around a torus knot"}, builtin::circle, 1u << 20},
+    {{"lecture", "a textured room under 14 sweeping spot lights"}, builtin::lecture, 0},
+    {{"atrium", "a hall of arches with a fountain under 256 warm and cool lamps"}, builtin::atrium, 0},
 }};
 
 std::string joined_names() {

@@ -50,5 +50,7 @@ Scene sphere(const Parameters& parameters);
 Scene red(const Parameters& parameters);
 Scene cornell(const Parameters& parameters);
 Scene circle(const Parameters& parameters);
+Scene lecture(const Parameters& parameters);
+Scene atrium(const Parameters& parameters);
 
 }  // namespace trueshade::builtin

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "scenes/light_buffers.h"
 #include "scenes/light_generators.h"
+#include "scenes/scene_files.h"
 #include "scenes/steps_json.h"
 #include "scenes/trig.h"
 
@@ -31,20 +33,22 @@ constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius
                                           "noise", "seed",  "intensity", "range",  "attenuation", "turn_s"};
 constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",          "colors", "noise",
                                          "seed", "intensity", "range", "attenuation", "drift",  "drift_s"};
+constexpr std::string_view kBuffersKeys[] = {"type", "position", "color", "falloff", "intensity", "range"};
 
-// As LightType, then the generators; the types' steps follow.
-enum Object : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kAmbientStep };
+// As LightType, then those that make many; the types' steps follow.
+enum Object : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kBuffers, kAmbientStep };
 constexpr json::ObjectKeys kObjects[] = {{"ambient", kAmbientKeys},
                                          {"directional", kDirectionalKeys},
                                          {"point", kPointKeys},
                                          {"spot", kSpotKeys},
                                          {"ring", kRingKeys},
                                          {"box", kBoxKeys},
+                                         {"buffers", kBuffersKeys},
                                          {"ambient_step", kAmbientStepKeys},
                                          {"directional_step", kDirectionalStepKeys},
                                          {"point_step", kPointStepKeys},
                                          {"spot_step", kSpotStepKeys}};
-constexpr std::string_view kTypes[] = {"ambient", "directional", "point", "spot", "ring", "box"};
+constexpr std::string_view kTypes[] = {"ambient", "directional", "point", "spot", "ring", "box", "buffers"};
 
 std::optional<glm::dvec4> read_direction(const json::Node& object) {
   const auto node = object.find("direction");
@@ -190,11 +194,82 @@ void read_box(const json::Node& node, Scene& scene, const SceneLimits& limits) {
   add_box(scene, box);
 }
 
+// --- Buffers -------------------------------------------------------------------------------------------------------
+
+/// Where buffers come from, and how many samples they may have.
+struct BufferSource {
+  const std::string& path;  ///< of the scene file
+  const ImageDecoder& decode;
+  const SceneLimits& limits;
+  uint64_t most;
+};
+
+std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSource& source) {
+  const std::string where = source.path + ": " + node.pointer();
+  const std::string file = relative_path_from_uri(node.string(), where);
+  const bool table = file.ends_with(".csv");
+  if (!table && !file.ends_with(".exr")) node.fail("the ending names no format of a buffer", ".csv or .exr");
+  if (!table && !source.decode) node.fail("there is no reader of images here", "a .csv file or numbers");
+  const Bytes bytes = SceneFolder(source.path).read(file, source.limits.file_bytes, where);
+  if (table)
+    return samples_from_csv({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where + ": " + file,
+                            source.most);
+  return samples_from_image(source.decode(bytes, where + ": " + file, source.limits.texture_bytes), where + ": " + file,
+                            source.most);
+}
+
+/// The samples under a key, each number in [least, kLargest]; none where the key is absent.
+std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view key, double least,
+                                   const BufferSource& source) {
+  const auto node = lights.find(key);
+  if (!node) return {};
+  if (node->is_array()) {
+    std::vector<glm::vec3> samples;
+    const size_t count = node->array(0, SIZE_MAX).size();
+    if (count > source.most)
+      node->fail("the lights are over the limit", "at most " + std::to_string(source.most), ErrorKind::limit);
+    for (size_t i = 0; i < count; ++i) samples.push_back(node->element(i).vec3(least, kLargest));
+    return samples;
+  }
+  std::vector<glm::vec3> samples = samples_from_file(*node, source);
+  for (size_t i = 0; i < samples.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (!(samples[i][k] >= float(least) && samples[i][k] <= float(kLargest)))
+        node->fail("sample " + std::to_string(i) + " is out of range",
+                   "numbers from " + json::number_text(least) + " to 1e+18");
+  return samples;
+}
+
+void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
+  source.most -= std::min<uint64_t>(source.most, scene.lights.size());
+  node.member("position");
+  const std::vector<glm::vec3> position = read_buffer(node, "position", -kLargest, source);
+  const std::vector<glm::vec3> color = read_buffer(node, "color", 0.0, source);
+  const std::vector<glm::vec3> falloff = read_buffer(node, "falloff", 0.0, source);
+  for (const auto& [key, samples] : {std::pair("color", &color), std::pair("falloff", &falloff)})
+    if (node.find(key) && samples->size() != position.size())
+      node.fail(std::string("'") + key + "' has " + std::to_string(samples->size()) + " samples, 'position' " +
+                    std::to_string(position.size()),
+                "as many of each: sample i is light i");
+  const double intensity = real_or(node, "intensity", 1.0, 0.0, kLargest);
+  const auto range = node.find("range");
+  for (size_t i = 0; i < position.size(); ++i) {
+    Light light;
+    light.position = position[i];
+    if (!color.empty()) light.color = color[i];
+    set_property(light, LightProperty::intensity, glm::dvec4(intensity));
+    if (!falloff.empty()) light.attenuation = falloff[i];
+    if (range) light.range = range->real(kSmallest, kLargest);
+    scene.lights.push_back(light);
+  }
+}
+
 }  // namespace
 
 std::span<const json::ObjectKeys> light_json_keys() { return kObjects; }
 
-void read_lights(const json::Node& list, Scene& scene, const SceneLimits& limits) {
+void read_lights(const json::Node& list, Scene& scene, const std::string& path, const SceneLimits& limits,
+                 const ImageDecoder& decode) {
   const size_t count = list.array(0, SIZE_MAX).size();
   for (size_t i = 0; i < count; ++i) {
     const json::Node node = list.element(i);
@@ -204,6 +279,8 @@ void read_lights(const json::Node& list, Scene& scene, const SceneLimits& limits
       read_ring(node, scene, limits);
     else if (type == kBox)
       read_box(node, scene, limits);
+    else if (type == kBuffers)
+      read_buffers(node, scene, {path, decode, limits, limits.lights});
     else
       LightReader(node, LightType(type), scene).read();
   }

@@ -93,7 +93,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   }
   if (const auto fps = root.find("fps")) scene.timeline.fps = fps->number(0.001, 1e6);
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
-  if (const auto lights = root.find("lights")) read_lights(*lights, scene, limits);
+  if (const auto lights = root.find("lights")) read_lights(*lights, scene, path, limits, decode);
   ObjectReader objects(scene, path, limits, decode);
   if (const auto textures = root.find("textures")) objects.read_textures(*textures);
   if (const auto materials = root.find("materials")) objects.read_materials(*materials);

@@ -90,6 +90,8 @@ constexpr Expected kExpected[] = {
     {"red", 1, 100, 7992002, "de30d3fa3ac42dd5c290b8a5707a8d6416e114c7db5bfbe39981783e2cf55f28"},
     {"cornell", 7, 12, 1984, "d081a1414f1ab46cfba4f294e16fa4ae0c35b03ff1673eed6bcb8084b914c0ab"},
     {"circle", 26, 64, 80360, "b9e137ce60277f0fe4ec06ddac4372216ac381c86af66b2d8f41e1543984250e"},
+    {"lecture", 13, 15, 95712, "f3b241f82252b72f9008ceea9f344025f0afe5acfb138a63ecdf6b0b0f3753a8"},
+    {"atrium", 652, 256, 613940, "acf6d38294dfc5575b939e5f6a04c753af9c0e70db47046cbb38f41ea3cfd56b"},
 };
 
 TEST_CASE("each built-in scene has its numbers and its hash") {
@@ -157,6 +159,43 @@ TEST_CASE("100,000 lights at constant overlap reach as many neighbours as 757") 
   CHECK(many.lights.size() == 100000);
   CHECK(mean_reach2(many) == Approx(usual).epsilon(0.02));  // sum of areas
   CHECK(builtin_scene("city,lights=100000,radius=constant").lights[0].range == builtin_scene("city").lights[0].range);
+}
+
+TEST_CASE("every built-in scene takes any number of lights") {
+  for (const BuiltinInfo& info : builtin_scenes()) {
+    if (info.name == "red") continue;  // its rock takes seconds to make
+    INFO(info.name);
+    for (const size_t count : {0, 1, 2, 757, 100000}) {
+      Scene scene = builtin_scene(std::string(info.name) + ",lights=" + std::to_string(count) + ",seed=9");
+      CHECK(scene.lights.size() == count);
+      CHECK_NOTHROW(set_time(scene, 3.3));
+    }
+    CHECK(builtin_scene(std::string(info.name) + ",lights=1048576,radius=constant").lights.size() == 1048576);
+  }
+}
+
+TEST_CASE("lights beyond a scene's own reach less far, unless their radius is constant") {
+  for (const std::string name : {"lecture", "atrium"}) {
+    const float usual = builtin_scene(name).lights.back().range;
+    CHECK(builtin_scene(name + ",lights=10000,radius=constant").lights.back().range == usual);
+    const double share = std::sqrt(double(builtin_scene(name).lights.size()) / 10000.0);
+    CHECK(builtin_scene(name + ",lights=10000").lights.back().range == Approx(usual * share));
+  }
+}
+
+TEST_CASE("lecture is a textured room under spot lights that sweep") {
+  Scene scene = builtin_scene("lecture");
+  CHECK(scene.textures.size() == 2);
+  for (const Texture& texture : scene.textures) CHECK(texture.levels.size() > 8);
+  CHECK(scene.meshes[0].has_uv());
+  const std::vector<Light> before = scene.lights;
+  set_time(scene, 1.5);
+  CHECK(before[0].type == LightType::ambient);
+  for (size_t i = 1; i < before.size(); ++i) {
+    CHECK(before[i].type == LightType::spot);
+    CHECK(scene.lights[i].position == before[i].position);
+    CHECK(scene.lights[i].direction != before[i].direction);
+  }
 }
 
 std::string refusal(const std::string& spec, ErrorKind kind = ErrorKind::bad_input) {

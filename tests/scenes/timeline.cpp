@@ -160,7 +160,8 @@ TEST_CASE("the lights of every built-in scene move, and time 0 is the frozen sce
     const std::vector<Light> before = scene.lights;
     set_time(scene, 1.0);
     size_t moving = 0;
-    for (size_t i = 0; i < before.size(); ++i) moving += before[i].position != scene.lights[i].position;
+    for (size_t i = 0; i < before.size(); ++i)
+      moving += before[i].position != scene.lights[i].position || before[i].direction != scene.lights[i].direction;
     CHECK(4 * moving > before.size());
     CHECK_NOTHROW(validate(scene));
   }
