@@ -1,6 +1,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/json_text.h"
 #include "core/image_io.h"
 #include "scenes/scene.h"
 
@@ -39,6 +40,7 @@ std::string about_scene(const std::string& spec) {
          row("instances", std::to_string(scene.instances.size())) +
          row("triangles drawn", std::to_string(scene.triangle_count())) +
          row("lights", std::to_string(scene.lights.size()) + (kinds.empty() ? "" : " (" + kinds + ')')) +
+         (scene.timeline.empty() ? "" : row("moves", json_number(scene.timeline.fps) + " frames a second")) +
          (scene.pipeline_text.empty() ? "" : row("pipeline", scene.pipeline_text));
 }
 

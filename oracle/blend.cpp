@@ -118,20 +118,21 @@ struct Operands {
 
 bool takes_factors(const BlendTerm& term) { return term.equation < BlendEquation::min; }
 
-int code_product(int a, int b) {
-  const int t = a * b + ((a * b) >> 8);
-  return (t + 128) >> 8;
+/// One of them is 2^bits - 1; 64 bits, so that nothing can pass.
+int64_t code_product(int64_t a, int64_t b, int bits) {
+  const int64_t t = a * b + ((a * b) >> bits);
+  return (t + (int64_t(1) << (bits - 1))) >> bits;
 }
 
-int blended_code(const BlendTerm& term, size_t c, const Operands<int>& in) {
+int blended_code(const BlendTerm& term, size_t c, const Operands<int>& in, int bits) {
   const int s = in.source[c], d = in.destination[c];
   if (term.equation == BlendEquation::min) return s < d ? s : d;
   if (term.equation == BlendEquation::max) return s > d ? s : d;
-  const int a = code_product(s, in.factor(term.src, c)), b = code_product(d, in.factor(term.dst, c));
-  const int sum = term.equation == BlendEquation::add        ? a + b
-                  : term.equation == BlendEquation::subtract ? a - b
-                                                             : b - a;
-  return sum < 0 ? 0 : sum > 255 ? 255 : sum;
+  const int64_t a = code_product(s, in.factor(term.src, c), bits), b = code_product(d, in.factor(term.dst, c), bits);
+  const int64_t sum = term.equation == BlendEquation::add        ? a + b
+                      : term.equation == BlendEquation::subtract ? a - b
+                                                                 : b - a;
+  return int(sum < 0 ? 0 : sum > in.one ? in.one : sum);
 }
 
 /// As a CPU that counts denormals as zeros gives it.
@@ -166,15 +167,16 @@ float blended_value(const BlendTerm& term, size_t c, const Operands<float>& in, 
   }
 }
 
-Rgba blended_codes(const BlendState& state, const Rgba& source, const Rgba& stored) {
-  Operands<int> in{{}, {}, {}, 255};
+Rgba blended_codes(const BlendState& state, Format format, const Rgba& source, const Rgba& stored) {
+  const int bits = unorm_bits(format, 0), largest = (1 << bits) - 1;
+  Operands<int> in{{}, {}, {}, largest};
   Rgba out;
   for (size_t c = 0; c < 4; ++c) {
-    in.source[c] = code_of(source[c], 255);
+    in.source[c] = code_of(source[c], largest);
     in.destination[c] = int(stored[c]);
-    in.constant[c] = code_of(state.constant[c], 255);
+    in.constant[c] = code_of(state.constant[c], largest);
   }
-  for (size_t c = 0; c < 4; ++c) out[c] = float(blended_code(c == 3 ? state.alpha : state.rgb, c, in));
+  for (size_t c = 0; c < 4; ++c) out[c] = float(blended_code(c == 3 ? state.alpha : state.rgb, c, in, bits));
   return out;
 }
 
@@ -223,14 +225,26 @@ Rgba blended_values(const BlendState& state, NumericProfile profile, Format form
   return out;
 }
 
+/// llvmpipe's state for a format without alpha: its alpha is 1, and both groups are the colours'.
+BlendState without_alpha(BlendState state) {
+  for (BlendFactor* factor : {&state.rgb.src, &state.rgb.dst})
+    *factor = *factor == BlendFactor::dst_alpha             ? BlendFactor::one
+              : *factor == BlendFactor::one_minus_dst_alpha ? BlendFactor::zero
+                                                            : *factor;
+  state.alpha = state.rgb;
+  return state;
+}
+
 }  // namespace
 
-Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round,
+Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format format, HalfRound half_round,
                    const Rgba& source, const Rgba& stored) {
+  const bool rewritten = profile != NumericProfile::ideal && !has_alpha(format);
+  const BlendState state = rewritten ? without_alpha(given) : given;
   const bool unorm = unorm_bits(format, 0) > 0;
   const bool codes = unorm && profile != NumericProfile::ideal;
   Rgba out = !state.enabled ? source
-             : codes        ? blended_codes(state, source, stored)
+             : codes        ? blended_codes(state, format, source, stored)
                             : blended_values(state, profile, format, source, stored);
   for (size_t c = 0; c < 4; ++c) {
     const BlendTerm& term = c == 3 ? state.alpha : state.rgb;

@@ -64,20 +64,56 @@ Real vertex_depth(const VertexValues& v, const GeometryState& state) {
   return z * ((far - near) / 2) + (near + far) / 2;
 }
 
+/// Fixed-point depth of so many bits, 0 for floats.
+int depth_bits(const GeometryState& state) {
+  return state.depth_format == Format::d24 ? 24 : state.depth_format == Format::d16 ? 16 : 0;
+}
+
+/// GL 4.6 core, 14.6.5: m factor + r units, m the larger slope, r a code (llvmpipe: two) or the unit of the largest
+/// |z|.
+void set_polygon_offset(const Pipeline& pipeline, DrawnTriangle& t) {
+  const GeometryState& state = pipeline.geometry;
+  if (state.polygon_offset_factor == 0 && state.polygon_offset_units == 0) return;
+  Real slope = 0, largest = 0, terms = 0;
+  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z));
+  for (int axis = 0; axis < 2; ++axis) {
+    Real change = 0;  // of z, over a pixel
+    for (int i = 0; i < 3; ++i) {
+      const int64_t px = axis == 0 ? kSubpixels : 0, py = axis == 1 ? kSubpixels : 0;
+      const Real step = Real(t.window.edge(i, px, py) - t.window.edge(i, 0, 0));
+      change += step * t.depth[size_t(i)];
+      terms += std::fabs(step / Real(t.window.twice_area)) * largest;
+    }
+    slope = std::max(slope, std::fabs(change / Real(t.window.twice_area)));
+  }
+  const int bits = depth_bits(state);
+  const Real code = 1 / (std::ldexp(Real(1), bits) - 1);
+  const float most = float(std::clamp(largest, 0x1p-126L, 0x1p127L));
+  const Real unit = bits == 0                                   ? std::ldexp(Real(1), std::ilogb(most) - 23)
+                    : pipeline.profile == NumericProfile::ideal ? code
+                                                                : 2 * code;
+  t.offset = slope * Real(state.polygon_offset_factor) + unit * Real(state.polygon_offset_units);
+  // Six roundings in double of terms that may cancel.
+  t.offset_bound = terms * std::fabs(Real(state.polygon_offset_factor)) * 0x1p-49L + std::fabs(t.offset) * 0x1p-50L;
+}
+
 Fragment fragment_of(const DrawnTriangle& t, uint32_t index, const GeometryState& state, int x, int y) {
   Fragment f;
   f.instance = t.instance;
   f.triangle = t.triangle;
   f.window = index;
-  const Real low = std::min(state.depth_near, state.depth_far), high = std::max(state.depth_near, state.depth_far);
+  const bool whole = (state.polygon_offset_factor != 0 || state.polygon_offset_units != 0) && !state.depth_clamp;
+  const Real low = whole ? 0 : std::min(state.depth_near, state.depth_far);
+  const Real high = whole ? 1 : std::max(state.depth_near, state.depth_far);
   f.depth = std::clamp(depth_at(t, x, y), low, high);
-  f.depth_code = float(f.depth);
+  f.depth_code = held_depth(state, float(f.depth));
   // The renderer's double formula has some ten roundings; where they cannot reach the next float, its code is ours.
   Real largest = 1;
-  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z));
-  const Real slack = largest * 0x1p-47L;
-  const auto code = [&](Real z) { return float(std::clamp(z, low, high)); };
-  if (code(f.depth - slack) != code(f.depth + slack)) f.depth_bound = float(float_spacing(double(f.depth)));
+  for (const Real z : t.depth) largest = std::max(largest, std::fabs(z) + std::fabs(t.offset));
+  const Real slack = largest * 0x1p-47L + t.offset_bound;
+  const auto code = [&](Real z) { return held_depth(state, float(std::clamp(z, low, high))); };
+  const float below = code(f.depth - slack), above = code(f.depth + slack);
+  if (below != above) f.depth_bound = std::max(float(float_spacing(double(f.depth))), above - below);
   return f;
 }
 
@@ -121,6 +157,7 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
       for (const WindowTriangle& window : polygon.pieces) {
         DrawnTriangle piece{window, instance, triangle, {}, values[state.provoking == Provoking::last ? 2 : 0]};
         for (size_t i = 0; i < 3; ++i) piece.depth[i] = vertex_depth(window.values[i], state);
+        set_polygon_offset(pipeline, piece);
         frame.triangles.push_back(piece);
       }
       const PixelRect box = pixel_bounds(polygon, viewport, frame.width, frame.height);
@@ -141,7 +178,7 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
 
 Visible visible_fragment(const std::vector<Fragment>& fragments, const GeometryState& state) {
   Visible result;
-  float stored = state.clear_depth, stored_bound = 0;
+  float stored = held_depth(state, state.clear_depth), stored_bound = 0;
   for (size_t i = 0; i < fragments.size(); ++i) {
     const float z = fragments[i].depth_code, bound = fragments[i].depth_bound;
     bool passes = false;
@@ -197,10 +234,20 @@ ValueRange value_at(const DrawnTriangle& t, size_t index, Interpolation interpol
   return range;
 }
 
+float held_depth(const GeometryState& state, float z) {
+  if (depth_bits(state) == 0) return z;
+  const float largest = float(std::ldexp(1.0, depth_bits(state)) - 1);
+  const auto product = double(z * largest);  // a float, as GL_RULES section 2 has it
+  double code = std::floor(product);
+  const double rest = product - code;
+  if (rest > 0.5 || (rest == 0.5 && std::fmod(code, 2.0) != 0.0)) code += 1.0;
+  return float(code / double(largest));
+}
+
 long double depth_at(const DrawnTriangle& t, int x, int y) {
   const std::array<Real, 3> weight = weights(t, Interpolation::noperspective, x, y);
   // The same sum from differences: exactly constant where the vertices agree.
-  return t.depth[0] + (weight[1] * (t.depth[1] - t.depth[0]) + weight[2] * (t.depth[2] - t.depth[0]));
+  return t.depth[0] + (weight[1] * (t.depth[1] - t.depth[0]) + weight[2] * (t.depth[2] - t.depth[0])) + t.offset;
 }
 
 long double fragment_w(const DrawnTriangle& t, int x, int y) {

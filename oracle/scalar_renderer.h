@@ -22,7 +22,7 @@ struct Fragment {
   uint32_t triangle = 0;  ///< index in the mesh, of the triangle as submitted
   uint32_t window = 0;    ///< index into ScalarFrame::triangles
   long double depth = 0;  ///< window z, exact plane of the snapped triangle, clamped as the state says
-  float depth_code = 0;   ///< depth rounded to float
+  float depth_code = 0;   ///< depth rounded to float, and to what the depth format holds
   float depth_bound = 0;  ///< |renderer's depth - depth| stays within this; 0 where depth_code is exact for certain
   bool doubtful = false;  ///< its alpha is too close to the material's cutoff to tell whether it is drawn
 };
@@ -33,6 +33,8 @@ struct DrawnTriangle {
   uint32_t instance = 0, triangle = 0;
   std::array<long double, 3> depth{};  ///< window z at the vertices
   VertexValues provoking{};            ///< of the original triangle
+  long double offset = 0;              ///< what glPolygonOffset adds
+  long double offset_bound = 0;        ///< |renderer's offset - offset| stays within this
 };
 
 /// An interpolated value and what the renderer's may be: within `ulp` of `value`, and inside [lo, hi].
@@ -62,7 +64,10 @@ Visible visible_fragment(const std::vector<Fragment>& fragments, const GeometryS
 /// Value `index` (a ValueIndex plus a component) at pixel (x, y), y up.
 ValueRange value_at(const DrawnTriangle& triangle, size_t index, Interpolation interpolation, int x, int y);
 
-/// Depth at pixel (x, y), unclamped by the depth range.
+/// The number a depth format of `state` holds for a float z in [0, 1]: the nearest code k as k / largest.
+float held_depth(const GeometryState& state, float z);
+
+/// Depth at pixel (x, y), with its offset, unclamped by the depth range.
 long double depth_at(const DrawnTriangle& triangle, int x, int y);
 
 /// gl_FragCoord.w: 1 / w interpolated in the window.

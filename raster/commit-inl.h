@@ -10,6 +10,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 
 #include "raster/alpha-inl.h"
@@ -35,8 +37,7 @@ struct CountCommit {
     constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
     alignas(64) double one[kLanes];
     hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i)
-      counts[size_t(at) + i] += one[i] != 0.0;
+    for (size_t i = 0; i < hn::Lanes(d); ++i) counts[size_t(at) + i] += one[i] != 0.0;
     return false;
   }
   bool scalar(int at, double, double, double) {
@@ -70,12 +71,30 @@ constexpr bool passes(DepthFunc func, float z, float there, uint32_t id, uint32_
   return false;
 }
 
+/// The polygon offset of a triangle: m the larger of |dz/dx| and |dz/dy| per pixel, r a unit of the format, for floats
+/// 2^(e - 23) with e the exponent of the largest |z| of its corners as an f32, within [-126, 127].
+template <class T>
+double polygon_offset(const TriangleSetup<T>& s, const DepthRule& rule) {
+  if (!rule.offsets()) return 0.0;
+  const double across = double(s.sx[1]) * s.g1 + double(s.sx[2]) * s.g2;
+  const double up = double(s.sy[1]) * s.g1 + double(s.sy[2]) * s.g2;
+  const double slope = std::max(std::abs(across), std::abs(up));
+  double unit = rule.unit;
+  if (rule.largest_code == 0.0f) {
+    const auto most = float(std::min(std::max({std::abs(s.z_low), std::abs(s.z_high), 0x1p-126}), 0x1p127));
+    unit =
+        std::bit_cast<double>((std::bit_cast<uint64_t>(double(most)) & 0x7FF0000000000000ull) - (uint64_t(23) << 52));
+  }
+  return slope * rule.factor + unit * rule.units;
+}
+
 /// Tests depth and keeps the visible id.
 struct DepthCommit {
   VisibilityTile& tile;
   DepthFunc func;
   float range_low, range_high;
-  bool skip_hidden;            ///< use the blocks' largest depths
+  bool skip_hidden;  ///< use the blocks' largest depths
+  DepthRule rule{};
   AlphaTest* alpha = nullptr;  ///< of the material drawn; null: every fragment counts
   uint64_t fragments = 0;
   uint32_t id = 0;
@@ -85,7 +104,11 @@ struct DepthCommit {
   template <class T>
   void begin(const TriangleSetup<T>& s) {
     z0 = s.z0, g1 = s.g1, g2 = s.g2, z_low = s.z_low, z_high = s.z_high;
-    nearest = std::min(std::max(float(z_low), range_low), range_high);
+    if (rule.offsets()) {
+      const double offset = polygon_offset(s, rule);
+      z0 += offset, z_low += offset, z_high += offset;
+    }
+    nearest = rule.stored(std::min(std::max(float(z_low), range_low), range_high));
     if (alpha != nullptr) alpha->set_edges(s);
   }
   /// Before begin(), for a piece of a triangle that needed care.
@@ -104,7 +127,11 @@ struct DepthCommit {
     const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
     // Lanes that are not covered become NaN, which passes no comparison below.
     const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    const V32 z = hn::DemoteTo(df, hn::IfThenElse(covered, in_range, nan));
+    V32 z = hn::DemoteTo(df, hn::IfThenElse(covered, in_range, nan));
+    if (rule.largest_code != 0.0f) {
+      const V32 largest = hn::Set(df, rule.largest_code);
+      z = hn::Div(hn::Round(hn::Mul(z, largest)), largest);
+    }
     const V32 there = hn::Load(df, tile.depth + at);
     const auto there_id = hn::Load(du, tile.id + at);
     const auto my_id = hn::Set(du, id);
@@ -164,7 +191,7 @@ struct DepthCommit {
     ++fragments;
     const double plane = z0 + (e1 * g1 + e2 * g2);
     const double in_hull = std::min(std::max(plane, z_low), z_high);
-    const float z = float(std::min(std::max(in_hull, double(range_low)), double(range_high)));
+    const float z = rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
     if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
     if (alpha != nullptr && !opaque(e0, e1, e2)) return false;
     tile.depth[at] = z;

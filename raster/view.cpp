@@ -84,6 +84,16 @@ Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
 
 }  // namespace
 
+DepthRule depth_rule(const GeometryState& state, NumericProfile profile) {
+  DepthRule rule;
+  rule.factor = double(state.polygon_offset_factor);
+  rule.units = double(state.polygon_offset_units);
+  if (info(state.depth_format).number_class != NumberClass::unorm) return rule;
+  rule.largest_code = float(info(state.depth_format).largest_code(0));
+  rule.unit = (profile == NumericProfile::ideal ? 1.0 : 2.0) / double(rule.largest_code);
+  return rule;
+}
+
 WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile) {
   const Viewport v = whole_or_set(state.viewport, width, height);
   WindowTransform out;
@@ -110,6 +120,8 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   out.depth_low = std::min(state.depth_near, state.depth_far) + 0.0f;
   out.depth_high = std::max(state.depth_near, state.depth_far) + 0.0f;
   out.depth_clamp = state.depth_clamp;
+  out.depth = depth_rule(state, profile);
+  if (out.depth.offsets() && !state.depth_clamp) out.depth_low = 0.0f, out.depth_high = 1.0f;  // GL 4.6 core, 14.6.5
   const auto clamped = [](int64_t value, int size) { return int(std::clamp<int64_t>(value, 0, size)); };
   out.x0 = clamped(v.x, width);
   out.x1 = clamped(int64_t(v.x) + v.width, width);

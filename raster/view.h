@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,22 @@
 #include "scenes/scene.h"
 
 namespace trueshade {
+
+/// What becomes of a depth on its way into the buffer. docs/arithmetic.md sections 5 and 6.
+struct DepthRule {
+  float largest_code = 0.0f;         ///< of a fixed-point format; 0 for floats
+  double factor = 0.0, units = 0.0;  ///< of the polygon offset m * factor + r * units
+  double unit = 0.0;                 ///< r of a fixed-point format; floats have 2^(e - 23)
+  bool offsets() const { return factor != 0.0 || units != 0.0; }
+  bool may_come_nearer() const { return factor < 0.0 || units < 0.0; }
+
+  /// The depth that is compared, and read back: the nearest code k as k / largest, or z as it is. Monotone; different
+  /// codes are different floats.
+  float stored(float z) const { return largest_code == 0.0f ? z : std::nearbyint(z * largest_code) / largest_code; }
+};
+
+/// Units are codes of a fixed-point format, or two of them as llvmpipe counts (GL_RULES section 2).
+DepthRule depth_rule(const GeometryState& state, NumericProfile profile);
 
 /// From clip space to window space, in the constants of docs/arithmetic.md sections 3 to 5.
 struct WindowTransform {
@@ -21,6 +38,7 @@ struct WindowTransform {
   int x0, y0, x1, y1;       ///< pixels that may be drawn: viewport and image, half open, y up
   bool float_snap = false;  ///< llvmpipe's: x_px = fma(x * (1 / w), half_size, center), x_fx = RNE((x_px - 0.5) * 256)
   float half_size[2], center[2];  ///< pixels
+  DepthRule depth;
 };
 
 /// One instance as the vertex stage wants it (f32, row-major).

@@ -96,7 +96,7 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
                       int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
                       std::min({w.z[0], w.z[1], w.z[2]})};
-  return hidden_box(tile, rect, box, std::min(std::max(float(box.near), t.depth_low), t.depth_high));
+  return hidden_box(tile, rect, box, t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high)));
 }
 
 // The alpha test of the cluster's material; null if it has none.
@@ -123,6 +123,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   const Cluster& cluster = mesh.clusters[draw.cluster];
   const WindowTransform& t = in.view.window;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  // Corners' depths bound fragments from below unless an offset may bring these nearer.
+  const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
   WindowVertices v;
   window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
   uint8_t triangle[kClusterTriangles + 1];
@@ -133,8 +135,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const WindowBox box = window_box(v, cluster.vertices);
     const int size = rect.size * 256;
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
-    const float near = std::min(std::max(float(box.near), t.depth_low), t.depth_high);
-    if (commit.skip_hidden && hidden_box(commit.tile, rect, box, near)) return;
+    const float near = t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high));
+    if (cull && hidden_box(commit.tile, rect, box, near)) return;
     const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
     count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
@@ -161,7 +163,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
       window.y[k] = v.y[corner[k]];
       window.z[k] = v.z[corner[k]];
     }
-    if (commit.skip_hidden && hidden_triangle(commit.tile, rect, window, t)) continue;
+    if (cull && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
     if (commit.alpha != nullptr) {
@@ -178,12 +180,14 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                           RasterCounts& counts) {
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
-  std::fill_n(out.depth, pixels, in.state.clear_depth);
+  const float clear = in.view.window.depth.stored(in.state.clear_depth);
+  std::fill_n(out.depth, pixels, clear);
   std::fill_n(out.id, pixels, 0u);
-  std::fill_n(out.far, pixels / kBlockPixels, in.state.clear_depth);
+  std::fill_n(out.far, pixels / kBlockPixels, clear);
   const DepthFunc func = in.state.depth_func;
   const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
-  DepthCommit commit{out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins};
+  DepthCommit commit{
+      out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins, in.view.window.depth};
   AlphaTest alpha;
   if (!commit.skip_hidden) {
     for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, alpha, commit, counts);

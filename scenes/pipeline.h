@@ -59,6 +59,8 @@ struct GeometryState {
   ClipOrigin clip_origin = ClipOrigin::lower_left;
   ClipDepth clip_depth = ClipDepth::negative_one_to_one;
   Provoking provoking = Provoking::last;  ///< the vertex a flat attribute follows
+  Format depth_format = Format::d32f;     ///< one of kDepthFormats: what depths are rounded to before they are compared
+  float polygon_offset_factor = 0.0f, polygon_offset_units = 0.0f;  ///< glPolygonOffset, each within 1e18; 0, 0 is off
   bool operator==(const GeometryState&) const = default;
 };
 

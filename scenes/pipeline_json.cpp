@@ -33,9 +33,20 @@ constexpr std::string_view kViewers[] = {"local", "infinite"};
 constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",         "height", "geometry",
                                           "gbuffer", "light_model", "light_volumes", "blend",  "strategy",
                                           "target",  "profile",     "view"};
-constexpr std::string_view kGeometryKeys[] = {"viewport",    "depth_near",  "depth_far", "depth_func",
-                                              "clear_depth", "depth_clamp", "cull_face", "front_face",
-                                              "clip_origin", "clip_depth",  "provoking"};
+constexpr std::string_view kGeometryKeys[] = {"viewport",
+                                              "depth_near",
+                                              "depth_far",
+                                              "depth_func",
+                                              "clear_depth",
+                                              "depth_clamp",
+                                              "cull_face",
+                                              "front_face",
+                                              "clip_origin",
+                                              "clip_depth",
+                                              "provoking",
+                                              "depth_format",
+                                              "polygon_offset_factor",
+                                              "polygon_offset_units"};
 constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
 constexpr std::string_view kGBufferKeys[] = {
     "position", "normal", "albedo", "uv", "specular_format", "emission_format", "position_from_depth", "half_round"};
@@ -109,6 +120,9 @@ void write_geometry(std::string& out, const GeometryState& g) {
   w.put("clip_origin", g.clip_origin, kClipOrigins);
   w.put("clip_depth", g.clip_depth, kClipDepths);
   w.put("provoking", g.provoking, kProvoking);
+  w.put("depth_format", info(g.depth_format).name);
+  w.put("polygon_offset_factor", g.polygon_offset_factor);
+  w.put("polygon_offset_units", g.polygon_offset_units);
 }
 
 void write_plane(std::string& out, const PlaneState& plane) {
@@ -208,6 +222,14 @@ void read_integer(const json::Node& object, std::string_view key, int& value, in
   if (const auto node = object.find(key)) value = int(node->integer(least, most));
 }
 
+void read_format(const json::Node& object, std::string_view key, Format& format, std::span<const Format> allowed) {
+  const auto node = object.find(key);
+  if (!node) return;
+  std::vector<std::string_view> names;
+  for (const Format f : allowed) names.push_back(info(f).name);
+  format = allowed[node->choice(names)];
+}
+
 void read_geometry(const json::Node& node, GeometryState& g) {
   node.check_keys(kObjects[kGeometry]);
   if (const auto v = node.find("viewport")) {
@@ -227,14 +249,9 @@ void read_geometry(const json::Node& node, GeometryState& g) {
   read_choice(node, "clip_origin", g.clip_origin, kClipOrigins);
   read_choice(node, "clip_depth", g.clip_depth, kClipDepths);
   read_choice(node, "provoking", g.provoking, kProvoking);
-}
-
-void read_format(const json::Node& object, std::string_view key, Format& format, std::span<const Format> allowed) {
-  const auto node = object.find(key);
-  if (!node) return;
-  std::vector<std::string_view> names;
-  for (const Format f : allowed) names.push_back(info(f).name);
-  format = allowed[node->choice(names)];
+  read_format(node, "depth_format", g.depth_format, kDepthFormats);
+  read_real(node, "polygon_offset_factor", g.polygon_offset_factor, -kLargest, kLargest);
+  read_real(node, "polygon_offset_units", g.polygon_offset_units, -kLargest, kLargest);
 }
 
 void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& plane, std::span<const Format> allowed) {

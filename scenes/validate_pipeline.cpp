@@ -45,6 +45,9 @@ void check_geometry(const GeometryState& g) {
   require_enumerator(g.clip_origin, ClipOrigin::upper_left, "geometry.clip_origin");
   require_enumerator(g.clip_depth, ClipDepth::zero_to_one, "geometry.clip_depth");
   require_enumerator(g.provoking, Provoking::first, "geometry.provoking");
+  require_format(g.depth_format, kDepthFormats, "geometry.depth_format");
+  require_real(g.polygon_offset_factor, -1e18f, 1e18f, "geometry.polygon_offset_factor", "-1e18 to 1e18");
+  require_real(g.polygon_offset_units, -1e18f, 1e18f, "geometry.polygon_offset_units", "-1e18 to 1e18");
 }
 
 void check_gbuffer(const GBufferState& g) {
@@ -114,7 +117,7 @@ void validate(const Pipeline& pipeline) {
     throw Error(ErrorKind::usage, "target",
                 std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +
                     std::string(info(pipeline.target).name),
-                "use the profile ideal, or a target it promises: rgba8, rgba16f, rgba32f");
+                "use the profile ideal, or a target it promises: rgba8, rgba16, r11g11b10f, rgba16f, rgba32f");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 HWY_INLINE VF lesser(VF a, VF b) { return hn::IfThenElse(hn::Lt(a, b), a, b); }
 HWY_INLINE VF greater(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
 
-/// What the equations read: values, or 8-bit codes with `one` = 255.
+/// What the equations read: values, or codes with `one` the largest.
 struct BlendInputs {
   VF source[4], destination[4], constant[4], one;
   VF source_alpha;  ///< source[3] as factors read it
@@ -101,6 +101,14 @@ inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) 
                  false,
                  state.mask,
                  state.constant};
+  if (plan.layout.channels < 4 && target.profile != NumericProfile::ideal) {
+    // llvmpipe writes the missing alpha into the state: of float formats, all but the saturating factor.
+    for (BlendFactor* factor : {&plan.rgb.term.src, &plan.rgb.term.dst}) {
+      if (*factor == BlendFactor::dst_alpha) *factor = BlendFactor::one;
+      if (*factor == BlendFactor::one_minus_dst_alpha) *factor = BlendFactor::zero;
+    }
+    plan.alpha = plan.rgb;
+  }
   plan.codes = plan.unorm() && target.profile != NumericProfile::ideal;
   for (int c = 0; c < 4; ++c) {
     plan.written[size_t(c)] = plan.written[size_t(c)] && c < plan.layout.channels;
@@ -179,19 +187,22 @@ HWY_INLINE VF blended_values(const BlendPlan& plan, int c, const BlendInputs& in
   return flushed(plan, combined(term.equation, scaled(plan, in.source[c], term.src, c, in), destination));
 }
 
-/// llvmpipe's product of two 8-bit codes: 24 of 65,536 are not RN(a b / 255).
+/// llvmpipe's product of two codes of 8 or 16 bits: of 8, 24 of 65,536 are not RN(a b / 255). Below 2^32 throughout.
+template <int kBits>
 HWY_INLINE VF code_product(VF a, VF b) {
   const DI di;
-  const auto exact = hn::ConvertTo(di, hn::Mul(a, b));
-  const auto t = hn::Add(exact, hn::ShiftRight<8>(exact));
-  return hn::ConvertTo(DF(), hn::ShiftRight<8>(hn::Add(t, hn::Set(di, 128))));
+  const DU du;
+  const auto exact = hn::Mul(hn::BitCast(du, hn::ConvertTo(di, a)), hn::BitCast(du, hn::ConvertTo(di, b)));
+  const auto t = hn::Add(hn::Add(exact, hn::ShiftRight<kBits>(exact)), hn::Set(du, 1u << (kBits - 1)));
+  return hn::ConvertTo(DF(), hn::BitCast(di, hn::ShiftRight<kBits>(t)));
 }
 
-/// Channel c in 8-bit codes, each product rounded, sums held to [0, 255].
+/// Channel c in codes, each product rounded, sums held to [0, one].
+template <int kBits>
 HWY_INLINE VF blended_codes(const BlendPlan& plan, int c, const BlendInputs& in) {
   const BlendTerm& term = plan.group(c).term;
-  const VF source = code_product(in.source[c], factor_value(term.src, c, in));
-  const VF destination = code_product(in.destination[c], factor_value(term.dst, c, in));
+  const VF source = code_product<kBits>(in.source[c], factor_value(term.src, c, in));
+  const VF destination = code_product<kBits>(in.destination[c], factor_value(term.dst, c, in));
   return greater(lesser(combined(term.equation, source, destination), in.one), hn::Zero(DF()));
 }
 
@@ -203,7 +214,7 @@ HWY_INLINE VF encoded_alone(const BlendPlan& plan, VF x, int c) {
 
 HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF stored[4], BlendInputs& in) {
   const DF d;
-  in.one = hn::Set(d, plan.codes ? 255.0f : 1.0f);
+  in.one = hn::Set(d, plan.codes ? plan.largest(0) : 1.0f);
   for (int c = 0; c < 4; ++c) {
     in.constant[c] = hn::Set(d, plan.constant[size_t(c)]);
     if (plan.codes) {
@@ -230,7 +241,7 @@ inline void blend_vectors(const BlendPlan& plan, const VF source[4], VF stored[4
     set_inputs(plan, source, stored, in);
     for (int c = 0; c < 4; ++c) {
       if (plan.codes)
-        out[c] = blended_codes(plan, c, in);
+        out[c] = plan.layout.bits[0] == 8 ? blended_codes<8>(plan, c, in) : blended_codes<16>(plan, c, in);
       else if (plan.adds_codes(c))
         out[c] = lesser(hn::Add(stored[c], unorm_code(in.source[c], plan.largest(c))), hn::Set(d, plan.largest(c)));
       else

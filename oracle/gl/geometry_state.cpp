@@ -96,6 +96,8 @@ void set_geometry_state(const GeometryState& state, const Viewport& viewport, in
   set_culling(state.cull_face);
   glFrontFace(state.front_face == FrontFace::ccw ? GL_CCW : GL_CW);
   set_clip_control(state.clip_origin, state.clip_depth);
+  set_enabled(GL_POLYGON_OFFSET_FILL, state.polygon_offset_factor != 0 || state.polygon_offset_units != 0);
+  glPolygonOffset(state.polygon_offset_factor, state.polygon_offset_units);
   glProvokingVertex(state.provoking == Provoking::last ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
 }
 

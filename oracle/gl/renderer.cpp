@@ -18,7 +18,7 @@ namespace trueshade::oracle {
 /// Textures of one frame and where the picture lies in them.
 struct Targets {
   int width = 0, height = 0;  ///< of the textures: the image and its shift
-  Format color_format = Format::rgba8;
+  Format color_format = Format::rgba8, depth_format = Format::d32f;
   std::vector<GlslPlane> planes;
   std::vector<GlTexture> textures;  ///< one a plane
   GlTexture depth, color;
@@ -32,19 +32,20 @@ struct Programs {
 
 namespace {
 
-std::unique_ptr<Targets> make_targets(int width, int height, Format color_format,
+std::unique_ptr<Targets> make_targets(int width, int height, Format color_format, Format depth_format,
                                       const std::vector<GlslPlane>& planes) {
   auto t = std::make_unique<Targets>();
   t->width = width;
   t->height = height;
   t->color_format = color_format;
+  t->depth_format = depth_format;
   t->planes = planes;
   std::vector<GLuint> names;
   for (const GlslPlane& plane : planes) {
     t->textures.push_back(make_texture(plane.format, width, height));
     names.push_back(t->textures.back());
   }
-  t->depth = make_texture(Format::d32f, width, height);
+  t->depth = make_texture(depth_format, width, height);
   t->color = make_texture(color_format, width, height);
   t->geometry = make_target(names, t->depth);
   const std::array<GLuint, 1> color{t->color};
@@ -91,7 +92,7 @@ void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Ca
   };
   out.color = read(t.color, pipeline.target);
   if (!draw.planes) return;
-  out.planes.push_back({"depth", read(t.depth, Format::d32f)});
+  out.planes.push_back({"depth", read(t.depth, Format::d32f)});  // as floats, whatever they are stored as
   for (size_t i = 0; i < t.planes.size(); ++i)
     out.planes.push_back({t.planes[i].name, read(t.textures[i], t.planes[i].format)});
 }
@@ -137,8 +138,8 @@ const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& 
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   const Targets* t = targets_.get();
   if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target ||
-      t->planes != planes)
-    targets_ = make_targets(width, height, pipeline.target, planes);
+      t->depth_format != pipeline.geometry.depth_format || t->planes != planes)
+    targets_ = make_targets(width, height, pipeline.target, pipeline.geometry.depth_format, planes);
   return *targets_;
 }
 

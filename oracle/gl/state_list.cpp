@@ -91,6 +91,9 @@ std::vector<std::string> geometry_calls(const Pipeline& pipeline) {
           std::string("glClipControl(") +
               (g.clip_origin == ClipOrigin::upper_left ? "GL_UPPER_LEFT, " : "GL_LOWER_LEFT, ") +
               (g.clip_depth == ClipDepth::zero_to_one ? "GL_ZERO_TO_ONE)" : "GL_NEGATIVE_ONE_TO_ONE)"),
+          std::string(g.polygon_offset_factor != 0 || g.polygon_offset_units != 0 ? "glEnable" : "glDisable") +
+              "(GL_POLYGON_OFFSET_FILL); glPolygonOffset(" + glsl_float(g.polygon_offset_factor) + ", " +
+              glsl_float(g.polygon_offset_units) + ")",
           std::string("glProvokingVertex(") +
               (g.provoking == Provoking::last ? "GL_LAST_VERTEX_CONVENTION)" : "GL_FIRST_VERTEX_CONVENTION)")};
 }
@@ -158,8 +161,8 @@ std::string state_list(const Pipeline& pipeline, const GlslOptions& options) {
   return "{\n" + entry("pipeline", pipeline_text) +
          entry("geometry_shaders", "[\"geometry.vert\", \"geometry.frag\"]") +
          entry("geometry_attachments", attachments(planes)) +
-         entry("geometry_depth", "{\"format\": \"GL_DEPTH_COMPONENT32F\", \"clear\": " +
-                                     glsl_float(pipeline.geometry.clear_depth) + "}") +
+         entry("geometry_depth", "{\"format\": " + quoted(gl_name(pipeline.geometry.depth_format)) +
+                                     ", \"clear\": " + glsl_float(pipeline.geometry.clear_depth) + "}") +
          entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
          entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
          entry("light_shaders", "[\"light.vert\", \"light.frag\"]") +

@@ -9,8 +9,8 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr uint32_t kChunk = 8192;   // triangles a piece of work
-constexpr size_t kBatch = 64;       // pieces of work between merges: bounds the memory of entries not yet pruned
+constexpr uint32_t kChunk = 8192;  // triangles a piece of work
+constexpr size_t kBatch = 64;      // pieces of work between merges: bounds the memory of entries not yet pruned
 
 struct Entry {
   uint32_t pixel;
@@ -63,8 +63,10 @@ bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& poin
   return true;
 }
 
-void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect, std::vector<Entry>& out) {
+void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect,
+               std::vector<Entry>& out) {
   const GeometryState& state = p.pipeline().geometry;
+  const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
   const bool masked = p.scene().materials[p.scene().instances[base.instance].material].masked();
   const TriangleValues values = masked ? triangle_values(p, base.instance, base.triangle) : TriangleValues{};
   double largest = 0;
@@ -85,7 +87,8 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
       c.certain = cover.cover == Cover::certain && point.bounded();
       c.chance_other = float(cover.chance_other);
       c.nominal = cover.nominal;
-      if (!p.profile().exact_planes && near_a_limit(state, z)) c.certain = false, c.cut = true, c.chance_other = 0.5f;
+      if (!p.profile().exact_planes && near_a_limit(state, offset ? point.depth() : z))
+        c.certain = false, c.cut = true, c.chance_other = 0.5f;
       if (masked && !test_alpha(p, piece, point, values, x + 0.5, y + 0.5, c)) continue;
       key_range(state, z, order, c);
       out.push_back({uint32_t(y) * uint32_t(p.width()) + uint32_t(x), c});
@@ -123,11 +126,15 @@ std::vector<Work> work_of(const Scene& scene) {
 double clear_key(const GeometryState& state) {
   switch (state.depth_func) {
     case DepthFunc::less:
-    case DepthFunc::lequal: return double(state.clear_depth);
+    case DepthFunc::lequal:
+      return held_depth_of(state, double(state.clear_depth));
     case DepthFunc::greater:
-    case DepthFunc::gequal: return -double(state.clear_depth);
-    case DepthFunc::never: return -HUGE_VAL;
-    default: return HUGE_VAL;
+    case DepthFunc::gequal:
+      return -held_depth_of(state, double(state.clear_depth));
+    case DepthFunc::never:
+      return -HUGE_VAL;
+    default:
+      return HUGE_VAL;
   }
 }
 
@@ -145,7 +152,8 @@ CandidateMap find_candidates(const Projector& projector, int threads) {
     std::vector<std::vector<Entry>> found(count);
     std::vector<double> starts(count);
     for (size_t k = 0; k < count; ++k) starts[k] = order, order += work[from + k].last - work[from + k].first;
-    parallel_for(int(count), threads, [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], found[size_t(k)]); });
+    parallel_for(int(count), threads,
+                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], found[size_t(k)]); });
     for (const std::vector<Entry>& list : found)
       for (Entry e : list) {
         double& limit = bound[e.pixel];

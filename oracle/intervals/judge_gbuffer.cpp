@@ -58,7 +58,7 @@ class GBufferJudge {
   bool is_clear(int x, int y) const {
     if (object_ && object_.stored(x, y, 0) != 0) return false;
     if (material_ && material_.stored(x, y, 0) != 0) return false;
-    if (depth_ && depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth)) return false;
+    if (depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0))) return false;
     for (const AttributePlane& p : planes_)
       for (int c = 0; c < p.view.channels; ++c)
         if (p.view.stored(x, y, c) != 0) return false;
@@ -86,7 +86,7 @@ class GBufferJudge {
       double largest = 0;
       for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
       m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest),
-                   depth_.stored(x, y_top, 0), pixel, profile_);
+                   held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)), pixel, profile_);
     }
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);

@@ -3,6 +3,7 @@
 #include "oracle/exact_coverage.h"
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/shading.h"
+#include "oracle/intervals/surface.h"
 #include "oracle/intervals/tally.h"
 #include "oracle/scalar_renderer.h"
 
@@ -48,7 +49,7 @@ class LightingJudge {
   }
 
   bool covered(int x, int y) const {
-    return object_ ? object_.stored(x, y, 0) != 0 : depth_.stored(x, y, 0) != double(pipeline_.geometry.clear_depth);
+    return object_ ? object_.stored(x, y, 0) != 0 : !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0));
   }
 
   /// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error.
@@ -118,9 +119,12 @@ Bounded3 LightingJudge::position_from_depth(int x, int y) const {
     return Bounded{at - 1, 3 * v * (std::fabs(at) + 1)};
   };
   const double z = depth_.stored(x, y, 0);
+  const bool codes = pipeline_.geometry.depth_format != Format::d32f;
+  const double fetch = codes && z != 1 ? z * profile_.fetch_error : 0;  // a code is read as a float
   std::array<Bounded, 4> p = {
       ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
-      Bounded{(z - offset) / scale, 4 * v * (std::fabs(z) + std::fabs(offset)) / std::fabs(scale)}, Bounded{1, 0}};
+      Bounded{(z - offset) / scale, (4 * v * (std::fabs(z) + std::fabs(offset)) + fetch) / std::fabs(scale)},
+      Bounded{1, 0}};
   if (pipeline_.geometry.clip_origin == ClipOrigin::upper_left) p[1].value = -p[1].value;
   std::array<Bounded, 4> h;
   for (size_t r = 0; r < 4; ++r)

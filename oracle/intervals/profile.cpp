@@ -19,6 +19,8 @@ Profile d3d_class() {
   p.plane_origin = PlaneOrigin::snapped;
   p.unorm_reach = 0.6;
   p.half = HalfStore::toward_zero;
+  p.most_depth_unit = 1;  // 15.10
+  p.max_norm_slope = true;
   p.arithmetic.roundoff = 0x1p-24;
   return p;
 }
@@ -33,6 +35,8 @@ Profile llvmpipe() {
   p.plane_origin = PlaneOrigin::unsnapped;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
+  p.least_depth_unit = 2;
+  p.max_norm_slope = true;
   p.arithmetic.roundoff = 0x1p-24;
   return p;
 }
@@ -49,6 +53,8 @@ Profile ideal() {
   p.clips_to_view = false;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
+  p.most_depth_unit = 1;
+  p.max_norm_slope = true;
   p.fetch_error = 0x1p-24;
   // 1 / sqrt is two roundings; the others one, each to nearest.
   p.arithmetic = {0x1p-24, 0x1p-24, 2 * 0x1p-24, 0x1p-24, true};
@@ -69,28 +75,38 @@ std::optional<Profile> profile_named(std::string_view name) {
 
 const char* text(SnapRule rule) {
   switch (rule) {
-    case SnapRule::nearest: return "nearest";
-    case SnapRule::nearest_0_6: return "nearest within 0.6";
-    case SnapRule::toward_zero: return "toward zero";
-    case SnapRule::unstated: return "unstated";
+    case SnapRule::nearest:
+      return "nearest";
+    case SnapRule::nearest_0_6:
+      return "nearest within 0.6";
+    case SnapRule::toward_zero:
+      return "toward zero";
+    case SnapRule::unstated:
+      return "unstated";
   }
   return "";
 }
 
 const char* text(PlaneOrigin origin) {
   switch (origin) {
-    case PlaneOrigin::snapped: return "snapped";
-    case PlaneOrigin::unsnapped: return "unsnapped";
-    case PlaneOrigin::either: return "either";
+    case PlaneOrigin::snapped:
+      return "snapped";
+    case PlaneOrigin::unsnapped:
+      return "unsnapped";
+    case PlaneOrigin::either:
+      return "either";
   }
   return "";
 }
 
 const char* text(HalfStore store) {
   switch (store) {
-    case HalfStore::toward_zero: return "toward zero";
-    case HalfStore::nearest: return "nearest";
-    case HalfStore::either: return "either";
+    case HalfStore::toward_zero:
+      return "toward zero";
+    case HalfStore::nearest:
+      return "nearest";
+    case HalfStore::either:
+      return "either";
   }
   return "";
 }

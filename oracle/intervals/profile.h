@@ -23,7 +23,7 @@ enum class HalfStore : uint8_t { toward_zero, nearest, either };
 
 struct Profile {
   std::string name = "unknown";
-  int subpixel_bits = 4;                         ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
+  int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
   SnapRule snap = SnapRule::unstated;
   FillRule fill = FillRule::unstated;
   PlaneOrigin plane_origin = PlaneOrigin::either;
@@ -32,6 +32,8 @@ struct Profile {
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
   double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
   HalfStore half = HalfStore::either;
+  double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
+  bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
   Arithmetic arithmetic;
 };

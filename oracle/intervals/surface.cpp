@@ -13,6 +13,12 @@ double float_spacing(double magnitude) {
 
 constexpr Range kAnything{0, -HUGE_VAL, HUGE_VAL};
 
+/// The code of depth 1, 0 for floats.
+double fixed_point_codes(const GeometryState& state) {
+  const FormatInfo layout = info(state.depth_format);
+  return layout.number_class == NumberClass::unorm ? double(layout.largest_code(0)) : 0;
+}
+
 }  // namespace
 
 SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
@@ -47,7 +53,8 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
   condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
   if (points) return;
 
-  // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's reach.
+  // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's
+  // reach.
   std::array<double, 3> change{};
   double area_change = 0;
   for (size_t i = 0; i < 3; ++i) {
@@ -146,6 +153,45 @@ Range SurfacePoint::depth() const {
   return {at, at - largest * 0x1p-47, at + largest * 0x1p-47};
 }
 
+Range SurfacePoint::depth_offset(const GeometryState& state, double largest) const {
+  const double factor = double(state.polygon_offset_factor), units = double(state.polygon_offset_units);
+  if (factor == 0 && units == 0) return {};
+  if (!bounded_) return kAnything;
+  double gx = 0, gy = 0, spread = 0, reach = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    gx += dx_[i] * piece_.v[i].z;
+    gy += dy_[i] * piece_.v[i].z;
+    spread = std::max(spread, std::fabs(piece_.v[i].z - piece_.v[(i + 1) % 3].z) + 2 * piece_.v[i].z_error);
+    for (const double r : piece_.v[i].plane_reach) reach = std::max(reach, r);
+  }
+  gx = std::fabs(gx), gy = std::fabs(gy);
+  Range m{std::max(gx, gy), std::max(gx, gy), profile_.max_norm_slope ? std::max(gx, gy) : std::hypot(gx, gy)};
+  if (!profile_.exact_planes) {
+    // Moving the ends of a plane's edges by 2 reach moves its slope by share = |inverse| 4 reach of what it becomes.
+    const double share = 4 * reach * (span_x_ + span_y_) / std::fabs(area_);
+    if (!(share < 1)) return kAnything;
+    const double v = profile_.arithmetic.roundoff, det = 3 * condition_ * v + profile_.arithmetic.divide + v;
+    double errors = 0;  // of the vertices' depths
+    for (const WindowVertex& p : piece_.v) errors = std::max(errors, p.z_error);
+    const double sums = 2 * (4 * v * spread + 2 * errors) * (span_x_ + span_y_) / std::fabs(area_);
+    m.low = std::max(0.0, m.low * (1 - share / (1 - share)) - sums - m.low * det);
+    m.high = m.high * (1 + share / (1 - share)) + sums + m.high * det;
+  }
+  Range r;
+  if (const double codes = fixed_point_codes(state); codes > 0) {
+    r = {profile_.least_depth_unit / codes, profile_.least_depth_unit / codes, profile_.most_depth_unit / codes};
+  } else {
+    const double slack = profile_.exact_planes ? 0 : 0x1p-20;
+    const auto unit = [&](double z) {
+      return std::ldexp(1.0, std::ilogb(std::clamp(float(z), 0x1p-126f, 0x1p127f)) - 23);
+    };
+    r = {unit(largest), unit(largest * (1 - slack)), unit(largest * (1 + slack))};
+  }
+  const auto least = [](const Range& x, double by) { return by * (by < 0 ? x.high : x.low); };
+  const auto most = [](const Range& x, double by) { return by * (by < 0 ? x.low : x.high); };
+  return {m.value * factor + r.value * units, least(m, factor) + least(r, units), most(m, factor) + most(r, units)};
+}
+
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
@@ -187,7 +233,8 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
   const double d_error = plane_error(u);
   if (!(least_divisor - d_error > 0)) return kAnything;
   const double v = profile_.arithmetic.roundoff;
-  double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) + (profile_.arithmetic.divide + 2 * v) * largest;
+  double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) +
+                (profile_.arithmetic.divide + 2 * v) * largest;
   return {r.value, r.low - more, r.high + more};
 }
 
@@ -213,7 +260,8 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
     double longest = 0, shortest = HUGE_VAL;
     for (int c = 0; c < 3; ++c) {
       double length = 0;
-      for (int r = 0; r < 3; ++r) length += double(drawn.world_from_object[c][r]) * double(drawn.world_from_object[c][r]);
+      for (int r = 0; r < 3; ++r)
+        length += double(drawn.world_from_object[c][r]) * double(drawn.world_from_object[c][r]);
       longest = std::max(longest, std::sqrt(length)), shortest = std::min(shortest, std::sqrt(length));
     }
     const double ratio = shortest > 0 ? longest / shortest : HUGE_VAL;
@@ -239,14 +287,42 @@ void piece_values(const Piece& piece, const TriangleValues& values, size_t index
 }
 
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest) {
-  const double near = double(state.depth_near), far = double(state.depth_far), low = std::min(near, far), high = std::max(near, far);
+  const double near = double(state.depth_near), far = double(state.depth_far), codes = fixed_point_codes(state);
+  const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
+  const bool whole = offset && !state.depth_clamp;
+  const double low = whole ? 0 : std::min(near, far), high = whole ? 1 : std::max(near, far);
   Range z = point.depth();
-  if (!profile.exact_planes) {
-    const double ulp = profile.arithmetic.roundoff * largest;  // storing rounds once more
-    return {std::clamp(z.value, low, high), std::clamp(z.low - ulp, low, high), std::clamp(z.high + ulp, low, high)};
+  if (offset) {
+    const Range o = point.depth_offset(state, largest);
+    largest += std::max(std::fabs(o.low), std::fabs(o.high));
+    z = {z.value + o.value, z.low + o.low, z.high + o.high};
+    if (profile.exact_planes) z.low -= largest * 0x1p-50, z.high += largest * 0x1p-50;
   }
-  const auto code = [&](double v) { return double(float(std::clamp(v, low, high))); };
-  return {code(z.value), code(z.low), code(z.high)};
+  if (!profile.exact_planes) {
+    const double ulp = std::isfinite(largest) ? profile.arithmetic.roundoff * largest : 0;  // storing rounds once more
+    z = {std::clamp(z.value, low, high), std::clamp(z.low - ulp, low, high), std::clamp(z.high + ulp, low, high)};
+  } else {
+    const auto rounded = [&](double v) { return double(float(std::clamp(v, low, high))); };
+    z = {rounded(z.value), rounded(z.low), rounded(z.high)};
+  }
+  if (codes == 0) return z;
+  const auto nearest = [&](double v) { return std::nearbyint(double(float(v) * float(codes))); };
+  Range code{nearest(z.value), nearest(z.low), nearest(z.high)};
+  if (!profile.exact_planes && profile.unorm_reach != 0.5) {
+    code.low = std::min(code.low, std::max(0.0, std::floor(z.low * codes * (1 - 0x1p-24))));
+    code.high = std::max(code.high, std::min(codes, std::ceil(z.high * codes * (1 + 0x1p-24))));
+  }
+  return {code.value / codes, code.low / codes, code.high / codes};
+}
+
+double held_depth_of(const GeometryState& state, double depth) {
+  const double codes = fixed_point_codes(state);
+  return codes == 0 ? depth : std::nearbyint(depth * codes) / codes;
+}
+
+bool is_clear_depth(const GeometryState& state, double depth) {
+  const double codes = fixed_point_codes(state), clear = double(state.clear_depth);
+  return codes == 0 ? depth == clear : std::fabs(held_depth_of(state, depth) - clear) * codes < 1;
 }
 
 }  // namespace trueshade::oracle

@@ -11,11 +11,11 @@ namespace trueshade::oracle {
 
 /// The planes of one piece about one sample.
 ///
-/// Moving vertices v_i by d_i is moving the sample: the plane through (v_i + d_i, z_i) has at p the value that the plane
-/// through (v_i, z_i) has at p - sum(b_i d_i), b_i the barycentrics of p in the moved triangle. So the values that all
-/// vertices of the box allow are those of one plane over a box about p of half width sum |b_i| max|d_i|, with
-/// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine functions is monotone along every line where its divisor keeps its sign: the
-/// extremes are at the box's corners.
+/// Moving vertices v_i by d_i is moving the sample: the plane through (v_i + d_i, z_i) has at p the value that the
+/// plane through (v_i, z_i) has at p - sum(b_i d_i), b_i the barycentrics of p in the moved triangle. So the values
+/// that all vertices of the box allow are those of one plane over a box about p of half width sum |b_i| max|d_i|, with
+/// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine
+/// functions is monotone along every line where its divisor keeps its sign: the extremes are at the box's corners.
 ///
 /// Float planes a0 + gx x + gy y of the driver's window, |x| <= X, |y| <= Y in pixels from its corner (where Mesa 22.3
 /// has a0: llvmpipe/lp_state_setup.c, emit_coef4), add, with v the roundoff and N the largest vertex value:
@@ -38,11 +38,16 @@ class SurfacePoint {
   /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
   bool bounded() const { return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_); }
 
-  /// Window depth before any clamp.
+  /// Window depth before any offset and clamp.
   Range depth() const;
 
+  /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
+  /// of both, of the plane through any vertices of the box; r of the profile. `largest`: |z| of the vertices.
+  Range depth_offset(const GeometryState& state, double largest) const;
+
   /// value, error: at the three vertices of the piece.
-  Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error, Interpolation interpolation) const;
+  Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
+                  Interpolation interpolation) const;
 
  private:
   enum class Tiny : uint8_t { anything, hull, hull_and_plane };
@@ -74,7 +79,14 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
 void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
                   std::array<double, 3>& error);
 
-/// Depth as the depth buffer may hold it: clamped to the depth range, rounded to float.
+/// Depth as the depth buffer may hold it: offset, clamped to the depth range, rounded to its format: fixed-point depth
+/// as k / largest, k the code.
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
+
+/// A depth that was read back, or cleared to, as stored_depth() has it: of fixed-point formats the nearest k / largest.
+double held_depth_of(const GeometryState& state, double depth);
+
+/// Whether a depth read back is what the buffer was cleared to: in fixed point either neighbour of clear_depth.
+bool is_clear_depth(const GeometryState& state, double depth);
 
 }  // namespace trueshade::oracle

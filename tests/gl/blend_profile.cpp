@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/half.h"
+#include "core/small_float.h"
 #include "oracle/gl/blend_state.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/glsl.h"
@@ -27,42 +28,34 @@ using Random = std::mt19937_64;
 constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
-/// A texture of our values, by glTexSubImage2D: halves are exact, so how the driver would convert does not matter.
+/// What a texel holds for a stored value: small floats are exact, so rounding does not matter.
+uint32_t bits_of(Format format, size_t channel, float held) {
+  const FormatInfo layout = info(format);
+  const int bits = layout.bits[channel];
+  if (layout.number_class == NumberClass::unorm) return uint32_t(held);
+  if (bits == 32) return std::bit_cast<uint32_t>(held);
+  return bits == 16 ? half_from_float(held, HalfRound::toward_zero)
+                    : unsigned_from_float(held, bits, HalfRound::toward_zero);
+}
+
+/// A texture of our values, by glTexSubImage2D.
 GlTexture texture_of(Format format, int width, int height, const PixelPlanes& pixels) {
   GlTexture texture = make_texture(format, width, height);
   const GlFormat gl = gl_format(format);
-  const size_t each = size_t(info(format).bytes_per_channel);
-  std::vector<uint8_t> bytes(size_t(width) * size_t(height) * 4 * each);
+  Image image(width, height, format);  // its first row is the lowest here
   for (size_t i = 0; i < size_t(width) * size_t(height); ++i)
-    for (size_t c = 0; c < 4; ++c) {
-      const float value = pixels.plane[c][i];
-      uint8_t* to = &bytes[(4 * i + c) * each];
-      const uint16_t half = half_from_float(value, HalfRound::toward_zero);
-      if (each == 4)
-        std::memcpy(to, &value, 4);
-      else if (each == 2)
-        std::memcpy(to, &half, 2);
-      else
-        *to = uint8_t(value);
-    }
+    for (size_t c = 0; c < size_t(info(format).channels); ++c)
+      image.set_code(int(i) % width, int(i) / width, int(c), bits_of(format, c, pixels.plane[c][i]));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, gl.external, gl.type, bytes.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, gl.external, gl.type, image.texels.data());
   return texture;
 }
 
 /// Channel c of the i-th pixel, row 0 at the bottom, as blend_pixels() holds it.
 float held(const Image& image, size_t i, size_t c) {
-  const int x = int(i) % image.width, y = int(i) / image.width;
-  const uint8_t* texel = image.texel(x, image.height - 1 - y);
-  if (image.format == Format::rgba8) return float(texel[c]);
-  if (image.format == Format::rgba32f) {
-    float value;
-    std::memcpy(&value, texel + 4 * c, 4);
-    return value;
-  }
-  uint16_t half;
-  std::memcpy(&half, texel + 2 * c, 2);
-  return float_from_half(half);
+  const int x = int(i) % image.width, y = image.height - 1 - int(i) / image.width;
+  if (info(image.format).number_class == NumberClass::unorm) return float(image.code(x, y, int(c)));
+  return float(image.value(x, y, int(c)));
 }
 
 bool same(float a, float b) { return (a != a && b != b) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
@@ -116,9 +109,14 @@ float any_value(Random& random, bool strange) {
   }
 }
 
-float any_stored(Random& random, Format format) {
-  if (format == Format::rgba8) return float(random() % 256);
-  if (format == Format::rgba16f) return float_from_half(uint16_t(random() % 4 ? random() % 0x3C01 : random()));
+float any_stored(Random& random, Format format, size_t channel) {
+  const FormatInfo layout = info(format);
+  if (layout.number_class == NumberClass::unorm) return float(random() % (layout.largest_code(int(channel)) + 1));
+  if (layout.bits[channel] == 16) return float_from_half(uint16_t(random() % 4 ? random() % 0x3C01 : random()));
+  if (layout.bits[channel] != 0 && layout.small_float()) {
+    const int bits = layout.bits[channel];
+    return float_from_unsigned(uint32_t(random() & ((1u << bits) - 1)), bits);
+  }
   return any_value(random, true);
 }
 
@@ -131,7 +129,7 @@ int different(const GlProgram& fetch, const BlendState& state, Format format, Ra
   for (size_t i = 0; i < kPixels; ++i)
     for (size_t c = 0; c < 4; ++c) {
       source.plane[c][i] = any_value(random, true);
-      stored.plane[c][i] = any_stored(random, format);
+      stored.plane[c][i] = any_stored(random, format, c);
     }
   const GlTexture from = texture_of(Format::rgba32f, kSide, kSide, source);
   const GlTexture target = texture_of(format, kSide, kSide, stored);
@@ -145,7 +143,7 @@ int different(const GlProgram& fetch, const BlendState& state, Format format, Ra
   int count = 0;
   for (size_t i = 0; i < kPixels; ++i)
     for (size_t c = 0; c < 4; ++c) {
-      if (same(held(image, i, c), stored.plane[c][i])) continue;
+      if (c >= size_t(info(format).channels) || same(held(image, i, c), stored.plane[c][i])) continue;
       if (++count == 1)
         UNSCOPED_INFO(text_of(state) << ", " << info(format).name << ", channel " << c << ": source "
                                      << source.plane[c][i] << " (alpha " << source.plane[3][i] << "), before "
@@ -213,7 +211,7 @@ size_t different_triples(const BlendTerm& term, int width, int height, int strid
   return count;
 }
 
-constexpr Format kTargets[] = {Format::rgba8, Format::rgba16f, Format::rgba32f};
+constexpr Format kTargets[] = {Format::rgba8, Format::rgba16, Format::r11g11b10f, Format::rgba16f, Format::rgba32f};
 
 }  // namespace
 

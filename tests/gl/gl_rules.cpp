@@ -120,6 +120,43 @@ TEST_CASE("Rows 20, 24 and 27: llvmpipe's depths, ties and clamps are those of t
   CHECK(clamped.depth[clamped.index(254, 0)] == 0.75f);
 }
 
+TEST_CASE("Rows 22, 25 and 26: llvmpipe stores the nearest codes, and offsets by two of them or by 2^(e - 23)") {
+  const GlContext* context = driver(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  Pipeline pipeline = window_pipeline();
+  pipeline.geometry.depth_clamp = true;
+  pipeline.geometry.depth_func = DepthFunc::always;
+  const auto depth_of = [&](const Corners& corners) {
+    const Planes planes = drawn_by_gl(*context, window_scene({corners}), pipeline);
+    return double(planes.depth[planes.index(40, 40)]);
+  };
+  const auto flat = [](double z) { return Corners{{{0, 0, 2 * z - 1}, {256, 0, 2 * z - 1}, {0, 256, 2 * z - 1}}}; };
+  const auto code = [&](double z) {
+    return std::lround(depth_of(flat(z)) * double(info(pipeline.geometry.depth_format).largest_code(0)));
+  };
+  const double depths[] = {.5, .25, .75, 1, 2, -1};
+  const long d24[] = {0x800000, 0x400000, 0xBFFFFF, 0xFFFFFF, 0xFFFFFF, 0},
+             d16[] = {0x8000, 0x4000, 0xBFFF, 0xFFFF, 0xFFFF, 0};
+  for (size_t i = 0; i < std::size(depths); ++i) {
+    pipeline.geometry.depth_format = Format::d24;
+    CHECK(code(depths[i]) == d24[i]);
+    pipeline.geometry.depth_format = Format::d16;
+    CHECK(code(depths[i]) == d16[i]);
+  }
+  pipeline.geometry.polygon_offset_units = 1;
+  CHECK(code(.25) == 0x4002);
+  pipeline.geometry.depth_format = Format::d24;
+  CHECK(code(.25) == 0x400002);
+  pipeline.geometry.depth_format = Format::d32f;
+  CHECK(depth_of(flat(.25)) == .25 + 0x1p-25);
+  CHECK(depth_of(flat(.5)) == .5 + 0x1p-24);
+  const Corners slope = {{{0, 0, -.5}, {256, 0, -.5 + 512 * 3e-4}, {0, 256, -.5 + 512 * 4e-4}}};
+  pipeline.geometry.polygon_offset_units = 0;
+  const double plain = depth_of(slope);
+  pipeline.geometry.polygon_offset_factor = 2;
+  CHECK(std::fabs(depth_of(slope) - plain - 8e-4) < 1e-7);
+}
+
 TEST_CASE("Rows 28 and 29: llvmpipe interpolates with and without perspective, and flat from the provoking vertex") {
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;

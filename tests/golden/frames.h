@@ -30,6 +30,9 @@ inline constexpr GoldenFrame kGoldenFrames[] = {
     {"builtin:circle", "many-lights", 200, 150, "b3b35243c9ea2478ca69dab08514428b2554d21a854842980cad287596f62afd"},
     {"builtin:circle", "many-lights", 800, 800, "19fb26401f10284da6c15b234376ac91a0995563e27db40e408f26dcdce9b416"},
     {"builtin:circle", "touchdesigner", 200, 150, "a664717ba76afedcc23bf1bed519fbd48f51bee7886a9715487e6a091339f213"},
+    {"builtin:atrium", "many-lights", 200, 150, "a6c74d389ee87813a5f86fb080c918c5235ade4e605767347bae832bf264b664"},
+    {"builtin:atrium", "many-lights", 800, 800, "3db7c70e68f9f68cfb1fb160e9608b8b766e31e0331cd080733b5b5cf41576a5"},
+    {"builtin:atrium", "touchdesigner", 200, 150, "9aa6c8d69abe07218c962698eb8ae9e19a25c0bd1007e43ebf32885506aed78c"},
 };
 
 }  // namespace trueshade

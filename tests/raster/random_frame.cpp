@@ -83,6 +83,11 @@ Pipeline random_pipeline(Random& random) {
   state.depth_func = DepthFunc(random() % 8);
   state.clear_depth = one_of(random, {1.0f, 1.0f, 0.5f, 0.0f});
   state.depth_clamp = random() % 3 == 0;
+  state.depth_format = one_of(random, {Format::d32f, Format::d32f, Format::d24, Format::d16});
+  if (random() % 3 == 0) {
+    state.polygon_offset_factor = one_of(random, {0.0f, 1.0f, -2.0f, 0.375f});
+    state.polygon_offset_units = one_of(random, {0.0f, 1.0f, -3.0f, 500.0f, -0.75f});
+  }
   state.cull_face = CullFace(random() % 4);
   if (random() % 2 == 0) state.cull_face = CullFace::none;
   state.front_face = FrontFace(random() % 2);

@@ -30,7 +30,10 @@ void check_pixel(const oracle::ScalarFrame& frame, const oracle::Fragment& fragm
   const oracle::DrawnTriangle& t = frame.triangles[fragment.window];
   const double depth_off = std::fabs(double((long double)(planes.depth[i]) - fragment.depth));
   CAPTURE(planes.depth[i], double(fragment.depth));
-  REQUIRE(depth_off <= std::max(0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth))));
+  const Format format = pipeline.geometry.depth_format;
+  const double code = format == Format::d32f ? 0 : 1.01 / double(info(format).largest_code(0));
+  REQUIRE(depth_off <=
+          std::max({code, 0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth)), double(fragment.depth_bound)}));
   if (fragment.depth_bound == 0) REQUIRE(planes.depth[i] == fragment.depth_code);
   const GBufferState& g = pipeline.gbuffer;
   for (size_t k = 0; k < 3; ++k) {

@@ -25,7 +25,10 @@ Pipeline strange_pipeline() {
                 FrontFace::cw,
                 ClipOrigin::upper_left,
                 ClipDepth::zero_to_one,
-                Provoking::first};
+                Provoking::first,
+                Format::d16,
+                -1.5f,
+                0.25f};
   p.gbuffer.normal = {Format::rgb16f, Interpolation::noperspective};
   p.gbuffer.uv.interpolation = Interpolation::flat;
   p.gbuffer.position_from_depth = true;
@@ -81,7 +84,8 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"({"version":1,"preset":"many-lights","width":800,"height":800,"geometry":{"viewport":{"x":0,"y":0,"width":0,)"
         R"("height":0},"depth_near":0,"depth_far":1,"depth_func":"less","clear_depth":1,"depth_clamp":false,)"
         R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
-        R"("provoking":"last"},"gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
+        R"("provoking":"last","depth_format":"d32f","polygon_offset_factor":0,"polygon_offset_units":0},)"
+        R"("gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
         R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
         R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
         R"("position_from_depth":false,"half_round":"toward_zero"},)"
@@ -121,6 +125,9 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"geometry": {"viewport": {"width": -1}}})", "p.json: /geometry/viewport/width: found -1"},
       {R"({"geometry": {"depth_near": 1.25}})", "p.json: /geometry/depth_near: found 1.25 (a number from 0 to 1)"},
       {R"({"geometry": {"depth_func": "LESS"}})", "p.json: /geometry/depth_func: found \"LESS\" (one of never less"},
+      {R"({"geometry": {"depth_format": "r32ui"}})",
+       "p.json: /geometry/depth_format: found \"r32ui\" (one of d32f d24 d16)"},
+      {R"({"geometry": {"polygon_offset_units": 2e18}})", "p.json: /geometry/polygon_offset_units: found 2e+18"},
       {R"({"geometry": {"depth_clamp": 1}})", "p.json: /geometry/depth_clamp: found 1 (true or false)"},
       {R"({"gbuffer": {"position": "rgba32f"}})", "p.json: /gbuffer/position: found \"rgba32f\" (an object)"},
       {R"({"gbuffer": {"position": {"format": "rgba8"}}})", "p.json: /gbuffer/position/format: found \"rgba8\""},
@@ -181,6 +188,12 @@ TEST_CASE("pipelines out of range are named by field") {
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.specular = Format::rgb16f; }), "gbuffer.specular");
   CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_format = Format::rgba8; }),
+                    "geometry.depth_format: rgba8 is out of range (d32f, d24 or d16)");
+  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.polygon_offset_factor = kNan; }),
+                    "geometry.polygon_offset_factor");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.polygon_offset_units = INFINITY; }),
+                    "geometry.polygon_offset_units");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) {
                       p.gbuffer.position_from_depth = true;
                       p.geometry.depth_near = 1.0f;
