@@ -80,6 +80,13 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       count("tile_pixel_lights", "pairs left by tile culling", s.tile_pixel_lights),
       real("culled_share", "share of pairs culled by tiles", std::max(culled, 0.0)),
       count("evaluated_pixel_lights", "pairs evaluated", s.evaluated_pixel_lights),
+      count("gl_draws", "as OpenGL would draw it: draws", s.gl.draws),
+      count("gl_light_triangles", "  triangles of light geometry", s.gl.light_triangles),
+      count("gl_light_pixels", "  covered pixels under light geometry", s.gl.light_pixels),
+      count("gl_material_computations", "  material computations", s.gl.material_computations),
+      count("gl_gbuffer_fragments_read", "  G-buffer fragments read", s.gl.gbuffer_fragments_read),
+      count("gl_target_fragments_read", "  target fragments read", s.gl.target_fragments_read),
+      count("gl_fragments_written", "  fragments written", s.gl.fragments_written),
       time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms),
       time("light_ms", "light, all threads [ms]", s.light_ms),
       time("total_ms", "this frame, planes included [ms]", s.total_ms)};

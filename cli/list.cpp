@@ -17,6 +17,12 @@ struct Section {
 
 std::vector<Section> sections() {
   Section scenes{"scenes", "Scenes (render builtin:NAME)", {}}, rows{"presets", "Presets (--preset)", {}};
+  Section strategies{"strategies", "Strategies (--strategy)", {}};
+  constexpr std::string_view kAbout[] = {"every object once a light, added to the target after each",
+                                         "every object once, all lights summed in float32, one store",
+                                         "G-buffer, then each light's geometry, blended and rounded light by light",
+                                         "G-buffer, then all lights summed in float32, one store"};
+  for (size_t i = 0; i < std::size(kStrategyNames); ++i) strategies.entries.emplace_back(kStrategyNames[i], kAbout[i]);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
@@ -27,7 +33,7 @@ std::vector<Section> sections() {
   planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
   for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  return {scenes, rows, {"strategies", "Strategies", {{"deferred-loop", ""}}}, formats, planes, views, simd};
+  return {scenes, rows, strategies, formats, planes, views, simd};
 }
 
 std::string json_of(const std::vector<Section>& list) {

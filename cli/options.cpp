@@ -98,6 +98,13 @@ Format target_from_text(const std::string& text) {
   return *format;
 }
 
+Strategy strategy_from_text(const std::string& text) {
+  const auto name = std::find(std::begin(kStrategyNames), std::end(kStrategyNames), text);
+  if (name == std::end(kStrategyNames))
+    throw usage("--strategy", "there is no strategy '" + text + "'", "one of: " + joined(kStrategyNames));
+  return Strategy(name - std::begin(kStrategyNames));
+}
+
 std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
 
 /// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
@@ -131,7 +138,7 @@ void check_outputs(const RenderOptions& options) {
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, time, frames, target, profile, view, aov, threads, tile;
+  std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -162,6 +169,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
       "--frames", texts.frames,
       "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
   render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
+  render->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + plane_names());
   render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
@@ -193,12 +201,14 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.frames) options.frames = frames_from_text(*texts.frames);
   if (texts.target) options.target = target_from_text(*texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.view) options.view = view_from_text(*texts.view);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
   options.execution.light_culling = !texts.no_light_culling;
+  options.execution.count_as_gl = options.stats || options.json;
   check_preset(options.preset);
   check_simd(options.simd);
   validate(execution_of(options));
@@ -206,26 +216,29 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   return options;
 }
 
-CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options) {
+CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::string>& strategy) {
   CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
   glsl->add_option("--preset", options.preset, "Row of numbers, as for render")->required();
+  glsl->add_option("--strategy", strategy, "How lights come to pixels: " + joined(kStrategyNames));
   glsl->add_option("-o,--output", options.folder, "Folder for the files; made if it is not there")->required();
   return glsl;
 }
 
-GlslFilesOptions finished(GlslFilesOptions options) {
+GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::string>& strategy) {
   check_preset(options.preset);
+  if (strategy) options.strategy = strategy_from_text(*strategy);
   return options;
 }
 
 /// Option values of validate as text.
 struct ValidationTexts {
-  std::optional<std::string> size, subpixel_bits;
+  std::optional<std::string> size, subpixel_bits, strategy;
 };
 
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
   add_pipeline_options(command, options, texts.size);
+  command->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
   command->add_option(
       "--gbuffer", options.gbuffer_file,
@@ -250,6 +263,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
   constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
   if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
   if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
@@ -268,7 +282,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
 
 /// Option values of bench as text.
 struct BenchTexts {
-  std::optional<std::string> size, threads, against;
+  std::optional<std::string> size, strategy, threads, against;
 };
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
@@ -277,6 +291,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   bench->add_option("--preset", options.preset, "Row of numbers, as for render");
   bench->add_option("--pipeline", options.pipeline_file, "JSON file of values, as for render");
   bench->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
+  bench->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   bench->add_option("--threads", texts.threads, "Threads, 0 for one a core");
   bench->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512");
   bench->add_option("--against", texts.against,
@@ -301,6 +316,7 @@ std::vector<std::string> peers_from_text(const std::string& list) {
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
   if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.against) options.against = peers_from_text(*texts.against);
   check_preset(options.preset);
@@ -337,6 +353,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   InfoOptions info;
   ListOptions list;
   GlslFilesOptions glsl;
+  std::optional<std::string> glsl_strategy;
   ValidationOptions validation;
   ValidationTexts validation_texts;
   BenchOptions benchmark;
@@ -346,7 +363,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   list_command->add_flag("--json", list.json, "As one JSON document");
-  const CLI::App* glsl_command = add_glsl(app, glsl);
+  const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
   constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate", "bench"};
@@ -366,7 +383,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   }
   if (render_command->parsed()) return finished(std::move(render), texts);
   if (info_command->parsed()) return info;
-  if (glsl_command->parsed()) return finished(std::move(glsl));
+  if (glsl_command->parsed()) return finished(std::move(glsl), glsl_strategy);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
   return list;

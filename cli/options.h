@@ -25,6 +25,7 @@ struct PipelineOptions {
   std::optional<Size> size;
   std::optional<Format> target;
   std::optional<NumericProfile> profile;
+  std::optional<Strategy> strategy;
   std::optional<ImageView> view;
 };
 
@@ -55,6 +56,7 @@ struct ListOptions {
 /// `trueshade glsl`
 struct GlslFilesOptions {
   std::string preset;  ///< name of a row
+  std::optional<Strategy> strategy;
   std::string folder;  ///< made if it is not there
 };
 

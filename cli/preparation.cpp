@@ -30,6 +30,7 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.size) std::tie(pipeline.width, pipeline.height) = std::pair(options.size->width, options.size->height);
   if (options.target) pipeline.target = *options.target;
   if (options.profile) pipeline.profile = *options.profile;
+  if (options.strategy) pipeline.strategy = *options.strategy;
   if (options.view) pipeline.view = *options.view;
   validate(pipeline);
   return pipeline;

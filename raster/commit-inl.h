@@ -13,6 +13,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "raster/alpha-inl.h"
 #include "raster/triangle_setup.h"
@@ -117,21 +118,31 @@ struct DepthCommit {
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
-  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
+  /// Depths of a vector of samples; NaN where not covered, which passes no comparison.
+  HWY_INLINE V32 depths(M64 covered, V64 e1, V64 e2) const {
     const D64 d;
-    const D32 df;
-    const U32 du;
-    fragments += hn::CountTrue(d, covered);
-    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e[1], hn::Set(d, g1)), hn::Mul(e[2], hn::Set(d, g2))));
+    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e1, hn::Set(d, g1)), hn::Mul(e2, hn::Set(d, g2))));
     const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
     const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
-    // Lanes that are not covered become NaN, which passes no comparison below.
     const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    V32 z = hn::DemoteTo(df, hn::IfThenElse(covered, in_range, nan));
+    V32 z = hn::DemoteTo(D32(), hn::IfThenElse(covered, in_range, nan));
     if (rule.largest_code != 0.0f) {
-      const V32 largest = hn::Set(df, rule.largest_code);
+      const V32 largest = hn::Set(D32(), rule.largest_code);
       z = hn::Div(hn::Round(hn::Mul(z, largest)), largest);
     }
+    return z;
+  }
+  float depth(double e1, double e2) const {
+    const double plane = z0 + (e1 * g1 + e2 * g2);
+    const double in_hull = std::min(std::max(plane, z_low), z_high);
+    return rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
+  }
+
+  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
+    const D32 df;
+    const U32 du;
+    fragments += hn::CountTrue(D64(), covered);
+    const V32 z = depths(covered, e[1], e[2]);
     const V32 there = hn::Load(df, tile.depth + at);
     const auto there_id = hn::Load(du, tile.id + at);
     const auto my_id = hn::Set(du, id);
@@ -189,9 +200,7 @@ struct DepthCommit {
 
   bool scalar(int at, double e0, double e1, double e2) {
     ++fragments;
-    const double plane = z0 + (e1 * g1 + e2 * g2);
-    const double in_hull = std::min(std::max(plane, z_low), z_high);
-    const float z = rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
+    const float z = depth(e1, e2);
     if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
     if (alpha != nullptr && !opaque(e0, e1, e2)) return false;
     tile.depth[at] = z;
@@ -206,6 +215,44 @@ struct DepthCommit {
     for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
     tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
+};
+
+/// Lists the fragments whose depth is the one stored.
+struct TieCommit {
+  VisibilityTile& tile;
+  DepthCommit test;  ///< for its depths
+  std::vector<DepthFragment>& out;
+  bool skip_hidden;
+  uint32_t id = 0;
+
+  template <class T>
+  void begin(const TriangleSetup<T>& s) {
+    test.begin(s);
+  }
+  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+    test.begin_piece(v, fan, index, t);
+  }
+  bool hidden(int block) const { return test.hidden(block); }
+  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
+    const D32 df;
+    alignas(64) float z[HWY_MAX_BYTES / sizeof(float)];
+    V32 depth = test.depths(covered, e[1], e[2]);
+    if (test.alpha != nullptr) {
+      const auto equal = hn::Eq(depth, hn::Load(df, tile.depth + at));
+      const auto kept = hn::And(equal, test.opaque(e, equal));
+      depth = hn::IfThenElse(kept, depth, hn::Set(df, std::numeric_limits<float>::quiet_NaN()));
+    }
+    hn::Store(depth, df, z);
+    for (size_t i = 0; i < hn::Lanes(df); ++i)
+      if (z[i] == tile.depth[size_t(at) + i]) out.push_back({at + int(i), id});
+    return false;
+  }
+  bool scalar(int at, double e0, double e1, double e2) {
+    const bool equal = test.depth(e1, e2) == tile.depth[at];
+    if (equal && (test.alpha == nullptr || test.opaque(e0, e1, e2))) out.push_back({at, id});
+    return false;
+  }
+  void finish_block(int) {}
 };
 
 }  // namespace trueshade::HWY_NAMESPACE

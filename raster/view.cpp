@@ -60,6 +60,13 @@ std::array<float, 16> inverse_rows(const Matrix4& m) {
   return out;
 }
 
+std::array<float, 16> rounded_rows(const Matrix4& m) {
+  std::array<float, 16> out;
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) out[4 * r + c] = float(m[4 * c + r]);
+  return out;
+}
+
 InstanceTransform instance_transform(const Matrix4& clip_from_world, const glm::mat4x3& world_from_object) {
   InstanceTransform out;
   const Matrix4 clip = product(clip_from_world, from_affine(world_from_object));
@@ -138,6 +145,7 @@ View make_view(const Scene& scene, const Pipeline& pipeline) {
             window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
             {},
             inverse_rows(clip),
+            rounded_rows(clip),
             scene_maps(scene, pipeline)};
   view.instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)

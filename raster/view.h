@@ -55,6 +55,7 @@ struct View {
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
+  std::array<float, 16> clip_from_world;     ///< row-major; for the geometry of lights
   SceneMaps maps{};                          ///< what materials do with textures
 };
 

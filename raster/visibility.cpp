@@ -116,7 +116,11 @@ void set_source(const TileDraws& in, const Instance& instance, const Cluster& cl
   test.set_source(in.scene.meshes[instance.mesh], vertex, in.state.provoking == Provoking::last ? 2 : 0);
 }
 
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, AlphaTest& alpha, DepthCommit& commit,
+DepthCommit& depth_test(DepthCommit& commit) { return commit; }
+DepthCommit& depth_test(TieCommit& commit) { return commit.test; }
+
+template <class Commit>
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, AlphaTest& alpha, Commit& commit,
                   RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -143,14 +147,14 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
   const Instance& instance = in.scene.instances[draw.instance];
-  commit.alpha = alpha_test(in, instance, alpha);
+  AlphaTest* const masked = depth_test(commit).alpha = alpha_test(in, instance, alpha);
   for (int i = 0; i < count; ++i) {
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
-    if (commit.alpha != nullptr) set_source(in, instance, cluster, corner, alpha);
+    if (masked != nullptr) set_source(in, instance, cluster, corner, alpha);
     if (careful) {
       ClipVertex clip[3];
       clip_corners(in, position, triangle[i], clip);
@@ -166,7 +170,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (cull && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
-    if (commit.alpha != nullptr) {
+    if (masked != nullptr) {
       const double inverse_w[3] = {v.u[corner[0]], v.u[corner[1]], v.u[corner[2]]};
       alpha.set_piece(window, inverse_w);
     }
@@ -203,6 +207,31 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   counts.fragments += commit.fragments;
 }
 
+// Keeps the pixels where not the visible fragment alone has the stored depth.
+void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& fragments) {
+  std::sort(fragments.begin(), fragments.end(), [](const DepthFragment& a, const DepthFragment& b) {
+    return a.at < b.at || (a.at == b.at && a.id < b.id);
+  });
+  size_t kept = 0;
+  for (size_t i = 0, end = 0; i < fragments.size(); i = end) {
+    while (end < fragments.size() && fragments[end].at == fragments[i].at) ++end;
+    if (end == i + 1 && fragments[i].id == visible.id[fragments[i].at]) continue;
+    for (size_t k = i; k < end; ++k) fragments[kept++] = fragments[k];
+  }
+  fragments.resize(kept);
+}
+
+void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                                   std::vector<DepthFragment>& out) {
+  out.clear();
+  const WindowTransform& t = in.view.window;
+  TieCommit commit{visible, {visible, DepthFunc::equal, t.depth_low, t.depth_high, culling, t.depth}, out, culling};
+  RasterCounts again;
+  AlphaTest alpha;
+  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, alpha, commit, again);
+  keep_shared(visible, out);
+}
+
 void clip_corners_simd(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -222,11 +251,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(fragments_at_equal_depth_simd);
 HWY_EXPORT(clip_corners_simd);
 
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                              std::vector<DepthFragment>& out) {
+  HWY_DYNAMIC_DISPATCH(fragments_at_equal_depth_simd)(in, rect, culling, visible, out);
 }
 
 void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, ClipVertex v[3]) {

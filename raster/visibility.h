@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "raster/clip.h"
 #include "raster/clusters.h"
@@ -41,6 +42,12 @@ struct VisibilityTile {
   alignas(64) float far[kMaxTilePixels / kBlockPixels];  ///< largest depth of each block
 };
 
+/// A fragment of the triangle `id` at a pixel of the tile.
+struct DepthFragment {
+  int32_t at;
+  uint32_t id;
+};
+
 struct RasterCounts {
   uint64_t clusters = 0, triangles = 0, fragments = 0;
 };
@@ -62,5 +69,10 @@ void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, Cli
 /// and draw front to back; never changes a bit.
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts);
+
+/// The fragments that a depth test with EQUAL lets through at pixels where that is another set than the visible one
+/// alone: by pixel, then in order of submission. `culling`: as in draw_visibility(), which has drawn `visible`.
+void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                              std::vector<DepthFragment>& out);
 
 }  // namespace trueshade

@@ -78,4 +78,15 @@ Scene light_box_edges(const Scene& scene) {
   return edges;
 }
 
+Scene light_markers(const Scene& scene, float radius) {
+  Scene markers = seen_alike(scene);
+  markers.meshes = {sphere_mesh(8)};
+  for (const Light& light : scene.lights) {
+    if (!placed(light.type)) continue;
+    markers.instances.push_back({0, uint32_t(markers.materials.size()), moved(light.position, radius)});
+    markers.materials.push_back({"light", glm::vec4(full_color(light.color), 1.0f)});
+  }
+  return markers;
+}
+
 }  // namespace trueshade

@@ -11,4 +11,7 @@ Scene light_boxes(const Scene& scene);
 /// channel is 1 (black stays black).
 Scene light_box_edges(const Scene& scene);
 
+/// A sphere of 512 triangles, coloured as those edges, at every point and spot light, in light order. No lights.
+Scene light_markers(const Scene& scene, float radius);
+
 }  // namespace trueshade

@@ -6,8 +6,9 @@
 #include "core/blend_state.h"
 #include "core/format.h"
 #include "core/numeric_profile.h"
-#include "scenes/light_model.h"
 #include "scenes/image_view.h"
+#include "scenes/light_model.h"
+#include "scenes/post_chain.h"
 
 namespace trueshade {
 
@@ -30,6 +31,7 @@ enum class Strategy : uint8_t {
 inline constexpr std::string_view kStrategyNames[] = {"forward-multipass", "forward-loop", "deferred-volumes",
                                                       "deferred-loop"};
 constexpr std::string_view name_of(Strategy strategy) { return kStrategyNames[size_t(strategy)]; }
+constexpr bool blends_lights(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::deferred_volumes; }
 constexpr bool is_forward(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::forward_loop; }
 
 /// What bounds a light beside its falloff. A light whose range is infinite is unbounded whatever this says.
@@ -84,7 +86,7 @@ struct GBufferState {
 
 /// How lights are bounded and drawn. Ambient and directional lights are unbounded. Quads are never culled.
 struct LightVolumes {
-  LightExtent point = LightExtent::range, spot = LightExtent::range;
+  LightExtent point = LightExtent::unbounded, spot = LightExtent::unbounded;
   int slices = 16;                      ///< of spheres and cones, around their axis: 3 to 64
   int stacks = 8;                       ///< of spheres, from pole to pole: 2 to 64
   CullFace cull_face = CullFace::none;  ///< of meshes; seen from outside their triangles are counter-clockwise
@@ -108,9 +110,20 @@ struct Pipeline {
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;
+  PostChain post;                   ///< of the view `lit`
   ImageView view = ImageView::lit;  ///< of others the image is rgba8, whatever the target
   bool operator==(const Pipeline&) const = default;
 };
+
+/// The planes surfaces really have: forward strategies store none, so that lights see float32 attributes.
+constexpr GBufferState surface_planes(const Pipeline& pipeline) {
+  GBufferState g = pipeline.gbuffer;
+  if (!is_forward(pipeline.strategy)) return g;
+  g.position_from_depth = false;
+  for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv}) plane->format = Format::rgba32f;
+  g.specular = g.emission = Format::rgba32f;
+  return g;
+}
 
 /// How a frame is computed. Never changes a pixel.
 struct Execution {
@@ -119,8 +132,9 @@ struct Execution {
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
   bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
-  bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
+  bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
+  bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
 };
 
 /// Throws Error(usage) naming the field and its range.

@@ -32,7 +32,7 @@ constexpr std::string_view kViewers[] = {"local", "infinite"};
 
 constexpr std::string_view kRootKeys[] = {"version", "preset",      "width",         "height", "geometry",
                                           "gbuffer", "light_model", "light_volumes", "blend",  "strategy",
-                                          "target",  "profile",     "view"};
+                                          "target",  "profile",     "post",          "view"};
 constexpr std::string_view kGeometryKeys[] = {"viewport",
                                               "depth_near",
                                               "depth_far",
@@ -60,16 +60,36 @@ constexpr std::string_view kLightVolumesKeys[] = {"point",     "spot",        "s
 constexpr std::string_view kBlendKeys[] = {"enabled", "rgb", "alpha", "constant", "mask"};
 constexpr std::string_view kBlendTermKeys[] = {"equation", "src", "dst"};
 
-enum Object : size_t { kRoot, kGeometry, kViewport, kGBuffer, kPlane, kLightModel, kLightVolumes, kBlend, kBlendTerm };
-constexpr std::array<json::ObjectKeys, 9> kObjects{{{"", kRootKeys},
-                                                    {"geometry", kGeometryKeys},
-                                                    {"viewport", kViewportKeys},
-                                                    {"gbuffer", kGBufferKeys},
-                                                    {"plane", kPlaneKeys},
-                                                    {"light_model", kLightModelKeys},
-                                                    {"light_volumes", kLightVolumesKeys},
-                                                    {"blend", kBlendKeys},
-                                                    {"blend_term", kBlendTermKeys}}};
+constexpr std::string_view kToneMaps[] = {"none", "reinhard"};
+constexpr std::string_view kEncodes[] = {"linear", "srgb"};
+constexpr std::string_view kPostKeys[] = {"samples", "marker_radius", "bloom",  "tone_map",    "key",
+                                          "white",   "log_offset",    "encode", "edge_filter", "output"};
+constexpr std::string_view kBloomKeys[] = {"strength", "threshold", "radius", "passes"};
+
+enum Object : size_t {
+  kRoot,
+  kGeometry,
+  kViewport,
+  kGBuffer,
+  kPlane,
+  kLightModel,
+  kLightVolumes,
+  kBlend,
+  kBlendTerm,
+  kPost,
+  kBloom
+};
+constexpr std::array<json::ObjectKeys, 11> kObjects{{{"", kRootKeys},
+                                                     {"geometry", kGeometryKeys},
+                                                     {"viewport", kViewportKeys},
+                                                     {"gbuffer", kGBufferKeys},
+                                                     {"plane", kPlaneKeys},
+                                                     {"light_model", kLightModelKeys},
+                                                     {"light_volumes", kLightVolumesKeys},
+                                                     {"blend", kBlendKeys},
+                                                     {"blend_term", kBlendTermKeys},
+                                                     {"post", kPostKeys},
+                                                     {"bloom", kBloomKeys}}};
 
 // --- Writing -------------------------------------------------------------------------------------------------------
 
@@ -197,6 +217,26 @@ void write_blend(std::string& out, const BlendState& b) {
   std::string& mask = w.key("mask");
   for (size_t k = 0; k < 4; ++k) (mask += k == 0 ? '[' : ',') += b.mask[k] ? "true" : "false";
   mask += ']';
+}
+
+void write_post(std::string& out, const PostChain& p) {
+  Writer w(out);
+  w.put("samples", p.samples);
+  w.put("marker_radius", p.marker_radius);
+  {
+    Writer b(w.key("bloom"));
+    b.put("strength", p.bloom.strength);
+    b.put("threshold", p.bloom.threshold);
+    b.put("radius", p.bloom.radius);
+    b.put("passes", p.bloom.passes);
+  }
+  w.put("tone_map", p.tone_map, kToneMaps);
+  w.put("key", p.key);
+  w.put("white", p.white);
+  w.put("log_offset", p.log_offset);
+  w.put("encode", p.encode, kEncodes);
+  w.put("edge_filter", p.edge_filter);
+  w.put("output", info(p.output).name);
 }
 
 // --- Reading -------------------------------------------------------------------------------------------------------
@@ -337,6 +377,27 @@ void read_blend(const json::Node& node, BlendState& b) {
   }
 }
 
+void read_post(const json::Node& node, PostChain& p) {
+  node.check_keys(kObjects[kPost]);
+  read_integer(node, "samples", p.samples, 1, 8);
+  read_real(node, "marker_radius", p.marker_radius, 0.0, kLargest);
+  if (const auto bloom = node.find("bloom")) {
+    bloom->check_keys(kObjects[kBloom]);
+    read_real(*bloom, "strength", p.bloom.strength, 0.0, 1000.0);
+    read_real(*bloom, "threshold", p.bloom.threshold, 0.0, kLargest);
+    read_integer(*bloom, "radius", p.bloom.radius, 1, 14);
+    read_integer(*bloom, "passes", p.bloom.passes, 1, 64);
+  }
+  read_choice(node, "tone_map", p.tone_map, kToneMaps);
+  read_real(node, "key", p.key, 1e-6f, 1e6);
+  read_real(node, "white", p.white, 0.0, kLargest);
+  if (p.white > 0.0f && p.white < 1e-6f) node.fail("white is between 0 and 1e-6", "0 for none, or 1e-6 to 1e18");
+  read_real(node, "log_offset", p.log_offset, 1e-12f, 1e6);
+  read_choice(node, "encode", p.encode, kEncodes);
+  read_flag(node, "edge_filter", p.edge_filter);
+  read_format(node, "output", p.output, kPostOutputs);
+}
+
 }  // namespace
 
 std::span<const json::ObjectKeys> pipeline_object_keys() { return kObjects; }
@@ -357,6 +418,7 @@ std::string pipeline_json(const Pipeline& pipeline) {
     w.put("strategy", pipeline.strategy, kStrategyNames);
     w.put("target", info(pipeline.target).name);
     w.put("profile", pipeline.profile, kProfileNames);
+    write_post(w.key("post"), pipeline.post);
     w.put("view", pipeline.view, kViewNames);
   }
   return out;
@@ -381,6 +443,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   read_choice(node, "strategy", p.strategy, kStrategyNames);
   read_format(node, "target", p.target, kTargetFormats);
   read_choice(node, "profile", p.profile, kProfileNames);
+  if (const auto post = node.find("post")) read_post(*post, p.post);
   read_choice(node, "view", p.view, kViewNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)
     node.fail("position_from_depth with depth_near = depth_far: one depth stands for all positions",

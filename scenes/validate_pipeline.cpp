@@ -99,6 +99,22 @@ void check_blend(const BlendState& b) {
   for (const float constant : b.constant) require_real(constant, -1e18f, 1e18f, "blend.constant", "each -1e18 to 1e18");
 }
 
+void check_post(const PostChain& p) {
+  require_integer(p.samples, 1, 8, "post.samples", "1 to 8");
+  require_real(p.marker_radius, 0.0f, 1e18f, "post.marker_radius", "0 to 1e18");
+  require_real(p.bloom.strength, 0.0f, 1000.0f, "post.bloom.strength", "0 to 1000");
+  require_real(p.bloom.threshold, 0.0f, 1e18f, "post.bloom.threshold", "0 to 1e18");
+  require_integer(p.bloom.radius, 1, 14, "post.bloom.radius", "1 to 14");
+  require_integer(p.bloom.passes, 1, 64, "post.bloom.passes", "1 to 64");
+  require_enumerator(p.tone_map, PostChain::ToneMap::reinhard, "post.tone_map");
+  require_real(p.key, 1e-6f, 1e6f, "post.key", "1e-6 to 1e6");
+  require(p.white == 0.0f || (p.white >= 1e-6f && p.white <= 1e18f), "post.white", std::to_string(p.white),
+          "0, or 1e-6 to 1e18");
+  require_real(p.log_offset, 1e-12f, 1e6f, "post.log_offset", "1e-12 to 1e6");
+  require_enumerator(p.encode, PostChain::Encode::srgb, "post.encode");
+  require_format(p.output, kPostOutputs, "post.output");
+}
+
 }  // namespace
 
 void validate(const Pipeline& pipeline) {
@@ -112,6 +128,7 @@ void validate(const Pipeline& pipeline) {
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
+  check_post(pipeline.post);
   require_enumerator(pipeline.view, ImageView::overdraw, "view");
   if (!profile_has(pipeline.profile, pipeline.target))
     throw Error(ErrorKind::usage, "target",

@@ -15,7 +15,9 @@
 #include "raster/surfaces.h"
 #include "raster/view.h"
 #include "raster/visibility.h"
+#include "shading/blend_pass.h"
 #include "shading/draw_frame.h"
+#include "shading/gl_counts.h"
 #include "shading/light_pass.h"
 #include "shading/light_planes.h"
 #include "shading/light_table.h"
@@ -36,6 +38,10 @@ struct TileScratch {
   ColorTile color, extra;  // extra: of planes beside the picture
   VisibleVertices vertices;
   LightLists lights;
+  BlendWork blend;
+  TiedFragments tied;
+  std::vector<DepthFragment> fragments;
+  VisibilityTile layer;
 };
 
 TileScratch& thread_scratch() {
@@ -47,6 +53,7 @@ struct TileCounts {
   RasterCounts raster;
   LightCounts light;
   uint64_t covered = 0;
+  uint64_t lit_geometry = 0;  ///< P of the counters
   double geometry_ms = 0.0, light_ms = 0.0;
 };
 
@@ -58,9 +65,28 @@ struct FrameWork {
   const View view;
   const ClusterBins bins;
   const LightTable lights;
+  const LightMeshes meshes;
+  const LightOutlines outlines;  ///< of strategies that blend
   bool need_uv;
   const LightPlanes light_planes;
   Frame& out;
+
+  LightDraws light_draws() const {
+    const bool multipass = pipeline.strategy == Strategy::forward_multipass;
+    return {prepared.scene().lights,
+            lights,
+            pipeline.light_model,
+            pipeline.light_volumes,
+            meshes,
+            outlines,
+            view,
+            multipass ? kAddLight : pipeline.blend,
+            {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
+            multipass || pipeline.light_volumes.base,
+            multipass,
+            execution.light_culling,
+            execution.compiled_models};
+  }
 
   TileRect rect(int tile) const {
     const int size = execution.tile, x = tile % bins.tiles_x * size, y = tile / bins.tiles_x * size;
@@ -69,19 +95,30 @@ struct FrameWork {
     return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
   }
 
+  bool resolve_tied(const TileDraws& draws, const TileRect& where, const GBufferState& planes, TileScratch& s) const;
+
   void draw(int tile, TileScratch& s, TileCounts& counts) const {
     const double start = now_ms();
     const Scene& scene = prepared.scene();
     const TileRect where = rect(tile);
     const TileDraws draws{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
-    resolve_surfaces(draws, where, pipeline.gbuffer, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
+    const GBufferState planes = surface_planes(pipeline);
+    resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
+    const bool tied = pipeline.strategy == Strategy::forward_multipass && resolve_tied(draws, where, planes, s);
     counts.covered += uint64_t(s.surface.covered_pixels);
     const double middle = now_ms();
     const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
-    light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
-               execution.compiled_models, s.lights, s.color, counts.light);
-    store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
+    if (blends_lights(pipeline.strategy)) {
+      const LightDraws lit = light_draws();
+      blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
+      write_stored(s.color, where, out.color);
+      if (execution.count_as_gl) counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend);
+    } else {
+      light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
+                 execution.compiled_models, s.lights, s.color, counts.light);
+      store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
+    }
     light_planes.draw(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
                       out.aovs);
     for (NamedImage& aov : out.aovs) {
@@ -92,13 +129,45 @@ struct FrameWork {
       }
       const bool counts_fragments = aov.name == "overdraw";
       if (counts_fragments) count_fragments(draws, where, s.extra.light_count);
-      store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where,
-                pipeline.gbuffer.half_round, aov.image);
+      store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where, planes.half_round,
+                aov.image);
     }
     counts.geometry_ms += middle - start;
     counts.light_ms += now_ms() - middle;
   }
 };
+
+// Surfaces of fragments that share a pixel's depth, a layer for each place in the order of submission; false if there
+// are none.
+bool FrameWork::resolve_tied(const TileDraws& draws, const TileRect& where, const GBufferState& planes,
+                             TileScratch& s) const {
+  constexpr size_t kMostLayers = 256;
+  fragments_at_equal_depth(draws, where, execution.geometry_culling, s.visible, s.fragments);
+  s.tied.used = 0;
+  s.tied.tied.clear();
+  if (s.fragments.empty()) return false;
+  s.tied.tied.assign(kMaxTilePixels, 0);
+  for (const DepthFragment& f : s.fragments) s.tied.tied[size_t(f.at)] = -1;
+  for (size_t layer = 0;; ++layer) {
+    std::fill(std::begin(s.layer.id), std::end(s.layer.id), 0u);
+    std::copy(std::begin(s.visible.depth), std::end(s.visible.depth), s.layer.depth);
+    bool any = false;
+    for (size_t i = layer; i < s.fragments.size(); ++i) {
+      if (s.fragments[i].at != s.fragments[i - layer].at) continue;
+      const bool begins = i == layer || s.fragments[i - layer - 1].at != s.fragments[i].at;
+      if (!begins) continue;
+      s.layer.id[s.fragments[i].at] = s.fragments[i].id;
+      any = true;
+    }
+    if (!any) return true;
+    if (layer == kMostLayers)
+      throw Error(ErrorKind::limit, "strategy", "more than 256 fragments share one pixel's depth",
+                  "draw coincident surfaces once, or with another strategy");
+    if (s.tied.layers.size() == layer) s.tied.layers.push_back(std::make_unique<SurfaceTile>());
+    resolve_surfaces(draws, where, planes, pipeline.light_model, s.layer, need_uv, s.vertices, *s.tied.layers[layer]);
+    s.tied.used = layer + 1;
+  }
+}
 
 // Tiles in the order they are started: dearest first, so that no thread is left alone with a dear one at the end.
 std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution) {
@@ -122,7 +191,8 @@ std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution)
 void check_memory(const Pipeline& pipeline, const Execution& execution, std::span<const std::string> aovs) {
   const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
   uint64_t texel = uint64_t(info(pipeline.target).bytes_per_texel());
-  for (const std::string& name : aovs) texel += uint64_t(info(aov_format(name, pipeline.gbuffer)).bytes_per_texel());
+  for (const std::string& name : aovs)
+    texel += uint64_t(info(aov_format(name, surface_planes(pipeline))).bytes_per_texel());
   const uint64_t tiles = pixels / uint64_t(execution.tile * execution.tile) + 1;
   const uint64_t need = pixels * texel + tiles * (sizeof(TileCounts) + 3 * sizeof(uint64_t));
   const uint64_t have = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
@@ -142,6 +212,7 @@ void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
     stats.fragments += t.raster.fragments;
     stats.tile_pixel_lights += t.light.tile_pairs;
     stats.evaluated_pixel_lights += t.light.evaluated_pairs;
+    stats.gl.light_pixels += t.lit_geometry;
     stats.geometry_ms += t.geometry_ms;
     stats.light_ms += t.light_ms;
   }
@@ -162,6 +233,13 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
   add_up(counts, work.out.stats);
 }
 
+// Of forward-multipass every light is a draw of the scene, wherever it reaches.
+Pipeline drawn_volumes(const Pipeline& pipeline) {
+  Pipeline p = pipeline;
+  if (p.strategy == Strategy::forward_multipass) p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;
+  return p;
+}
+
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene)
@@ -171,9 +249,6 @@ PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
 Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
                  std::span<const std::string> aovs, const Progress& progress) {
-  if (pipeline.strategy != Strategy::deferred_loop)
-    throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not drawn yet",
-                "deferred-loop");
   check_memory(pipeline, execution, aovs);
   const FpScope fp;
   const SimdScope simd(execution.simd);
@@ -182,15 +257,21 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   Frame frame;
   frame.color = Image(pipeline.width, pipeline.height, pipeline.target);
   for (const std::string& name : aovs)
-    frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, pipeline.gbuffer))});
+    frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
   View view = make_view(scene, pipeline);
   ClusterBins bins =
       bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
-  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins),
-              make_light_table(scene.lights, pipeline.light_model, scene.camera), need_uv,
-              LightPlanes(aovs, scene, pipeline.light_model), frame},
+  const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
+  LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera);
+  bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
+  LightMeshes meshes(pipeline.light_volumes);
+  LightOutlines outlines;
+  if (blends_lights(pipeline.strategy))
+    outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
+  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(meshes),
+              std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model), frame},
              progress);
 
   FrameStats& stats = frame.stats;
@@ -198,6 +279,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   stats.lights = scene.lights.size();
   stats.pixel_lights = stats.covered_pixels * stats.lights;
   stats.triangles = scene.triangle_count();
+  stats.gl = counted_as_gl(scene, pipeline, stats);
   stats.total_ms = now_ms() - start;
   return frame;
 }

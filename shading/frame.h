@@ -14,6 +14,20 @@
 
 namespace trueshade {
 
+/// What OpenGL would do for the frame, whatever we do: the costs that strategies are compared by. N: pixels with a
+/// surface; overdraw is counted apart, as fragments. L: lights. P: pixels with a surface under light geometry, once for
+/// each time it is drawn there. planes: those of the G-buffer that the light pass reads.
+struct GlCounts {
+  uint64_t light_pixels = 0;            ///< P; deferred-loop: N
+  uint64_t material_computations = 0;   ///< forward: N L; deferred-volumes: P; deferred-loop: N L
+  uint64_t gbuffer_fragments_read = 0;  ///< deferred: planes P
+  uint64_t target_fragments_read = 0;   ///< by blending: multipass N (L - 1), volumes P, else 0
+  uint64_t fragments_written = 0;       ///< multipass: N L; forward-loop: N; deferred: planes N + P
+  uint64_t draws = 0;                   ///< multipass: instances times L; deferred: instances and one a light, or one
+  uint64_t light_triangles = 0;         ///< of light geometry; a quad has two
+  int planes = 0;
+};
+
 /// Counts of one frame. The first group depends on scene and pipeline alone; the second on Execution too.
 struct FrameStats {
   uint64_t pixels = 0;            ///< of the image
@@ -22,6 +36,8 @@ struct FrameStats {
   uint64_t pixel_lights = 0;      ///< covered pixels times lights
   uint64_t triangles = 0;         ///< submitted, over all instances
   uint64_t lights = 0;
+
+  GlCounts gl;  ///< of deferred-volumes with Execution::count_as_gl alone whole: P has to be counted
 
   uint64_t clusters_drawn = 0;                         ///< cluster x tile pairs whose triangles were set up
   uint64_t triangles_tested = 0;                       ///< set up, over all tiles

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "raster/region.h"
 #include "shading/light_term-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +24,7 @@ struct Box {
   int pixels;
 };
 
-Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
+inline Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
   const DF d;
   const DI di;
   const VF inf = hn::Set(d, std::numeric_limits<float>::infinity());
@@ -54,24 +55,29 @@ Box surface_box(const SurfaceTile& s, const int* block, int blocks) {
 // roundings, is past the light's cut: then the kernel's own d2 is past it at every pixel. A light without a cut is
 // never dropped: to pixels whose positions are infinite (a half plane overflowed) every distance is, and ambient light
 // is there too.
+HWY_INLINE bool out_of_reach(const LightTable& lights, const Box& box, uint32_t light) {
+  float d2 = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    const float place = lights.position[c][light];
+    const float gap = std::max(std::max(box.low[c] - place, place - box.high[c]), 0.0f);
+    d2 += gap * gap;
+  }
+  const float cut2 = lights.cut2[light];
+  return (cut2 != std::numeric_limits<float>::infinity() && d2 * (1.0f - 0x1p-20f) >= cut2) ||
+         dark_over(lights, light, box.low, box.high);
+}
+
 template <class Candidate>
 void reaching_lights(const LightTable& lights, const Box& box, size_t count, const Candidate& candidate,
                      std::vector<uint32_t>& out) {
   for (size_t k = 0; k < count; ++k) {
     const uint32_t light = candidate(k);
-    float d2 = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-      const float place = lights.position[c][light];
-      const float gap = std::max(std::max(box.low[c] - place, place - box.high[c]), 0.0f);
-      d2 += gap * gap;
-    }
-    const float cut2 = lights.cut2[light];
-    if (cut2 == std::numeric_limits<float>::infinity() || !(d2 * (1.0f - 0x1p-20f) >= cut2)) out.push_back(light);
+    if (!out_of_reach(lights, box, light)) out.push_back(light);
   }
 }
 
 // The whole table against one box, a vector of lights at a time.
-void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
+inline void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
   const DF d;
   const size_t lanes = hn::Lanes(d);
   const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f),
@@ -91,8 +97,16 @@ void reaching_lights_of_scene(const LightTable& lights, const Box& box, std::vec
     if (hn::AllTrue(d, out_of_reach)) continue;
     hn::Store(hn::IfThenElse(out_of_reach, zero, hn::Set(d, 1.0f)), d, reach);
     for (size_t k = 0; k < lanes && i + k < lights.size(); ++k)
-      if (reach[k] != 0.0f) out.push_back(uint32_t(i + k));
+      if (reach[k] != 0.0f && !dark_over(lights, i + k, box.low, box.high)) out.push_back(uint32_t(i + k));
   }
+}
+
+// Blocks of the region whose first block is (bx, by); returns how many.
+inline int region_blocks(int blocks, int bx, int by, int out[kRegionBlocks * kRegionBlocks]) {
+  int count = 0;
+  for (int y = by; y < std::min(by + kRegionBlocks, blocks); ++y)
+    for (int x = bx; x < std::min(bx + kRegionBlocks, blocks); ++x) out[count++] = y * blocks + x;
+  return count;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

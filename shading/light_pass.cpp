@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
@@ -36,16 +35,6 @@ void light_block(const SurfaceTile& surface, int block, const std::vector<uint32
     counts.evaluated_pairs += sum.evaluated * hn::Lanes(d);
     for (size_t lane = 0; lane < hn::Lanes(d); ++lane) counts.lit_pairs += uint64_t(light_count[lane]);
   }
-}
-
-constexpr int kRegionBlocks = 4;  // a region is 16x16 pixels
-
-// Blocks of the region whose first block is (bx, by); returns how many.
-int region_blocks(int blocks, int bx, int by, int out[kRegionBlocks * kRegionBlocks]) {
-  int count = 0;
-  for (int y = by; y < std::min(by + kRegionBlocks, blocks); ++y)
-    for (int x = bx; x < std::min(bx + kRegionBlocks, blocks); ++x) out[count++] = y * blocks + x;
-  return count;
 }
 
 /// What light_tile() is given.
@@ -93,26 +82,19 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   }
 }
 
-/// The kernel compiled for the model's shape, or the general one.
-template <size_t kIndex = 0>
-void light_tile_compiled(const TileWork& in) {
-  if constexpr (kIndex == std::size(kCompiledShapes)) {
-    light_tile_of(AnyShape{shape_of(in.model, false)}, in);
-  } else if (kCompiledShapes[kIndex] == shape_of(in.model, kCompiledShapes[kIndex].power >= 0)) {
-    light_tile_of(CompiledShape<kIndex>{}, in);
-  } else {
-    light_tile_compiled<kIndex + 1>(in);
+struct LightTileOf {
+  const TileWork& in;
+  template <class Shape>
+  void operator()(const Shape& shape) const {
+    light_tile_of(shape, in);
   }
-}
+};
 
 void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
                      const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
                      LightCounts& counts) {
   const TileWork in{surface, tile, lights, model, clear, culling, work, out, counts};
-  if (compiled)
-    light_tile_compiled(in);
-  else
-    light_tile_of(AnyShape{shape_of(model, false)}, in);
+  with_shape(model, compiled, LightTileOf{in});
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

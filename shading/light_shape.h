@@ -1,4 +1,6 @@
 #pragma once
+#include <iterator>
+
 #include "scenes/light_model.h"
 #include "shading/power.h"
 
@@ -74,5 +76,17 @@ struct AnyShape {
   LightShape shape;
   static constexpr bool compiled = false;
 };
+
+/// Calls kernel(shape) with the shape compiled for the model, or with the general one.
+template <size_t kIndex = 0, class Kernel>
+void with_shape(const LightModel& model, bool compiled, const Kernel& kernel) {
+  if constexpr (kIndex == std::size(kCompiledShapes)) {
+    kernel(AnyShape{shape_of(model, false)});
+  } else if (compiled && kCompiledShapes[kIndex] == shape_of(model, kCompiledShapes[kIndex].power >= 0)) {
+    kernel(CompiledShape<kIndex>{});
+  } else {
+    with_shape<kIndex + 1>(model, compiled, kernel);
+  }
+}
 
 }  // namespace trueshade

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/light_mesh.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -20,17 +21,23 @@ bool lit_at(Falloff falloff, float d2, float range) {
   return std::sqrt(d2) < range && 1.0f - u * u > 0.0f;
 }
 
-float cut_distance2(Falloff falloff, float range) {
+// The least float that is not inside; `inside` holds below one value and not from there on.
+template <class Inside>
+float least_outside(const Inside& inside) {
   uint32_t low = 0, high = std::bit_cast<uint32_t>(kInfinity);
-  if (lit_at(falloff, std::numeric_limits<float>::max(), range)) return kInfinity;
-  while (low < high) {  // least bit pattern, and so least float, that is not lit
+  if (inside(std::numeric_limits<float>::max())) return kInfinity;
+  while (low < high) {  // least bit pattern, and so least float
     const uint32_t middle = low + (high - low) / 2;
-    if (lit_at(falloff, std::bit_cast<float>(middle), range))
+    if (inside(std::bit_cast<float>(middle)))
       low = middle + 1;
     else
       high = middle;
   }
   return std::bit_cast<float>(low);
+}
+
+float cut_distance2(Falloff falloff, float range) {
+  return least_outside([&](float d2) { return lit_at(falloff, d2, range); });
 }
 
 bool placed(LightType type) { return type == LightType::point || type == LightType::spot; }
@@ -72,6 +79,7 @@ void push(LightTable& table, const Light& light, const LightModel& model, float 
   table.k1.push_back(light.attenuation.y);
   table.k2.push_back(light.attenuation.z);
   table.cut2.push_back(cut2);
+  table.extent2.push_back(kInfinity);
   table.edge.push_back(cone.edge);
   table.slope.push_back(cone.slope);
   table.dark_cosine.push_back(cone.dark);
@@ -94,6 +102,35 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
   for (size_t i = lights_in_all; i % 16 != 0; ++i) push(table, nowhere, model, 0.0f);
   table.type.resize(lights_in_all);
   return table;
+}
+
+void bound_by_extents(LightTable& table, std::span<const Light> lights, const LightVolumes& volumes,
+                      bool draws_meshes) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const LightExtent extent = drawn_extent(lights[i], volumes);
+    if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
+    table.extent2[i] = least_outside([&](float d2) { return std::sqrt(d2) < lights[i].range; });
+    table.cut2[i] = std::min(table.cut2[i], table.extent2[i]);
+  }
+}
+
+bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]) {
+  if (table.kind[light] != LightKind::coned) return false;
+  double distance2 = 0.0, radius2 = 0.0, axis2 = 0.0, along = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double half = (double(high[c]) - double(low[c])) * 0.5, axis = double(table.axis[c][light]);
+    const double v = double(table.position[c][light]) - (double(low[c]) + half);
+    distance2 += v * v, radius2 += half * half, axis2 += axis * axis, along += v * axis;
+  }
+  const double distance = std::sqrt(distance2), radius = std::sqrt(radius2), length = std::sqrt(axis2);
+  // Nearer or farther, the kernel's squares have too few bits for the slack below. False for NaN.
+  if (!(distance > radius && distance - radius > 1e-15 && distance < 1e18)) return false;
+  // The largest cosine to the axis over the sphere about the box: the angle to its centre less that of its radius.
+  const double cosine = along / (distance * length), sine_r = radius / distance;
+  const double cosine_r = std::sqrt(1.0 - sine_r * sine_r);
+  const double most =
+      cosine >= cosine_r ? 1.0 : cosine * cosine_r + std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) * sine_r;
+  return most * length + 1e-5 < double(table.dark_cosine[light]);  // some ten roundings of 2^-24
 }
 
 }  // namespace trueshade

@@ -6,6 +6,7 @@
 #include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/light_model.h"
+#include "scenes/pipeline.h"
 #include "shading/power.h"
 
 namespace trueshade {
@@ -33,8 +34,16 @@ struct LightTable {
   std::vector<float> dark_cosine;  ///< the cone is exactly 0 where the cosine is below; -2: nowhere
   std::vector<Exponent> spot_exponent;
   float eye[3], view_axis[3];
+  std::vector<float> extent2;  ///< the least squared distance that the light's extent leaves out; infinity for none
   size_t size() const { return type.size(); }
 };
+
+/// Bounds the lights by their extents, where these are not drawn: `cut2` is at most `extent2`.
+void bound_by_extents(LightTable& table, std::span<const Light> lights, const LightVolumes& volumes, bool draws_meshes);
+
+/// Whether a light with a cone leaves the whole box between two corners dark: its cone is exactly 0 there, in the
+/// kernel's own operations. False for lights without one, and where it cannot tell.
+bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]);
 
 /// Streams padded with lights that reach nothing to a multiple of 16.
 LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera);

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kSqrtHalf = 0.70710678118654752440, kLn2 = 0.69314718055994530942, kTwoOverLn2 = 2.8853900817779268147;
 
+}  // namespace
+
 double log2_of(double x) {
   uint64_t bits = std::bit_cast<uint64_t>(x);
   int exponent = int(bits >> 52) - 1022;
@@ -31,8 +33,6 @@ double exp2_of(double t) {
   for (int k = 13; k >= 1; --k) sum = sum * (r / double(k)) + 1.0;
   return sum * std::bit_cast<double>(uint64_t(int64_t(n) + 1023) << 52);
 }
-
-}  // namespace
 
 Exponent exponent_of(float exponent, bool squares) {
   const bool integer = exponent <= 8192.0f && exponent == std::nearbyint(exponent);

@@ -17,6 +17,10 @@ inline Exponent exponent_of(const LightModel& model) {
   return exponent_of(model.shininess, model.specular == Specular::blinn_phong);
 }
 
+/// Base 2, x > 0; and 2^t. In double, to the last bits (docs/arithmetic.md section 9).
+double log2_of(double x);
+double exp2_of(double t);
+
 /// x^p for x >= 0: exp2(p log2 x) in double (docs/arithmetic.md section 9). Relative error below 2^-40 while the result
 /// is a normal float. power(0, p) = 0 for p > 0.
 double power(double x, double p);

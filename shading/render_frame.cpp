@@ -10,6 +10,7 @@
 #include "shading/heat_map.h"
 #include "shading/light_planes.h"
 #include "shading/overlay.h"
+#include "shading/post_frame.h"
 #include "shading/view_image.h"
 
 namespace trueshade {
@@ -58,11 +59,27 @@ Image light_boxes_view(const Scene& scene, const Pipeline& pipeline, const Execu
   return image;
 }
 
-std::vector<std::string> planes_needed(ImageView view, std::span<const std::string> asked) {
+std::vector<std::string> planes_needed(const Pipeline& pipeline, std::span<const std::string> asked) {
+  const ImageView view = pipeline.view;
   std::vector<std::string> names(asked.begin(), asked.end());
   add_missing(names, planes_of_view(view));
   if (draws_volumes(view)) add_missing(names, {"albedo", "id.object", "depth"});
+  if (view == ImageView::lit && pipeline.post.marker_radius > 0.0f) add_missing(names, {"depth"});
   return names;
+}
+
+const Image* depth_of(std::span<const NamedImage> planes) {
+  const auto there = std::find_if(planes.begin(), planes.end(), [](const NamedImage& p) { return p.name == "depth"; });
+  return there == planes.end() ? nullptr : &there->image;
+}
+
+// The frame drawn at the size of its samples, and the chain upon that.
+Image finished_from_samples(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                            const Progress& progress) {
+  std::vector<std::string> planes;
+  if (pipeline.post.marker_radius > 0.0f) planes.emplace_back("depth");
+  const Frame large = draw_frame(prepared, pipeline_before_post(pipeline), execution, planes, progress);
+  return finished_image(prepared.scene(), pipeline, execution, large.color, depth_of(large.aovs));
 }
 
 }  // namespace
@@ -78,9 +95,15 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   validate(pipeline);
   validate(execution);
   check_planes(aovs, prepared.scene());
-  const std::vector<std::string> needed = planes_needed(pipeline.view, aovs);
+  const std::vector<std::string> needed = planes_needed(pipeline, aovs);
   Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), progress);
   const FpScope fp;
+  const bool post = pipeline.view == ImageView::lit && pipeline.post.active();
+  Image finished;
+  if (post)
+    finished = pipeline.post.samples > 1
+                   ? finished_from_samples(prepared, pipeline, execution, progress)
+                   : finished_image(prepared.scene(), pipeline, execution, frame.color, depth_of(frame.aovs));
   const std::vector<NamedImage> drawn = std::move(frame.aovs);
   std::vector<NamedImage> planes;
   for (const std::string& name : needed) {
@@ -96,6 +119,7 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
     frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)));
   else if (pipeline.view != ImageView::lit)
     frame.color = view_image(pipeline.view, planes);
+  if (post) frame.color = std::move(finished);
   planes.resize(aovs.size());
   frame.aovs = std::move(planes);
   frame.stats.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

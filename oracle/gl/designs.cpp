@@ -121,7 +121,7 @@ void GlPeer::Work::draw_scene(GLuint program) {
   if (options.instance_uniforms)
     renderer.buffers().draw_each_instance(program);
   else
-    renderer.buffers().draw_instances(program);
+    renderer.buffers().draw_instances();
 }
 
 void GlPeer::Work::draw_gbuffer() {

@@ -78,6 +78,8 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
   const LightModel& model = p.light_model;
   std::string text = glsl_header(options.version, "surface and lights of the design " + std::string(name_of(design)));
   text += varyings_text(p, options, "in") + "uniform vec3 eye;\n";
+  if (model.viewer == Viewer::infinite) text += "uniform vec3 view_axis;\n";
+  if (reads_materials(model)) text += "uniform samplerBuffer materials;\n";
   if (design == GlDesign::forward_plus)
     text +=
         "uniform samplerBuffer records;\nuniform usamplerBuffer tiles;\nuniform int tile_size;\nuniform int columns;\n";
@@ -86,8 +88,8 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
   if (design == GlDesign::forward_loop) text += "uniform int light_count;\n";
   if (design == GlDesign::forward_multipass) text += "uniform int light;  // -1: none, for a scene without lights\n";
   text += "layout(location = 0) out vec4 target;\n\n" + light_function_text(model, options) +
-          "\nvoid main() {\n  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n  vec4 albedo = " +
-          albedo_text(options) + ";\n" + surface_text(model);
+          "\nvoid main() {\n  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n" +
+          material_text(model, options) + surface_text(model);
   if (design == GlDesign::forward_plus)
     text +=
         "  ivec2 tile = ivec2(gl_FragCoord.xy) / tile_size;\n  int at = 2 * (tile.y * columns + tile.x);\n"

@@ -20,8 +20,15 @@ std::string qualifier(Interpolation interpolation) {
   return {};
 }
 
+constexpr size_t kMostPlanes = 8;  // GL_MAX_DRAW_BUFFERS, at least
+
 bool has_ids(const std::vector<GlslPlane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
+}
+
+/// Whether fragments know their object and material.
+bool carries_ids(const Pipeline& pipeline, const GlslOptions& options) {
+  return reads_materials(pipeline.light_model) || has_ids(planes_of(pipeline, options));
 }
 
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -31,16 +38,15 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   for (size_t i = 0; i < planes.size(); ++i)
     text += "layout(location = " + std::to_string(i) + ") out " +
             (planes[i].format == Format::r32ui ? "uint " : "vec4 ") + planes[i].output + ";\n";
-  if (options.maps) text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
-  text += "\nvoid main() {\n";
-  if (options.maps)
-    text += std::string("  vec4 surface_color = ") + (options.vertex_color ? "color * " : "") +
-            "texture(color_map, texcoord) * base;\n  if (surface_color.a < alpha_cutoff) discard;\n";
+  text += reads_materials(pipeline.light_model) ? "uniform samplerBuffer materials;\n" : "";
+  text += "\nvoid main() {\n" + material_text(pipeline.light_model, options);
   for (const GlslPlane& plane : planes) {
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
     if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
-    if (plane.name == "albedo") text += (options.maps ? "surface_color" : albedo_text(options)) + ";\n";
+    if (plane.name == "albedo") text += "albedo;\n";
+    if (plane.name == "specular") text += "gloss;\n";
+    if (plane.name == "emission") text += "vec4(emission, 1.0);\n";
     if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
     if (plane.name == "id.object") text += "ids.x;\n";
     if (plane.name == "id.material") text += "ids.y;\n";
@@ -58,20 +64,6 @@ std::string position_text(const GBufferState& g) {
   vec4 h = ((world_from_clip[0] * ndc.x + world_from_clip[1] * ndc.y) + world_from_clip[2] * ndc.z) + world_from_clip[3];
   vec3 P = h.xyz * (1.0 / h.w);
 )";
-}
-
-std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
-  const LightModel& model = pipeline.light_model;
-  std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
-  text += surface_uniforms_text(pipeline, options);
-  text += "uniform samplerBuffer lights;  // " + std::to_string(LightLayout(model).texels()) +
-          " texels a light\n"
-          "uniform int light_count;\nlayout(location = 0) out vec4 target;\n\n";
-  text += light_function_text(model, options);
-  text += "\nvoid main() {\n" + read_surface_text(pipeline, options);
-  text += "  vec3 sum = " + sum_start_text(model) +
-          ";\n  for (int i = 0; i < light_count; ++i)\n    sum += " + lit_call_text(model, "lights", "i") + ";\n";
-  return text + target_text(model, "sum") + "}\n";
 }
 
 }  // namespace
@@ -99,11 +91,13 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
   add("normal", "normal", g.normal.format);
   add("albedo", "albedo", g.albedo.format);
   if (options.uv) add("uv", "uv", g.uv.format);
+  if (reads_specular_plane(pipeline.light_model)) add("specular", "specular", g.specular);
+  if (pipeline.light_model.emission) add("emission", "emission", g.emission);
   const bool w = info(planes[0].format).channels == 4;
   if (options.ids || !w) add("id.object", "object", Format::r32ui);
   if (options.ids) {
     add("id.material", "material", Format::r32ui);
-    if (options.primitive) add("id.primitive", "primitive", Format::r32ui);
+    if (options.primitive && planes.size() < kMostPlanes) add("id.primitive", "primitive", Format::r32ui);
   }
   return planes;
 }
@@ -128,7 +122,8 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
   if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
-  if (has_ids(planes_of(pipeline, options))) declare(Interpolation::flat, "uvec2", "ids");
+  if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
+  if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   return text;
 }
 
@@ -136,8 +131,7 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string text;
   for (const GlslPlane& plane : planes)
-    if (plane.name == "position" || plane.name == "normal" || plane.name == "albedo")
-      text += "uniform sampler2D " + plane.sampler + ";\n";
+    if (plane.format != Format::r32ui && plane.name != "uv") text += "uniform sampler2D " + plane.sampler + ";\n";
   const GlslPlane& coverage = coverage_plane(planes);
   if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
   if (pipeline.gbuffer.position_from_depth)
@@ -155,6 +149,8 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
          (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
          "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
+         (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
+         (pipeline.light_model.emission ? "  vec3 emission = texelFetch(emission_plane, pixel, 0).rgb;\n" : "") +
          surface_text(pipeline.light_model);
 }
 
@@ -168,7 +164,28 @@ std::string lit_call_text(const LightModel& model, const std::string& buffer, co
   return text + ")";
 }
 
-std::string albedo_text(const GlslOptions& options) { return options.vertex_color ? "color * base" : "base"; }
+bool reads_materials(const LightModel& model) {
+  return reads_specular_plane(model) || maps_metals(model) || model.emission;
+}
+
+std::string material_text(const LightModel& model, const GlslOptions& options) {
+  std::string text = "  vec4 albedo = " + albedo_text(options) + ";\n";
+  if (options.maps) text += "  if (albedo.a < alpha_cutoff) discard;\n";
+  if (!reads_materials(model)) return text;
+  text +=
+      "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
+      "  vec4 glow = texelFetch(materials, 2 * int(ids.y) - 1);\n  vec3 emission = glow.rgb;\n";
+  if (maps_metals(model))
+    text +=
+        "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
+        "  albedo.rgb = albedo.rgb * (1.0 - glow.a);\n";
+  return text;
+}
+
+std::string albedo_text(const GlslOptions& options) {
+  return std::string(options.vertex_color ? "color * " : "") + (options.maps ? "texture(color_map, texcoord) * " : "") +
+         "base";
+}
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: matrices are rows, rounded once from double");
@@ -210,7 +227,7 @@ void main() {
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
   if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
-  if (has_ids(planes_of(pipeline, options))) text += "  ids = instance_ids;\n";
+  if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }
 
@@ -221,8 +238,10 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2
 }
 
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {
-  return {vertex_text(pipeline, options), geometry_fragment_text(pipeline, options),
-          fullscreen_vertex_text(options.version), light_fragment_text(pipeline, options)};
+  const Pipeline drawn = drawn_pipeline(pipeline);
+  GlslShaders shaders{vertex_text(drawn, options), geometry_fragment_text(drawn, options), {}, {}, {}};
+  set_light_shaders(drawn, options, shaders);
+  return shaders;
 }
 
 }  // namespace trueshade::oracle

@@ -37,12 +37,22 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
 /// The plane whose texel tells whether a surface was drawn: its w (1, cleared to 0) or, for ids, the number itself.
 const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 
-/// Four shaders that draw a frame. The files of `trueshade glsl` have these names.
+/// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
+/// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with light_vert:
+/// the draw before the lights of deferred-volumes, empty where there is none.
 struct GlslShaders {
-  std::string geometry_vert, geometry_frag, light_vert, light_frag;
+  std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
   bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
+/// Of these the light pass, by the pipeline's strategy. Error(usage) for extents that one shader cannot tell apart.
+void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders);
+/// The pipeline as OpenGL draws it: with the planes that surfaces really have.
+inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
+  Pipeline p = pipeline;
+  p.gbuffer = surface_planes(pipeline);
+  return p;
+}
 
 /// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
 /// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers
@@ -64,6 +74,11 @@ std::string glsl_float(float value);  ///< a literal that reads back as the same
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
 /// The surface's colour in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
+/// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
+/// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
+bool reads_materials(const LightModel& model);
+/// `vec4 albedo` of a fragment, and from its material `vec4 gloss` and `vec3 emission` where the model reads them.
+std::string material_text(const LightModel& model, const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
 /// `vec3 lit(P, N, V, albedo, [gloss,] place, color[, k][, axis, cone][, ambient])`: what one light adds; in the order

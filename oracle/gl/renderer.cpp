@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "oracle/exact_coverage.h"
+#include "oracle/gl/blend_state.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
@@ -12,6 +13,8 @@
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
 #include "oracle/gl/surface_uniforms.h"
+#include "oracle/matrices.h"
+#include "scenes/light_mesh.h"
 
 namespace trueshade::oracle {
 
@@ -21,13 +24,13 @@ struct Targets {
   Format color_format = Format::rgba8, depth_format = Format::d32f;
   std::vector<GlslPlane> planes;
   std::vector<GlTexture> textures;  ///< one a plane
-  GlTexture depth, color;
-  GlTarget geometry, light;
+  GlTexture depth, color, forward_depth;
+  GlTarget geometry, light, forward;  ///< forward: the target with a depth of its own
 };
 
 struct Programs {
   GlslShaders text;
-  GlProgram geometry, light;
+  GlProgram geometry, light, base;
 };
 
 namespace {
@@ -50,6 +53,8 @@ std::unique_ptr<Targets> make_targets(int width, int height, Format color_format
   t->geometry = make_target(names, t->depth);
   const std::array<GLuint, 1> color{t->color};
   t->light = make_target(color, 0);
+  t->forward_depth = make_texture(depth_format, width, height);
+  t->forward = make_target(color, t->forward_depth);
   if (!t->geometry.complete || !t->light.complete)
     throw std::runtime_error("the driver cannot render to the planes of this pipeline");
   return t;
@@ -69,22 +74,152 @@ void clear_geometry(const Targets& t, float clear_depth) {
   glClearBufferfv(GL_DEPTH, 0, &clear_depth);
 }
 
-void draw_lights(const Targets& t, const GlProgram& program, SceneBuffers& buffers, const Pipeline& pipeline,
-                 const GlDraw& draw) {
-  const Scene& scene = buffers.scene();
-  set_image_state(t.width, t.height);
-  glBindFramebuffer(GL_FRAMEBUFFER, t.light.framebuffer);
-  const std::array<float, 4> clear{scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
-  glClearBufferfv(GL_COLOR, 0, clear.data());
-  glUseProgram(program);
-  const int unit = bind_surface(program, t.planes, t.textures, t.depth, scene, pipeline, draw.shift_x, draw.shift_y);
-  bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers.light_texels(pipeline.light_model));
-  const int all = int(scene.lights.size());
-  set_uniform(program, "light_count", draw.lights < 0 ? all : std::min(draw.lights, all));
-  const GlVertexArray none = make_vertex_array();
-  glBindVertexArray(none);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
+/// The light pass of one frame, by strategy.
+class LightPass {
+ public:
+  LightPass(const Targets& t, const Programs& programs, SceneBuffers& buffers, const Pipeline& pipeline,
+            const GlDraw& draw)
+      : t_(t), programs_(programs), buffers_(buffers), pipeline_(pipeline), draw_(draw), scene_(buffers.scene()) {
+    const int all = int(scene_.lights.size());
+    lights_ = draw.lights < 0 ? all : std::min(draw.lights, all);
+  }
+
+  void run() {
+    switch (pipeline_.strategy) {
+      case Strategy::forward_multipass:
+        return multipass();
+      case Strategy::forward_loop:
+        return forward_loop();
+      case Strategy::deferred_volumes:
+        return volumes();
+      case Strategy::deferred_loop:
+        return deferred_loop();
+    }
+  }
+
+ private:
+  void clear(GLuint framebuffer) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b, scene_.clear.a};
+    glClearBufferfv(GL_COLOR, 0, color.data());
+  }
+
+  void use(GLuint program) const {
+    glUseProgram(program);
+    const int unit =
+        bind_surface(program, t_.planes, t_.textures, t_.depth, scene_, pipeline_, draw_.shift_x, draw_.shift_y);
+    bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
+    set_uniform(program, "light_count", lights_);
+    if (reads_materials(pipeline_.light_model))
+      bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_.light_model));
+  }
+
+  void set_scene_state() const {
+    set_geometry_state(pipeline_.geometry, resolved_viewport(pipeline_.geometry, pipeline_.width, pipeline_.height),
+                       draw_.shift_x, draw_.shift_y);
+  }
+
+  void begin_forward() const {
+    set_scene_state();
+    clear(t_.forward.framebuffer);
+    glClearBufferfv(GL_DEPTH, 0, &pipeline_.geometry.clear_depth);
+    use(programs_.light);
+  }
+
+  void forward_loop() const {
+    begin_forward();
+    buffers_.draw_instances();
+  }
+
+  /// The first light stores depth and colour, the others add where the depth is the one stored.
+  void multipass() const {
+    begin_forward();
+    for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
+      set_uniform(programs_.light, "light", light);
+      buffers_.draw_instances();
+      glDepthMask(GL_FALSE);
+      glDepthFunc(GL_EQUAL);
+      set_blend_state(kAddLight);
+    }
+  }
+
+  void deferred_loop() const {
+    set_image_state(t_.width, t_.height);
+    clear(t_.light.framebuffer);
+    use(programs_.light);
+    const GlVertexArray none = make_vertex_array();
+    glBindVertexArray(none);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void set_volume_state(bool mesh) const {
+    GeometryState state = pipeline_.geometry;
+    state.cull_face = mesh ? pipeline_.light_volumes.cull_face : CullFace::none;
+    state.front_face = FrontFace::ccw;
+    state.depth_clamp = pipeline_.light_volumes.depth_clamp;
+    set_geometry_state(state, resolved_viewport(state, pipeline_.width, pipeline_.height), draw_.shift_x,
+                       draw_.shift_y);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+  }
+
+  void draw_quad(GLuint program) const {
+    constexpr std::array<float, 12> kCorners{-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
+    const GlBuffer corners = make_buffer(GL_ARRAY_BUFFER, std::span<const float>(kCorners));
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    set_uniform(program, "mesh", 0);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+
+  void draw_mesh(const LightMesh& mesh, const Light& light) const {
+    std::vector<glm::vec3> vertices(mesh.unit.size());
+    light_vertices(mesh, light, vertices);
+    const GlBuffer corners = make_buffer(GL_ARRAY_BUFFER, std::span<const glm::vec3>(vertices));
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    const GlBuffer indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const uint32_t>(mesh.indices));
+    set_uniform(programs_.light, "mesh", 1);
+    glDrawElements(GL_TRIANGLES, GLsizei(mesh.indices.size()), GL_UNSIGNED_INT, nullptr);
+  }
+
+  void volumes() const {
+    clear(t_.light.framebuffer);
+    const GlVertexArray array = make_vertex_array();
+    glBindVertexArray(array);
+    glEnableVertexAttribArray(0);
+    if (pipeline_.light_volumes.base) {
+      set_volume_state(false);
+      use(programs_.base);
+      draw_quad(programs_.base);
+    }
+    use(programs_.light);
+    const Matrix4 clip = projection_of(scene_.camera, pipeline_.geometry, pipeline_.width, pipeline_.height);
+    std::array<float, 16> rows{};
+    for (size_t r = 0; r < 4; ++r)
+      for (size_t c = 0; c < 4; ++c) rows[4 * r + c] = float(clip[4 * c + r]);
+    glUniform4fv(glGetUniformLocation(programs_.light, "clip_from_world"), 4, rows.data());
+    const LightMeshes meshes(pipeline_.light_volumes);
+    for (int i = 0; i < lights_; ++i) {
+      const Light& light = scene_.lights[size_t(i)];
+      const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
+      set_volume_state(is_mesh(extent));
+      set_blend_state(pipeline_.blend);
+      set_uniform(programs_.light, "light", i);
+      if (is_mesh(extent))
+        draw_mesh(meshes[extent], light);
+      else
+        draw_quad(programs_.light);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+
+  const Targets& t_;
+  const Programs& programs_;
+  SceneBuffers& buffers_;
+  const Pipeline& pipeline_;
+  const GlDraw& draw_;
+  const Scene& scene_;
+  int lights_ = 0;
+};
 
 void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
   const auto read = [&](GLuint texture, Format format) {
@@ -127,9 +262,10 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
 
 const Programs& GlRenderer::programs(const GlslShaders& text) {
   if (programs_ == nullptr || programs_->text != text)
-    programs_ =
-        std::make_unique<Programs>(Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
-                                            make_program("light", text.light_vert, text.light_frag)});
+    programs_ = std::make_unique<Programs>(
+        Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+                 make_program("light", text.light_vert, text.light_frag),
+                 text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag)});
   return *programs_;
 }
 
@@ -143,7 +279,8 @@ const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& 
   return *targets_;
 }
 
-GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
+GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
+  const Pipeline pipeline = drawn_pipeline(asked);
   context_->make_current();
   check_limits(*context_, pipeline, pipeline.width + draw.shift_x, pipeline.height + draw.shift_y);
   const GlslOptions options = draw.shaders != nullptr ? draw.shader_options : shader_options(draw);
@@ -165,9 +302,11 @@ GlFrame GlRenderer::draw(const Pipeline& pipeline, const GlDraw& draw) {
   set_geometry_state(pipeline.geometry, resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height),
                      draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
-  buffers_->draw_instances(program.geometry);
+  if (reads_materials(pipeline.light_model))
+    bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
+  buffers_->draw_instances();
   timer.end("geometry");
-  draw_lights(target, program.light, *buffers_, pipeline, draw);
+  LightPass(target, program, *buffers_, pipeline, draw).run();
   timer.end("lights");
   read_all(target, pipeline, draw, frame.capture);
   timer.end("read back");

@@ -85,6 +85,12 @@ ConeNumbers cone_numbers(const Light& light, Cone cone) {
   return {};
 }
 
+/// 2 / max(roughness, 0.04)^4 - 2 as the nearest integer from 1 to 8192.
+float shininess_of_glossiness(float roughness) {
+  const double r = std::max(double(roughness), 0.04);
+  return float(std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0));
+}
+
 std::vector<float> light_records(const Scene& scene, const LightModel& model) {
   const LightLayout layout(model);
   std::vector<float> out;
@@ -162,13 +168,16 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
 }
 
-void SceneBuffers::draw_instances(GLuint program, int map_unit) const {
+void SceneBuffers::draw_instances() const {
+  constexpr int kMapUnit = 15;  // the last that every OpenGL has
+  GLint program = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   for (const InstanceRun& run : runs_) {
     const MeshBuffers& mesh = meshes_[run.mesh];
-    if (maps_.used()) maps_.bind(program, run.material, map_unit);
+    if (maps_.used()) maps_.bind(GLuint(program), run.material, kMapUnit);
     glBindVertexArray(mesh.array);
     glBindBuffer(GL_ARRAY_BUFFER, instances_);
     point_at_instances(run.first);
@@ -207,6 +216,20 @@ GLuint SceneBuffers::light_texels(const LightModel& model) {
     uploaded_ = model;
   }
   return lights_.texture;
+}
+
+GLuint SceneBuffers::material_texels(const LightModel& model) {
+  if (material_layout_ == model.specular_source) return materials_.texture;
+  std::vector<float> records;
+  for (const Material& m : scene_->materials) {
+    const float shininess = maps_metals(model) ? shininess_of_glossiness(m.roughness) : m.shininess;
+    for (const float v : {m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess, m.emission.r,
+                          m.emission.g, m.emission.b, m.metallic})
+      records.push_back(v);
+  }
+  materials_ = make_texel_buffer(records);
+  material_layout_ = model.specular_source;
+  return materials_.texture;
 }
 
 }  // namespace trueshade::oracle

@@ -38,15 +38,17 @@ class SceneBuffers {
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
-  /// Every triangle, in submission order, by the program in use; of GlslOptions::maps where the scene has some, whose
-  /// texture goes to `map_unit`.
-  void draw_instances(GLuint program, int map_unit = 0) const;
+  /// Every triangle, in submission order, by the program in use; one of GlslOptions::maps where has_maps(), whose
+  /// texture goes to unit 15.
+  void draw_instances() const;
   /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
   void draw_each_instance(GLuint program) const;
   bool has_maps() const { return maps_.used(); }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
+  /// Material records as material_text() reads them.
+  GLuint material_texels(const LightModel& model);
 
  private:
   struct MeshBuffers {
@@ -62,8 +64,9 @@ class SceneBuffers {
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
-  GlTexelBuffer lights_;
-  std::optional<LightModel> uploaded_;  ///< whose records lights_ holds
+  GlTexelBuffer lights_, materials_;
+  std::optional<LightModel> uploaded_;             ///< whose records lights_ holds
+  std::optional<SpecularSource> material_layout_;  ///< of what materials_ holds
 };
 
 /// A spot light's cone as shaders read it: LightLayout says what the numbers are.

@@ -149,9 +149,79 @@ std::string light_layout(const LightModel& model) {
   return calls(texels);
 }
 
+std::string light_shaders(const Pipeline& pipeline) {
+  const bool base = pipeline.strategy == Strategy::deferred_volumes && pipeline.light_volumes.base;
+  return std::string("[\"light.vert\", \"light.frag\"") + (base ? ", \"base.frag\"]" : "]");
+}
+
+std::string upper(std::string_view name) {
+  std::string text;
+  for (const char c : name) text += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return text;
+}
+
+std::string equation_name(BlendEquation equation) {
+  const bool extreme = equation == BlendEquation::min || equation == BlendEquation::max;
+  return (extreme ? "GL_" : "GL_FUNC_") + upper(kBlendEquationNames[size_t(equation)]);
+}
+
+/// Blending and the colour mask of the draws that add light.
+std::string blend_calls(const BlendState& b) {
+  if (!b.enabled) return "glDisable(GL_BLEND)";
+  const auto factor = [](BlendFactor f) { return "GL_" + upper(kBlendFactorNames[size_t(f)]); };
+  const auto flag = [](bool on) { return on ? "GL_TRUE" : "GL_FALSE"; };
+  std::string text = "glEnable(GL_BLEND); glBlendEquationSeparate(" + equation_name(b.rgb.equation) + ", " +
+                     equation_name(b.alpha.equation) + "); glBlendFuncSeparate(" + factor(b.rgb.src) + ", " +
+                     factor(b.rgb.dst) + ", " + factor(b.alpha.src) + ", " + factor(b.alpha.dst) + "); glBlendColor(";
+  for (size_t c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + glsl_float(b.constant[c]);
+  text += "); glColorMask(";
+  for (size_t c = 0; c < 4; ++c) text += (c == 0 ? std::string() : std::string(", ")) + flag(b.mask[c]);
+  return text + ")";
+}
+
+std::vector<std::string> volume_calls(const Pipeline& pipeline) {
+  const LightVolumes& v = pipeline.light_volumes;
+  std::vector<std::string> lines{"glDisable(GL_DEPTH_TEST); glDepthMask(GL_FALSE)",
+                                 "viewport, depth range and clip control of the geometry pass; glFrontFace(GL_CCW)",
+                                 std::string(v.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)"};
+  if (v.base)
+    lines.push_back(
+        "first base.frag: glDisable(GL_BLEND), a quad over the image (uniform mesh 0, GL_TRIANGLE_STRIP of 4)");
+  lines.push_back("then light.frag, a draw a light in order (uniform light): " + blend_calls(pipeline.blend));
+  lines.push_back("ambient, directional and unbounded lights: a quad; glDisable(GL_CULL_FACE)");
+  const std::string extents[] = {"a quad", "a quad", "a box of half side range", "a sphere of radius range",
+                                 "a cone, apex at the light, base at range"};
+  lines.push_back("point lights: " + extents[size_t(v.point)] + "; spot lights: " + extents[size_t(v.spot)] +
+                  "; meshes counter-clockwise from outside, uniform mesh 1, " + culling_call(v.cull_face));
+  return lines;
+}
+
+std::vector<std::string> light_calls(const Pipeline& pipeline) {
+  const std::string again = "the scene again, with the geometry pass's state and a depth buffer of its own";
+  switch (pipeline.strategy) {
+    case Strategy::forward_multipass:
+      return {again + ", once a light (uniform light)", "first light: glDisable(GL_BLEND)",
+              "others: glDepthMask(GL_FALSE); glDepthFunc(GL_EQUAL); " + blend_calls(kAddLight)};
+    case Strategy::forward_loop:
+      return {again, "glDisable(GL_BLEND)"};
+    case Strategy::deferred_volumes:
+      return volume_calls(pipeline);
+    case Strategy::deferred_loop:
+      break;
+  }
+  return {"glDisable(GL_DEPTH_TEST)",
+          "glDisable(GL_CULL_FACE)",
+          "glDisable(GL_BLEND)",
+          "glDisable(GL_DITHER)",
+          "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE)",
+          "glViewport over the whole image",
+          "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"};
+}
+
 }  // namespace
 
-std::string state_list(const Pipeline& pipeline, const GlslOptions& options) {
+std::string state_list(const Pipeline& asked, const GlslOptions& options) {
+  const Pipeline pipeline = drawn_pipeline(asked);
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string pipeline_text = pipeline_json(pipeline);
   while (!pipeline_text.empty() && pipeline_text.back() == '\n') pipeline_text.pop_back();
@@ -165,15 +235,11 @@ std::string state_list(const Pipeline& pipeline, const GlslOptions& options) {
                                      ", \"clear\": " + glsl_float(pipeline.geometry.clear_depth) + "}") +
          entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
          entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
-         entry("light_shaders", "[\"light.vert\", \"light.frag\"]") +
+         entry("light_shaders", light_shaders(pipeline)) +
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
-         entry("light_state",
-               calls({"glDisable(GL_DEPTH_TEST)", "glDisable(GL_CULL_FACE)", "glDisable(GL_BLEND)",
-                      "glDisable(GL_DITHER)", "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE)",
-                      "glViewport over the whole image", "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"})) +
-         entry("light_uniforms", uniforms(pipeline)) + "  \"light_layout\": " + light_layout(pipeline.light_model) +
-         "\n}\n";
+         entry("light_state", calls(light_calls(pipeline))) + entry("light_uniforms", uniforms(pipeline)) +
+         "  \"light_layout\": " + light_layout(pipeline.light_model) + "\n}\n";
 }
 
 }  // namespace trueshade::oracle

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
@@ -27,7 +30,9 @@ class GBufferJudge {
         profile_(profile),
         depth_(plane_of(capture, pipeline, "depth")),
         object_(plane_of(capture, pipeline, "id.object")),
-        material_(plane_of(capture, pipeline, "id.material")) {
+        material_(plane_of(capture, pipeline, "id.material")),
+        specular_(plane_of(capture, pipeline, "specular")),
+        emission_(plane_of(capture, pipeline, "emission")) {
     const GBufferState& g = pipeline.gbuffer;
     const AttributePlane all[] = {
         {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
@@ -40,8 +45,8 @@ class GBufferJudge {
       throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
     for (const Material& m : scene.materials)
-      if (m.normal_map.used())
-        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal map cannot be judged yet",
+      if (m.normal_map.used() || (m.specular_map.used() && reads_specular_plane(pipeline.light_model)))
+        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal or specular map cannot be judged yet",
                     "validate the scene without it");
     candidates_ = find_candidates(projector_);
   }
@@ -92,6 +97,12 @@ class GBufferJudge {
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
     const Material& material = projector_.scene().materials[instance.material];
     const auto texel = color_texel(projector_, material, piece, point, values, sx, sy);
+    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored) {
+      if (texel)
+        m.lookup_is(view, name, k, range, stored, pixel, profile_);
+      else
+        m.channel_is(view, name, k, range, stored, pixel, profile_);
+    };
     for (const AttributePlane& p : planes_)
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
@@ -103,13 +114,43 @@ class GBufferJudge {
         Range range = value_of(point, piece, values, p, k);
         if (p.first == kAlbedo && texel) range = product(range, (*texel)[size_t(k)], profile_);
         if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
-        if (p.first == kAlbedo && texel) {
-          m.lookup_is(p.view, p.name, k, range, stored, pixel, profile_);
-          continue;
+        if (p.first == kAlbedo && k < 3) {
+          if (specular_)
+            judge_channel(specular_, "specular", k, specular_of(material, range, k), specular_.stored(x, y_top, k));
+          if (maps_metals(pipeline_.light_model)) range = tinted(range, double(1.0f - material.metallic));
         }
-        m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
+        if (p.first == kAlbedo)
+          judge_channel(p.view, p.name, k, range, stored);
+        else
+          m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
       }
+    constant_planes(material, x, y_top, pixel, m);
     return m;
+  }
+
+  /// What the material alone decides: the shininess and the emission.
+  void constant_planes(const Material& material, int x, int y_top, uint32_t pixel, Match& m) const {
+    if (specular_) {
+      const double r = std::max(double(material.roughness), 0.04);
+      const double s = maps_metals(pipeline_.light_model) ? std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0)
+                                                          : double(material.shininess);
+      m.channel_is(specular_, "specular", 3, {s, s, s}, specular_.stored(x, y_top, 3), pixel, profile_);
+    }
+    for (int k = 0; k < 3 && emission_; ++k) {
+      const double e = double(material.emission[k]);
+      m.channel_is(emission_, "emission", k, {e, e, e}, emission_.stored(x, y_top, k), pixel, profile_);
+    }
+  }
+
+  /// The specular colour: the material's, or 0.04 (1 - metallic) + base metallic, of four roundings at most.
+  Range specular_of(const Material& material, const Range& base, int k) const {
+    const double given = double(material.specular_color[k]);
+    if (!maps_metals(pipeline_.light_model)) return {given, given, given};
+    if (material.metallic == 0.0f) return {double(0.04f), double(0.04f), double(0.04f)};
+    const double metallic = double(material.metallic), rest = double(0.04f) * (1 - metallic);
+    const double v =
+        4 * std::max(profile_.arithmetic.roundoff, 0x1p-24) * (rest + std::fabs(base.high) * metallic) + kSmallestFloat;
+    return {rest + base.value * metallic, rest + base.low * metallic - v, rest + base.high * metallic + v};
   }
 
   Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p,
@@ -148,7 +189,7 @@ class GBufferJudge {
   Projector projector_;
   const Pipeline pipeline_;
   const Profile profile_;
-  PlaneView depth_, object_, material_;
+  PlaneView depth_, object_, material_, specular_, emission_;
   std::vector<AttributePlane> planes_;
   CandidateMap candidates_;
 };

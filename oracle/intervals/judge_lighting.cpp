@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "oracle/exact_coverage.h"
@@ -24,7 +27,10 @@ class LightingJudge {
         albedo_(required(capture, "albedo")),
         object_(plane_of(capture, pipeline, "id.object")),
         count_(plane_of(capture, pipeline, "light.count")),
+        specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
+        emission_(pipeline.light_model.emission ? required(capture, "emission") : PlaneView{}),
         viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
+    view_axis_ = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
     if (pipeline.gbuffer.position_from_depth) {
       depth_ = required(capture, "depth");
       invert();
@@ -67,6 +73,11 @@ class LightingJudge {
       s.normal[size_t(k)] = fetched(normal_, x, y, k);
     }
     for (int k = 0; k < 4; ++k) s.albedo[size_t(k)] = k < albedo_.channels ? fetched(albedo_, x, y, k) : Bounded{1, 0};
+    for (int k = 0; k < 3; ++k) {
+      if (specular_) s.specular[size_t(k)] = fetched(specular_, x, y, k);
+      if (emission_) s.emission[size_t(k)] = fetched(emission_, x, y, k);
+    }
+    if (specular_) s.shininess = specular_.stored(x, y, 3);
     if (!position_) s.position = position_from_depth(x, y);
     return s;
   }
@@ -80,7 +91,8 @@ class LightingJudge {
   const Scene& scene_;
   const Pipeline pipeline_;
   const Profile profile_;
-  PlaneView color_, normal_, albedo_, object_, count_, position_, depth_;
+  PlaneView color_, normal_, albedo_, object_, count_, specular_, emission_, position_, depth_;
+  std::array<double, 3> view_axis_;
   Viewport viewport_;
   Matrix4 world_from_clip_{};
 };
@@ -142,7 +154,10 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
   for (int k = 0; k < 3; ++k) {
     Bounded c = lit.color[size_t(k)];
     c.value += change[size_t(k)];
-    m.channel_is(color_, "color", k, range_of(c), color_.stored(x, y, k), pixel, profile_);
+    Range range = range_of(c);
+    if (pipeline_.light_model.clamp_result)
+      range = {std::clamp(range.value, 0.0, 1.0), std::clamp(range.low, 0.0, 1.0), std::clamp(range.high, 0.0, 1.0)};
+    m.channel_is(color_, "color", k, range, color_.stored(x, y, k), pixel, profile_);
   }
   return m.legal;
 }
@@ -165,7 +180,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   if (!covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_at(x, y);
-  const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, profile_.arithmetic, profile_.exact_planes);
+  const LitRange lit =
+      lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic, profile_.exact_planes);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;
@@ -211,6 +227,9 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
 
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture) {
+  if (blends_lights(pipeline.strategy))
+    throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not judged: its lights are blended draw by draw",
+                "forward-loop or deferred-loop");
   const Profile p = resolved(profile, pipeline);
   const LightingJudge judge(scene, pipeline, p, capture);
   std::vector<RowTally> rows(size_t(pipeline.height));

@@ -4,7 +4,9 @@ namespace trueshade::oracle {
 
 namespace {
 
-Bounded3 exactly(const glm::vec3& v) { return {Bounded{double(v.x), 0}, Bounded{double(v.y), 0}, Bounded{double(v.z), 0}}; }
+Bounded3 exactly(const glm::vec3& v) {
+  return {Bounded{double(v.x), 0}, Bounded{double(v.y), 0}, Bounded{double(v.z), 0}};
+}
 
 Bounded3 difference(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
   return {difference(a, x[0], y[0]), difference(a, x[1], y[1]), difference(a, x[2], y[2])};
@@ -24,24 +26,42 @@ Bounded3 unit(const Arithmetic& a, const Bounded3& v) {
 }
 
 struct LightTerm {
-  Bounded3 color;             ///< of the nominal branch
-  std::array<double, 3> lit{};  ///< of the branch with N.L > 0
-  bool masked_either_way = false, masked = false;
+  Bounded3 color;               ///< of the nominal branch
+  std::array<double, 3> lit{};  ///< of the branch where it adds something
+  bool either_way = false, dark = false;
   bool facing = false, maybe_facing = false, in_range = true, maybe_in_range = true;  ///< surely, and perhaps
   bool undefined = false;
 };
 
+/// min(x, most): does not round, never moves values apart.
+Bounded at_most(const Bounded& x, double most) { return {std::min(x.value, most), x.error}; }
+
+/// A float that was made of the number by one rounding, maybe of another formula.
+Bounded rounded_once(double value) { return {value, 0x1p-23 * std::fabs(value)}; }
+
+/// smoothstep(e0, e1, c) where e0 < e1.
+Bounded smoothstep(const Arithmetic& a, const Bounded& e0, const Bounded& e1, const Bounded& c) {
+  Bounded t = at_most(positive(quotient(a, difference(a, c, e0), difference(a, e1, e0))), 1);
+  if (!std::isfinite(t.error)) t.error = 1;
+  return product(a, product(a, t, t), difference(a, {3, 0}, product(a, {2, 0}, t)));
+}
+
 class LightSum {
  public:
-  LightSum(const ShadedSurface& s, const Scene& scene, const LightModel& model, const Arithmetic& a, bool exact)
+  LightSum(const ShadedSurface& s, const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
+           const Arithmetic& a, bool exact)
       : surface_(s), model_(model), a_(a), exact_(exact) {
     undefined_ = !exact && model.renormalize && is_zero(s.normal);
     normal_ = model.renormalize ? unit(a, s.normal) : s.normal;
-    to_eye_ = difference(a, exactly(scene.camera.eye), s.position);
-    view_ = unit(a, to_eye_);
     if (model.renormalize && is_zero(s.normal)) normal_ = {};
-    view_undefined_ = is_zero(to_eye_);
+    const Bounded3 to_eye = difference(a, exactly(scene.camera.eye), s.position);
+    view_ = unit(a, to_eye);
+    view_undefined_ = model.viewer == Viewer::local && is_zero(to_eye);
     if (view_undefined_) view_ = {};
+    for (size_t k = 0; k < 3 && model.viewer == Viewer::infinite; ++k) view_[k] = rounded_once(view_axis[k]);
+    shines_ = model.specular != Specular::none;
+    adds_unlit_ = model.order == TermOrder::with_ambient || model.diffuse == Diffuse::unclamped ||
+                  (shines_ && !model.specular_masked);
   }
 
   bool undefined() const { return undefined_; }
@@ -49,11 +69,13 @@ class LightSum {
   LightTerm operator()(const Light& light) const {
     LightTerm t;
     if (light.type == LightType::ambient) {
-      for (size_t k = 0; k < 3; ++k) t.color[k] = product(a_, surface_.albedo[k], {double(light.color[int(k)]), 0});
+      const bool last = model_.order == TermOrder::albedo_last;
+      for (size_t k = 0; k < 3; ++k)
+        t.color[k] = last ? color_of(light, k) : product(a_, surface_.albedo[k], color_of(light, k));
       return t;
     }
     Bounded3 to_light;
-    Bounded falloff{1, 0};
+    Bounded strength{1, 0};
     if (light.type == LightType::directional) {
       to_light = exactly(-light.direction);
     } else {
@@ -62,96 +84,209 @@ class LightSum {
         t.in_range = t.maybe_in_range = false;
         return t;
       }
-      const Bounded d = square_root(a_, dot(a_, offset, offset));
-      falloff = falloff_at(d, light);
-      t.in_range = falloff.low() > 0, t.maybe_in_range = falloff.high() > 0;
-      if (!t.maybe_in_range) return t;
       to_light = unit(a_, offset);
       if (is_zero(offset)) t.undefined = !exact_, to_light = {};
+      strength = falloff_at(dot(a_, offset, offset), light);
+      if (light.type == LightType::spot && model_.cone != Cone::none)
+        strength = product(a_, strength, cone_at(light, to_light, t));
+      if (model_.falloff != Falloff::linear) {
+        t.in_range = strength.low() > 0 && !t.either_way, t.maybe_in_range = strength.high() > 0;
+        if (!t.maybe_in_range) return t;
+      }
     }
-    shade(light, to_light, falloff, t);
+    shade(light, to_light, strength, t);
     return t;
   }
 
+  /// Emission and global ambient light.
+  Bounded start(size_t k) const {
+    const Bounded given{double(model_.global_ambient[int(k)]), 0};
+    const Bounded share =
+        given.value == 0 || model_.order == TermOrder::albedo_last ? given : product(a_, surface_.albedo[k], given);
+    if (!model_.emission) return share;
+    return given.value == 0 ? surface_.emission[k] : sum(a_, surface_.emission[k], share);
+  }
+
  private:
+  Bounded color_of(const Light& light, size_t k) const {
+    const Bounded color{double(light.color[int(k)]), 0};
+    return model_.damping == 1.0f ? color : product(a_, color, {double(model_.damping), 0});
+  }
+
   /// Beyond the range by more than any rounding: nine roundings separate the computed distance from the real one.
   bool far_away(const Bounded3& offset, const Light& light) const {
-    if (model_.falloff != Falloff::linear_range) return false;
+    if (model_.falloff != Falloff::linear_range && model_.falloff != Falloff::inverse_square) return false;
     double d2 = 0, error = 0;
     for (const Bounded& c : offset) d2 += c.value * c.value, error = std::max(error, c.error);
     const double reach = (double(light.range) + 2 * error) * (1 + 16 * a_.square_root);
     return d2 > reach * reach;
   }
 
-  Bounded falloff_at(const Bounded& d, const Light& light) const {
-    if (model_.falloff == Falloff::linear_range)
-      return positive(difference(a_, {1, 0}, quotient(a_, d, {double(light.range), 0})));
+  Bounded falloff_at(const Bounded& d2, const Light& light) const {
+    const Bounded d = square_root(a_, d2), range{double(light.range), 0};
+    switch (model_.falloff) {
+      case Falloff::none:
+        return {1, 0};
+      case Falloff::linear_range:
+        return positive(difference(a_, {1, 0}, quotient(a_, d, range)));
+      case Falloff::linear:
+        return difference(a_, {1, 0}, quotient(a_, d, range));
+      case Falloff::inverse_square:
+        return windowed_square(d2, light);
+      case Falloff::quadratic:
+      case Falloff::attenuation:
+        break;
+    }
+    const Bounded k0{model_.falloff == Falloff::quadratic ? 1.0 : double(light.attenuation.x), 0};
     const Bounded k1{double(light.attenuation.y), 0}, k2{double(light.attenuation.z), 0};
-    const Bounded linear = sum(a_, {1, 0}, product(a_, k1, d));
+    const Bounded linear = sum(a_, k0, product(a_, k1, d));
     const Bounded square = product(a_, product(a_, k2, d), d);
     Bounded all = sum(a_, linear, square);
     // Any order of the two sums: the largest partial sum is rounded once more.
-    all.error += a_.roundoff * (1 + std::fabs(linear.value) + std::fabs(square.value));
-    return quotient(a_, {1, 0}, all);
+    all.error += a_.roundoff * (k0.value + std::fabs(linear.value) + std::fabs(square.value));
+    return at_most(quotient(a_, {1, 0}, all), 1e18);
   }
 
-  void shade(const Light& light, const Bounded3& to_light, const Bounded& falloff, LightTerm& t) const {
+  Bounded windowed_square(const Bounded& d2, const Light& light) const {
+    Bounded window{1, 0};
+    if (std::isfinite(light.range)) {
+      const Bounded u = quotient(a_, d2, product(a_, {double(light.range), 0}, {double(light.range), 0}));
+      window = positive(difference(a_, {1, 0}, product(a_, u, u)));
+    }
+    if (d2.value == 0) return {0, d2.error == 0 ? 0 : HUGE_VAL};
+    const Bounded inverse = inverse_sqrt(a_, d2);
+    return product(a_, window, at_most(product(a_, inverse, inverse), 1e18));
+  }
+
+  /// The factor of a spot light; sets either_way and dark where c may be on either side of a hard edge.
+  Bounded cone_at(const Light& light, const Bounded3& to_light, LightTerm& t) const {
+    const double outer_rad = double(light.cone_rad) + double(light.penumbra_rad);
+    const double outer = std::cos(outer_rad), inner = std::cos(double(light.cone_rad));
+    const Bounded c = dot(a_, to_light, exactly(-light.direction)), e0 = rounded_once(outer);
+    if (model_.cone == Cone::squared_penumbra) {
+      const double scale = 1 / std::max(0.001, inner - outer);
+      const Bounded b =
+          at_most(positive(sum(a_, product(a_, c, rounded_once(scale)), rounded_once(-outer * scale))), 1);
+      return product(a_, b, b);
+    }
+    if (model_.cone == Cone::smooth_cutoff && float(outer) < 1.0f)
+      return smoothstep(a_, e0, rounded_once(outer * 0.9 + 0.1), c);
+    if (model_.cone == Cone::smooth_penumbra && float(outer) < float(inner))
+      return smoothstep(a_, e0, rounded_once(inner), c);
+    const bool power_of_cosine = model_.cone == Cone::exponent;
+    if (power_of_cosine && float(outer_rad) >= 3.14159265f) return {1, 0};
+    if (c.high() < e0.low()) return {0, 0};
+    t.either_way = c.low() <= e0.high();
+    t.dark = t.either_way && (power_of_cosine ? c.value < e0.value : c.value <= e0.value);
+    if (!power_of_cosine) return {1, 0};
+    const Bounded x = positive(c);
+    if (!exact_ && light.spot_exponent == 0.0f && x.low() <= 0) return {1, 0};
+    return power(a_, std::max(0.0, x.low()), x.value, x.high(), double(light.spot_exponent));
+  }
+
+  void shade(const Light& light, const Bounded3& to_light, const Bounded& strength, LightTerm& t) const {
     const Bounded n_l = dot(a_, normal_, to_light);
     t.facing = n_l.low() > 0, t.maybe_facing = n_l.high() > 0;
-    const bool surely_away = n_l.high() <= 0;
-    if (model_.specular_masked && surely_away) return;
-    const Bounded specular = specular_of(to_light, t.undefined);
-    const Bounded cosine = positive(n_l);
-    for (size_t k = 0; k < 3; ++k) {
-      const Bounded color{double(light.color[int(k)]), 0}, ks{double(model_.specular_color[int(k)]), 0};
-      const Bounded diffuse = product(a_, surface_.albedo[k], cosine), shine = product(a_, ks, specular);
-      const Bounded strength = product(a_, color, falloff);
-      Bounded c = product(a_, sum(a_, diffuse, shine), strength);
-      if (model_.order == TermOrder::separate)  // two products more a term, in any order; then the sum
-        c.error += 3 * a_.roundoff * (std::fabs(diffuse.value) + std::fabs(shine.value)) * std::fabs(strength.value);
-      t.color[k] = c;
+    if (!adds_unlit_ && n_l.high() <= 0) {
+      t.either_way = false;
+      return;
     }
-    if (!model_.specular_masked || n_l.low() > 0) return;
-    t.masked_either_way = true;
+    Bounded cosine = model_.diffuse == Diffuse::clamped ? positive(n_l) : n_l;
+    if (model_.specular == Specular::phong && model_.diffuse == Diffuse::clamped) cosine = at_most(cosine, 1);
+    const Bounded specular = specular_of(to_light, n_l, t.undefined);
+    for (size_t k = 0; k < 3; ++k) t.color[k] = term_of(light, k, cosine, specular, strength);
+    const bool masked_either_way = !adds_unlit_ && n_l.low() <= 0;
+    if (masked_either_way) t.dark = t.dark || n_l.value <= 0;
+    t.either_way = t.either_way || masked_either_way;
+    if (!t.either_way) return;
     for (size_t k = 0; k < 3; ++k) t.lit[k] = t.color[k].value;
-    t.masked = n_l.value <= 0;
-    if (t.masked)
+    if (t.dark)
       for (Bounded& c : t.color) c.value = 0;
   }
 
-  Bounded specular_of(const Bounded3& to_light, bool& undefined) const {
+  Bounded term_of(const Light& light, size_t k, const Bounded& cosine, const Bounded& specular,
+                  const Bounded& strength) const {
+    const bool tinted = shines_ && model_.specular_source == SpecularSource::albedo;
+    const Bounded& albedo = surface_.albedo[k];
+    const Bounded color = color_of(light, k);
+    if (model_.order == TermOrder::albedo_last)
+      return product(a_, product(a_, shines_ ? sum(a_, cosine, specular) : cosine, strength), color);
+    const Bounded ks = tinted                         ? albedo
+                       : reads_specular_plane(model_) ? surface_.specular[k]
+                                                      : Bounded{double(model_.specular_color[int(k)]), 0};
+    const Bounded diffuse = product(a_, albedo, cosine), shine = shines_ ? product(a_, ks, specular) : Bounded{};
+    const Bounded reflected = tinted    ? product(a_, albedo, sum(a_, cosine, specular))
+                              : shines_ ? sum(a_, diffuse, shine)
+                                        : diffuse;
+    if (model_.order == TermOrder::with_ambient) {
+      const Bounded ambient = product(a_, albedo, {double(light.ambient[int(k)]), 0});
+      return product(a_, sum(a_, ambient, product(a_, reflected, color)), strength);
+    }
+    const Bounded much = product(a_, color, strength);
+    Bounded c = product(a_, reflected, much);
+    if (model_.order == TermOrder::separate)  // two products more a term, in any order; then the sum
+      c.error += 3 * a_.roundoff * (std::fabs(diffuse.value) + std::fabs(shine.value)) * std::fabs(much.value);
+    return c;
+  }
+
+  /// The specular factor; 0 where it is masked, anything between where that may go either way.
+  Bounded specular_of(const Bounded3& to_light, const Bounded& n_l, bool& undefined) const {
+    if (!shines_) return {};
+    const Bounded cosine =
+        model_.specular == Specular::phong ? reflected_cosine(to_light, n_l) : half_cosine(to_light, undefined);
+    const double s = reads_specular_plane(model_) ? surface_.shininess : double(model_.shininess);
+    double low = std::max(0.0, cosine.low()), high = cosine.high(), value = cosine.value;
+    if (model_.renormalize || model_.specular == Specular::phong) {
+      // Of unit vectors, whatever was rounded: |N||H| <= 1 and a few roundings.
+      high = std::min(high, 1 + 16 * a_.roundoff);
+      value = std::min(value, high);
+      low = std::min(low, value);
+    }
+    if (!exact_ && s == 0 && low <= 0 && model_.specular == Specular::blinn_phong && !reads_specular_plane(model_))
+      undefined = true;
+    const Bounded power_of = power(a_, low, value, high, s);
+    if (!model_.specular_masked || !adds_unlit_ || n_l.low() > 0) return power_of;
+    if (n_l.high() <= 0) return {};
+    return {n_l.value > 0 ? power_of.value : 0, power_of.high()};
+  }
+
+  Bounded half_cosine(const Bounded3& to_light, bool& undefined) const {
     Bounded3 half;
     for (size_t k = 0; k < 3; ++k) half[k] = sum(a_, to_light[k], view_[k]);
     const Bounded h2 = dot(a_, half, half);
     if (!exact_ && (view_undefined_ || h2.low() <= 0)) undefined = undefined || h2.value == 0 || view_undefined_;
-    Bounded n_h = positive(dot(a_, normal_, unit(a_, half)));
-    if (h2.value == 0) n_h = {0, exact_ ? 0.0 : 1.0};
-    double low = std::max(0.0, n_h.low()), high = n_h.high();
-    if (model_.renormalize) {  // of unit vectors, whatever was rounded: |N||H| <= 1 and a few roundings
-      const double top = 1 + 16 * a_.roundoff;
-      high = std::min(high, top);
-      if (n_h.value > high) n_h.value = high;
-      low = std::min(low, n_h.value);
-    }
-    if (!exact_ && model_.shininess == 0 && low <= 0) undefined = true;
-    return power(a_, low, n_h.value, high, double(model_.shininess));
+    if (h2.value == 0) return {0, exact_ ? 0.0 : 1.0};
+    return positive(dot(a_, normal_, unit(a_, half)));
+  }
+
+  Bounded reflected_cosine(const Bounded3& to_light, const Bounded& n_l) const {
+    const Bounded twice = product(a_, {2, 0}, at_most(positive(n_l), 1));
+    Bounded3 r;
+    for (size_t k = 0; k < 3; ++k) r[k] = difference(a_, product(a_, twice, normal_[k]), to_light[k]);
+    return at_most(positive(dot(a_, r, view_)), 1);
   }
 
   const ShadedSurface& surface_;
   const LightModel& model_;
   const Arithmetic& a_;
-  bool exact_, undefined_ = false, view_undefined_ = false;
-  Bounded3 normal_, to_eye_, view_;
+  bool exact_, undefined_ = false, view_undefined_ = false, shines_ = true, adds_unlit_ = false;
+  Bounded3 normal_, view_;
 };
 
 }  // namespace
 
-LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model, const Arithmetic& arithmetic, bool exact) {
-  const LightSum term(surface, scene, model, arithmetic, exact);
+LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
+                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact) {
+  const LightSum term(surface, scene, model, view_axis, arithmetic, exact);
   LitRange result;
   result.undefined = term.undefined();
   std::array<double, 3> magnitude{};
   int added = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    result.color[k] = term.start(k);
+    magnitude[k] = std::fabs(result.color[k].value);
+    if (magnitude[k] > 0) added = 1;
+  }
   for (const Light& light : scene.lights) {
     const LightTerm t = term(light);
     result.undefined = result.undefined || t.undefined;
@@ -164,15 +299,24 @@ LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const Light
     for (size_t k = 0; k < 3; ++k) {
       result.color[k].value += t.color[k].value;
       result.color[k].error += t.color[k].error;
-      magnitude[k] += std::fabs(t.masked_either_way ? t.lit[k] : t.color[k].value) + t.color[k].error;
+      magnitude[k] += std::fabs(t.either_way ? t.lit[k] : t.color[k].value) + t.color[k].error;
     }
-    if (!t.masked_either_way) continue;
+    if (!t.either_way) continue;
     OtherBranch other;
-    for (size_t k = 0; k < 3; ++k) other.change[k] = t.masked ? t.lit[k] : -t.lit[k];
+    for (size_t k = 0; k < 3; ++k) other.change[k] = t.dark ? t.lit[k] : -t.lit[k];
     result.branches.push_back(other);
   }
   if (added > 1)
     for (size_t k = 0; k < 3; ++k) result.color[k].error += (added - 1) * arithmetic.roundoff * magnitude[k];
+  if (model.order != TermOrder::albedo_last) return result;
+  for (size_t k = 0; k < 3; ++k) {  // whichever branches were taken, the sum is at most `magnitude`
+    const Bounded& albedo = surface.albedo[k];
+    const double error = albedo.error * magnitude[k] +
+                         arithmetic.roundoff * std::fabs(albedo.value) * (magnitude[k] + result.color[k].error);
+    const double inherited = (std::fabs(albedo.value) + albedo.error) * result.color[k].error;
+    result.color[k] = {result.color[k].value * albedo.value, inherited + error + kSmallestFloat};
+    for (OtherBranch& other : result.branches) other.change[k] *= albedo.value;
+  }
   return result;
 }
 

@@ -13,6 +13,8 @@ namespace trueshade::oracle {
 struct ShadedSurface {
   Bounded3 position, normal;
   std::array<Bounded, 4> albedo;
+  Bounded3 specular{}, emission{};  ///< where the model reads them
+  double shininess = 0;
 };
 
 /// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.
@@ -21,14 +23,17 @@ struct OtherBranch {
 };
 
 struct LitRange {
-  Bounded3 color;                      ///< the nominal branches, all lights summed
+  Bounded3 color;  ///< the nominal branches, all lights summed
   std::vector<OtherBranch> branches;
-  bool undefined = false;              ///< normalize(0), 0^0: any value is legal
-  int lights_low = 0, lights_high = 0; ///< lights in range and facing: light.count may be any number between
+  bool undefined = false;               ///< normalize(0), 0^0: any value is legal
+  int lights_low = 0, lights_high = 0;  ///< lights in range and facing: light.count may be any number between
 };
 
 /// Lights in any order: sum of the errors, and (N - 1) v sum |c_i| for the N - 1 additions.
+/// A cone whose cosine may lie on either side of its edge counts as either branch. Not clamped to [0, 1].
+///   view_axis: of the pipeline's camera, where the model's viewer is infinite
 ///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
-LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model, const Arithmetic& arithmetic, bool exact);
+LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
+                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact);
 
 }  // namespace trueshade::oracle

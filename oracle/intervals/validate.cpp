@@ -89,7 +89,9 @@ bool Verdict::suspicious() const {
   return false;
 }
 
-Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options) {
+Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture, const ValidateOptions& options) {
+  Pipeline pipeline = asked;
+  pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
   Verdict v;
   v.scene = scene.spec, v.driver = capture.driver, v.profile = options.profile.name;
   const auto has = [&](std::string_view name) { return capture.plane(name) != nullptr; };

@@ -27,18 +27,23 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "trueshade_emitted_glsl";
-  const Scene scene = builtin_scene("city,objects=200");
+  const Scene scene = builtin_scene("city,objects=200,lights=20");
   GlRenderer renderer(*context, scene);
-  for (const Preset& preset : presets()) {
-    INFO(preset.name);
+  for (size_t i = 0; i < presets().size() * std::size(kStrategyNames); ++i) {
+    const Preset& preset = presets()[i / std::size(kStrategyNames)];
+    const auto strategy = Strategy(i % std::size(kStrategyNames));
+    INFO(preset.name << ", " << name_of(strategy));
     std::filesystem::remove_all(folder);
     const std::string command = std::string("'") + TRUESHADE_COMMAND + "' glsl --preset " + std::string(preset.name) +
-                                " -o '" + folder.string() + "' > /dev/null";
+                                " --strategy " + std::string(name_of(strategy)) + " -o '" + folder.string() +
+                                "' > /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
     const GlslShaders read{contents(folder / "geometry.vert"), contents(folder / "geometry.frag"),
-                           contents(folder / "light.vert"), contents(folder / "light.frag")};
+                           contents(folder / "light.vert"), contents(folder / "light.frag"),
+                           std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : ""};
     CHECK(contents(folder / "state.json").find("glDepthFunc(GL_LESS)") != std::string::npos);
     Pipeline pipeline = preset.pipeline;
+    pipeline.strategy = strategy;
     pipeline.width = 200;
     pipeline.height = 150;
     GlDraw from_files;

@@ -92,7 +92,7 @@ TEST_CASE("The bound on lighting holds for N lights and shininess s, and is with
             surface.normal[k] = {double(normal[k]), 0};
             surface.albedo[k] = {double(albedo[k]), 0};
           }
-          const LitRange range = lit_range(surface, scene, model, spec, false);
+          const LitRange range = lit_range(surface, scene, model, {}, spec, false);
           if (!range.branches.empty()) {
             ++branches;
             continue;

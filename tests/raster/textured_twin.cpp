@@ -73,7 +73,7 @@ TEST_CASE("Textured frames show what the scalar renderer shows: masked surfaces,
   CHECK(covered > pixels / 20);
   CHECK(compared > covered / 2);
   CHECK(masked > covered / 10);
-  CHECK(uncertain < pixels / 20);
+  CHECK(uncertain < pixels / 10);  // fixed-point depths and offsets, alphas near the cutoff
   CHECK(worst < 1.0);
 }
 

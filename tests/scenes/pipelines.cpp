@@ -51,6 +51,16 @@ Pipeline strange_pipeline() {
   p.target = Format::rgba16f;
   p.profile = NumericProfile::mesa_llvmpipe_22_3;
   p.view = ImageView::light_tile;
+  p.post = {8,
+            0.5f,
+            {1000.0f, 0.0f, 14, 64},
+            PostChain::ToneMap::reinhard,
+            1e6f,
+            1e-6f,
+            1e-12f,
+            PostChain::Encode::srgb,
+            true,
+            Format::rgba16f};
   p.strategy = Strategy::forward_loop;
   p.light_volumes = {LightExtent::box, LightExtent::cone, 64, 2, CullFace::front, false, false};
   p.blend = {false,
@@ -92,11 +102,14 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
         R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
         R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
-        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"range",)"
-        R"("spot":"range","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
+        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"unbounded",)"
+        R"("spot":"unbounded","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
         R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
         R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
-        R"("target":"rgba8","profile":"ideal","view":"lit"})");
+        R"("target":"rgba8","profile":"ideal",)"
+        R"("post":{"samples":1,"marker_radius":0,"bloom":{"strength":0,"threshold":1,"radius":8,"passes":1},)"
+        R"("tone_map":"none","key":0.18,"white":0,"log_offset":1e-04,"encode":"linear","edge_filter":false,)"
+        R"("output":"rgba8"},"view":"lit"})");
 }
 
 TEST_CASE("keys present replace, a preset replaces all, whatever their order") {
@@ -115,7 +128,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"([])", "p.json: found an array (an object)"},
       {R"({"colour": 1})", "p.json: /colour: this key is unknown"},
       {R"({"version": 2})", "p.json: /version: found 2"},
-      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner)"},
+      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual)"},
       {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 65536)"},
       {R"({"width": 65537})", "p.json: /width: found 65537"},
       {R"({"width": 1.5})", "p.json: /width: found 1.5"},
@@ -158,6 +171,12 @@ TEST_CASE("bad pipelines are refused at their pointer") {
        "p.json: /target: found \"d32f\" (one of rgba8 srgb8_a8 rgb10_a2 rgba16 "
        "r11g11b10f rgb16f rgba16f rgba32f)"},
       {R"({"profile": "mesa"})", "p.json: /profile: found \"mesa\" (one of ideal mesa-llvmpipe-22.3)"},
+      {R"({"post": {"samples": 9}})", "p.json: /post/samples: found 9 (a whole number from 1 to 8)"},
+      {R"({"post": {"bloom": {"radius": 0}}})", "p.json: /post/bloom/radius: found 0"},
+      {R"({"post": {"white": 1e-7}})", "p.json: /post: white is between 0 and 1e-6"},
+      {R"({"post": {"key": 0}})", "p.json: /post/key: found 0"},
+      {R"({"post": {"output": "d32f"}})", "p.json: /post/output: found \"d32f\""},
+      {R"({"post": {"fxaa": true}})", "p.json: /post/fxaa: this key is unknown"},
       {R"({"view": "wireframe"})", "p.json: /view: found \"wireframe\" (one of lit albedo"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
   };

@@ -1,0 +1,131 @@
+// The light passes of the strategies as GLSL: what is drawn over the scene again, or as the geometry of lights.
+#include "core/error.h"
+#include "oracle/gl/glsl.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+bool ends_by_itself(Falloff falloff) { return falloff == Falloff::linear_range || falloff == Falloff::inverse_square; }
+
+/// Whether the shader has to leave out what lies beyond a light's range.
+bool limits_range(const Pipeline& p) {
+  const auto limited = [&](LightExtent extent) {
+    return extent != LightExtent::unbounded &&
+           !(p.strategy == Strategy::deferred_volumes && extent >= LightExtent::box);
+  };
+  if (ends_by_itself(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return false;
+  if (limited(p.light_volumes.point) != limited(p.light_volumes.spot))
+    throw Error(ErrorKind::usage, "light_volumes", "OpenGL draws point and spot lights bounded in one way only",
+                "give point and spot lights the same extent");
+  return limited(p.light_volumes.point);
+}
+
+/// `bool in_extent(vec3 P, int light)`.
+std::string extent_text(const LightModel& model) {
+  const std::string n = std::to_string(LightLayout(model).texels());
+  return "bool in_extent(vec3 P, int light) {\n  vec4 place = texelFetch(lights, " + n +
+         " * light);\n  return place.w < 2.0 || distance(place.xyz, P) < texelFetch(lights, " + n +
+         " * light + 1).w;\n}\n";
+}
+
+std::string lights_text(const Pipeline& p, const GlslOptions& options) {
+  return "layout(location = 0) out vec4 target;\n\n" + light_function_text(p.light_model, options) +
+         (limits_range(p) ? "\n" + extent_text(p.light_model) : "") + "\nvoid main() {\n";
+}
+
+std::string limited(const Pipeline& p, const std::string& light) {
+  return limits_range(p)
+             ? "in_extent(P, " + light + ") ? " + lit_call_text(p.light_model, "lights", light) + " : vec3(0.0)"
+             : lit_call_text(p.light_model, "lights", light);
+}
+
+std::string loop_text(const Pipeline& p) {
+  return "  vec3 sum = " + sum_start_text(p.light_model) +
+         ";\n  for (int i = 0; i < light_count; ++i)\n    sum += " + limited(p, "i") + ";\n" +
+         target_text(p.light_model, "sum") + "}\n";
+}
+
+/// The surface of a fragment of the scene itself.
+std::string forward_surface_text(const Pipeline& p, const GlslOptions& options) {
+  return "  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n" + material_text(p.light_model, options) +
+         surface_text(p.light_model);
+}
+
+std::string forward_text(const Pipeline& p, const GlslOptions& options) {
+  const bool loop = p.strategy == Strategy::forward_loop;
+  std::string text = glsl_header(options.version, loop ? "the scene, all lights summed in order, one store a fragment"
+                                                       : "the scene under one light, added to the target");
+  text +=
+      varyings_text(p, options, "in") + "uniform vec3 eye;\nuniform vec3 view_axis;\nuniform samplerBuffer lights;\n";
+  text += loop ? "uniform int light_count;\n" : "uniform int light;  // the draw's; -1: a scene without lights\n";
+  text += lights_text(p, options) + forward_surface_text(p, options);
+  if (loop) return text + loop_text(p);
+  text += "  vec3 sum = light <= 0 ? " + sum_start_text(p.light_model) +
+          " : vec3(0.0);\n  if (light >= 0) sum += " + limited(p, "light") + ";\n";
+  return text + target_text(p.light_model, "sum") + "}\n";
+}
+
+std::string volume_vertex_text(const GlslOptions& options) {
+  return glsl_header(options.version, "the geometry of one light: a mesh in the world, or a quad over the image") +
+         R"(layout(location = 0) in vec3 corner;
+uniform vec4 clip_from_world[4];  // rows, rounded once from double
+uniform int mesh;                 // 0: a quad, corners in normalized device coordinates
+)" + (options.version >= 400 ? "precise gl_Position;\n" : "") +
+         R"(
+float affine(vec4 row, vec3 p) { return ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w; }
+
+void main() {
+  gl_Position = mesh == 0 ? vec4(corner.xy, 0.0, 1.0)
+                          : vec4(affine(clip_from_world[0], corner), affine(clip_from_world[1], corner),
+                                 affine(clip_from_world[2], corner), affine(clip_from_world[3], corner));
+}
+)";
+}
+
+std::string volume_fragment_text(const Pipeline& p, const GlslOptions& options) {
+  std::string text = glsl_header(options.version, "one light over the G-buffer, blended into the target");
+  text += surface_uniforms_text(p, options) + "uniform samplerBuffer lights;\nuniform int light;  // the draw's\n";
+  text += lights_text(p, options) + read_surface_text(p, options);
+  if (limits_range(p)) text += "  if (!in_extent(P, light)) discard;\n";
+  return text + target_text(p.light_model, lit_call_text(p.light_model, "lights", "light")) + "}\n";
+}
+
+std::string base_text(const Pipeline& p, const GlslOptions& options) {
+  const std::string unit =
+      "vec3 unit(vec3 v) {\n  float l2 = dot(v, v);\n  return v * (l2 > 0.0 ? inversesqrt(l2) : 0.0);\n}\n";
+  return glsl_header(options.version, "what a surface has without lights") + surface_uniforms_text(p, options) +
+         "layout(location = 0) out vec4 target;\n\n" + unit + "\nvoid main() {\n" + read_surface_text(p, options) +
+         target_text(p.light_model, sum_start_text(p.light_model)) + "}\n";
+}
+
+std::string deferred_loop_text(const Pipeline& p, const GlslOptions& options) {
+  std::string text = glsl_header(options.version, "light pass: sums all lights in order, one store a pixel");
+  text += surface_uniforms_text(p, options);
+  text += "uniform samplerBuffer lights;  // " + std::to_string(LightLayout(p.light_model).texels()) +
+          " texels a light\nuniform int light_count;\n";
+  return text + lights_text(p, options) + read_surface_text(p, options) + loop_text(p);
+}
+
+}  // namespace
+
+void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders) {
+  switch (pipeline.strategy) {
+    case Strategy::forward_multipass:
+    case Strategy::forward_loop:
+      shaders.light_vert = shaders.geometry_vert;
+      shaders.light_frag = forward_text(pipeline, options);
+      break;
+    case Strategy::deferred_volumes:
+      shaders.light_vert = volume_vertex_text(options);
+      shaders.light_frag = volume_fragment_text(pipeline, options);
+      if (pipeline.light_volumes.base) shaders.base_frag = base_text(pipeline, options);
+      break;
+    case Strategy::deferred_loop:
+      shaders.light_vert = fullscreen_vertex_text(options.version);
+      shaders.light_frag = deferred_loop_text(pipeline, options);
+      break;
+  }
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,66 @@
+#include "shading/gl_counts.h"
+
+#include <algorithm>
+
+#include "scenes/light_mesh.h"
+
+namespace trueshade {
+namespace {
+
+int planes_read(const Pipeline& pipeline) {
+  return 3 + int(reads_specular_plane(pipeline.light_model)) + int(pipeline.light_model.emission);
+}
+
+uint64_t geometry_triangles(const Scene& scene, const LightVolumes& volumes) {
+  constexpr uint64_t kQuad = 2;
+  const LightMeshes meshes(volumes);
+  uint64_t triangles = volumes.base ? kQuad : 0;
+  for (const Light& light : scene.lights) {
+    const LightExtent extent = drawn_extent(light, volumes);
+    triangles += is_mesh(extent) ? meshes[extent].triangles() : kQuad;
+  }
+  return triangles;
+}
+
+}  // namespace
+
+GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const FrameStats& stats) {
+  GlCounts c;
+  const uint64_t n = stats.covered_pixels, lights = scene.lights.size(), instances = scene.instances.size();
+  const uint64_t passes = std::max<uint64_t>(lights, 1);
+  switch (pipeline.strategy) {
+    case Strategy::forward_multipass:
+      c.material_computations = c.fragments_written = n * passes;
+      c.target_fragments_read = n * (passes - 1);
+      c.draws = instances * passes;
+      break;
+    case Strategy::forward_loop:
+      c.material_computations = n * lights;
+      c.fragments_written = n;
+      c.draws = instances;
+      break;
+    case Strategy::deferred_volumes:
+      c.planes = planes_read(pipeline);
+      c.light_pixels = c.material_computations = stats.gl.light_pixels;
+      c.target_fragments_read = pipeline.blend.enabled ? c.light_pixels : 0;
+      if (pipeline.light_volumes.base) c.light_pixels += n;
+      c.draws = instances + lights + uint64_t(pipeline.light_volumes.base);
+      c.light_triangles = geometry_triangles(scene, pipeline.light_volumes);
+      break;
+    case Strategy::deferred_loop:
+      c.planes = planes_read(pipeline);
+      c.light_pixels = n;
+      c.material_computations = n * lights;
+      c.draws = instances + 1;
+      c.light_triangles = 2;
+      break;
+  }
+  const auto planes = uint64_t(c.planes);
+  if (!is_forward(pipeline.strategy)) {
+    c.gbuffer_fragments_read = planes * c.light_pixels;
+    c.fragments_written = planes * n + c.light_pixels;
+  }
+  return c;
+}
+
+}  // namespace trueshade

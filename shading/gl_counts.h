@@ -1,0 +1,11 @@
+#pragma once
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+
+/// The frame's GlCounts, from stats.covered_pixels and, of deferred-volumes, stats.gl.light_pixels.
+GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const FrameStats& stats);
+
+}  // namespace trueshade

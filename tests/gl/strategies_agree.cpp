@@ -1,0 +1,97 @@
+// The strategies on a real driver, as real draws with real state, against render_frame().
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/builtin.h"
+#include "scenes/presets.h"
+#include "shading/frame.h"
+#include "tests/catch.hpp"
+#include "tests/gl/driver.h"
+
+using namespace trueshade;
+using namespace trueshade::testing;
+using namespace trueshade::oracle;
+
+namespace {
+
+struct Difference {
+  size_t covered = 0;
+  size_t alpha = 0;  ///< pixels of another alpha
+  size_t far = 0;    ///< pixels a channel of which is more than two codes off
+  double sum = 0;    ///< of signed differences, in codes
+};
+
+/// Where both show the same object; edges are judged elsewhere.
+Difference difference(const Capture& gl, const Frame& ours) {
+  Difference d;
+  const Image& ids = ours.aovs.at(0).image;
+  const Image* gl_ids = gl.plane("id.object");
+  REQUIRE(gl_ids != nullptr);
+  for (int y = 0; y < ids.height; ++y)
+    for (int x = 0; x < ids.width; ++x) {
+      if (ids.value(x, y, 0) != gl_ids->value(x, y, 0)) continue;
+      d.covered += ids.value(x, y, 0) != 0;
+      double worst = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double codes = 255 * (gl.color.value(x, y, k) - ours.color.value(x, y, k));
+        worst = std::max(worst, std::fabs(codes));
+        d.sum += codes;
+      }
+      d.far += worst > 2.5;
+      d.alpha += std::fabs(gl.color.value(x, y, 3) - ours.color.value(x, y, 3)) > 0.5 / 255;
+    }
+  return d;
+}
+
+Difference drawn_twice(const GlContext& context, const Scene& scene, Pipeline pipeline) {
+  pipeline.width = 160;
+  pipeline.height = 120;
+  const std::string aovs[] = {"id.object"};
+  GlRenderer renderer(context, scene);
+  return difference(renderer.draw(pipeline).capture, render_frame(scene, pipeline, {}, aovs));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "llvmpipe draws every preset in every strategy as we do, within two codes of a target that rounds light by light") {
+  const GlContext* context = driver(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  for (const char* name : {"city,lights=200", "cornell", "circle"}) {
+    const Scene scene = builtin_scene(name);
+    for (const Preset& preset : presets())
+      for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
+        Pipeline pipeline = preset.pipeline;
+        pipeline.strategy = Strategy(strategy);
+        const Difference d = drawn_twice(*context, scene, pipeline);
+        INFO(name << ", " << preset.name << ", " << kStrategyNames[strategy]);
+        CAPTURE(d.covered, d.far, d.alpha, d.sum);
+        CHECK(d.covered > 1500);
+        CHECK(d.far <= d.covered / 100);
+        CHECK(d.alpha <= d.covered / 1000);
+      }
+  }
+}
+
+TEST_CASE("llvmpipe's boxes, spheres and quads of lights cover what ours do, whichever side is culled") {
+  const GlContext* context = driver(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Scene scene = builtin_scene("city,lights=60");
+  for (const LightExtent extent : {LightExtent::box, LightExtent::sphere, LightExtent::cone})
+    for (const CullFace cull : {CullFace::none, CullFace::front, CullFace::back})
+      for (const bool base : {false, true}) {
+        Pipeline pipeline = *preset_pipeline(presets().front().name);
+        pipeline.strategy = Strategy::deferred_volumes;
+        pipeline.light_volumes.point = pipeline.light_volumes.spot = extent;
+        pipeline.light_volumes.cull_face = cull;
+        pipeline.light_volumes.base = base;
+        pipeline.blend.mask[3] = !base;
+        pipeline.target = base ? Format::rgba8 : Format::rgba32f;  // there alpha counts the draws
+        const Difference d = drawn_twice(*context, scene, pipeline);
+        INFO("extent " << int(extent) << ", cull " << int(cull) << ", base " << base);
+        CAPTURE(d.covered, d.far, d.alpha, d.sum);
+        CHECK(d.covered > 5000);
+        CHECK(d.far <= d.covered / 200);
+        CHECK(d.alpha <= d.covered / 200);
+      }
+}

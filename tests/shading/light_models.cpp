@@ -1,0 +1,161 @@
+// Every term of scenes/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
+// roundings; the kernels compiled for the usual models against the general one.
+#include <cstring>
+#include <iterator>
+
+#include "oracle/scalar_renderer.h"
+#include "scenes/presets.h"
+#include "shading/light_shape.h"
+#include "tests/catch.hpp"
+#include "tests/shading/light_sheet.h"
+
+using namespace trueshade;
+
+namespace {
+
+const float kShininess[] = {0, 1, 2, 5, 32, 60, 7.5f, 0.25f, 8192, 8191};
+
+LightModel random_model(Random& random) {
+  LightModel m;
+  m.renormalize = random() % 2 == 0;
+  m.specular_masked = random() % 2 == 0;
+  m.shininess = kShininess[random() % std::size(kShininess)];
+  m.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
+  m.falloff = Falloff(random() % 6);
+  m.order = TermOrder(random() % 4);
+  m.cone = Cone(random() % 5);
+  m.diffuse = Diffuse(random() % 4 == 0);
+  m.specular = Specular(random() % 3);
+  m.specular_source = SpecularSource(random() % 4);
+  m.viewer = Viewer(random() % 2);
+  m.emission = random() % 2 == 0;
+  if (random() % 2 == 0) m.global_ambient = {0.2f, 0.1f, 0.0f};
+  if (random() % 3 == 0) m.damping = 0.3f;
+  m.clamp_result = random() % 3 == 0;
+  m.alpha_from_albedo = random() % 2 == 0;
+  if (m.order == TermOrder::albedo_last) m.emission = false;
+  if (m.order == TermOrder::albedo_last && m.specular_source != SpecularSource::albedo) m.specular = Specular::none;
+  return m;
+}
+
+/// Sheets through each other, of four materials: vectors of pixels see several.
+Scene mixed_sheets(Random& random) {
+  Scene scene = sheet(random);
+  const float shininess[] = {0, 7, 32, 8192}, roughness[] = {1, 0.5f, 0.3f, 0.05f};
+  scene.materials.resize(4);
+  for (size_t i = 0; i < 4; ++i) {
+    Material& m = scene.materials[i];
+    m.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
+    m.emission = {between(random, 0, 0.3), 0, between(random, 0, 0.3)};
+    m.shininess = shininess[i];
+    m.metallic = i == 0 ? 0.0f : between(random, 0, 1);
+    m.roughness = roughness[i];
+    Instance instance;
+    instance.material = uint32_t(i);
+    instance.world_from_object[3] = {0.13f * float(i), -0.07f * float(i), 0.05f * float(i)};
+    if (i > 0) scene.instances.push_back(instance);
+  }
+  return scene;
+}
+
+Execution on(std::string_view simd, bool compiled, bool culling = true) {
+  Execution e;
+  e.simd = simd;
+  e.compiled_models = compiled;
+  e.light_culling = culling;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("every term, falloff, cone and order of a light model has the naive loop's bits") {
+  Random random(58);
+  const std::vector<std::string_view> targets = simd_targets();
+  for (int i = 0; i < 150; ++i) {
+    Scene scene = mixed_sheets(random);
+    for (int light = 0; light < 24; ++light) scene.lights.push_back(random_light(random));
+    Pipeline pipeline = loop_pipeline("many-lights");
+    pipeline.light_model = random_model(random);
+    const Execution execution = on(targets[size_t(i) % targets.size()], i % 3 == 0, i % 5 != 0);
+    INFO("model " << i << ", " << execution.simd << ", " << pipeline_json(pipeline));
+    compare_with_loop(scene, pipeline, render(scene, pipeline, execution));
+  }
+}
+
+TEST_CASE("every preset has the naive loop's bits on every target, by the compiled kernel and by the general one") {
+  Random random(59);
+  for (const Preset& row : presets()) {
+    Scene scene = mixed_sheets(random);
+    for (int light = 0; light < 60; ++light) scene.lights.push_back(random_light(random));
+    Pipeline pipeline = loop_pipeline(row.name);
+    if (pipeline.strategy != Strategy::deferred_loop) continue;
+    for (const std::string_view simd : simd_targets())
+      for (const bool compiled : {true, false}) {
+        INFO(row.name << ", " << simd << ", compiled " << compiled);
+        compare_with_loop(scene, pipeline, render(scene, pipeline, on(simd, compiled)));
+      }
+  }
+}
+
+TEST_CASE("the kernels compiled for a model's shape and the general kernel give one image, culled or not") {
+  Random random(60);
+  for (const LightShape& shape : kCompiledShapes) {
+    Scene scene = mixed_sheets(random);
+    for (int light = 0; light < 100; ++light) scene.lights.push_back(random_light(random));
+    Pipeline pipeline = loop_pipeline("many-lights");
+    LightModel& m = pipeline.light_model;
+    m.renormalize = shape.renormalize, m.specular_masked = shape.specular_masked, m.falloff = shape.falloff;
+    m.order = shape.order, m.cone = shape.cone, m.diffuse = shape.diffuse, m.specular = shape.specular;
+    m.specular_source = shape.source;
+    m.shininess =
+        shape.power < 0 ? (shape.squared ? 20.0f : 3.0f) : float(shape.squared ? 2 * shape.power : shape.power);
+    REQUIRE(shape_of(m, shape.power >= 0) == shape);
+    const Image expected = render(scene, pipeline, on("scalar", false, false)).frame.color;
+    for (const std::string_view simd : simd_targets())
+      for (const bool compiled : {true, false})
+        for (const bool culling : {true, false}) {
+          INFO("shape " << &shape - kCompiledShapes << ", " << simd << " " << compiled << " " << culling);
+          CHECK(render(scene, pipeline, on(simd, compiled, culling)).frame.color.texels == expected.texels);
+        }
+  }
+}
+
+TEST_CASE("the light sums of all models are the real numbers' to within the bounds of their roundings") {
+  Random random(61);
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = mixed_sheets(random);
+    for (int light = 0; light < 30; ++light) scene.lights.push_back(random_light(random));
+    Pipeline pipeline = loop_pipeline("many-lights");
+    LightModel& m = pipeline.light_model = random_model(random);
+    m.renormalize = true;  // otherwise N.H is not bounded by 1
+    m.viewer = Viewer::local;
+    if (m.shininess > 60) m.shininess = 60;
+    for (Material& material : scene.materials) material.shininess = std::min(material.shininess, 60.0f);
+    for (Material& material : scene.materials) material.roughness = std::max(material.roughness, 0.5f);
+    const Result result = render(scene, pipeline);
+    for (int y = 0; y < pipeline.height; y += 3)
+      for (int x = 0; x < pipeline.width; x += 2) {
+        if (!result.covered(x, y)) continue;
+        const Pixel p = result.pixel(x, y);
+        oracle::Surface surface{{p.position.x, p.position.y, p.position.z}, {p.normal.x, p.normal.y, p.normal.z}};
+        for (size_t k = 0; k < 3; ++k) {
+          surface.albedo[k] = double(p.albedo[k]);
+          surface.specular[k] = double(p.specular[k]);
+          surface.emission[k] = double(p.emission[k]);
+        }
+        surface.shininess = double(p.specular[3]);
+        const oracle::LitSum real = oracle::lit_sum(surface, scene, m);
+        if (real.nearest_threshold < 1e-5) continue;  // a rounding may put it on the other side
+        const double s = std::max(double(m.shininess), surface.shininess);
+        for (size_t k = 0; k < 3; ++k) {
+          // Some twenty roundings a term, shininess times those of the cosine, up to 1000 times those of a cone's.
+          const double steps = 40 + 8 * s + 30 + (m.cone == Cone::none ? 0 : 4000);
+          const double bound = real.magnitude[k] * steps * 0x1p-24 + 1e-30;
+          float stored;
+          std::memcpy(&stored, result.frame.color.texel(x, y) + 4 * k, 4);
+          CAPTURE(i, x, y, k, stored, real.color[k], bound, pipeline_json(pipeline));
+          REQUIRE(std::fabs(double(stored) - real.color[k]) <= bound);
+        }
+      }
+  }
+}
