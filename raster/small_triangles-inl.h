@@ -61,6 +61,7 @@ struct FragmentList {
 /// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
 struct ClusterScratch {
   WindowVertices vertices;
+  AlphaTest alpha;  ///< of the cluster at work, where its material has one
   alignas(64) int32_t packed[kClusterVertices];
   alignas(64) uint8_t triangle[kMostCandidates];
   Candidates found;

@@ -10,6 +10,7 @@
 #include "raster/careful.h"
 #include "raster/coverage-inl.h"
 #include "raster/interpolate-inl.h"
+#include "raster/maps-inl.h"
 #include "raster/store-inl.h"
 #include "raster/triangle_runs-inl.h"
 #include "scenes/scene.h"
@@ -169,8 +170,33 @@ bool all_smooth(const StreamGroup* group, int groups) {
                      [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
 }
 
-void interpolate_tile(const TileRect& rect, const GeometryState& state, const StreamGroup* group, int groups,
-                      const VisibleVertices& work, SurfaceTile& out) {
+// The maps of pixels whose triangles needed no care.
+HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& visible, const Weights& w, int i,
+                                  const VisibleVertices& work, SurfaceTile& out) {
+  const D64 d;
+  const D32 df;
+  alignas(64) double plain[kMostLanes];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    const uint32_t id = visible.id[size_t(i) + k];
+    plain[k] = id != 0 && !id_careful(id) ? 1.0 : 0.0;
+  }
+  V64 edge_x[3], edge_y[3];
+  edge_slopes(w, edge_x, edge_y);
+  const BarycentricSlopes along_x = slopes(w.at, edge_x, w.u), along_y = slopes(w.at, edge_y, w.u);
+  UvPoint at;
+  for (int c = 0; c < 2; ++c) {
+    const float* stream = work.stream[size_t(kUv) + size_t(c)].data();
+    V64 a[3];
+    for (int k = 0; k < 3; ++k) a[k] = hn::PromoteTo(d, hn::GatherIndex(df, stream, w.vertex[k]));
+    coordinate_slopes(along_x, along_y, in.view.maps.uv_how, a[0], a[1], a[2], at.x[c], at.y[c]);
+  }
+  apply_maps(in.view.maps, at, hn::Gt(hn::Load(d, plain), hn::Zero(d)), i, work, out);
+}
+
+void interpolate_tile(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
+                      const VisibilityTile& visible, const VisibleVertices& work, SurfaceTile& out) {
+  const GeometryState& state = in.state;
+  const bool textured = in.view.maps.textured();
   const D64 d;
   const D32 df;
   const I32 di;
@@ -189,6 +215,7 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
       for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
         hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df,
                   out.plane[c] + i);
+    if (textured) apply_tile_maps(in, visible, w, i, work, out);
   }
 }
 
@@ -235,7 +262,7 @@ void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const Strea
 
 // The attributes of one piece at the lanes it owns; the other lanes keep what they have.
 void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups, int at,
-                       SurfaceTile& out) {
+                       const SceneMaps& maps, const VisibleVertices& work, SurfaceTile& out) {
   const D64 d;
   const D32 df;
   const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
@@ -253,6 +280,20 @@ void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const
       hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
     }
   }
+  if (!maps.textured()) return;
+  V64 edge_x[3], edge_y[3];
+  for (int i = 0; i < 3; ++i) {
+    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
+    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
+  }
+  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
+  UvPoint uv;
+  for (int c = 0; c < 2; ++c) {
+    const double* a = s.attribute[kUv + c];
+    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
+                      uv.y[c]);
+  }
+  apply_maps(maps, uv, owned, at, work, out);
 }
 
 // Pixels of triangles that were clipped or are too large for the vector path: a few triangles, each over many pixels.
@@ -283,7 +324,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
         M64 owned = open;
         for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
         if (hn::AllFalse(d, owned)) continue;
-        interpolate_piece(s, e, owned, group, groups, i, out);
+        interpolate_piece(s, e, owned, group, groups, i, in.view.maps, work, out);
         open = hn::AndNot(owned, open);
       }
     }
@@ -318,22 +359,27 @@ void rebuild_positions(const TileDraws& in, const TileRect& rect, const Visibili
 struct MaterialValues {
   float specular[4];  // colour and shininess
   float emission[3];
-  float metallic;  // 0 where the model maps no metals
+  float metallic;     // 0 where the model maps no metals
+  bool specular_map;  // its texel is in the specular plane already
 };
 
-MaterialValues material_values(const Material& m, const LightModel& model) {
+MaterialValues material_values(const Material& m, const LightModel& model, bool specular_map) {
   const bool metals = maps_metals(model);
   const float shininess = metals ? shininess_of_roughness(m.roughness) : m.shininess;
   return {{m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess},
           {m.emission.r, m.emission.g, m.emission.b},
-          metals ? m.metallic : 0.0f};
+          metals ? m.metallic : 0.0f,
+          specular_map};
 }
 
 // docs/arithmetic.md section 7. `base`: the base colour of the pixel.
 void fill_material_planes(const MaterialValues& m, const LightModel& model, int i, SurfaceTile& out) {
   for (int c = 0; c < 3 && model.emission; ++c) out.plane[kEmission + c][i] = m.emission[c];
   if (!maps_metals(model)) {
-    for (int c = 0; c < 4 && reads_specular_plane(model); ++c) out.plane[kSpecular + c][i] = m.specular[c];
+    for (int c = 0; c < 4 && reads_specular_plane(model); ++c) {
+      float& specular = out.plane[kSpecular + c][i];
+      specular = m.specular_map && c < 3 ? m.specular[c] * specular : m.specular[c];
+    }
     return;
   }
   for (int c = 0; c < 3; ++c) {
@@ -362,7 +408,8 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
   const bool materials = model.emission || reads_specular_plane(model) || maps_metals(model);
   std::vector<MaterialValues> values;
   for (size_t m = 0; m < in.scene.materials.size() && materials; ++m)
-    values.push_back(material_values(in.scene.materials[m], model));
+    values.push_back(material_values(in.scene.materials[m], model,
+                                     in.view.maps.textured() && in.view.maps.material[m].specular.has_value()));
   for (int i = 0; i < pixels; ++i) {
     if (out.covered[i] == 0) continue;
     const glm::vec4& base = in.scene.materials[out.material[i] - 1].base_color;
@@ -378,6 +425,7 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
                            const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
                            SurfaceTile& out) {
+  need_uv = need_uv || in.view.maps.textured();
   const bool colored =
       std::any_of(in.scene.meshes.begin(), in.scene.meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
   work.record_attributes = colored ? int(kStreams) : need_uv ? kRecordUv + 2 : kRecordUv;

@@ -117,6 +117,26 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high)));
 }
 
+// The alpha test of the cluster's material; null if it has none.
+AlphaTest* alpha_test(const TileDraws& in, const Instance& instance, AlphaTest& test) {
+  const SceneMaps& maps = in.view.maps;
+  if (!maps.textured() || maps.material[instance.material].alpha_cutoff == 0.0f) return nullptr;
+  test.maps = &maps.material[instance.material];
+  test.uv_how = maps.uv_how;
+  test.alpha_how = maps.albedo_how;
+  return &test;
+}
+
+void set_source(const TileDraws& in, const Instance& instance, const Cluster& cluster, const size_t corner[3],
+                AlphaTest& test) {
+  uint32_t vertex[3];
+  for (size_t k = 0; k < 3; ++k) vertex[k] = in.clusters.meshes[instance.mesh].vertex[cluster.first_vertex + corner[k]];
+  test.set_source(in.scene.meshes[instance.mesh], vertex, in.state.provoking == Provoking::last ? 2 : 0);
+}
+
+DepthCommit& depth_test(DepthCommit& commit) { return commit; }
+DepthCommit& depth_test(TieCommit& commit) { return commit.test; }
+
 template <class Commit>
 void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work, Commit& commit,
                   RasterCounts& counts) {
@@ -128,6 +148,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  const Instance& instance = in.scene.instances[draw.instance];
+  AlphaTest* const masked = depth_test(commit).alpha = alpha_test(in, instance, work.alpha);
   WindowVertices& v = work.vertices;
   window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, draw.plain, v);
   uint8_t* triangle = work.triangle;
@@ -145,7 +167,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
         std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
     bool drawn = false;
     if constexpr (std::is_same_v<Commit, DepthCommit>) {
-      if (commit.skip_hidden && !t.depth.offsets() && farthest < kPackedLimit) {
+      if (commit.skip_hidden && masked == nullptr && !t.depth.offsets() && farthest < kPackedLimit) {
         draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
         count = work.found.others;
         for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
@@ -163,6 +185,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
+    if (masked != nullptr) set_source(in, instance, cluster, corner, work.alpha);
     if (careful) {
       ClipVertex clip[3];
       clip_corners(in, position, triangle[i], clip);
@@ -178,6 +201,10 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (cull && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
+    if (masked != nullptr) {
+      const double inverse_w[3] = {v.u[corner[0]], v.u[corner[1]], v.u[corner[2]]};
+      work.alpha.set_piece(window, inverse_w);
+    }
     if (setup.samples() <= 4)
       cover_samples(setup, rect, commit);
     else
