@@ -433,11 +433,11 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   if (out.covered_pixels == 0) return;
   StreamGroup group[4];
   const int groups = stream_groups(planes, need_uv, group);
-  if (all_smooth(group, groups)) {
+  if (all_smooth(group, groups) && !in.view.maps.textured()) {
     interpolate_runs(rect, visible, work, work.record_attributes, out);
     for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], rect.size * rect.size, 1.0f);
   } else {
-    interpolate_tile(rect, in.state, group, groups, work, out);
+    interpolate_tile(in, rect, group, groups, visible, work, out);
   }
   interpolate_careful(in, rect, group, groups, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
