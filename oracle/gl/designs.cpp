@@ -119,7 +119,7 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
 void GlPeer::Work::draw_scene(GLuint program) {
   glUseProgram(program);
   if (options.instance_uniforms)
-    renderer.buffers().draw_instances(program);
+    renderer.buffers().draw_each_instance(program);
   else
     renderer.buffers().draw_instances();
 }
