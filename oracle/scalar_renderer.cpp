@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/textured_surface.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -163,8 +165,11 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
         for (int x = box.x0; x < box.x1; ++x)
           if (const std::optional<size_t> piece = covering_piece(polygon, state.clip_origin, x, y)) {
             const auto index = first + uint32_t(*piece);
-            frame.fragments[size_t(y) * size_t(frame.width) + size_t(x)].push_back(
-                fragment_of(frame.triangles[index], index, state, x, y));
+            const std::optional<bool> dropped = discarded(scene, pipeline.gbuffer, frame.triangles[index], x, y);
+            if (dropped.value_or(false)) continue;
+            Fragment fragment = fragment_of(frame.triangles[index], index, state, x, y);
+            fragment.doubtful = !dropped;
+            frame.fragments[size_t(y) * size_t(frame.width) + size_t(x)].push_back(fragment);
           }
     }
   }
@@ -205,6 +210,7 @@ Visible visible_fragment(const std::vector<Fragment>& fragments, const GeometryS
     }
     const bool compares = state.depth_func != DepthFunc::never && state.depth_func != DepthFunc::always;
     if (compares && bound + stored_bound > 0 && std::fabs(z - stored) <= bound + stored_bound) result.certain = false;
+    if (fragments[i].doubtful) result.certain = false;
     if (!passes) continue;
     result.fragment = i;
     stored = z;

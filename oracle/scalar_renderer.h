@@ -24,6 +24,7 @@ struct Fragment {
   long double depth = 0;  ///< window z, exact plane of the snapped triangle, clamped as the state says
   float depth_code = 0;   ///< depth rounded to float, and to what the depth format holds
   float depth_bound = 0;  ///< |renderer's depth - depth| stays within this; 0 where depth_code is exact for certain
+  bool doubtful = false;  ///< its alpha is too close to the material's cutoff to tell whether it is drawn
 };
 
 /// A triangle left after clipping, with the values no two vertices share.
@@ -50,7 +51,7 @@ struct ScalarFrame {
   const std::vector<Fragment>& at(int x, int y) const { return fragments[size_t(y) * size_t(width) + size_t(x)]; }
 };
 
-/// Rasterises every triangle. Memory is a fragment a covered sample: for scenes of some 10^5 triangle-pixels.
+/// Rasterises every triangle; fragments the alpha test drops are left out. Memory is a fragment a covered sample: for scenes of some 10^5 triangle-pixels.
 ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline);
 
 /// Which fragment is seen.

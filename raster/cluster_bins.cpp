@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "raster/fixed_point.h"
 
 namespace trueshade {
 namespace {
@@ -43,22 +44,34 @@ bool pixel_span(const Interval& ndc, const WindowTransform& t, int axis, int low
   return first <= last;
 }
 
+// Whether a box in front of the near plane lies wholly where place_vertices() finds nothing that needs care.
+bool needs_no_care(const WindowTransform& t, const Interval& x, const Interval& y, const Interval& z,
+                   const Interval& w) {
+  constexpr double kInside = double(kVectorLimit) / 2.0;
+  const auto fits = [&](const Interval& ndc, int axis) {
+    const double scale = std::abs(double(t.scale[axis])), offset = std::abs(double(t.offset[axis]));
+    return std::max(std::abs(ndc.low), std::abs(ndc.high)) * scale + offset < kInside;
+  };
+  return !t.float_snap && w.low >= 0x1p-100 && (t.depth_clamp || z.high <= w.low) && fits(quotient(x, w), 0) &&
+         fits(quotient(y, w), 1);
+}
+
 struct Binner {
   const View& view;
-  int tile;
   bool culling;
 
-  void cover(int x0, int y0, int x1, int y1, ClusterDraw& draw) const {  // pixels, inclusive
-    draw.tile_x0 = uint16_t(x0 / tile);
-    draw.tile_y0 = uint16_t(y0 / tile);
-    draw.tile_x1 = uint16_t(x1 / tile + 1);
-    draw.tile_y1 = uint16_t(y1 / tile + 1);
+  static void cover(int x0, int y0, int x1, int y1, ClusterDraw& draw) {  // pixels, inclusive
+    draw.x0 = uint16_t(x0);
+    draw.y0 = uint16_t(y0);
+    draw.x1 = uint16_t(x1);
+    draw.y1 = uint16_t(y1);
   }
 
   // False if the cluster cannot be seen.
   bool bound(const InstanceTransform& instance, const Cluster& cluster, ClusterDraw& draw) const {
     const WindowTransform& t = view.window;
     draw.near_depth = -std::numeric_limits<float>::infinity();
+    draw.plain = false;
     cover(t.x0, t.y0, t.x1 - 1, t.y1 - 1, draw);
     if (!culling) return true;
     const Interval x = row_interval(instance.clip[0], cluster), y = row_interval(instance.clip[1], cluster),
@@ -72,6 +85,7 @@ struct Binner {
     if (!pixel_span(quotient(x, w), t, 0, t.x0, t.x1, x0, x1) || !pixel_span(quotient(y, w), t, 1, t.y0, t.y1, y0, y1))
       return false;
     cover(x0, y0, x1, y1, draw);
+    draw.plain = needs_no_care(t, x, y, z, w);
     const Interval depth = quotient(z, w);
     const double nearest = std::min(depth.low * t.z_scale, depth.high * t.z_scale) + t.z_offset;
     draw.near_depth = float(nearest - std::abs(nearest) * 0x1p-20 - 0x1p-24);
@@ -91,20 +105,20 @@ struct Row {
 
 constexpr uint64_t kChunk = 1024;
 
-std::vector<ClusterDraw> seen_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile,
+std::vector<ClusterDraw> seen_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view,
                                        bool culling, int threads) {
   const Row row(scene, clusters);
   const uint64_t all = row.first.back();
   const int chunks = int((all + kChunk - 1) / kChunk);
   std::vector<std::vector<ClusterDraw>> seen(static_cast<size_t>(chunks));
-  const Binner binner{view, tile, culling};
+  const Binner binner{view, culling};
   parallel_for(chunks, threads, [&](int chunk) {
     uint64_t at = uint64_t(chunk) * kChunk;
     const uint64_t end = std::min(all, at + kChunk);
     size_t instance = size_t(std::upper_bound(row.first.begin(), row.first.end(), at) - row.first.begin()) - 1;
     for (; at < end; ++at) {
       while (at >= row.first[instance + 1]) ++instance;
-      ClusterDraw draw{uint32_t(instance), uint32_t(at - row.first[instance]), 0.0f, 0, 0, 0, 0};
+      ClusterDraw draw{uint32_t(instance), uint32_t(at - row.first[instance]), 0.0f, false, 0, 0, 0, 0};
       const Cluster& cluster = clusters.meshes[scene.instances[instance].mesh].clusters[draw.cluster];
       if (binner.bound(view.instances[instance], cluster, draw)) seen[size_t(chunk)].push_back(draw);
     }
@@ -128,11 +142,11 @@ ClusterBins bin_clusters(const Scene& scene, const ClusteredScene& clusters, con
   bins.first.assign(size_t(bins.tiles_x) * size_t(bins.tiles_y) + 1, 0);
   const WindowTransform& t = view.window;
   if (t.x0 >= t.x1 || t.y0 >= t.y1) return bins;
-  bins.draws = seen_clusters(scene, clusters, view, tile, culling, threads);
+  bins.draws = seen_clusters(scene, clusters, view, culling, threads);
 
   const auto for_each_tile = [&](const ClusterDraw& draw, auto&& visit) {
-    for (int y = draw.tile_y0; y < draw.tile_y1; ++y)
-      for (int x = draw.tile_x0; x < draw.tile_x1; ++x) visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
+    for (int y = draw.y0 / tile; y <= draw.y1 / tile; ++y)
+      for (int x = draw.x0 / tile; x <= draw.x1 / tile; ++x) visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
   };
   for (const ClusterDraw& draw : bins.draws) for_each_tile(draw, [&](size_t i) { ++bins.first[i + 1]; });
   for (size_t i = 1; i < bins.first.size(); ++i) {

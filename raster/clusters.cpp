@@ -29,6 +29,7 @@ class Builder {
       ++current_.triangles;
     }
     finish();
+    for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
     return std::move(out_);
   }
 
@@ -68,6 +69,7 @@ class Builder {
       for (size_t i = current_.first_vertex; i < out_.vertex.size(); ++i) {
         const float value = mesh_.position[c][out_.vertex[i]];
         out_.position[c].push_back(value);
+        out_.normal[c].push_back(mesh_.normal[c].empty() ? 0.0f : mesh_.normal[c][out_.vertex[i]]);
         low = std::min(low, value);
         high = std::max(high, value);
       }

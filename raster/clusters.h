@@ -9,6 +9,7 @@ namespace trueshade {
 
 inline constexpr int kClusterVertices = 64;
 inline constexpr int kClusterTriangles = 126;
+inline constexpr size_t kCornerSlack = 64;  ///< zeros after the last triangle's corners, so that vectors may read on
 
 /// A run of consecutive triangles of a mesh that share at most 64 vertices: the unit of culling and binning.
 struct Cluster {
@@ -22,6 +23,7 @@ struct Cluster {
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
   std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
+  std::array<std::vector<float>, 3> normal;    ///< object space, alike
   std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
   std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };

@@ -15,6 +15,7 @@
 #include <limits>
 #include <vector>
 
+#include "raster/alpha-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -30,17 +31,17 @@ struct CountCommit {
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}
+  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
-  HWY_INLINE bool vector(int at, M64 covered, V64, V64) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64*) {
     const D64 d;
     constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
     alignas(64) double one[kLanes];
     hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i)
-      counts[size_t(at) + i] += one[i] != 0.0;
+    for (size_t i = 0; i < hn::Lanes(d); ++i) counts[size_t(at) + i] += one[i] != 0.0;
     return false;
   }
-  bool scalar(int at, double, double) {
+  bool scalar(int at, double, double, double) {
     ++counts[at];
     return false;
   }
@@ -95,6 +96,7 @@ struct DepthCommit {
   float range_low, range_high;
   bool skip_hidden;  ///< use the blocks' largest depths
   DepthRule rule{};
+  AlphaTest* alpha = nullptr;  ///< of the material drawn; null: every fragment counts
   uint64_t fragments = 0;
   uint32_t id = 0;
   double z0 = 0, g1 = 0, g2 = 0, z_low = 0, z_high = 0;
@@ -108,6 +110,11 @@ struct DepthCommit {
       z0 += offset, z_low += offset, z_high += offset;
     }
     nearest = rule.stored(std::min(std::max(float(z_low), range_low), range_high));
+    if (alpha != nullptr) alpha->set_edges(s);
+  }
+  /// Before begin(), for a piece of a triangle that needed care.
+  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+    if (alpha != nullptr) alpha->set_piece(v, fan, index, t);
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
@@ -131,11 +138,11 @@ struct DepthCommit {
     return rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
   }
 
-  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D32 df;
     const U32 du;
     fragments += hn::CountTrue(D64(), covered);
-    const V32 z = depths(covered, e1, e2);
+    const V32 z = depths(covered, e[1], e[2]);
     const V32 there = hn::Load(df, tile.depth + at);
     const auto there_id = hn::Load(du, tile.id + at);
     const auto my_id = hn::Set(du, id);
@@ -168,15 +175,34 @@ struct DepthCommit {
         break;
     }
     if (hn::AllFalse(df, pass)) return false;
+    if (alpha != nullptr) {
+      pass = hn::And(pass, opaque(e, pass));
+      if (hn::AllFalse(df, pass)) return false;
+    }
     hn::Store(hn::IfThenElse(pass, z, there), df, tile.depth + at);
     hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, tile.id + at);
     return true;
   }
 
-  bool scalar(int at, double e1, double e2) {
+  /// Lanes of `asked` that the alpha test keeps.
+  HWY_NOINLINE hn::Mask<D32> opaque(const V64 e[3], hn::Mask<D32> asked) const {
+    const D64 d;
+    const V64 one = hn::PromoteTo(d, hn::IfThenElseZero(asked, hn::Set(D32(), 1.0f)));
+    return alpha->opaque(e, hn::Gt(one, hn::Zero(d)));
+  }
+  HWY_NOINLINE bool opaque(double e0, double e1, double e2) const {
+    const D64 d;
+    const D32 df;
+    const V64 e[3] = {hn::Set(d, e0), hn::Set(d, e1), hn::Set(d, e2)};
+    const auto kept = alpha->opaque(e, hn::FirstN(d, 1));
+    return hn::GetLane(hn::IfThenElseZero(kept, hn::Set(df, 1.0f))) != 0.0f;
+  }
+
+  bool scalar(int at, double e0, double e1, double e2) {
     ++fragments;
     const float z = depth(e1, e2);
     if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
+    if (alpha != nullptr && !opaque(e0, e1, e2)) return false;
     tile.depth[at] = z;
     tile.id[at] = id;
     return true;
@@ -203,17 +229,27 @@ struct TieCommit {
   void begin(const TriangleSetup<T>& s) {
     test.begin(s);
   }
+  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+    test.begin_piece(v, fan, index, t);
+  }
   bool hidden(int block) const { return test.hidden(block); }
-  HWY_INLINE bool vector(int at, M64 covered, V64 e1, V64 e2) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D32 df;
     alignas(64) float z[HWY_MAX_BYTES / sizeof(float)];
-    hn::Store(test.depths(covered, e1, e2), df, z);
+    V32 depth = test.depths(covered, e[1], e[2]);
+    if (test.alpha != nullptr) {
+      const auto equal = hn::Eq(depth, hn::Load(df, tile.depth + at));
+      const auto kept = hn::And(equal, test.opaque(e, equal));
+      depth = hn::IfThenElse(kept, depth, hn::Set(df, std::numeric_limits<float>::quiet_NaN()));
+    }
+    hn::Store(depth, df, z);
     for (size_t i = 0; i < hn::Lanes(df); ++i)
       if (z[i] == tile.depth[size_t(at) + i]) out.push_back({at + int(i), id});
     return false;
   }
-  bool scalar(int at, double e1, double e2) {
-    if (test.depth(e1, e2) == tile.depth[at]) out.push_back({at, id});
+  bool scalar(int at, double e0, double e1, double e2) {
+    const bool equal = test.depth(e1, e2) == tile.depth[at];
+    if (equal && (test.alpha == nullptr || test.opaque(e0, e1, e2))) out.push_back({at, id});
     return false;
   }
   void finish_block(int) {}

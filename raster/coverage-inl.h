@@ -102,7 +102,7 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
               hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
         }
         if (hn::AllFalse(d, covered)) continue;
-        changed |= commit.vector(block * kBlockPixels + k, covered, e[1], e[2]);
+        changed |= commit.vector(block * kBlockPixels + k, covered, e);
       }
       if (changed) commit.finish_block(block);
     }
@@ -117,7 +117,7 @@ HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& re
     for (int x = s.x0; x < s.x1; ++x) {
       if (!s.covers(x, y)) continue;
       const int at = tile_index(rect.size, x, y);
-      if (commit.scalar(at, s.edge(1, x, y), s.edge(2, x, y))) commit.finish_block(at / kBlockPixels);
+      if (commit.scalar(at, s.edge(0, x, y), s.edge(1, x, y), s.edge(2, x, y))) commit.finish_block(at / kBlockPixels);
     }
   }
 }
@@ -141,14 +141,14 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
 /// A fan in which snapping has turned a piece over: a pixel belongs to the polygon if the pieces that cover it, counted
 /// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
 template <class Commit>
-inline void cover_turned_fan(const CarefulPieces& fan, const GeometryState& state, bool upper_left,
-                             const TileRect& rect, Commit& commit) {
+inline void cover_turned_fan(const ClipVertex v[3], const CarefulPieces& fan, const WindowTransform& t,
+                             const GeometryState& state, const TileRect& rect, Commit& commit) {
   TriangleSetup<__int128> setup[CarefulPieces::kMax];
   bool used[CarefulPieces::kMax];
   GeometryState both_sides = state;
   both_sides.cull_face = CullFace::none;
   for (int i = 0; i < fan.count; ++i)
-    used[i] = set_up_triangle(fan.piece[i].triangle, both_sides, upper_left, rect.limit, setup[i]);
+    used[i] = set_up_triangle(fan.piece[i].triangle, both_sides, t.upper_left, rect.limit, setup[i]);
   for (int y = rect.limit[1]; y < rect.limit[3]; ++y) {
     for (int x = rect.limit[0]; x < rect.limit[2]; ++x) {
       int winding = 0, drawn = -1;
@@ -159,8 +159,10 @@ inline void cover_turned_fan(const CarefulPieces& fan, const GeometryState& stat
       }
       if (winding * fan.facing <= 0) continue;
       const TriangleSetup<__int128>& s = setup[drawn];
+      commit.begin_piece(v, fan, drawn, t);
       commit.begin(s);
-      commit.scalar(tile_index(rect.size, x, y), double(s.edge(1, x, y)), double(s.edge(2, x, y)));
+      commit.scalar(tile_index(rect.size, x, y), double(s.edge(0, x, y)), double(s.edge(1, x, y)),
+                    double(s.edge(2, x, y)));
     }
   }
   for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
@@ -173,9 +175,12 @@ inline void draw_careful(const ClipVertex v[3], const WindowTransform& t, Sample
   const CarefulPieces fan = careful_pieces(v, t, origin.x, origin.y);
   if (fan.count == 0 || culled(state, (fan.facing > 0) != t.upper_left)) return;
   if (fan.turned) {
-    cover_turned_fan(fan, state, t.upper_left, rect, commit);
-  } else {
-    for (int i = 0; i < fan.count; ++i) draw_window_triangle(fan.piece[i].triangle, state, t.upper_left, rect, commit);
+    cover_turned_fan(v, fan, t, state, rect, commit);
+    return;
+  }
+  for (int i = 0; i < fan.count; ++i) {
+    commit.begin_piece(v, fan, i, t);
+    draw_window_triangle(fan.piece[i].triangle, state, t.upper_left, rect, commit);
   }
 }
 

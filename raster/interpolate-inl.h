@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "raster/surfaces.h"
+#include "raster/texture-inl.h"
 #include "raster/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,9 +18,10 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using VI32 = hn::Vec<I32>;
 
-/// Weights of vertices 1 and 2 in canonical order.
+/// Weights of vertices 1 and 2 in canonical order, and what they were divided by.
 struct Barycentrics {
   V64 smooth[2], linear[2];
+  V64 r, inverse_area;
 };
 
 /// From the edge functions and 1 / w of the vertices; `area` is the edges' exact sum, rounded once.
@@ -28,7 +30,25 @@ HWY_INLINE Barycentrics barycentrics(const V64 e[3], const V64 u[3], V64 area) {
   const V64 l0 = hn::Mul(e[0], u[0]), l1 = hn::Mul(e[1], u[1]), l2 = hn::Mul(e[2], u[2]);
   const V64 r = hn::Div(one, hn::Add(hn::Add(l0, l1), l2));
   const V64 inverse_area = hn::Div(one, area);
-  return {{hn::Mul(l1, r), hn::Mul(l2, r)}, {hn::Mul(e[1], inverse_area), hn::Mul(e[2], inverse_area)}};
+  return {
+      {hn::Mul(l1, r), hn::Mul(l2, r)}, {hn::Mul(e[1], inverse_area), hn::Mul(e[2], inverse_area)}, r, inverse_area};
+}
+
+/// How the weights change from a pixel to the next, from the edges' change.
+struct BarycentricSlopes {
+  V64 smooth[2], linear[2];
+};
+HWY_INLINE BarycentricSlopes slopes(const Barycentrics& at, const V64 edge_slope[3], const V64 u[3]) {
+  const V64 g0 = hn::Mul(edge_slope[0], u[0]), g1 = hn::Mul(edge_slope[1], u[1]), g2 = hn::Mul(edge_slope[2], u[2]);
+  const V64 sum = hn::Add(hn::Add(g0, g1), g2);
+  return {
+      {hn::Mul(hn::Sub(g1, hn::Mul(at.smooth[0], sum)), at.r), hn::Mul(hn::Sub(g2, hn::Mul(at.smooth[1], sum)), at.r)},
+      {hn::Mul(edge_slope[1], at.inverse_area), hn::Mul(edge_slope[2], at.inverse_area)}};
+}
+
+/// b1 (a1 - a0) + b2 (a2 - a0).
+HWY_INLINE V64 affine_slope(const V64 b[2], V64 a0, V64 a1, V64 a2) {
+  return hn::Add(hn::Mul(b[0], hn::Sub(a1, a0)), hn::Mul(b[1], hn::Sub(a2, a0)));
 }
 
 /// a0 + (b1 (a1 - a0) + b2 (a2 - a0)).
@@ -40,6 +60,7 @@ HWY_INLINE V64 affine(const V64 b[2], V64 a0, V64 a1, V64 a2) {
 struct Weights {
   VI32 vertex[3];
   Barycentrics at;
+  V64 x[3], y[3], u[3];  ///< relative to the pixel, 1/256 pixel; 1 / w
 };
 
 /// Smaller and larger of two, the first where equal: the same answer for -0 and 0 on every target, unlike Min and Max.
@@ -69,7 +90,10 @@ HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 
   turn(corner, w.vertex);
   turn(x, cx);
   turn(y, cy);
-  V64 rx[3], ry[3], u[3], e[3];
+  V64* const rx = w.x;
+  V64* const ry = w.y;
+  V64* const u = w.u;
+  V64 e[3];
   for (int i = 0; i < 3; ++i) {
     rx[i] = hn::Sub(hn::PromoteTo(d, cx[i]), hn::Mul(px, hn::Set(d, 256.0)));
     ry[i] = hn::Sub(hn::PromoteTo(d, cy[i]), hn::Mul(py, hn::Set(d, 256.0)));
@@ -79,6 +103,26 @@ HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 
     e[i] = hn::Sub(hn::Mul(rx[(i + 1) % 3], ry[(i + 2) % 3]), hn::Mul(rx[(i + 2) % 3], ry[(i + 1) % 3]));
   w.at = barycentrics(e, u, hn::Add(hn::Add(e[0], e[1]), e[2]));
   return w;
+}
+
+/// Edge slopes of pixels whose triangles differ: exact.
+HWY_INLINE void edge_slopes(const Weights& w, V64 along_x[3], V64 along_y[3]) {
+  const V64 pixel = hn::Set(D64(), 256.0);
+  for (int i = 0; i < 3; ++i) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3;
+    along_x[i] = hn::Mul(hn::Sub(w.y[a], w.y[b]), pixel);
+    along_y[i] = hn::Mul(hn::Sub(w.x[b], w.x[a]), pixel);
+  }
+}
+
+/// The derivatives of one coordinate whose vertex values are a0, a1, a2; 0 for a flat one.
+HWY_INLINE void coordinate_slopes(const BarycentricSlopes& along_x, const BarycentricSlopes& along_y, Interpolation how,
+                                  V64 a0, V64 a1, V64 a2, V64& x, V64& y) {
+  x = y = hn::Zero(D64());
+  if (how == Interpolation::flat) return;
+  const bool smooth = how == Interpolation::smooth;
+  x = affine_slope(smooth ? along_x.smooth : along_x.linear, a0, a1, a2);
+  y = affine_slope(smooth ? along_y.smooth : along_y.linear, a0, a1, a2);
 }
 
 HWY_INLINE V32 interpolated(const float* stream, const Weights& w, Interpolation how, VI32 provoking) {

@@ -72,8 +72,9 @@ struct LayerCommit {
   uint16_t* counts;
   template <class T>
   void begin(const TriangleSetup<T>&) {}
+  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
-  HWY_INLINE bool vector(int at, M64 covered, V64, V64) {
+  HWY_INLINE bool vector(int at, M64 covered, const V64*) {
     const D64 d;
     alignas(64) double one[HWY_MAX_BYTES / sizeof(double)];
     hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
@@ -81,7 +82,7 @@ struct LayerCommit {
       counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
     return false;
   }
-  bool scalar(int at, double, double) {
+  bool scalar(int at, double, double, double) {
     ++counts[at];
     return false;
   }

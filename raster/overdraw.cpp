@@ -20,7 +20,7 @@ void count_cluster(const TileDraws& in, const TileRect& rect, uint32_t position,
   const WindowTransform& t = in.view.window;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices v;
-  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
+  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, false, v);
   for (uint32_t i = 0; i < cluster.triangles; ++i) {
     const size_t at = cluster.first_triangle + i;
     WindowTriangle window;

@@ -10,7 +10,9 @@
 #include "raster/careful.h"
 #include "raster/coverage-inl.h"
 #include "raster/interpolate-inl.h"
+#include "raster/maps-inl.h"
 #include "raster/store-inl.h"
+#include "raster/triangle_runs-inl.h"
 #include "scenes/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,7 +22,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kSlot = kClusterVertices;
 
 void copy_stream(const std::vector<float>& from, const uint32_t* vertex, int count, float absent, float* to) {
-  for (int i = 0; i < count; ++i) to[i] = from.empty() ? absent : from[vertex[i]];
+  if (from.empty()) return void(std::fill_n(to, count, absent));
+  const float* value = from.data();
+  for (int i = 0; i < count; ++i) to[i] = value[vertex[i]];
 }
 
 // World position and unit world normal of a slot's vertices; the object-space values are there already.
@@ -46,6 +50,20 @@ void to_world(const InstanceTransform& t, VisibleVertices& work, size_t at, int 
   }
 }
 
+// The records of a slot, from its streams.
+void fill_records(VisibleVertices& work, size_t at, int count) {
+  VertexRecord* record = work.record.data() + at;
+  for (int i = 0; i < count; ++i) {
+    record[i].x = work.x[at + size_t(i)];
+    record[i].y = work.y[at + size_t(i)];
+    record[i].u = work.u[at + size_t(i)];
+  }
+  for (int c = 0; c < work.record_attributes; ++c) {
+    const float* from = work.stream[kRecordStream[c]].data() + at;
+    for (int i = 0; i < count; ++i) record[i].attribute[c] = from[i];
+  }
+}
+
 // Transforms the vertices of one seen cluster into its slot.
 void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int32_t slot, bool need_uv,
                VisibleVertices& work) {
@@ -59,10 +77,11 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
     const size_t grown = std::max(2 * work.x.size(), at + kSlot);
     work.x.resize(grown), work.y.resize(grown), work.u.resize(grown);
     for (auto& stream : work.stream) stream.resize(grown);
+    work.record.resize(grown);
   }
   WindowVertices window;
   window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y),
-                  window);
+                  draw.plain, window);
   std::copy_n(window.x, cluster.vertices, work.x.data() + at);
   std::copy_n(window.y, cluster.vertices, work.y.data() + at);
   std::copy_n(window.u, cluster.vertices, work.u.data() + at);
@@ -70,13 +89,15 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
   for (size_t c = 0; c < 3; ++c) {
     std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices,
                 work.stream[size_t(kPosition) + c].data() + at);
-    copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
+    std::copy_n(&clusters.normal[c][cluster.first_vertex], cluster.vertices,
+                work.stream[size_t(kNormal) + c].data() + at);
   }
   for (size_t c = 0; c < 4; ++c)
     copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
   for (size_t c = 0; c < 2 && need_uv; ++c)
     copy_stream(mesh.uv[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kUv) + c].data() + at);
   to_world(in.view.instances[draw.instance], work, at, cluster.vertices);
+  fill_records(work, at, cluster.vertices);
 }
 
 // Gives every seen cluster a slot and every pixel the three vertices of its triangle.
@@ -84,41 +105,49 @@ void find_corners(const TileDraws& in, const TileRect& rect, const VisibilityTil
                   VisibleVertices& work, SurfaceTile& out) {
   const int pixels = rect.size * rect.size;
   work.slot_of.resize(std::max(work.slot_of.size(), in.list.size()), -1);
-  work.position_of.clear();
+  work.seen.clear();
   for (auto& corner : work.corner) corner.assign(size_t(pixels), 0);
+  uint32_t* corner[3] = {work.corner[0].data(), work.corner[1].data(), work.corner[2].data()};
   out.covered_pixels = 0;
+  uint32_t last = 0;  // of the pixel before
   for (int i = 0; i < pixels; ++i) {
     const uint32_t id = visible.id[i];
     out.covered[i] = id == 0 ? 0 : -1;
-    if (i > 0 && id != 0 && id == visible.id[i - 1]) {
-      for (auto& corner : work.corner) corner[size_t(i)] = corner[size_t(i) - 1];
-      out.object[i] = out.object[i - 1];
-      out.material[i] = out.material[i - 1];
-      ++out.covered_pixels;
+    out.covered_pixels += id != 0;
+    if (id == last) {
+      const int from = i == 0 ? 0 : i - 1;
+      for (auto* c : corner) c[i] = c[from];
+      out.object[i] = i == 0 ? 0 : out.object[from];
+      out.material[i] = i == 0 ? 0 : out.material[from];
       continue;
     }
+    last = id;
     if (id == 0) {
       out.object[i] = out.material[i] = 0;
       continue;
     }
-    ++out.covered_pixels;
     const uint32_t position = id_position(id);
-    int32_t& slot = work.slot_of[position];
+    int32_t slot = work.slot_of[position];
     if (slot < 0) {
-      slot = int32_t(work.position_of.size());
-      work.position_of.push_back(position);
+      slot = int32_t(work.seen.size());
+      work.slot_of[position] = slot;
+      const ClusterDraw& draw = in.draws[in.list[position]];
+      const Instance& instance = in.scene.instances[draw.instance];
+      const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
+      const uint32_t first = mesh.clusters[draw.cluster].first_triangle;
+      work.seen.push_back({position,
+                           draw.instance + 1,
+                           instance.material + 1,
+                           {&mesh.corner[0][first], &mesh.corner[1][first], &mesh.corner[2][first]}});
       fill_slot(in, rect, position, slot, need_uv, work);
     }
-    const ClusterDraw& draw = in.draws[in.list[position]];
-    const Instance& instance = in.scene.instances[draw.instance];
-    const ClusteredMesh& mesh = in.clusters.meshes[instance.mesh];
-    const size_t triangle = mesh.clusters[draw.cluster].first_triangle + id_triangle(id);
-    for (size_t k = 0; k < 3; ++k)
-      work.corner[k][size_t(i)] = uint32_t(slot) * uint32_t(kSlot) + mesh.corner[k][triangle];
-    out.object[i] = draw.instance + 1;
-    out.material[i] = instance.material + 1;
+    const SeenCluster& seen = work.seen[size_t(slot)];
+    const uint32_t triangle = id_triangle(id), base = uint32_t(slot) * uint32_t(kSlot);
+    for (int k = 0; k < 3; ++k) corner[k][i] = base + seen.corner[k][triangle];
+    out.object[i] = seen.object;
+    out.material[i] = seen.material;
   }
-  for (const uint32_t position : work.position_of) work.slot_of[position] = -1;
+  for (const SeenCluster& seen : work.seen) work.slot_of[seen.position] = -1;
 }
 
 struct StreamGroup {
@@ -136,8 +165,38 @@ int stream_groups(const GBufferState& planes, bool need_uv, StreamGroup out[4]) 
   return count;
 }
 
-void interpolate_tile(const TileRect& rect, const GeometryState& state, const StreamGroup* group, int groups,
-                      const VisibleVertices& work, SurfaceTile& out) {
+bool all_smooth(const StreamGroup* group, int groups) {
+  return std::all_of(group, group + groups,
+                     [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
+}
+
+// The maps of pixels whose triangles needed no care.
+HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& visible, const Weights& w, int i,
+                                  const VisibleVertices& work, SurfaceTile& out) {
+  const D64 d;
+  const D32 df;
+  alignas(64) double plain[kMostLanes];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    const uint32_t id = visible.id[size_t(i) + k];
+    plain[k] = id != 0 && !id_careful(id) ? 1.0 : 0.0;
+  }
+  V64 edge_x[3], edge_y[3];
+  edge_slopes(w, edge_x, edge_y);
+  const BarycentricSlopes along_x = slopes(w.at, edge_x, w.u), along_y = slopes(w.at, edge_y, w.u);
+  UvPoint at;
+  for (int c = 0; c < 2; ++c) {
+    const float* stream = work.stream[size_t(kUv) + size_t(c)].data();
+    V64 a[3];
+    for (int k = 0; k < 3; ++k) a[k] = hn::PromoteTo(d, hn::GatherIndex(df, stream, w.vertex[k]));
+    coordinate_slopes(along_x, along_y, in.view.maps.uv_how, a[0], a[1], a[2], at.x[c], at.y[c]);
+  }
+  apply_maps(in.view.maps, at, hn::Gt(hn::Load(d, plain), hn::Zero(d)), i, work, out);
+}
+
+void interpolate_tile(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
+                      const VisibilityTile& visible, const VisibleVertices& work, SurfaceTile& out) {
+  const GeometryState& state = in.state;
+  const bool textured = in.view.maps.textured();
   const D64 d;
   const D32 df;
   const I32 di;
@@ -156,6 +215,7 @@ void interpolate_tile(const TileRect& rect, const GeometryState& state, const St
       for (int c = group[g].first; c < group[g].first + group[g].count; ++c)
         hn::Store(interpolated(work.stream[c].data(), w, group[g].plane.interpolation, provoking), df,
                   out.plane[c] + i);
+    if (textured) apply_tile_maps(in, visible, w, i, work, out);
   }
 }
 
@@ -202,7 +262,7 @@ void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const Strea
 
 // The attributes of one piece at the lanes it owns; the other lanes keep what they have.
 void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups, int at,
-                       SurfaceTile& out) {
+                       const SceneMaps& maps, const VisibleVertices& work, SurfaceTile& out) {
   const D64 d;
   const D32 df;
   const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
@@ -220,6 +280,20 @@ void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const
       hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
     }
   }
+  if (!maps.textured()) return;
+  V64 edge_x[3], edge_y[3];
+  for (int i = 0; i < 3; ++i) {
+    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
+    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
+  }
+  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
+  UvPoint uv;
+  for (int c = 0; c < 2; ++c) {
+    const double* a = s.attribute[kUv + c];
+    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
+                      uv.y[c]);
+  }
+  apply_maps(maps, uv, owned, at, work, out);
 }
 
 // Pixels of triangles that were clipped or are too large for the vector path: a few triangles, each over many pixels.
@@ -250,7 +324,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
         M64 owned = open;
         for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
         if (hn::AllFalse(d, owned)) continue;
-        interpolate_piece(s, e, owned, group, groups, i, out);
+        interpolate_piece(s, e, owned, group, groups, i, in.view.maps, work, out);
         open = hn::AndNot(owned, open);
       }
     }
@@ -285,22 +359,27 @@ void rebuild_positions(const TileDraws& in, const TileRect& rect, const Visibili
 struct MaterialValues {
   float specular[4];  // colour and shininess
   float emission[3];
-  float metallic;  // 0 where the model maps no metals
+  float metallic;     // 0 where the model maps no metals
+  bool specular_map;  // its texel is in the specular plane already
 };
 
-MaterialValues material_values(const Material& m, const LightModel& model) {
+MaterialValues material_values(const Material& m, const LightModel& model, bool specular_map) {
   const bool metals = maps_metals(model);
   const float shininess = metals ? shininess_of_roughness(m.roughness) : m.shininess;
   return {{m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess},
           {m.emission.r, m.emission.g, m.emission.b},
-          metals ? m.metallic : 0.0f};
+          metals ? m.metallic : 0.0f,
+          specular_map};
 }
 
 // docs/arithmetic.md section 7. `base`: the base colour of the pixel.
 void fill_material_planes(const MaterialValues& m, const LightModel& model, int i, SurfaceTile& out) {
   for (int c = 0; c < 3 && model.emission; ++c) out.plane[kEmission + c][i] = m.emission[c];
   if (!maps_metals(model)) {
-    for (int c = 0; c < 4 && reads_specular_plane(model); ++c) out.plane[kSpecular + c][i] = m.specular[c];
+    for (int c = 0; c < 4 && reads_specular_plane(model); ++c) {
+      float& specular = out.plane[kSpecular + c][i];
+      specular = m.specular_map && c < 3 ? m.specular[c] * specular : m.specular[c];
+    }
     return;
   }
   for (int c = 0; c < 3; ++c) {
@@ -329,7 +408,8 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
   const bool materials = model.emission || reads_specular_plane(model) || maps_metals(model);
   std::vector<MaterialValues> values;
   for (size_t m = 0; m < in.scene.materials.size() && materials; ++m)
-    values.push_back(material_values(in.scene.materials[m], model));
+    values.push_back(material_values(in.scene.materials[m], model,
+                                     in.view.maps.textured() && in.view.maps.material[m].specular.has_value()));
   for (int i = 0; i < pixels; ++i) {
     if (out.covered[i] == 0) continue;
     const glm::vec4& base = in.scene.materials[out.material[i] - 1].base_color;
@@ -345,11 +425,20 @@ void store_planes(const TileDraws& in, const TileRect& rect, const GBufferState&
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
                            const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
                            SurfaceTile& out) {
+  need_uv = need_uv || in.view.maps.textured();
+  const bool colored =
+      std::any_of(in.scene.meshes.begin(), in.scene.meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
+  work.record_attributes = colored ? int(kStreams) : need_uv ? kRecordUv + 2 : kRecordUv;
   find_corners(in, rect, visible, need_uv, work, out);
   if (out.covered_pixels == 0) return;
   StreamGroup group[4];
   const int groups = stream_groups(planes, need_uv, group);
-  interpolate_tile(rect, in.state, group, groups, work, out);
+  if (all_smooth(group, groups) && !in.view.maps.textured()) {
+    interpolate_runs(rect, visible, work, work.record_attributes, out);
+    for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], rect.size * rect.size, 1.0f);
+  } else {
+    interpolate_tile(in, rect, group, groups, visible, work, out);
+  }
   interpolate_careful(in, rect, group, groups, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_planes(in, rect, planes, model, group, groups, out);

@@ -139,19 +139,45 @@ HWY_INLINE bool place_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTrans
   return !hn::AllTrue(d, fits);
 }
 
-/// Window positions of all vertices of a cluster.
+/// The same for vertices known to need no care (ClusterDraw::plain), snapped as the profile `ideal` says.
+HWY_INLINE void place_plain_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin,
+                                     size_t i, WindowVertices& out) {
+  const D64 d;
+  const I32 di;
+  const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), wz = hn::PromoteTo(d, cz), ww = hn::PromoteTo(d, cw);
+  const V64 u = hn::Div(hn::Set(d, 1.0), ww);
+  const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, double(t.scale[0])));
+  const V64 y = hn::Mul(hn::Mul(wy, u), hn::Set(d, double(t.scale[1])));
+  V64 x_fx = hn::Round(x), y_fx = hn::Round(y);
+  const V64 off = hn::Max(hn::Abs(hn::Sub(x, x_fx)), hn::Abs(hn::Sub(y, y_fx)));
+  if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Gt(off, hn::Set(d, 0.5 - 0x1p-14))))) {
+    x_fx = round_near_ties(x, x_fx, wx, ww, t.scale[0]);
+    y_fx = round_near_ties(y, y_fx, wy, ww, t.scale[1]);
+  }
+  hn::Store(hn::DemoteTo(di, hn::Add(x_fx, hn::Set(d, double(t.offset[0] - origin.x)))), di, out.x + i);
+  hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, double(t.offset[1] - origin.y)))), di, out.y + i);
+  hn::Store(u, d, out.u + i);
+  hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, t.z_scale)), hn::Set(d, t.z_offset)), d, out.z + i);
+}
+
+/// Window positions of all vertices of a cluster. `plain`: none of them needs care, by its bounds.
 inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
-                            const WindowTransform& t, SampleOrigin origin, WindowVertices& out) {
+                            const WindowTransform& t, SampleOrigin origin, bool plain, WindowVertices& out) {
   const D32 df;
   out.any_needs_care = false;
+  const float* position[3];
+  for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
-    const size_t from = cluster.first_vertex + i;
-    const V32 x = hn::LoadU(df, &mesh.position[0][from]), y = hn::LoadU(df, &mesh.position[1][from]),
-              z = hn::LoadU(df, &mesh.position[2][from]);
-    const bool care =
-        place_vertices(affine_row(instance.clip[0], x, y, z), affine_row(instance.clip[1], x, y, z),
-                       affine_row(instance.clip[2], x, y, z), affine_row(instance.clip[3], x, y, z), t, origin, i, out);
-    out.any_needs_care = out.any_needs_care || care;
+    const V32 x = hn::LoadU(df, position[0] + i), y = hn::LoadU(df, position[1] + i),
+              z = hn::LoadU(df, position[2] + i);
+    V32 clip[4];
+    for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], x, y, z);
+    if (plain) {
+      place_plain_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
+    } else {
+      const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
+      out.any_needs_care = out.any_needs_care || care;
+    }
   }
 }
 

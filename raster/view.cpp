@@ -145,7 +145,8 @@ View make_view(const Scene& scene, const Pipeline& pipeline) {
             window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
             {},
             inverse_rows(clip),
-            rounded_rows(clip)};
+            rounded_rows(clip),
+            scene_maps(scene, pipeline)};
   view.instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances)
     view.instances.push_back(instance_transform(clip, instance.world_from_object));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/texture.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
@@ -55,6 +56,7 @@ struct View {
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
   std::array<float, 16> clip_from_world;     ///< row-major; for the geometry of lights
+  SceneMaps maps{};                          ///< what materials do with textures
 };
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,

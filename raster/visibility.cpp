@@ -6,9 +6,12 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "raster/coverage-inl.h"
+#include "raster/small_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -79,15 +82,30 @@ int all_triangles(const Cluster& cluster, uint8_t* out) {
   return cluster.triangles;
 }
 
-// Whether every block under the box (in 1/256 pixel) is already nearer than `near`.
-bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
-  const int blocks = rect.size / kBlockSize;
-  const int x0 = std::clamp(box.x0 >> 10, 0, blocks - 1), x1 = std::clamp(box.x1 >> 10, 0, blocks - 1);
-  const int y0 = std::clamp(box.y0 >> 10, 0, blocks - 1), y1 = std::clamp(box.y1 >> 10, 0, blocks - 1);
+// Whether every block under the box, in blocks of the tile and inclusive, is already nearer than `near`.
+HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, int x0, int y0, int x1, int y1, float near) {
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
       if (!(near > tile.far[y * blocks + x])) return false;
   return true;
+}
+
+// The same for a box in 1/256 pixel.
+HWY_INLINE bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
+  const int blocks = rect.size / kBlockSize;
+  return hidden_blocks(tile, blocks, std::clamp(box.x0 >> 10, 0, blocks - 1), std::clamp(box.y0 >> 10, 0, blocks - 1),
+                       std::clamp(box.x1 >> 10, 0, blocks - 1), std::clamp(box.y1 >> 10, 0, blocks - 1), near);
+}
+
+// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
+HWY_INLINE bool hidden_draw(const VisibilityTile& tile, const TileRect& rect, const ClusterDraw& draw,
+                            const WindowTransform& t) {
+  const int last = rect.size - 1;
+  return hidden_blocks(tile, rect.size / kBlockSize, std::clamp(draw.x0 - rect.x, 0, last) / kBlockSize,
+                       std::clamp(draw.y0 - rect.y, 0, last) / kBlockSize,
+                       std::clamp(draw.x1 - rect.x, 0, last) / kBlockSize,
+                       std::clamp(draw.y1 - rect.y, 0, last) / kBlockSize,
+                       t.depth.stored(std::min(std::max(draw.near_depth, t.depth_low), t.depth_high)));
 }
 
 // Whether the blocks under a triangle's box hide it: cheaper than setting it up.
@@ -99,18 +117,42 @@ bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const Win
   return hidden_box(tile, rect, box, t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high)));
 }
 
+// The alpha test of the cluster's material; null if it has none.
+AlphaTest* alpha_test(const TileDraws& in, const Instance& instance, AlphaTest& test) {
+  const SceneMaps& maps = in.view.maps;
+  if (!maps.textured() || maps.material[instance.material].alpha_cutoff == 0.0f) return nullptr;
+  test.maps = &maps.material[instance.material];
+  test.uv_how = maps.uv_how;
+  test.alpha_how = maps.albedo_how;
+  return &test;
+}
+
+void set_source(const TileDraws& in, const Instance& instance, const Cluster& cluster, const size_t corner[3],
+                AlphaTest& test) {
+  uint32_t vertex[3];
+  for (size_t k = 0; k < 3; ++k) vertex[k] = in.clusters.meshes[instance.mesh].vertex[cluster.first_vertex + corner[k]];
+  test.set_source(in.scene.meshes[instance.mesh], vertex, in.state.provoking == Provoking::last ? 2 : 0);
+}
+
+DepthCommit& depth_test(DepthCommit& commit) { return commit; }
+DepthCommit& depth_test(TieCommit& commit) { return commit.test; }
+
 template <class Commit>
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, Commit& commit, RasterCounts& counts) {
+void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work, Commit& commit,
+                  RasterCounts& counts) {
   const ClusterDraw& draw = in.draws[in.list[position]];
-  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
-  const Cluster& cluster = mesh.clusters[draw.cluster];
   const WindowTransform& t = in.view.window;
-  const SampleOrigin origin = sample_origin(rect.x, rect.y);
   // Corners' depths bound fragments from below unless an offset may bring these nearer.
   const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
-  WindowVertices v;
-  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, v);
-  uint8_t triangle[kClusterTriangles + 1];
+  if (cull && hidden_draw(commit.tile, rect, draw, t)) return;
+  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
+  const Cluster& cluster = mesh.clusters[draw.cluster];
+  const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  const Instance& instance = in.scene.instances[draw.instance];
+  AlphaTest* const masked = depth_test(commit).alpha = alpha_test(in, instance, work.alpha);
+  WindowVertices& v = work.vertices;
+  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, draw.plain, v);
+  uint8_t* triangle = work.triangle;
   int count = 0;
   if (v.any_needs_care) {
     count = all_triangles(cluster, triangle);
@@ -120,8 +162,20 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
     const float near = t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high));
     if (cull && hidden_box(commit.tile, rect, box, near)) return;
-    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
-    count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0), middle = rect.size * 128;
+    [[maybe_unused]] const int32_t farthest =
+        std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
+    bool drawn = false;
+    if constexpr (std::is_same_v<Commit, DepthCommit>) {
+      if (commit.skip_hidden && masked == nullptr && !t.depth.offsets() && farthest < kPackedLimit) {
+        draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
+        count = work.found.others;
+        for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
+        drawn = true;
+      }
+    }
+    if (!drawn)
+      count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
@@ -131,6 +185,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
+    if (masked != nullptr) set_source(in, instance, cluster, corner, work.alpha);
     if (careful) {
       ClipVertex clip[3];
       clip_corners(in, position, triangle[i], clip);
@@ -146,11 +201,36 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (cull && hidden_triangle(commit.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
+    if (masked != nullptr) {
+      const double inverse_w[3] = {v.u[corner[0]], v.u[corner[1]], v.u[corner[2]]};
+      work.alpha.set_piece(window, inverse_w);
+    }
     if (setup.samples() <= 4)
       cover_samples(setup, rect, commit);
     else
       cover_blocks(setup, rect, commit);
   }
+}
+
+// Positions in the tile's list, nearest clusters first: by 256 steps of depth, which is order enough, since any order
+// gives the same image.
+void nearest_first(const TileDraws& in, std::span<uint32_t> order) {
+  constexpr size_t kSteps = 256;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const uint32_t i : in.list) {
+    const float near = in.draws[i].near_depth;
+    high = std::max(high, near);
+    if (near > -std::numeric_limits<float>::infinity()) low = std::min(low, near);
+  }
+  const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
+  const auto step = [&](uint32_t i) {
+    const float near = in.draws[in.list[i]].near_depth;
+    return near >= low ? 1 + std::min(size_t((near - low) * scale), kSteps - 2) : 0;
+  };
+  uint32_t next[kSteps + 1] = {};
+  for (uint32_t i = 0; i < order.size(); ++i) ++next[step(i) + 1];
+  for (size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
+  for (uint32_t i = 0; i < order.size(); ++i) order[next[step(i)]++] = i;
 }
 
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
@@ -164,16 +244,13 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
   DepthCommit commit{
       out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins, in.view.window.depth};
+  ClusterScratch work;
   if (!commit.skip_hidden) {
-    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, counts);
+    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, counts);
   } else {
     std::vector<uint32_t> order(in.list.size());
-    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto near_depth = [&](uint32_t i) { return in.draws[in.list[i]].near_depth; };
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      return near_depth(a) < near_depth(b) || (near_depth(a) == near_depth(b) && a < b);
-    });
-    for (const uint32_t i : order) draw_cluster(in, rect, i, commit, counts);
+    nearest_first(in, order);
+    for (const uint32_t i : order) draw_cluster(in, rect, i, work, commit, counts);
   }
   counts.fragments += commit.fragments;
 }
@@ -198,7 +275,8 @@ void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bo
   const WindowTransform& t = in.view.window;
   TieCommit commit{visible, {visible, DepthFunc::equal, t.depth_low, t.depth_high, culling, t.depth}, out, culling};
   RasterCounts again;
-  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, commit, again);
+  ClusterScratch work;
+  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, again);
   keep_shared(visible, out);
 }
 

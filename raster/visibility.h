@@ -13,9 +13,10 @@ namespace trueshade {
 /// A cluster of an instance that may be seen, from cluster_bins.h.
 struct ClusterDraw {
   uint32_t instance;
-  uint32_t cluster;                             ///< of the instance's mesh
-  float near_depth;                             ///< no fragment of it is nearer; -infinity where nothing is known
-  uint16_t tile_x0, tile_y0, tile_x1, tile_y1;  ///< tiles it may touch, half open
+  uint32_t cluster;         ///< of the instance's mesh
+  float near_depth;         ///< no fragment of it is nearer; -infinity where nothing is known
+  bool plain;               ///< its bounds say that no vertex needs care (vertex_stage-inl.h)
+  uint16_t x0, y0, x1, y1;  ///< pixels it may touch, inclusive, window coordinates, y up
 };
 
 /// A square of pixels and which of them may be drawn; window coordinates, y up.

@@ -218,6 +218,7 @@ uint32_t ObjectReader::generated_mesh(const json::Node& node) {
                             : which == 2 ? sphere_mesh(28)
                             : which == 3 ? builtin::knot_mesh()
                                          : builtin::rabbit_mesh());
+  if (is_new && which < 2) add_face_uv(scene_.meshes.back());
   return found->second;
 }
 

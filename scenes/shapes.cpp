@@ -46,6 +46,17 @@ Mesh plane_mesh(int quads) {
   return mesh;
 }
 
+void add_face_uv(Mesh& mesh) {
+  mesh.uv = {};
+  for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+    const float x = mesh.position[0][i], y = mesh.position[1][i], z = mesh.position[2][i];
+    const float nx = mesh.normal[0][i], nz = mesh.normal[2][i];
+    const bool side = nx != 0.0f || nz != 0.0f;
+    mesh.uv[0].push_back(0.5f + (nx != 0.0f ? -z * nx : nz != 0.0f ? x * nz : x));
+    mesh.uv[1].push_back(0.5f + (side ? y : -z));
+  }
+}
+
 Mesh sphere_mesh(int n) {
   // The octahedron unfolds to a square of 2n x 2n quads; each point of the border meets its mirror image on the same
   // side, and the four corners meet in one.

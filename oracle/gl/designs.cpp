@@ -123,7 +123,7 @@ void GlPeer::Work::draw_scene(GLuint program) {
     bind_texture(program, "materials", kLastUnit, GL_TEXTURE_BUFFER,
                  renderer.buffers().material_texels(pipeline.light_model));
   if (options.instance_uniforms)
-    renderer.buffers().draw_instances(program);
+    renderer.buffers().draw_each_instance(program);
   else
     renderer.buffers().draw_instances();
 }

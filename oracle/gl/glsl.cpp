@@ -121,7 +121,8 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (options.vertex_color) declare(g.albedo.interpolation, "vec4", "color");
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
-  if (options.uv) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
   if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   return text;
 }
@@ -169,6 +170,7 @@ bool reads_materials(const LightModel& model) {
 
 std::string material_text(const LightModel& model, const GlslOptions& options) {
   std::string text = "  vec4 albedo = " + albedo_text(options) + ";\n";
+  if (options.maps) text += "  if (albedo.a < alpha_cutoff) discard;\n";
   if (!reads_materials(model)) return text;
   text +=
       "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
@@ -180,7 +182,10 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
   return text;
 }
 
-std::string albedo_text(const GlslOptions& options) { return options.vertex_color ? "color * base" : "base"; }
+std::string albedo_text(const GlslOptions& options) {
+  return std::string(options.vertex_color ? "color * " : "") + (options.maps ? "texture(color_map, texcoord) * " : "") +
+         "base";
+}
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: matrices are rows, rounded once from double");
@@ -221,7 +226,7 @@ void main() {
     text +=
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
-  if (options.uv) text += "  texcoord = vertex_uv;\n";
+  if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
   if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }

@@ -17,6 +17,7 @@ struct GlslOptions {
   bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
   bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
+  bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool vertex_color = true;        ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };

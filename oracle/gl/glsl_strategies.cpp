@@ -59,6 +59,7 @@ std::string forward_text(const Pipeline& p, const GlslOptions& options) {
   text +=
       varyings_text(p, options, "in") + "uniform vec3 eye;\nuniform vec3 view_axis;\nuniform samplerBuffer lights;\n";
   text += loop ? "uniform int light_count;\n" : "uniform int light;  // the draw's; -1: a scene without lights\n";
+  if (reads_materials(p.light_model)) text += "uniform samplerBuffer materials;\n";
   text += lights_text(p, options) + forward_surface_text(p, options);
   if (loop) return text + loop_text(p);
   text += "  vec3 sum = light <= 0 ? " + sum_start_text(p.light_model) +

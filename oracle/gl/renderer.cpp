@@ -254,6 +254,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
+  options.maps = buffers_->has_maps();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;

@@ -112,10 +112,13 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
   return out;
 }
 
-SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene) {
+SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene), maps_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    if (runs_.empty() || runs_.back().mesh != scene.instances[i].mesh) runs_.push_back({scene.instances[i].mesh, i, 0});
+    const Instance& instance = scene.instances[i];
+    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh &&
+                      (!maps_.used() || runs_.back().material == instance.material);
+    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0});
     ++runs_.back().count;
   }
 }
@@ -166,11 +169,15 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
 }
 
 void SceneBuffers::draw_instances() const {
+  constexpr int kMapUnit = 15;  // the last that every OpenGL has
+  GLint program = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   for (const InstanceRun& run : runs_) {
     const MeshBuffers& mesh = meshes_[run.mesh];
+    if (maps_.used()) maps_.bind(GLuint(program), run.material, kMapUnit);
     glBindVertexArray(mesh.array);
     glBindBuffer(GL_ARRAY_BUFFER, instances_);
     point_at_instances(run.first);
@@ -178,7 +185,7 @@ void SceneBuffers::draw_instances() const {
   }
 }
 
-void SceneBuffers::draw_instances(GLuint program) const {
+void SceneBuffers::draw_each_instance(GLuint program) const {
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };

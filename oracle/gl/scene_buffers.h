@@ -4,15 +4,17 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/gl/map_textures.h"
 #include "oracle/gl/objects.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
 
-/// A run of instances, consecutive in the scene, of one mesh: one instanced draw.
+/// A run of instances, consecutive in the scene, of one mesh and, where materials have maps, of one material: one
+/// instanced draw.
 struct InstanceRun {
-  uint32_t mesh = 0;
+  uint32_t mesh = 0, material = 0;
   uint32_t first = 0, count = 0;
 };
 
@@ -36,9 +38,12 @@ class SceneBuffers {
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
-  void draw_instances() const;  ///< every triangle, in submission order
+  /// Every triangle, in submission order, by the program in use; one of GlslOptions::maps where has_maps(), whose
+  /// texture goes to unit 15.
+  void draw_instances() const;
   /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
-  void draw_instances(GLuint program) const;
+  void draw_each_instance(GLuint program) const;
+  bool has_maps() const { return maps_.used(); }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
@@ -54,6 +59,7 @@ class SceneBuffers {
   MeshBuffers upload(const Mesh& mesh, int rotation) const;
 
   const Scene* scene_;
+  MapTextures maps_;
   std::vector<MeshBuffers> meshes_;
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fp_env.h"
+#include "oracle/intervals/map_range.h"
 
 namespace trueshade::oracle {
 
@@ -49,10 +50,25 @@ bool near_a_limit(const GeometryState& state, const Range& z) {
   return z.low <= std::min(near, far) || z.high >= std::max(near, far);
 }
 
+/// What the alpha test leaves of a candidate; false: nothing.
+bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values, double x,
+                double y, Candidate& c) {
+  const Material& material = p.scene().materials[p.scene().instances[c.instance].material];
+  if (!material.masked()) return true;
+  const AlphaVerdict verdict = alpha_verdict(p, material, piece, point, values, x, y);
+  if (!verdict.may_keep) return false;
+  if (!verdict.may_drop) return true;
+  c.certain = false, c.masked = true, c.chance_other = 0.5f;
+  c.nominal = c.nominal && verdict.nominal_keeps;
+  return true;
+}
+
 void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect,
                std::vector<Entry>& out) {
   const GeometryState& state = p.pipeline().geometry;
   const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
+  const bool masked = p.scene().materials[p.scene().instances[base.instance].material].masked();
+  const TriangleValues values = masked ? triangle_values(p, base.instance, base.triangle) : TriangleValues{};
   double largest = 0;
   for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -73,6 +89,7 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
       c.nominal = cover.nominal;
       if (!p.profile().exact_planes && near_a_limit(state, offset ? point.depth() : z))
         c.certain = false, c.cut = true, c.chance_other = 0.5f;
+      if (masked && !test_alpha(p, piece, point, values, x + 0.5, y + 0.5, c)) continue;
       key_range(state, z, order, c);
       out.push_back({uint32_t(y) * uint32_t(p.width()) + uint32_t(x), c});
     }

@@ -15,6 +15,7 @@ struct Candidate {
   uint8_t piece = 0;
   bool certain = false;   ///< covers the sample whatever the profile leaves open
   bool nominal = false;   ///< covers it where vertices are in the middle of their boxes
+  bool masked = false;    ///< its alpha test may go either way
   bool cut = false;       ///< its doubt comes from near, far, w or the sides of the view
   float chance_other = 0; ///< predicted probability that coverage is not the nominal one
   double low = 0, high = 0, middle = 0;  ///< of the test's key: smaller is in front

@@ -5,6 +5,7 @@
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/judge.h"
+#include "oracle/intervals/map_range.h"
 #include "oracle/intervals/patch.h"
 #include "oracle/intervals/tally.h"
 
@@ -43,6 +44,10 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
+    for (const Material& m : scene.materials)
+      if (m.normal_map.used() || (m.specular_map.used() && reads_specular_plane(pipeline.light_model)))
+        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal or specular map cannot be judged yet",
+                    "validate the scene without it");
     candidates_ = find_candidates(projector_);
   }
 
@@ -91,6 +96,13 @@ class GBufferJudge {
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
     const Material& material = projector_.scene().materials[instance.material];
+    const auto texel = color_texel(projector_, material, piece, point, values, sx, sy);
+    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored) {
+      if (texel)
+        m.lookup_is(view, name, k, range, stored, pixel, profile_);
+      else
+        m.channel_is(view, name, k, range, stored, pixel, profile_);
+    };
     for (const AttributePlane& p : planes_)
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
@@ -100,14 +112,17 @@ class GBufferJudge {
           continue;
         }
         Range range = value_of(point, piece, values, p, k);
+        if (p.first == kAlbedo && texel) range = product(range, (*texel)[size_t(k)], profile_);
         if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
         if (p.first == kAlbedo && k < 3) {
           if (specular_)
-            m.channel_is(specular_, "specular", k, specular_of(material, range, k), specular_.stored(x, y_top, k),
-                         pixel, profile_);
+            judge_channel(specular_, "specular", k, specular_of(material, range, k), specular_.stored(x, y_top, k));
           if (maps_metals(pipeline_.light_model)) range = tinted(range, double(1.0f - material.metallic));
         }
-        m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
+        if (p.first == kAlbedo)
+          judge_channel(p.view, p.name, k, range, stored);
+        else
+          m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
       }
     constant_planes(material, x, y_top, pixel, m);
     return m;
@@ -225,7 +240,11 @@ std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Can
 }
 
 PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
-  if (seen == nominal) return !bounded ? PixelClass::undefined : m.second ? PixelClass::store_2 : PixelClass::exact;
+  if (seen == nominal) {
+    if (!bounded) return PixelClass::undefined;
+    return m.tex ? PixelClass::tex : m.second ? PixelClass::store_2 : PixelClass::exact;
+  }
+  if ((seen != nullptr && seen->masked) || (nominal != nullptr && nominal->masked)) return PixelClass::tex;
   const bool doubt = (seen != nullptr && !seen->certain) || (nominal != nullptr && !nominal->certain);
   if (!doubt) return PixelClass::depth_tie;
   const bool cut =

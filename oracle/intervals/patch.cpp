@@ -32,7 +32,7 @@ double patch_key(const Projector& projector, std::span<const Candidate> candidat
   std::vector<DoubtfulEdge> edges;
   const ClipOrigin origin = projector.pipeline().geometry.clip_origin;
   for (const Candidate& c : candidates) {
-    if (c.certain) continue;
+    if (c.certain || c.masked) continue;  // a hole in a mask is no seam
     projector.pieces(c.instance, c.triangle, pieces);
     const Piece& piece = pieces[c.piece];
     const Coverage cover = coverage_at(piece, projector.profile(), origin, x, y);

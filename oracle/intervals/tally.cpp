@@ -57,6 +57,18 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
   return view;
 }
 
+void Match::lookup_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
+                      uint32_t pixel, const Profile& profile) {
+  const bool before = second;
+  const size_t count = choices.size();
+  const uint64_t values = stored_values;
+  second = false;
+  channel_is(view, name, at, range, stored, pixel, profile);
+  tex = tex || second;
+  second = before, stored_values = values;
+  choices.erase(choices.begin() + int64_t(count), choices.end());
+}
+
 void Match::note(const char* name, int at, const LegalTexel& value, double stored, double unit) {
   legal = false;
   const double width = std::isfinite(value.high - value.low) ? value.high - value.low : 0;

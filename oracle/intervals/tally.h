@@ -32,6 +32,7 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
 /// How one pixel fares against one surface.
 struct Match {
   bool legal = true;
+  bool tex = false;        ///< some channel took a value that another legal lookup gives
   bool second = false;     ///< some channel took a neighbour that is not the nominal one
   double worst_error = 0;  ///< float channels: |given - value| / bound
   double excess = 0;       ///< of the worst channel outside its range
@@ -45,6 +46,9 @@ struct Match {
   /// Judges one channel.
   void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                   uint32_t pixel, const Profile& profile);
+  /// The same of a channel that a texture lookup decides: another legal value is TEX, and no rounding to be counted.
+  void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
+                 uint32_t pixel, const Profile& profile);
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 

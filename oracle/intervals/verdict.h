@@ -16,7 +16,7 @@ enum class PixelClass : uint8_t {
   depth_tie,  ///< another surface, whose depth the profile cannot tell from the nominal one's
   clip,       ///< another surface, at an edge made by clipping
   branch,     ///< a comparison in the shader may go either way
-  tex,        ///< a texture lookup has several legal results; no preset of today has a texture
+  tex,        ///< a texture lookup, or the alpha test it decides, has several legal results
   undefined,  ///< OpenGL gives the value no meaning: normalize(0), a triangle that may have no area
   violation,  ///< in no legal set
 };

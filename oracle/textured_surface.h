@@ -1,0 +1,25 @@
+#pragma once
+// What maps make of a fragment: docs/arithmetic.md section 13 read as mathematics.
+#include <optional>
+
+#include "oracle/scalar_renderer.h"
+#include "oracle/texture_lookup.h"
+
+namespace trueshade::oracle {
+
+/// Texture coordinates at pixel (x, y), rounded to float as the renderer hands them to lookups, and the exact planes'
+/// derivatives.
+TexturePlace texture_place(const DrawnTriangle& triangle, Interpolation interpolation, int x, int y);
+
+/// Vertex colour times texel times base colour.
+struct SurfaceColor {
+  Rgba value;
+  bool certain = true;  ///< false where a lookup is so close to another texel, level or filter that rounding decides
+};
+SurfaceColor surface_color(const Scene& scene, const GBufferState& planes, const DrawnTriangle& triangle, int x, int y);
+
+/// Whether the alpha test drops the fragment; nothing where its alpha is too close to the cutoff to tell.
+std::optional<bool> discarded(const Scene& scene, const GBufferState& planes, const DrawnTriangle& triangle, int x,
+                              int y);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,353 @@
+// Triangles whose box holds at most 4x4 samples, a lane a triangle: rejected, covered and tested for depth many at a
+// time, with the bits of triangle_setup.h, coverage-inl.h and commit-inl.h. Included once per SIMD target.
+// docs/arithmetic.md sections 4 to 6.
+//
+// Corners are packed into 32 bits, y above x, both relative to the middle of the tile and below 2^14 in magnitude. So a
+// signed compare of two of them is the canonical order (y, x), a difference fits 16 bits, the difference of a corner
+// and a sample of the tile (at most 2^13 from its middle) is below 24,576, and with that every edge function and area,
+// a difference of two products, is below 2^31.
+#if defined(TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
+#undef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
+#else
+#define TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <iterator>
+
+#include "raster/commit-inl.h"
+#include "raster/triangle_setup.h"
+#include "raster/vertex_stage-inl.h"
+#include "raster/visibility.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DT = hn::ScalableTag<int32_t>;  // a lane is a triangle
+using VT = hn::Vec<DT>;
+
+inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
+// Lists are written a whole vector at a time, and are a multiple of every vector long.
+inline constexpr size_t kMostCandidates = 144, kMostFragments = 1024;
+static_assert(kClusterTriangles + 16 <= kMostCandidates && 16 * 16 + 16 <= kMostFragments);
+
+/// A cluster's triangles that have a sample in their box and the tile.
+struct TriangleList {
+  alignas(64) int32_t corner[3][kMostCandidates];  ///< packed; of the small ones only
+  alignas(64) int32_t word[kMostCandidates];       ///< corners' vertices and triangle, a byte each
+  int count = 0;
+};
+
+struct Candidates {
+  TriangleList upto_2, upto_4;                 ///< at most 2x2 and 4x4 samples
+  alignas(64) int32_t other[kMostCandidates];  ///< words, as above
+  int others = 0;
+};
+
+/// Fragments of a cluster's small triangles.
+struct FragmentList {
+  static constexpr size_t kMost = 4 * kMostCandidates;
+  alignas(64) int32_t e1[kMostFragments], e2[kMostFragments], area[kMostFragments], word[kMostFragments],
+      at[kMostFragments];
+  int count = 0;
+  alignas(64) double corner_z[3][kMostFragments];
+  alignas(64) float z[kMostFragments];
+};
+
+/// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
+struct ClusterScratch {
+  WindowVertices vertices;
+  AlphaTest alpha;  ///< of the cluster at work, where its material has one
+  alignas(64) int32_t packed[kClusterVertices];
+  alignas(64) uint8_t triangle[kMostCandidates];
+  Candidates found;
+  FragmentList fragments;
+};
+
+/// Where the corners fit, packs them; `middle` is that of the tile, in 1/256 pixel from its first sample.
+HWY_INLINE void pack_corners(const WindowVertices& v, int count, int32_t middle, int32_t* packed) {
+  const DT d;
+  const VT shift_x = hn::Set(d, kPackedLimit - middle), shift_y = hn::Set(d, middle);
+  for (int i = 0; i < count; i += int(hn::Lanes(d))) {
+    const VT x = hn::Add(hn::Load(d, v.x + i), shift_x), y = hn::Sub(hn::Load(d, v.y + i), shift_y);
+    hn::Store(hn::Or(hn::ShiftLeft<16>(y), x), d, packed + i);
+  }
+}
+
+/// packed[index] for indices below 64. Permutations of registers where 16 lanes make them possible: a gather is slower.
+HWY_INLINE VT corner_at(const int32_t* packed, VT index) {
+  const DT d;
+  if constexpr (hn::MaxLanes(d) == 16) {
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(d, 15)));
+    const auto in_odd = hn::Ne(hn::And(index, hn::Set(d, 16)), hn::Zero(d));
+    const auto in_upper = hn::Gt(index, hn::Set(d, 31));
+    const VT lower = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 16), lane),
+                                    hn::TableLookupLanes(hn::Load(d, packed), lane));
+    const VT upper = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 48), lane),
+                                    hn::TableLookupLanes(hn::Load(d, packed + 32), lane));
+    return hn::IfThenElse(in_upper, upper, lower);
+  } else {
+    return hn::GatherIndex(d, packed, index);
+  }
+}
+
+HWY_INLINE VT lower_half(VT packed) { return hn::And(packed, hn::Set(DT(), 0xFFFF)); }
+HWY_INLINE VT upper_half(VT packed) { return hn::ShiftRight<16>(packed); }
+HWY_INLINE VT least_of(VT a, VT b, VT c) { return hn::Min(hn::Min(a, b), c); }
+HWY_INLINE VT most_of(VT a, VT b, VT c) { return hn::Max(hn::Max(a, b), c); }
+
+/// The samples of a tile in packed coordinates: those of pixel column i are at (i + first_x) * 256.
+struct PackedLimits {
+  int first_x, first_y;  ///< what is added to a pixel's column and row
+  int low_x, low_y, last_x, last_y;
+
+  explicit PackedLimits(const TileRect& rect)
+      : first_x(kPackedLimit / 256 - rect.size / 2),
+        first_y(-rect.size / 2),
+        low_x(rect.limit[0] + first_x),
+        low_y(rect.limit[1] + first_y),
+        last_x(rect.limit[2] - 1 + first_x),
+        last_y(rect.limit[3] - 1 + first_y) {}
+};
+
+HWY_INLINE void append(TriangleList& out, hn::Mask<DT> which, VT p0, VT p1, VT p2, VT word) {
+  const DT d;
+  const int n = out.count;
+  hn::StoreU(hn::Compress(p0, which), d, out.corner[0] + n);
+  hn::StoreU(hn::Compress(p1, which), d, out.corner[1] + n);
+  hn::StoreU(hn::Compress(p2, which), d, out.corner[2] + n);
+  hn::StoreU(hn::Compress(word, which), d, out.word + n);
+  out.count = n + int(hn::CountTrue(d, which));
+}
+
+/// Sorts a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, at most 4x4, more.
+HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh, const Cluster& cluster,
+                                const PackedLimits& limit, Candidates& out) {
+  const DT d;
+  const hn::Rebind<uint8_t, DT> d8;
+  const uint8_t* corner[3];
+  for (size_t k = 0; k < 3; ++k) corner[k] = mesh.corner[k].data() + cluster.first_triangle;
+  const VT low_x = hn::Set(d, limit.low_x), low_y = hn::Set(d, limit.low_y), last_x = hn::Set(d, limit.last_x),
+           last_y = hn::Set(d, limit.last_y), round_up = hn::Set(d, 255);
+  VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
+  const VT next = hn::Set(d, int32_t(hn::Lanes(d)) << 24);
+  out.upto_2.count = out.upto_4.count = out.others = 0;
+  for (int t = 0; t < cluster.triangles; t += int(hn::Lanes(d))) {
+    const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t)), i1 = hn::PromoteTo(d, hn::LoadU(d8, corner[1] + t)),
+             i2 = hn::PromoteTo(d, hn::LoadU(d8, corner[2] + t));
+    const VT p0 = corner_at(packed, i0), p1 = corner_at(packed, i1), p2 = corner_at(packed, i2);
+    const VT x0 = lower_half(p0), x1 = lower_half(p1), x2 = lower_half(p2);
+    // y above x: the order of whole words is that of y, so their least and most have its.
+    const VT bottom = upper_half(least_of(p0, p1, p2)), top = upper_half(most_of(p0, p1, p2));
+    const VT first_x = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), low_x);
+    const VT first_y = hn::Max(hn::ShiftRight<8>(hn::Add(bottom, round_up)), low_y);
+    const VT columns = hn::Sub(hn::Min(hn::ShiftRight<8>(most_of(x0, x1, x2)), last_x), first_x);
+    const VT rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), last_y), first_y);  // one less than their number
+    const auto present = hn::FirstN(d, size_t(cluster.triangles - t));
+    const auto sampled = hn::And(present, hn::Gt(hn::Or(columns, rows), hn::Set(d, -1)));
+    const auto upto_2 = hn::And(sampled, hn::Lt(hn::Or(columns, rows), hn::Set(d, 2)));  // both are 0 or 1
+    const VT word = hn::Or(hn::Or(i0, hn::ShiftLeft<8>(i1)), hn::Or(hn::ShiftLeft<16>(i2), number));
+    number = hn::Add(number, next);
+    append(out.upto_2, upto_2, p0, p1, p2, word);
+    const auto larger = hn::AndNot(upto_2, sampled);
+    if (hn::AllFalse(d, larger)) continue;
+    const auto upto_4 = hn::And(larger, hn::Lt(hn::Or(columns, rows), hn::Set(d, 4)));
+    const auto other = hn::AndNot(upto_4, larger);
+    append(out.upto_4, upto_4, p0, p1, p2, word);
+    hn::StoreU(hn::Compress(word, other), d, out.other + out.others);
+    out.others += int(hn::CountTrue(d, other));
+  }
+}
+
+/// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
+/// negative. A column on it is `across` less, a row on `up` more.
+struct SmallEdge {
+  VT first, across, up, not_owned;  ///< the last 0 or 1
+
+  HWY_INLINE void set(VT ax, VT ay, VT bx, VT by, VT sign, VT sample_x, VT sample_y, bool upper_left) {
+    const DT d;
+    const VT dx = hn::Sub(hn::Xor(hn::Sub(bx, ax), sign), sign), dy = hn::Sub(hn::Xor(hn::Sub(by, ay), sign), sign);
+    // Negative for dy < 0, and for dy = 0 where dx has the owning sign.
+    const VT slope = hn::ShiftLeft<16>(dy);
+    not_owned = hn::Add(hn::BroadcastSignBit(upper_left ? hn::Add(slope, dx) : hn::Sub(slope, dx)), hn::Set(d, 1));
+    const VT e = hn::Sub(hn::Mul(dx, hn::Sub(sample_y, ay)), hn::Mul(dy, hn::Sub(sample_x, ax)));
+    first = hn::Sub(e, not_owned);
+    across = hn::ShiftLeft<8>(dy);
+    up = hn::ShiftLeft<8>(dx);
+  }
+};
+
+/// Place of a pixel in the tile's planes, column and row apart: tile_index() is their sum.
+HWY_INLINE VT column_index(VT x) {
+  const DT d;
+  return hn::Add(hn::ShiftLeft<4>(hn::ShiftRight<2>(x)), hn::And(x, hn::Set(d, 3)));
+}
+HWY_INLINE VT row_index(VT y, int size) {
+  const DT d;
+  return hn::Add(hn::Mul(hn::ShiftRight<2>(y), hn::Set(d, size * kBlockSize)),
+                 hn::ShiftLeft<2>(hn::And(y, hn::Set(d, 3))));
+}
+
+/// Lists the covered samples of the vector of triangles at `i`, whose boxes hold at most kSide x kSide samples.
+template <int kSide>
+HWY_INLINE void cover_small(const TriangleList& in, int i, const GeometryState& state, bool upper_left,
+                            const TileRect& rect, const PackedLimits& limit, FragmentList& out) {
+  const DT d;
+  const VT round_up = hn::Set(d, 255), zero = hn::Zero(d);
+  const bool drop_positive = culled(state, !upper_left), drop_negative = culled(state, upper_left);
+  const VT p0 = hn::Load(d, in.corner[0] + i), p1 = hn::Load(d, in.corner[1] + i), p2 = hn::Load(d, in.corner[2] + i);
+  const VT word = hn::Load(d, in.word + i);
+  // Canonical order: smallest (y, x) first, the others as they follow.
+  const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
+  const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
+  const VT q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
+  const VT q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
+  const VT q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
+  const VT corners = hn::And(word, hn::Set(d, 0xFFFFFF));
+  const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
+  const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
+  const VT vertices =
+      hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
+  const VT named = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), word));
+
+  const VT x0 = lower_half(q0), x1 = lower_half(q1), x2 = lower_half(q2);
+  const VT y0 = upper_half(q0), y1 = upper_half(q1), y2 = upper_half(q2);
+  const VT area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
+  const VT sign = hn::BroadcastSignBit(area);
+  auto drawn = hn::And(hn::FirstN(d, size_t(in.count - i)), hn::Ne(area, zero));
+  if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
+  if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
+
+  const VT column = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), hn::Set(d, limit.low_x));
+  const VT row = hn::Max(hn::ShiftRight<8>(hn::Add(y0, round_up)), hn::Set(d, limit.low_y));
+  const VT sample_x = hn::ShiftLeft<8>(column), sample_y = hn::ShiftLeft<8>(row);
+  SmallEdge e0, e1, e2;
+  e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, upper_left);
+  e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, upper_left);
+  e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, upper_left);
+  const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
+  const VT size = hn::Sub(hn::Xor(area, sign), sign), past_x = hn::Set(d, limit.last_x + 1),
+           past_y = hn::Set(d, limit.last_y + 1);
+  VT at_x[kSide];
+  for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
+  for (int y = 0; y < kSide; ++y) {
+    const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), rect.size);
+    const auto in_rows = y == 0 ? drawn : hn::And(drawn, hn::Lt(hn::Add(row, hn::Set(d, y)), past_y));
+    VT f0 = e0.first, f1 = e1.first, f2 = e2.first;
+    for (int x = 0; x < kSide; ++x) {
+      auto covered = hn::And(in_rows, hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(d, -1)));
+      if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
+      const int n = out.count;
+      hn::StoreU(hn::Compress(hn::Add(f1, e1.not_owned), covered), d, out.e1 + n);
+      hn::StoreU(hn::Compress(hn::Add(f2, e2.not_owned), covered), d, out.e2 + n);
+      hn::StoreU(hn::Compress(size, covered), d, out.area + n);
+      hn::StoreU(hn::Compress(named, covered), d, out.word + n);
+      hn::StoreU(hn::Compress(hn::Add(at_x[x], at_y), covered), d, out.at + n);
+      out.count = n + int(hn::CountTrue(d, covered));
+      f0 = hn::Sub(f0, e0.across);
+      f1 = hn::Sub(f1, e1.across);
+      f2 = hn::Sub(f2, e2.across);
+    }
+    e0.first = hn::Add(e0.first, e0.up);
+    e1.first = hn::Add(e1.first, e1.up);
+    e2.first = hn::Add(e2.first, e2.up);
+  }
+}
+
+/// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
+HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthCommit& commit) {
+  const D64 d;
+  const D32 df;
+  const I32 di;
+  double(&z)[3][kMostFragments] = in.corner_z;
+  const int padded = (in.count + int(hn::Lanes(d)) - 1) / int(hn::Lanes(d)) * int(hn::Lanes(d));
+  for (int i = 0; i < in.count; ++i) {
+    const uint32_t word = uint32_t(in.word[i]);
+    z[0][i] = vertex_z[word & 255];
+    z[1][i] = vertex_z[(word >> 8) & 255];
+    z[2][i] = vertex_z[(word >> 16) & 255];
+  }
+  for (int i = in.count; i < padded; ++i) z[0][i] = z[1][i] = z[2][i] = 0.0;
+  for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
+    const V64 z0 = hn::Load(d, z[0] + i), z1 = hn::Load(d, z[1] + i), z2 = hn::Load(d, z[2] + i);
+    const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
+    const V64 e1 = hn::PromoteTo(d, hn::Load(di, in.e1 + i)), e2 = hn::PromoteTo(d, hn::Load(di, in.e2 + i));
+    const V64 g1 = hn::Div(hn::Sub(z1, z0), size), g2 = hn::Div(hn::Sub(z2, z0), size);
+    const auto rising = hn::Lt(z1, z2);
+    const V64 low = hn::IfThenElse(rising, z1, z2), high = hn::IfThenElse(rising, z2, z1);
+    const V64 z_low = hn::IfThenElse(hn::Lt(z0, low), z0, low), z_high = hn::IfThenElse(hn::Gt(z0, high), z0, high);
+    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
+    const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
+    const V64 in_range =
+        hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
+    V32 depth = hn::DemoteTo(df, in_range);
+    if (commit.rule.largest_code != 0.0f) {
+      const V32 largest = hn::Set(df, commit.rule.largest_code);
+      depth = hn::Div(hn::Round(hn::Mul(depth, largest)), largest);
+    }
+    hn::Store(depth, df, in.z + i);
+  }
+}
+
+/// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
+/// triangle.
+HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
+                                 DepthCommit& commit) {
+  commit.fragments += uint64_t(fragments.count);
+  fragment_depths(fragments, vertex_z, commit);
+  const float* z = fragments.z;
+  uint64_t changed[kMaxTilePixels / kBlockPixels / 64] = {};
+  const bool first_wins = commit.func == DepthFunc::less;
+  for (int i = 0; i < fragments.count; ++i) {  // no branch on what the depth test says: it is anyone's guess
+    const size_t at = size_t(fragments.at[i]);
+    const uint32_t id = first_id + ((uint32_t(fragments.word[i]) >> 24) << 1), there_id = commit.tile.id[at];
+    const float there = commit.tile.depth[at];
+    const bool wins_tie = (id < there_id) == first_wins;
+    const bool pass = bool(int(z[i] < there) | (int(z[i] == there) & int(wins_tie)));
+    const uint32_t mask = 0u - uint32_t(pass), there_bits = std::bit_cast<uint32_t>(there);
+    commit.tile.depth[at] = std::bit_cast<float>(there_bits ^ ((there_bits ^ std::bit_cast<uint32_t>(z[i])) & mask));
+    commit.tile.id[at] = there_id ^ ((there_id ^ id) & mask);
+    changed[at / (64 * kBlockPixels)] |= uint64_t(pass) << (at / kBlockPixels % 64);
+  }
+  for (size_t k = 0; k < std::size(changed); ++k)
+    for (uint64_t rest = changed[k]; rest != 0; rest &= rest - 1)
+      commit.finish_block(int(64 * k) + std::countr_zero(rest));
+  fragments.count = 0;
+}
+
+/// Draws a cluster's small triangles under LESS or LEQUAL.
+template <int kSide>
+HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z, const GeometryState& state,
+                           bool upper_left, const TileRect& rect, const PackedLimits& limit, uint32_t first_id,
+                           FragmentList& fragments, DepthCommit& commit) {
+  const int lanes = int(hn::Lanes(DT()));
+  for (int i = 0; i < triangles.count; i += lanes) {
+    if (fragments.count + (kSide * kSide + 1) * lanes > int(kMostFragments))
+      commit_fragments(fragments, vertex_z, first_id, commit);
+    cover_small<kSide>(triangles, i, state, upper_left, rect, limit, fragments);
+  }
+}
+
+/// Draws those of a cluster's triangles whose box holds at most 4x4 samples, without polygon offset; the others are
+/// left in `work.found.other`. Its vertices are in `work`, none needs care and all are within kPackedLimit of the
+/// tile's middle.
+inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const GeometryState& state,
+                                 bool upper_left, const TileRect& rect, uint32_t first_id, ClusterScratch& work,
+                                 DepthCommit& commit) {
+  const PackedLimits limit(rect);
+  const double* z = work.vertices.z;
+  FragmentList& fragments = work.fragments;
+  pack_corners(work.vertices, cluster.vertices, rect.size * 128, work.packed);
+  find_candidates(work.packed, mesh, cluster, limit, work.found);
+  draw_small<2>(work.found.upto_2, z, state, upper_left, rect, limit, first_id, fragments, commit);
+  draw_small<4>(work.found.upto_4, z, state, upper_left, rect, limit, first_id, fragments, commit);
+  if (fragments.count != 0) commit_fragments(fragments, z, first_id, commit);
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

@@ -1,0 +1,147 @@
+// Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups do
+// not.
+#include <catch2/catch.hpp>
+#include <cstdio>
+
+#include "oracle/gl/renderer.h"
+#include "oracle/intervals/validate.h"
+#include "scenes/presets.h"
+#include "scenes/shapes.h"
+#include "scenes/texture_pattern.h"
+#include "tests/intervals/captured.h"
+#include "tests/intervals/drivers.h"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+using namespace trueshade::testing;
+
+namespace {
+
+constexpr int kWidth = 200, kHeight = 150;
+
+Mesh with_uv(Mesh mesh, float times) {
+  mesh.uv = {};
+  for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+    mesh.uv[0].push_back((mesh.position[0][v] + 0.37f * mesh.position[1][v]) * times);
+    mesh.uv[1].push_back((mesh.position[2][v] - 0.21f * mesh.position[1][v]) * times);
+  }
+  return mesh;
+}
+
+/// A floor that runs to the horizon, a wall and a ball with holes, in all formats, wraps and filters by turns.
+Scene textured_room(int variant) {
+  Scene scene;
+  scene.spec = "textured room " + std::to_string(variant);
+  scene.meshes = {with_uv(plane_mesh(14), 8.0f), with_uv(sphere_mesh(28), 1.3f)};
+  const Pattern patterns[] = {Pattern::checker, Pattern::brick, Pattern::noise};
+  for (int i = 0; i < 3; ++i) {
+    TexturePattern p;
+    p.pattern = patterns[i];
+    p.width = i == 1 ? 96 : 128, p.height = i == 1 ? 60 : 128;
+    p.format = TextureFormat((variant + i) % 4);
+    p.colors = {glm::vec4(0.9f, 0.6f, 0.3f, 1.0f), glm::vec4(0.1f, 0.2f, 0.5f, 0.0f)};
+    scene.textures.push_back(texture_of(p));
+    build_mip_chain(scene.textures.back());
+    Material m;
+    m.base_color = {0.9f, 1.0f, 0.8f, 1.0f};
+    m.color_map.texture = i;
+    Sampler& s = m.color_map.sampler;
+    s.wrap = {Wrap((variant + i) % 5), Wrap((variant + 2 * i) % 5)};
+    s.mag_filter = Filter((variant + i) % 2), s.min_filter = Filter((variant / 2 + i) % 2);
+    s.mip_filter = MipFilter((variant + 2 * i) % 3);
+    s.lod_bias = variant % 3 == 2 ? -0.75f : 0.0f;
+    s.border = {0.5f, 0.25f, 0.125f, 1.0f};
+    m.alpha_cutoff = i == 2 ? 0.45f : 0.0f;
+    scene.materials.push_back(m);
+  }
+  scene.instances = {{0, 0, glm::mat4x3(glm::vec3(6, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 12), glm::vec3(0, -1, -3))},
+                     {0, 1, glm::mat4x3(glm::vec3(4, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -3, 0.5f), glm::vec3(0, 0, -4))},
+                     {1, 2, glm::mat4x3(glm::vec3(0.8f, 0, 0), glm::vec3(0, 0.8f, 0), glm::vec3(0, 0, 0.8f), glm::vec3(0.2f, 0, -1.5f))}};
+  Light light;
+  light.position = {1, 2, 1};
+  light.range = 10.0f;
+  scene.lights = {light};
+  scene.camera.eye = {0.1f, 0.2f, 1.5f};
+  scene.camera.near = 0.1f, scene.camera.far = 50.0f;
+  return scene;
+}
+
+Pipeline pipeline_of() {
+  Pipeline pipeline = presets().front().pipeline;
+  pipeline.width = kWidth, pipeline.height = kHeight;
+  return pipeline;
+}
+
+Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const char* profile_name, int bits) {
+  Profile profile = *profile_named(profile_name);
+  if (profile.name == "unknown") profile.subpixel_bits = bits;
+  const Verdict v = validate_capture(scene, pipeline, capture, {profile, false});
+  for (const StageVerdict& s : v.stages) {
+    std::printf("%-16s %-19s %-9s", scene.spec.c_str(), profile_name, s.stage.c_str());
+    for (size_t c = 0; c < kPixelClasses; ++c)
+      if (s.counts[c] > 0)
+        std::printf(" %s %llu", std::string(text(PixelClass(c))).c_str(), static_cast<unsigned long long>(s.counts[c]));
+    std::printf("\n");
+  }
+  return v;
+}
+
+TEST_CASE("Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU") {
+  for (int variant = 0; variant < 12; ++variant) {
+    const Scene scene = textured_room(variant);
+    const Pipeline pipeline = pipeline_of();
+    const Capture capture = captured(scene, pipeline);
+    for (const char* profile : {"ideal", "unknown"}) {
+      const Verdict v = judged(scene, pipeline, capture, profile, 8);
+      INFO(verdict_json(v));
+      CHECK(v.violations() == 0);
+    }
+  }
+}
+
+TEST_CASE("What llvmpipe makes of textures is legal: every format, wrap and filter, and masks") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  uint64_t pixels = 0, tex = 0;
+  for (int variant = 0; variant < 12; ++variant) {
+    const Scene scene = textured_room(variant);
+    const Pipeline pipeline = pipeline_of();
+    GlRenderer renderer(*context, scene);
+    const Capture capture = renderer.draw(pipeline).capture;
+    const Verdict v = judged(scene, pipeline, capture, "unknown", context->info().subpixel_bits);
+    INFO(verdict_json(v));
+    CHECK(v.violations() == 0);
+    tex += v.stages[0].count(PixelClass::tex);
+    pixels += v.stages[0].covered;
+  }
+  CHECK(pixels > 12 * 10000);
+  CHECK(tex > 0);
+}
+
+TEST_CASE("Wrong lookups are violations: another wrap, another filter, a shifted texture, a mask not applied") {
+  const Scene scene = textured_room(4);  // magnified and minified surfaces of all patterns
+  const Pipeline pipeline = pipeline_of();
+  const auto violations = [&](auto&& change) {
+    Scene wrong = scene;
+    change(wrong);
+    return judged(scene, pipeline, captured(wrong, pipeline), "unknown", 8).violations();
+  };
+  CHECK(violations([](Scene&) {}) == 0);
+  CHECK(violations([](Scene& s) { s.materials[2].alpha_cutoff = 0.0f; }) > 50);
+  CHECK(violations([](Scene& s) { s.materials[2].alpha_cutoff = 0.6f; }) > 20);
+  for (int i = 0; i < 3; ++i) {
+    INFO("material " << i);
+    const auto half_a_texel = [i](Scene& s) {  // of the texture, not of the picture
+      const size_t mesh = s.instances[size_t(i)].mesh;
+      for (float& u : s.meshes[mesh].uv[0]) u += 0.13f;
+    };
+    CHECK(violations(half_a_texel) > 100);
+    CHECK(violations([i](Scene& s) {
+            Texture& t = s.textures[size_t(i)];
+            t.format = t.format == TextureFormat::rgba8 ? TextureFormat::srgb8_a8 : t.format == TextureFormat::srgb8_a8 ? TextureFormat::rgba8 : t.format;
+            if (t.format >= TextureFormat::rgba16f) t.levels.resize(1), s.materials[size_t(i)].base_color.x *= 0.9f;
+          }) > 100);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,20 @@
+#pragma once
+#include <random>
+
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+#include "tests/raster/window_scene.h"
+
+namespace trueshade::testing {
+
+using Random = std::mt19937_64;
+double between(Random& random, double low, double high);
+
+/// Meshes of random triangles and small grids, drawn by turned, scaled and mirrored instances.
+Scene random_scene(Random& random);
+Pipeline random_pipeline(Random& random);
+
+/// Gives every material of a scene a colour map, some a normal map, some an alpha cutoff; any format, wrap and filter.
+void add_maps(Random& random, Scene& scene);
+
+}  // namespace trueshade::testing
