@@ -60,10 +60,66 @@ Preset punctual() {
           p};
 }
 
+Preset lecture() {
+  Pipeline p;
+  p.preset = "lecture";
+  p.gbuffer.albedo.format = Format::rgba32f;
+  LightModel& m = p.light_model;
+  m.falloff = Falloff::none;
+  m.cone = Cone::smooth_cutoff;
+  m.specular = Specular::none;
+  m.order = TermOrder::albedo_last;  // e is summed, the albedo multiplies it once
+  m.alpha_from_albedo = true;
+  p.strategy = Strategy::forward_loop;
+  return {"lecture", "Lecture notes on lights for rasterization: forward multi-pass, forward light loop, deferred", p};
+}
+
+Preset light_volumes() {
+  Pipeline p;
+  p.preset = "light-volumes";
+  p.light_model.renormalize = false;
+  p.light_model.specular = Specular::none;
+  p.light_volumes.point = p.light_volumes.spot = LightExtent::box;
+  p.light_volumes.cull_face = CullFace::front;  // a box is drawn though the eye is inside
+  p.strategy = Strategy::deferred_volumes;
+  return {"light-volumes",
+          "A paper on deferred rendering with light volumes after Thaler (2010): its formula as meant, boxes about the "
+          "lights, glBlendFunc(GL_ONE, GL_ONE)",
+          p};
+}
+
+Preset light_volumes_literal() {
+  Pipeline p = light_volumes().pipeline;
+  p.preset = "light-volumes-literal";
+  p.light_model.falloff = Falloff::linear;
+  p.light_model.diffuse = Diffuse::unclamped;
+  return {"light-volumes-literal", "The same paper, its formula as printed: nothing is clamped", p};
+}
+
+Preset redsdk() {
+  Pipeline p;
+  p.preset = "redsdk";
+  for (PlaneState* plane : {&p.gbuffer.position, &p.gbuffer.normal, &p.gbuffer.albedo, &p.gbuffer.uv})
+    plane->format = Format::rgb16f;
+  LightModel& m = p.light_model;
+  m.falloff = Falloff::none;
+  m.cone = Cone::smooth_penumbra;
+  m.specular = Specular::phong;
+  m.specular_source = SpecularSource::albedo;
+  m.specular_masked = false;
+  m.shininess = 60.0f;
+  p.light_volumes.point = LightExtent::sphere;
+  p.light_volumes.spot = LightExtent::cone;
+  p.light_volumes.cull_face = CullFace::back;
+  p.strategy = Strategy::deferred_volumes;
+  return {"redsdk", "REDsdk tutorial: Deferred shading using multiple render targets", p};
+}
+
 }  // namespace
 
 std::span<const Preset> presets() {
-  static const std::array<Preset, 4> rows{many_lights(), touchdesigner(), gl_fixed(), punctual()};
+  static const std::array<Preset, 8> rows{many_lights(),   touchdesigner(),         gl_fixed(), punctual(), lecture(),
+                                          light_volumes(), light_volumes_literal(), redsdk()};
   return rows;
 }
 

@@ -118,6 +118,10 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
 
 void GlPeer::Work::draw_scene(GLuint program) {
   glUseProgram(program);
+  constexpr int kLastUnit = 15;  // the others belong to planes and lights
+  if (reads_materials(pipeline.light_model))
+    bind_texture(program, "materials", kLastUnit, GL_TEXTURE_BUFFER,
+                 renderer.buffers().material_texels(pipeline.light_model));
   if (options.instance_uniforms)
     renderer.buffers().draw_each_instance(program);
   else

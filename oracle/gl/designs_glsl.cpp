@@ -97,7 +97,8 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
         loop_text(model, "records", "first", "end");
   if (design == GlDesign::forward_loop) text += loop_text(model, "lights", "0", "light_count");
   if (design == GlDesign::forward_multipass)
-    text += target_text(model, "light < 0 ? vec3(0.0) : " + lit_call_text(model, "lights", "light"));
+    text += target_text(model, "(light <= 0 ? " + sum_start_text(model) + " : vec3(0.0)) + (light < 0 ? vec3(0.0) : " +
+                                   lit_call_text(model, "lights", "light") + ")");
   return text + "}\n";
 }
 
@@ -125,7 +126,7 @@ std::string base_fragment_text(const Pipeline& p, const GlslOptions& options) {
   return glsl_header(options.version, "black where there is a surface") + surface_uniforms_text(p, options) +
          "layout(location = 0) out vec4 target;\n"
          "vec3 unit(vec3 v) { return v; }  // what comes of it is not used\n\nvoid main() {\n" +
-         read_surface_text(p, options) + target_text(p.light_model, "vec3(0.0)") + "}\n";
+         read_surface_text(p, options) + target_text(p.light_model, sum_start_text(p.light_model)) + "}\n";
 }
 
 std::string empty_fragment_text(int version) { return glsl_header(version, "depth alone") + "void main() {}\n"; }

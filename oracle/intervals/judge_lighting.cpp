@@ -180,8 +180,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   if (!covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_at(x, y);
-  const LitRange lit =
-      lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic, profile_.exact_planes);
+  const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic,
+                                 profile_.exact_planes, pipeline_.light_volumes);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;
@@ -228,7 +228,8 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture) {
   if (blends_lights(pipeline.strategy))
-    throw Error(ErrorKind::usage, "strategy", std::string(name_of(pipeline.strategy)) + " is not judged: its lights are blended draw by draw",
+    throw Error(ErrorKind::usage, "strategy",
+                std::string(name_of(pipeline.strategy)) + " is not judged: its lights are blended draw by draw",
                 "forward-loop or deferred-loop");
   const Profile p = resolved(profile, pipeline);
   const LightingJudge judge(scene, pipeline, p, capture);

@@ -49,8 +49,8 @@ Bounded smoothstep(const Arithmetic& a, const Bounded& e0, const Bounded& e1, co
 class LightSum {
  public:
   LightSum(const ShadedSurface& s, const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
-           const Arithmetic& a, bool exact)
-      : surface_(s), model_(model), a_(a), exact_(exact) {
+           const Arithmetic& a, bool exact, const LightVolumes& volumes)
+      : surface_(s), model_(model), volumes_(volumes), a_(a), exact_(exact) {
     undefined_ = !exact && model.renormalize && is_zero(s.normal);
     normal_ = model.renormalize ? unit(a, s.normal) : s.normal;
     if (model.renormalize && is_zero(s.normal)) normal_ = {};
@@ -86,9 +86,15 @@ class LightSum {
       }
       to_light = unit(a_, offset);
       if (is_zero(offset)) t.undefined = !exact_, to_light = {};
-      strength = falloff_at(dot(a_, offset, offset), light);
+      const Bounded d2 = dot(a_, offset, offset);
+      if (!inside_extent(square_root(a_, d2), light, t)) {
+        t.in_range = t.maybe_in_range = false;
+        return t;
+      }
+      strength = falloff_at(d2, light);
       if (light.type == LightType::spot && model_.cone != Cone::none)
         strength = product(a_, strength, cone_at(light, to_light, t));
+      if (t.either_way) t.in_range = false;
       if (model_.falloff != Falloff::linear) {
         t.in_range = strength.low() > 0 && !t.either_way, t.maybe_in_range = strength.high() > 0;
         if (!t.maybe_in_range) return t;
@@ -111,6 +117,16 @@ class LightSum {
   Bounded color_of(const Light& light, size_t k) const {
     const Bounded color{double(light.color[int(k)]), 0};
     return model_.damping == 1.0f ? color : product(a_, color, {double(model_.damping), 0});
+  }
+
+  /// False where the light's extent surely leaves the pixel out; sets either_way and dark where it may.
+  bool inside_extent(const Bounded& d, const Light& light, LightTerm& t) const {
+    const LightExtent extent = light.type == LightType::spot ? volumes_.spot : volumes_.point;
+    if (extent == LightExtent::unbounded || !std::isfinite(light.range)) return true;
+    if (d.low() >= double(light.range)) return false;
+    t.either_way = d.high() >= double(light.range);
+    t.dark = d.value >= double(light.range);
+    return true;
   }
 
   /// Beyond the range by more than any rounding: nine roundings separate the computed distance from the real one.
@@ -176,8 +192,9 @@ class LightSum {
     const bool power_of_cosine = model_.cone == Cone::exponent;
     if (power_of_cosine && float(outer_rad) >= 3.14159265f) return {1, 0};
     if (c.high() < e0.low()) return {0, 0};
-    t.either_way = c.low() <= e0.high();
-    t.dark = t.either_way && (power_of_cosine ? c.value < e0.value : c.value <= e0.value);
+    const bool at_edge = c.low() <= e0.high();
+    t.either_way = t.either_way || at_edge;
+    t.dark = t.dark || (at_edge && (power_of_cosine ? c.value < e0.value : c.value <= e0.value));
     if (!power_of_cosine) return {1, 0};
     const Bounded x = positive(c);
     if (!exact_ && light.spot_exponent == 0.0f && x.low() <= 0) return {1, 0};
@@ -268,6 +285,7 @@ class LightSum {
 
   const ShadedSurface& surface_;
   const LightModel& model_;
+  const LightVolumes& volumes_;
   const Arithmetic& a_;
   bool exact_, undefined_ = false, view_undefined_ = false, shines_ = true, adds_unlit_ = false;
   Bounded3 normal_, view_;
@@ -276,8 +294,9 @@ class LightSum {
 }  // namespace
 
 LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
-                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact) {
-  const LightSum term(surface, scene, model, view_axis, arithmetic, exact);
+                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact,
+                   const LightVolumes& volumes) {
+  const LightSum term(surface, scene, model, view_axis, arithmetic, exact, volumes);
   LitRange result;
   result.undefined = term.undefined();
   std::array<double, 3> magnitude{};

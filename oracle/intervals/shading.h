@@ -5,6 +5,7 @@
 
 #include "oracle/intervals/bounded.h"
 #include "scenes/light_model.h"
+#include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
@@ -32,8 +33,10 @@ struct LitRange {
 /// Lights in any order: sum of the errors, and (N - 1) v sum |c_i| for the N - 1 additions.
 /// A cone whose cosine may lie on either side of its edge counts as either branch. Not clamped to [0, 1].
 ///   view_axis: of the pipeline's camera, where the model's viewer is infinite
+///   volumes: a light whose extent is bounded has no term from its range on
 ///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
 LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
-                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact);
+                   const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact,
+                   const LightVolumes& volumes = {});
 
 }  // namespace trueshade::oracle

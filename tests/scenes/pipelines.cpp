@@ -128,7 +128,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"([])", "p.json: found an array (an object)"},
       {R"({"colour": 1})", "p.json: /colour: this key is unknown"},
       {R"({"version": 2})", "p.json: /version: found 2"},
-      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual)"},
+      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual lecture light-volumes light-volumes-literal redsdk)"},
       {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 65536)"},
       {R"({"width": 65537})", "p.json: /width: found 65537"},
       {R"({"width": 1.5})", "p.json: /width: found 1.5"},
