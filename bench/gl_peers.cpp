@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "bench/peers.h"
+#include "core/error.h"
 #include "oracle/gl/designs.h"
 
 namespace trueshade {
@@ -71,6 +72,9 @@ class GlPeers final : public Peers {
 }  // namespace
 
 std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline) {
+  if (pipeline.strategy != Strategy::deferred_loop)
+    throw Error(ErrorKind::usage, "--against gl", "its designs do not draw lights as geometry, so not this picture",
+                "a preset of strategy deferred-loop");
   return std::make_unique<GlPeers>(scene, pipeline);
 }
 

@@ -50,9 +50,12 @@ void check_designs(const Scene& scene, const Preset& preset) {
 
 }  // namespace
 
-TEST_CASE("Every OpenGL design draws our picture under every preset") {
+TEST_CASE("Every OpenGL design draws our picture under every preset that sums lights") {
   const Scene scene = builtin_scene("city,objects=300,lights=50");
-  for (const Preset& preset : presets()) check_designs(scene, preset);
+  // The designs bin lights by range and sum or blend them all alike: presets that draw lights as geometry are held to
+  // OpenGL by strategies_agree.cpp.
+  for (const Preset& preset : presets())
+    if (preset.pipeline.strategy == Strategy::deferred_loop) check_designs(scene, preset);
 }
 
 TEST_CASE("Every OpenGL design knows ambient and directional lights, and eyes inside a light's range") {
