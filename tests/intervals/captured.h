@@ -7,6 +7,12 @@
 
 namespace trueshade::testing {
 
+/// Whether a capture of our own frame can be judged: lights that are blended draw by draw are not judged yet, and our frames
+/// hand out no planes of shininess or emission.
+inline bool judgeable(const Pipeline& pipeline) {
+  return pipeline.strategy == Strategy::deferred_loop && !pipeline.light_model.emission && !reads_specular_plane(pipeline.light_model);
+}
+
 /// Our own frame as a capture: the target and all planes, or those named.
 inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipeline,
                                 std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object",
