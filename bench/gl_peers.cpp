@@ -1,7 +1,6 @@
 #include <utility>
 
 #include "bench/peers.h"
-#include "core/error.h"
 #include "oracle/gl/designs.h"
 
 namespace trueshade {
@@ -32,28 +31,49 @@ int pixels_culling_changes(oracle::GlRenderer& renderer, Pipeline pipeline) {
   return count;
 }
 
-double frame_ms(GlPeer& peer) {
-  double ms = 0.0;
-  for (const oracle::GlPass& pass : peer.draw(false).passes) ms += pass.ms;
-  return ms;
-}
+/// A design at work, and what it drew first.
+struct Work {
+  GlDesign design;
+  GlPeer peer;
+  Image first;
+
+  Work(oracle::GlRenderer& renderer, const Pipeline& pipeline, GlDesign d) : design(d), peer(renderer, pipeline, d) {}
+
+  double frame_ms() {
+    oracle::GlFrame frame = peer.draw(first.texels.empty());
+    if (first.texels.empty()) first = std::move(frame.capture.color);
+    double ms = 0.0;
+    for (const oracle::GlPass& pass : frame.passes) ms += pass.ms;
+    return ms;
+  }
+};
 
 class GlPeers final : public Peers {
  public:
-  GlPeers(const Scene& scene, const Pipeline& pipeline) : context_(oracle::GlDriver::any), renderer_(context_, scene) {
+  GlPeers(const Scene& scene, const Pipeline& pipeline)
+      : context_(oracle::GlDriver::any), renderer_(context_, scene), pipeline_(pipeline) {
     const int changed = pixels_culling_changes(renderer_, pipeline);
     culled_ = changed <= pipeline.width * pipeline.height / kPixelsPerChange;
     for (const GlDesign design : oracle::kGlDesigns) {
       Pipeline p = pipeline;
       if (culled_ && is_fast(design)) p.geometry.cull_face = CullFace::back;
-      peers_.emplace_back(design, std::make_unique<GlPeer>(renderer_, p, design));
+      peers_.push_back(std::make_unique<Work>(renderer_, p, design));
     }
   }
 
   std::vector<Contender> contenders() override {
     std::vector<Contender> all;
-    for (auto& [design, peer] : peers_)
-      all.push_back({"gl", std::string(name_of(design)), [&peer = *peer] { return frame_ms(peer); }});
+    for (const auto& work : peers_)
+      all.push_back({"gl", std::string(name_of(work->design)), [&peer = *work] { return peer.frame_ms(); }});
+    return all;
+  }
+
+  std::vector<PeerPicture> pictures() override {
+    std::vector<PeerPicture> all;
+    for (const auto& work : peers_) {
+      all.push_back({work->first, design_pipeline(pipeline_, work->design)});
+      all.back().as.post = {};
+    }
     return all;
   }
 
@@ -65,16 +85,14 @@ class GlPeers final : public Peers {
  private:
   oracle::GlContext context_;
   oracle::GlRenderer renderer_;
-  std::vector<std::pair<GlDesign, std::unique_ptr<GlPeer>>> peers_;
+  Pipeline pipeline_;
+  std::vector<std::unique_ptr<Work>> peers_;
   bool culled_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline) {
-  if (pipeline.strategy != Strategy::deferred_loop)
-    throw Error(ErrorKind::usage, "--against gl", "its designs do not draw lights as geometry, so not this picture",
-                "a preset of strategy deferred-loop");
   return std::make_unique<GlPeers>(scene, pipeline);
 }
 

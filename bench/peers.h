@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/contest.h"
+#include "bench/picture_check.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 
@@ -16,10 +17,13 @@ class Peers {
   virtual ~Peers() = default;
   virtual std::vector<Contender> contenders() = 0;
   virtual std::string about() const = 0;  ///< which driver or library, and what it was allowed
+  /// What each contender drew in its first frame, in their order; empty of peers that draw no picture.
+  virtual std::vector<PeerPicture> pictures() { return {}; }
 };
 
 /// OpenGL in every design of oracle/gl/designs.h, on the driver at hand. Designs that a user picks for speed cull back
-/// faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver).
+/// faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver), Error(usage) for lights whose
+/// extents one shader cannot tell apart.
 std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline);
 
 /// Embree's primary rays, nothing shaded. `threads`: 0 for one a core.

@@ -81,6 +81,22 @@ std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const 
   return peers;
 }
 
+/// Whether the peers drew this frame, or what else.
+void check_pictures(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                    const std::vector<std::unique_ptr<Peers>>& peers, std::vector<PeerTime>& times) {
+  Image timed;
+  size_t next = 0;
+  for (const auto& peer : peers) {
+    const size_t first = next;
+    next += peer->contenders().size();
+    std::vector<PeerPicture> pictures = peer->pictures();
+    for (size_t i = 0; i < pictures.size(); ++i) {
+      if (timed.texels.empty()) timed = render_frame(prepared, pipeline, execution).color;
+      times[first + i].picture = picture_check(prepared, execution, pipeline, timed, pictures[i]);
+    }
+  }
+}
+
 SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
   PipelineOptions own = options;
   own.scene = spec;
@@ -104,7 +120,8 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   std::vector<Timing> timings = contest(contenders, {}, [&bar](int done, int most) { bar.show(done, most); });
   result.timing = std::move(timings[0]);
   for (size_t i = 1; i < contenders.size(); ++i)
-    result.peers.push_back({contenders[i].name, contenders[i].strategy, std::move(timings[i])});
+    result.peers.push_back({contenders[i].name, contenders[i].strategy, std::move(timings[i]), {}});
+  check_pictures(prepared, result.pipeline, execution, peers, result.peers);
   result.stats = frames.stats_of_median();
   result.floor = frame_floor(result.stats);
   return result;

@@ -1,10 +1,12 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/contest.h"
 #include "bench/floor.h"
 #include "bench/machine.h"
+#include "bench/picture_check.h"
 #include "scenes/pipeline.h"
 #include "shading/frame.h"
 
@@ -14,6 +16,7 @@ namespace trueshade {
 struct PeerTime {
   std::string name, strategy;
   Timing timing;
+  std::optional<PictureCheck> picture;  ///< of peers that draw one
 };
 
 /// One scene, drawn by us and by the peers in turn.

@@ -27,10 +27,36 @@ double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e
 double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
 
 std::string time_row(const std::string& who, const Timing& t, const std::string& ratio) {
-  char line[160];
+  char line[256];
   std::snprintf(line, sizeof line, "  %-26s %9.2f ms  least %9.2f  spread %4.1f %%  of %2zu  %s\n", who.c_str(),
                 t.median(), t.least(), 100.0 * t.spread(), t.ms.size(), ratio.c_str());
   return line;
+}
+
+std::string picture_text(const PeerTime& peer) {
+  if (!peer.picture) return {};
+  const PictureCheck& p = *peer.picture;
+  const auto far = [&p](uint64_t n) {
+    return ", " + std::to_string(n) + " px over " + number(p.codes, "%.3g") + " codes";
+  };
+  if (!p.right()) return "  ANOTHER PICTURE" + far(p.off_ours);
+  const std::string rounding = blends_lights(p.strategy) ? "blended light by light" : "summed, stored once";
+  if (p.same()) return "  same picture: " + rounding + far(p.off_timed);
+  if (p.same_shading()) return "  same shading: " + rounding + far(p.off_timed);
+  return "  picture of " + std::string(name_of(p.strategy)) + ": " + rounding + far(p.off_ours);
+}
+
+/// The fastest of the peers that `counts` admits.
+template <class Counts>
+std::string fastest_text(const SceneTime& s, const char* what, const Counts& counts) {
+  const PeerTime* fastest = nullptr;
+  for (const PeerTime& peer : s.peers)
+    if (peer.picture && peer.picture->right() && counts(*peer.picture) &&
+        (fastest == nullptr || s.ratio(peer) < s.ratio(*fastest)))
+      fastest = &peer;
+  if (fastest == nullptr) return {};
+  return std::string("  fastest peer of ") + what + ": " + fastest->name + ' ' + fastest->strategy + ", " +
+         number(s.ratio(*fastest), "%.2fx ours\n");
 }
 
 std::string scene_json(const SceneTime& s, const BenchResult& bench) {
@@ -39,7 +65,14 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
     JsonObject row;
     row.put("name", peer.name).put("strategy", peer.strategy).put("ms", peer.timing.median());
     row.put("least_ms", peer.timing.least()).put("spread", peer.timing.spread());
-    peers.add_raw(row.put("frames", uint64_t(peer.timing.ms.size())).put("ratio", s.ratio(peer)).text());
+    row.put("frames", uint64_t(peer.timing.ms.size())).put("ratio", s.ratio(peer));
+    if (peer.picture) {
+      const PictureCheck& p = *peer.picture;
+      row.put("picture_of", name_of(p.strategy)).put("rounding", blends_lights(p.strategy) ? "per light" : "once");
+      row.put("right_picture", p.right()).put("same_picture", p.same()).put("same_shading", p.same_shading());
+      row.put("codes", p.codes).put("pixels_off", p.off_ours).put("pixels_off_timed", p.off_timed);
+    }
+    peers.add_raw(row.text());
   }
   const FrameStats& f = s.stats;
   JsonObject json =
@@ -71,7 +104,10 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
                      "  sha256:" + s.hash.substr(0, 16) + "\n";
   text += time_row("trueshade", s.timing, "");
   for (const PeerTime& peer : s.peers)
-    text += time_row(peer.name + ' ' + peer.strategy, peer.timing, number(s.ratio(peer), "%.2fx ours"));
+    text += time_row(peer.name + ' ' + peer.strategy, peer.timing,
+                     number(s.ratio(peer), "%.2fx ours") + picture_text(peer));
+  text += fastest_text(s, "this picture", [](const PictureCheck& p) { return p.same(); });
+  text += fastest_text(s, "this shading, wherever it rounds", [](const PictureCheck& p) { return p.same_shading(); });
   text += "  geometry " + number(f.geometry_ms, "%.2f") + " ms, light " + number(f.light_ms, "%.2f") +
           " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " +
           number(million_triangles_per_s(s), "%.0f") + " million triangles a second; modelled floor " +

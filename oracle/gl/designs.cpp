@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "oracle/exact_coverage.h"
+#include "oracle/gl/blend_state.h"
 #include "oracle/gl/designs_glsl.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/light_tiles.h"
@@ -12,6 +13,7 @@
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
 #include "oracle/gl/surface_uniforms.h"
+#include "oracle/gl/volume_batches.h"
 #include "oracle/matrices.h"
 
 namespace trueshade::oracle {
@@ -47,6 +49,7 @@ struct GlPeer::Work {
   GlTexture depth, color;
   GlTarget geometry_target, light_target, forward_target;
   GlVertexArray none;
+  VolumeBatches volumes;  ///< of deferred_volumes
   GlTexelBuffer tile_ranges, tile_records;
   std::vector<float> depths;  ///< read back, row 0 at the bottom
 
@@ -73,7 +76,7 @@ GlslOptions lean_options(GlRenderer& renderer) {
   draw.planes = false;
   GlslOptions options = renderer.shader_options(draw);
   options.products = true;
-  options.instance_uniforms = renderer.buffers().has_large_meshes();
+  options.instance_uniforms = renderer.buffers().has_large_meshes() && !options.maps;
   options.vertex_color = renderer.buffers().has_vertex_colors();
   return options;
 }
@@ -96,8 +99,11 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   if (!is_forward(design)) geometry = make_program("geometry", judge.geometry_vert, judge.geometry_frag);
   if (design == GlDesign::forward_plus)
     depth_only = make_program("depth", judge.geometry_vert, empty_fragment_text(options.version));
-  if (design == GlDesign::deferred_volumes)
-    base = make_program("base", judge.light_vert, base_fragment_text(pipeline, options));
+  if (design == GlDesign::deferred_volumes) {
+    if (pipeline.light_volumes.base)
+      base = make_program("base", fullscreen_vertex_text(options.version), base_fragment_text(pipeline, options));
+    volumes = make_volume_batches(scene().lights, pipeline.light_volumes);
+  }
 
   std::vector<GLuint> names;
   for (const GlslPlane& plane : planes) {
@@ -118,9 +124,9 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
 
 void GlPeer::Work::draw_scene(GLuint program) {
   glUseProgram(program);
-  constexpr int kLastUnit = 15;  // the others belong to planes and lights
+  constexpr int kMaterialUnit = 12;  // those below belong to planes and lights, those above to maps
   if (reads_materials(pipeline.light_model))
-    bind_texture(program, "materials", kLastUnit, GL_TEXTURE_BUFFER,
+    bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER,
                  renderer.buffers().material_texels(pipeline.light_model));
   if (options.instance_uniforms)
     renderer.buffers().draw_each_instance(program);
@@ -196,29 +202,26 @@ void GlPeer::Work::light_deferred() {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The paper's state: front faces culled, no depth test, depth clamp, so that a box around the eye lights what it
-/// should.
 void GlPeer::Work::draw_volumes() {
-  glUseProgram(base);
-  bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
-  glBindVertexArray(none);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  GeometryState state = pipeline.geometry;
-  state.cull_face = CullFace::front;
-  state.front_face = FrontFace::ccw;
-  state.depth_clamp = true;
-  set_geometry_state(state, viewport, 0, 0);
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+  if (pipeline.light_volumes.base) {
+    glUseProgram(base);
+    bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
+    glBindVertexArray(none);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   use_lighting();
   const Matrix4 clip = projection_of(scene().camera, pipeline.geometry, pipeline.width, pipeline.height);
   std::array<float, 16> columns{};
   for (size_t i = 0; i < 16; ++i) columns[i] = float(clip[i]);
   glUniformMatrix4fv(glGetUniformLocation(lighting, "clip_from_world"), 1, GL_FALSE, columns.data());
-  glBindVertexArray(none);
-  glDrawArraysInstanced(GL_TRIANGLES, 0, 36, GLsizei(scene().lights.size()));
+  glBindVertexArray(volumes.array);
+  for (const VolumeBatches::Run& run : volumes.runs) {
+    set_volume_state(pipeline, run.mesh, 0, 0);
+    set_blend_state(pipeline.blend);
+    set_uniform(lighting, "mesh", int(run.mesh));
+    glDrawElements(GL_TRIANGLES, run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(4 * run.first));
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void GlPeer::Work::begin_forward() {
@@ -242,10 +245,9 @@ void GlPeer::Work::draw_multipass() {
     draw_scene(lighting);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+    set_blend_state(kAddLight);
   }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 GlFrame GlPeer::Work::draw(bool read_back) {

@@ -5,16 +5,14 @@
 
 namespace trueshade::oracle {
 
-/// The planes a design stores: tiled has a thin G-buffer, forward designs none that are read.
-Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design);
-
-/// Vertex and fragment shader of the pass that lights: over the image, over boxes, over tiles, or over the scene.
+/// Vertex and fragment shader of the pass that lights: over the image, over the lights' geometry, over tiles, or over
+/// the scene.
 struct DesignShaders {
   std::string vert, frag;
 };
 DesignShaders lighting_shaders(const Pipeline& pipeline, const GlslOptions& options, GlDesign design);
 
-/// Writes black and the pixel's alpha where there is a surface: what deferred_volumes blends onto.
+/// Writes what a surface has without lights: what deferred_volumes blends onto.
 std::string base_fragment_text(const Pipeline& pipeline, const GlslOptions& options);
 
 /// Depth alone.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "oracle/exact_coverage.h"
 #include "oracle/gl/context.h"
 
 namespace trueshade::oracle {
@@ -99,6 +100,16 @@ void set_geometry_state(const GeometryState& state, const Viewport& viewport, in
   set_enabled(GL_POLYGON_OFFSET_FILL, state.polygon_offset_factor != 0 || state.polygon_offset_units != 0);
   glPolygonOffset(state.polygon_offset_factor, state.polygon_offset_units);
   glProvokingVertex(state.provoking == Provoking::last ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
+}
+
+void set_volume_state(const Pipeline& pipeline, bool mesh, int shift_x, int shift_y) {
+  GeometryState state = pipeline.geometry;
+  state.cull_face = mesh ? pipeline.light_volumes.cull_face : CullFace::none;
+  state.front_face = FrontFace::ccw;
+  state.depth_clamp = pipeline.light_volumes.depth_clamp;
+  set_geometry_state(state, resolved_viewport(state, pipeline.width, pipeline.height), shift_x, shift_y);
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
 }
 
 void set_image_state(int width, int height) {

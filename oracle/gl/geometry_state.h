@@ -12,6 +12,10 @@ void check_limits(const GlContext& context, const Pipeline& pipeline, int width,
 /// overridden.
 void set_geometry_state(const GeometryState& state, const Viewport& viewport, int shift_x, int shift_y);
 
+/// State of the draws of light geometry (meshes, or quads) but for blending: no depth test, nothing of the scene's
+/// culling.
+void set_volume_state(const Pipeline& pipeline, bool mesh, int shift_x, int shift_y);
+
 /// State of a pass over the whole image: no test, no blending, no culling, clip control as GL starts with.
 void set_image_state(int width, int height);
 

@@ -38,8 +38,8 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
 const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 
 /// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
-/// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with light_vert:
-/// the draw before the lights of deferred-volumes, empty where there is none.
+/// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with
+/// light_vert: the draw before the lights of deferred-volumes, empty where there is none.
 struct GlslShaders {
   std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
   bool operator==(const GlslShaders&) const = default;
@@ -95,5 +95,17 @@ std::string sum_start_text(const LightModel& model);
 std::string target_text(const LightModel& model, const std::string& sum);
 /// `lit(...)` of the light whose first texel in `buffer` is at `index` times LightLayout::texels().
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
+
+/// Whether a falloff is 0 from the range on, so that nothing else has to end there.
+bool ends_at_range(Falloff falloff);
+/// Whether the shader has to leave out what lies beyond a light's range. Error(usage) as set_light_shaders().
+bool limits_range(const Pipeline& pipeline);
+/// `bool in_extent(vec3 P, int light)`, for pipelines of limits_range().
+std::string extent_text(const LightModel& model, const std::string& buffer);
+/// The call where the light reaches P, else 0.
+std::string bounded_call_text(const Pipeline& pipeline, const std::string& buffer, const std::string& light);
+/// Statements that sum lights [first, end) of `buffer` and write the target.
+std::string light_loop_text(const Pipeline& pipeline, const std::string& buffer, const std::string& first,
+                            const std::string& end);
 
 }  // namespace trueshade::oracle

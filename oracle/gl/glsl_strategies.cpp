@@ -6,45 +6,12 @@ namespace trueshade::oracle {
 
 namespace {
 
-bool ends_by_itself(Falloff falloff) { return falloff == Falloff::linear_range || falloff == Falloff::inverse_square; }
-
-/// Whether the shader has to leave out what lies beyond a light's range.
-bool limits_range(const Pipeline& p) {
-  const auto limited = [&](LightExtent extent) {
-    return extent != LightExtent::unbounded &&
-           !(p.strategy == Strategy::deferred_volumes && extent >= LightExtent::box);
-  };
-  if (ends_by_itself(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return false;
-  if (limited(p.light_volumes.point) != limited(p.light_volumes.spot))
-    throw Error(ErrorKind::usage, "light_volumes", "OpenGL draws point and spot lights bounded in one way only",
-                "give point and spot lights the same extent");
-  return limited(p.light_volumes.point);
-}
-
-/// `bool in_extent(vec3 P, int light)`.
-std::string extent_text(const LightModel& model) {
-  const std::string n = std::to_string(LightLayout(model).texels());
-  return "bool in_extent(vec3 P, int light) {\n  vec4 place = texelFetch(lights, " + n +
-         " * light);\n  return place.w < 2.0 || distance(place.xyz, P) < texelFetch(lights, " + n +
-         " * light + 1).w;\n}\n";
-}
-
 std::string lights_text(const Pipeline& p, const GlslOptions& options) {
   return "layout(location = 0) out vec4 target;\n\n" + light_function_text(p.light_model, options) +
-         (limits_range(p) ? "\n" + extent_text(p.light_model) : "") + "\nvoid main() {\n";
+         (limits_range(p) ? "\n" + extent_text(p.light_model, "lights") : "") + "\nvoid main() {\n";
 }
 
-std::string limited(const Pipeline& p, const std::string& light) {
-  return limits_range(p)
-             ? "in_extent(P, " + light + ") ? " + lit_call_text(p.light_model, "lights", light) + " : vec3(0.0)"
-             : lit_call_text(p.light_model, "lights", light);
-}
-
-std::string loop_text(const Pipeline& p) {
-  return "  vec3 sum = " + sum_start_text(p.light_model) +
-         ";\n  for (int i = 0; i < light_count; ++i)\n    sum += " + limited(p, "i") + ";\n" +
-         target_text(p.light_model, "sum") + "}\n";
-}
+std::string loop_text(const Pipeline& p) { return light_loop_text(p, "lights", "0", "light_count") + "}\n"; }
 
 /// The surface of a fragment of the scene itself.
 std::string forward_surface_text(const Pipeline& p, const GlslOptions& options) {
@@ -63,7 +30,7 @@ std::string forward_text(const Pipeline& p, const GlslOptions& options) {
   text += lights_text(p, options) + forward_surface_text(p, options);
   if (loop) return text + loop_text(p);
   text += "  vec3 sum = light <= 0 ? " + sum_start_text(p.light_model) +
-          " : vec3(0.0);\n  if (light >= 0) sum += " + limited(p, "light") + ";\n";
+          " : vec3(0.0);\n  if (light >= 0) sum += " + bounded_call_text(p, "lights", "light") + ";\n";
   return text + target_text(p.light_model, "sum") + "}\n";
 }
 
@@ -109,6 +76,38 @@ std::string deferred_loop_text(const Pipeline& p, const GlslOptions& options) {
 }
 
 }  // namespace
+
+bool ends_at_range(Falloff falloff) { return falloff == Falloff::linear_range || falloff == Falloff::inverse_square; }
+
+bool limits_range(const Pipeline& p) {
+  const auto limited = [&](LightExtent extent) {
+    return extent != LightExtent::unbounded &&
+           !(p.strategy == Strategy::deferred_volumes && extent >= LightExtent::box);
+  };
+  if (ends_at_range(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return false;
+  if (limited(p.light_volumes.point) != limited(p.light_volumes.spot))
+    throw Error(ErrorKind::usage, "light_volumes", "OpenGL draws point and spot lights bounded in one way only",
+                "give point and spot lights the same extent");
+  return limited(p.light_volumes.point);
+}
+
+std::string extent_text(const LightModel& model, const std::string& buffer) {
+  const std::string n = std::to_string(LightLayout(model).texels());
+  return "bool in_extent(vec3 P, int light) {\n  vec4 place = texelFetch(" + buffer + ", " + n +
+         " * light);\n  return place.w < 2.0 || distance(place.xyz, P) < texelFetch(" + buffer + ", " + n +
+         " * light + 1).w;\n}\n";
+}
+
+std::string bounded_call_text(const Pipeline& p, const std::string& buffer, const std::string& light) {
+  const std::string call = lit_call_text(p.light_model, buffer, light);
+  return limits_range(p) ? "in_extent(P, " + light + ") ? " + call + " : vec3(0.0)" : call;
+}
+
+std::string light_loop_text(const Pipeline& p, const std::string& buffer, const std::string& first,
+                            const std::string& end) {
+  return "  vec3 sum = " + sum_start_text(p.light_model) + ";\n  for (int i = " + first + "; i < " + end +
+         "; ++i)\n    sum += " + bounded_call_text(p, buffer, "i") + ";\n" + target_text(p.light_model, "sum");
+}
 
 void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders) {
   switch (pipeline.strategy) {

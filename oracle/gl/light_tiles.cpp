@@ -86,9 +86,10 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
     depths.push_back({clip_plane(m, 2, std::min(a, c), 1), clip_plane(m, 2, std::max(a, c), -1)});
   }
   std::vector<std::vector<uint32_t>> out(bounds.size());
+  const bool ends = ends_at_range(pipeline.light_model.falloff) || limits_range(pipeline);
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const bool bounded = pipeline.light_model.falloff == Falloff::linear_range && light.type >= LightType::point;
+    const bool bounded = ends && light.type >= LightType::point;
     const double radius = bounded ? double(light.range) * 1.001 : HUGE_VAL;  // more than all roundings here together
     const Range x = columns.touched(light.position, radius), y = rows.touched(light.position, radius);
     for (int row = y.begin; row < y.end; ++row)

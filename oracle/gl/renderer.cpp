@@ -152,17 +152,6 @@ class LightPass {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void set_volume_state(bool mesh) const {
-    GeometryState state = pipeline_.geometry;
-    state.cull_face = mesh ? pipeline_.light_volumes.cull_face : CullFace::none;
-    state.front_face = FrontFace::ccw;
-    state.depth_clamp = pipeline_.light_volumes.depth_clamp;
-    set_geometry_state(state, resolved_viewport(state, pipeline_.width, pipeline_.height), draw_.shift_x,
-                       draw_.shift_y);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
-  }
-
   void draw_quad(GLuint program) const {
     constexpr std::array<float, 12> kCorners{-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
     const GlBuffer corners = make_buffer(GL_ARRAY_BUFFER, std::span<const float>(kCorners));
@@ -187,7 +176,7 @@ class LightPass {
     glBindVertexArray(array);
     glEnableVertexAttribArray(0);
     if (pipeline_.light_volumes.base) {
-      set_volume_state(false);
+      set_volume_state(pipeline_, false, draw_.shift_x, draw_.shift_y);
       use(programs_.base);
       draw_quad(programs_.base);
     }
@@ -201,7 +190,7 @@ class LightPass {
     for (int i = 0; i < lights_; ++i) {
       const Light& light = scene_.lights[size_t(i)];
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
-      set_volume_state(is_mesh(extent));
+      set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
       set_blend_state(pipeline_.blend);
       set_uniform(programs_.light, "light", i);
       if (is_mesh(extent))

@@ -43,6 +43,36 @@ TEST_CASE("bench times the frame that render draws, beside Embree, and writes it
   CHECK(json["machine"]["clock_ghz"].get<double>() > 0.0);
 }
 
+TEST_CASE("bench times OpenGL under presets that draw lights as geometry, and says which picture each design draws") {
+  const ScratchFolder folder;
+  for (const char* preset : {"light-volumes", "redsdk"}) {
+    const Outcome bench = run_command({"bench", "builtin:city,objects=60,lights=5", "--size", "64x48", "--preset",
+                                       preset, "--against", "gl", "--json", "b.json"},
+                                      folder.path(""));
+    if (bench.exit_code == 7) {
+      WARN("SKIPPED: " << bench.err);
+      return;
+    }
+    INFO(preset << bench.err);
+    REQUIRE(bench.exit_code == 0);
+    CHECK(bench.out.find("fastest peer of this picture: gl ") != std::string::npos);
+    const auto json = nlohmann::json::parse(contents(folder.path("b.json")));
+    int blended = 0, same = 0;
+    for (const auto& peer : json["scenes"][0]["peers"]) {
+      CAPTURE(peer["strategy"].get<std::string>());
+      CHECK(peer["right_picture"] == true);
+      const bool per_light = peer["rounding"] == "per light";
+      blended += per_light ? 1 : 0;
+      same += peer["same_picture"] == true ? 1 : 0;
+      CHECK((per_light || peer["same_picture"] == false));  // what is timed is blended light by light
+      CHECK(peer["pixels_off"].get<int>() <= 64 * 48 / 100);
+    }
+    CHECK(blended == 2);
+    CHECK(same >= 1);
+    CHECK(json["scenes"][0]["peers"].size() == 6);
+  }
+}
+
 TEST_CASE("bench refuses what it cannot do, in one line") {
   const ScratchFolder folder;
   check_refused(run_command({"bench", "--against", "vulkan"}), 2, "no peer");
