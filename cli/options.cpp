@@ -219,7 +219,9 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::string>& strategy) {
   CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
   glsl->add_option("--preset", options.preset, "Row of numbers, as for render")->required();
+  glsl->add_option("--pipeline", options.pipeline_file, "Pipeline in JSON, over the preset");
   glsl->add_option("--strategy", strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  glsl->add_flag("--maps", options.maps, "Materials with colour, specular and normal maps and alpha masks");
   glsl->add_option("-o,--output", options.folder, "Folder for the files; made if it is not there")->required();
   return glsl;
 }

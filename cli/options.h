@@ -57,7 +57,9 @@ struct ListOptions {
 struct GlslFilesOptions {
   std::string preset;  ///< name of a row
   std::optional<Strategy> strategy;
-  std::string folder;  ///< made if it is not there
+  std::optional<std::string> pipeline_file;  ///< over the preset
+  bool maps = false;          ///< shaders of materials with colour, specular and normal maps
+  std::string folder;         ///< made if it is not there
 };
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.

@@ -18,9 +18,16 @@ struct GlslOptions {
   bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
-  bool vertex_color = true;        ///< false: no mesh has any, so the base colour is the albedo
+  bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
+  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool vertex_color = true;  ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
+
+/// What a format is stored as: rgba16f for rgb16f where the driver cannot render to that.
+constexpr Format renderable(Format format, bool rgb16f) {
+  return format == Format::rgb16f && !rgb16f ? Format::rgba16f : format;
+}
 
 /// A plane of the G-buffer: colour attachment i of the geometry pass is the i-th of planes_of().
 struct GlslPlane {
@@ -72,8 +79,9 @@ std::string glsl_header(int version, std::string_view purpose);
 std::string glsl_float(float value);  ///< a literal that reads back as the same float
 /// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
-/// The surface's colour in a fragment shader with those varyings.
+/// The surface's colour and its normal, of any length, in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
+std::string normal_text(const GlslOptions& options);
 /// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
 /// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
 bool reads_materials(const LightModel& model);
