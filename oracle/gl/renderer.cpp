@@ -9,6 +9,8 @@
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
+#include "oracle/gl/post_frame.h"
+#include "oracle/gl/post_glsl.h"
 #include "oracle/gl/probes.h"
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
@@ -84,6 +86,7 @@ class LightPass {
       : t_(t), programs_(programs), buffers_(buffers), pipeline_(pipeline), draw_(draw), scene_(buffers.scene()) {
     const int all = int(scene_.lights.size());
     lights_ = draw.lights < 0 ? all : std::min(draw.lights, all);
+    stands_in_ = t.color_format != pipeline.target;
   }
 
   void run() {
@@ -114,14 +117,17 @@ class LightPass {
     glBindFramebuffer(GL_FRAMEBUFFER, (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer);
     use(programs_.transparent);
     glDepthMask(GL_FALSE);
-    set_blend_state(pipeline_.transparency.blend);
+    BlendState blend = pipeline_.transparency.blend;
+    if (stands_in_) blend.mask[3] = false;
+    set_blend_state(blend);
     buffers_.draw_instances(Surfaces::transparent);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
   void clear(GLuint framebuffer) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b, scene_.clear.a};
+    const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b,
+                                     stands_in_ ? 1.0f : scene_.clear.a};
     glClearBufferfv(GL_COLOR, 0, color.data());
   }
 
@@ -198,6 +204,7 @@ class LightPass {
     glEnableVertexAttribArray(0);
     if (pipeline_.light_volumes.base) {
       set_volume_state(pipeline_, false, draw_.shift_x, draw_.shift_y);
+      if (stands_in_) glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
       use(programs_.base);
       draw_quad(programs_.base);
     }
@@ -207,12 +214,14 @@ class LightPass {
     for (size_t r = 0; r < 4; ++r)
       for (size_t c = 0; c < 4; ++c) rows[4 * r + c] = float(clip[4 * c + r]);
     glUniform4fv(glGetUniformLocation(programs_.light, "clip_from_world"), 4, rows.data());
+    BlendState blend = pipeline_.blend;
+    if (stands_in_) blend.mask[3] = false;
     const LightMeshes meshes(pipeline_.light_volumes);
     for (int i = 0; i < lights_; ++i) {
       const Light& light = scene_.lights[size_t(i)];
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
       set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
-      set_blend_state(pipeline_.blend);
+      set_blend_state(blend);
       set_uniform(programs_.light, "light", i);
       if (is_mesh(extent))
         draw_mesh(meshes[extent], light);
@@ -229,6 +238,7 @@ class LightPass {
   const GlDraw& draw_;
   const Scene& scene_;
   int lights_ = 0;
+  bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
 
 /// Transparent surfaces by the geometry pass's program, into the colour plane alone.
@@ -278,7 +288,9 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
-  options.maps = buffers_->has_maps();
+  options.maps = buffers_->maps().used();
+  options.specular_maps = buffers_->maps().specular();
+  options.normal_maps = buffers_->maps().normal();
   options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
@@ -298,16 +310,18 @@ const Programs& GlRenderer::programs(const GlslShaders& text) {
 
 const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {
   const int width = pipeline.width + draw.shift_x, height = pipeline.height + draw.shift_y;
+  const Format color_format = renderable(pipeline.target, options.rgb16f);
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   const Targets* t = targets_.get();
-  if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target ||
+  if (t == nullptr || t->width != width || t->height != height || t->color_format != color_format ||
       t->depth_format != pipeline.geometry.depth_format || t->planes != planes)
-    targets_ = make_targets(width, height, pipeline.target, pipeline.geometry.depth_format, planes);
+    targets_ = make_targets(width, height, color_format, pipeline.geometry.depth_format, planes);
   return *targets_;
 }
 
 GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
-  const Pipeline pipeline = drawn_pipeline(asked);
+  const bool post = draw.post && asked.post.active();
+  const Pipeline pipeline = drawn_pipeline(post ? pipeline_without_post(asked) : asked);
   context_->make_current();
   check_limits(*context_, pipeline, pipeline.width + draw.shift_x, pipeline.height + draw.shift_y);
   const GlslOptions options = draw.shaders != nullptr ? draw.shader_options : shader_options(draw);
@@ -320,6 +334,8 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   frame.capture.drawn_at = {draw.shift_x, draw.shift_y};
   if (!options.rgb16f && wants_rgb16f(pipeline.gbuffer))
     frame.notes.push_back("rgb16f is not renderable on this driver: its planes are rgba16f");
+  if (!options.rgb16f && pipeline.target == Format::rgb16f)
+    frame.notes.push_back("rgb16f is not renderable on this driver: the target is rgba16f whose alpha stays 1");
   if (options.ids && !options.primitive)
     frame.notes.push_back("gl_PrimitiveID draws nothing on this driver: there is no plane id.primitive");
   PassTimer timer(frame.passes);
@@ -340,6 +356,10 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   timer.end("lights");
   read_all(target, pipeline, draw, frame.capture);
   timer.end("read back");
+  if (post) {
+    frame.finished = finished_by_gl(buffers_->scene(), asked, options.version, target.color, target.depth);
+    timer.end("post");
+  }
   check_gl("drawing");
   return frame;
 }

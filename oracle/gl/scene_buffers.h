@@ -44,11 +44,11 @@ class SceneBuffers {
   void upload_instances(const Pipeline& pipeline);
   bool has_transparent() const;
   /// Every triangle of those surfaces, in submission order, by the program in use; one of GlslOptions::maps where
-  /// has_maps(), whose texture goes to unit 15.
+  /// maps() are used; texture units 11 (frames of normal maps) and 13 to 15.
   void draw_instances(Surfaces which = Surfaces::all) const;
   /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
   void draw_each_instance(GLuint program) const;
-  bool has_maps() const { return maps_.used(); }
+  const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
@@ -59,6 +59,7 @@ class SceneBuffers {
   struct MeshBuffers {
     GlVertexArray array;
     GlBuffer vertices, indices;
+    GlTexelBuffer tangents;  ///< where there are normal maps
     GLsizei index_count = 0;
   };
   MeshBuffers upload(const Mesh& mesh, int rotation) const;
