@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -86,7 +87,7 @@ struct FrameWork {
             outlines,
             view,
             multipass ? kAddLight : pipeline.blend,
-            {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
+            target(),
             multipass || pipeline.light_volumes.base,
             multipass,
             execution.light_culling,
@@ -98,6 +99,22 @@ struct FrameWork {
     const WindowTransform& t = view.window;
     const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
     return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
+  }
+
+  BlendTarget target() const { return {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round}; }
+
+  // Draws are stored by way of wider codes, clears are not: llvmpipe's targets of 10 bits.
+  bool stores_wide() const { return pipeline.profile != NumericProfile::ideal && pipeline.target == Format::rgb10_a2; }
+
+  // The clear colour; where draws store wide, one that a draw would store as the nearest codes of it.
+  void set_clear(float clear[4]) const {
+    for (int c = 0; c < 4; ++c) {
+      clear[c] = prepared.scene().clear[c];
+      if (!stores_wide()) continue;
+      const float unit = clear[c] > 1.0f ? 1.0f : clear[c] > 0.0f ? clear[c] : 0.0f;
+      const auto code = uint32_t(std::nearbyint(unit * float(info(pipeline.target).largest_code(c))));
+      clear[c] = float(c == 3 ? code * 0x5555 : code << 6 | code >> 4) / 65535.0f;
+    }
   }
 
   // Scratch for the transparent surfaces; null where there are none.
@@ -125,7 +142,8 @@ struct FrameWork {
       if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
     }
     const double middle = now_ms();
-    const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
+    float clear[4];
+    set_clear(clear);
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
@@ -136,8 +154,12 @@ struct FrameWork {
                  execution.compiled_models, s.lights, s.color, counts.light);
     }
     bool stored = blends_lights(pipeline.strategy);
+    if (!stored && stores_wide()) {
+      encode_colors(target(), where.size * where.size, s.color);
+      stored = true;
+    }
     if (glass != nullptr && transparent.after_lights()) {
-      if (!stored) encode_colors(transparent.target(), where.size * where.size, s.color);
+      if (!stored) encode_colors(target(), where.size * where.size, s.color);
       transparent.blend_after_lights(all, where, execution, s.vertices, s.lights, *glass, s.color);
       stored = true;
     }
