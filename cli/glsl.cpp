@@ -24,14 +24,19 @@ void write_glsl(const GlslFilesOptions& options) {
   const Pipeline pipeline = pipeline_of(chosen, Scene{});
   oracle::GlslOptions judge;
   judge.maps = judge.specular_maps = judge.normal_maps = options.maps;
+  judge.transparent = pipeline.transparency.mode != TransparencyMode::none;
   const oracle::GlslShaders shaders = oracle::shaders_of(pipeline, judge);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
   if (error) throw Error(ErrorKind::io, options.folder, "cannot make the folder: " + error.message(), "choose another");
-  std::vector<std::pair<std::string, std::string>> files = {
-      {"geometry.vert", shaders.geometry_vert}, {"geometry.frag", shaders.geometry_frag},
-      {"light.vert", shaders.light_vert},       {"light.frag", shaders.light_frag},
-      {"base.frag", shaders.base_frag},         {"state.json", oracle::state_list(pipeline, judge)}};
+  std::vector<std::pair<std::string, std::string>> files = {{"geometry.vert", shaders.geometry_vert},
+                                                            {"geometry.frag", shaders.geometry_frag},
+                                                            {"light.vert", shaders.light_vert},
+                                                            {"light.frag", shaders.light_frag},
+                                                            {"base.frag", shaders.base_frag},
+                                                            {"transparent.vert", shaders.transparent_vert},
+                                                            {"transparent.frag", shaders.transparent_frag},
+                                                            {"state.json", oracle::state_list(pipeline, judge)}};
   for (const oracle::PostPass& pass : oracle::post_passes(pipeline, judge.version)) {
     const std::string name = "post_" + pass.name + ".frag";
     if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return file.first == name; }))

@@ -396,6 +396,10 @@ void store_plane(int first, int count, Format format, const GBufferState& planes
   if (info(format).bytes_per_channel == 4) return;
   for (int c = 0; c < count; ++c) {
     float* plane = out.plane[first + c];
+    if (c >= info(format).channels) {
+      std::fill_n(plane, pixels, 1.0f);  // a missing alpha
+      continue;
+    }
     for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
       hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, profile), d, plane + i);
   }

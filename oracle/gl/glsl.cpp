@@ -283,6 +283,15 @@ GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {
   const Pipeline drawn = drawn_pipeline(pipeline);
   GlslShaders shaders{vertex_text(drawn, options), geometry_fragment_text(drawn, options), {}, {}, {}};
   set_light_shaders(drawn, options, shaders);
+  if (!options.transparent || pipeline.transparency.mode != TransparencyMode::after_lights) return shaders;
+  Pipeline forward = pipeline;
+  forward.strategy = Strategy::forward_loop;
+  forward.light_model.alpha_from_albedo = true;
+  forward = drawn_pipeline(forward);
+  shaders.transparent_vert = vertex_text(forward, options);
+  GlslShaders lit{{}, {}, {}, {}, {}};
+  set_light_shaders(forward, options, lit);
+  shaders.transparent_frag = lit.light_frag;
   return shaders;
 }
 

@@ -20,6 +20,7 @@ struct GlslOptions {
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
   bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool transparent = false;  ///< surfaces are drawn after the lights
   bool vertex_color = true;  ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
@@ -46,9 +47,11 @@ const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 
 /// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
 /// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with
-/// light_vert: the draw before the lights of deferred-volumes, empty where there is none.
+/// light_vert: the draw before the lights of deferred-volumes, empty where there is none. transparent_*: the draw of
+/// transparent surfaces after the lights, of GlslOptions::transparent.
 struct GlslShaders {
   std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
+  std::string transparent_vert{}, transparent_frag{};
   bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);

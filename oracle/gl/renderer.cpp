@@ -28,11 +28,12 @@ struct Targets {
   std::vector<GlTexture> textures;  ///< one a plane
   GlTexture depth, color, forward_depth;
   GlTarget geometry, light, forward;  ///< forward: the target with a depth of its own
+  GlTarget over;                      ///< the target with the geometry pass's depth
 };
 
 struct Programs {
   GlslShaders text;
-  GlProgram geometry, light, base;
+  GlProgram geometry, light, base, transparent;
 };
 
 namespace {
@@ -57,6 +58,7 @@ std::unique_ptr<Targets> make_targets(int width, int height, Format color_format
   t->light = make_target(color, 0);
   t->forward_depth = make_texture(depth_format, width, height);
   t->forward = make_target(color, t->forward_depth);
+  t->over = make_target(color, t->depth);
   if (!t->geometry.complete || !t->light.complete)
     throw std::runtime_error("the driver cannot render to the planes of this pipeline");
   return t;
@@ -88,6 +90,12 @@ class LightPass {
   }
 
   void run() {
+    draw_lights();
+    if (transparent() && pipeline_.transparency.mode == TransparencyMode::after_lights) draw_over();
+  }
+
+ private:
+  void draw_lights() {
     switch (pipeline_.strategy) {
       case Strategy::forward_multipass:
         return multipass();
@@ -100,7 +108,22 @@ class LightPass {
     }
   }
 
- private:
+  bool transparent() const { return draws_transparent(scene_, pipeline_); }
+  Surfaces solid() const { return transparent() ? Surfaces::opaque : Surfaces::all; }
+
+  /// Transparent surfaces lit one by one, blended into the target.
+  void draw_over() const {
+    set_scene_state();
+    glBindFramebuffer(GL_FRAMEBUFFER, (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer);
+    use(programs_.transparent);
+    glDepthMask(GL_FALSE);
+    BlendState blend = pipeline_.transparency.blend;
+    if (stands_in_) blend.mask[3] = false;
+    set_blend_state(blend);
+    buffers_.draw_instances(Surfaces::transparent);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+
   void clear(GLuint framebuffer) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b,
@@ -132,7 +155,7 @@ class LightPass {
 
   void forward_loop() const {
     begin_forward();
-    buffers_.draw_instances();
+    buffers_.draw_instances(solid());
   }
 
   /// The first light stores depth and colour, the others add where the depth is the one stored.
@@ -140,7 +163,7 @@ class LightPass {
     begin_forward();
     for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
       set_uniform(programs_.light, "light", light);
-      buffers_.draw_instances();
+      buffers_.draw_instances(solid());
       glDepthMask(GL_FALSE);
       glDepthFunc(GL_EQUAL);
       set_blend_state(kAddLight);
@@ -218,6 +241,20 @@ class LightPass {
   bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
 
+/// Transparent surfaces by the geometry pass's program, into the colour plane alone.
+void blend_into_albedo(const Targets& t, const SceneBuffers& buffers, const BlendState& blend) {
+  glDepthMask(GL_FALSE);
+  set_blend_state(blend);
+  for (size_t i = 0; i < t.planes.size(); ++i) {
+    if (t.planes[i].name == "albedo") continue;
+    glDisablei(GL_BLEND, GLuint(i));
+    glColorMaski(GLuint(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  }
+  buffers.draw_instances(Surfaces::transparent);
+  set_blend_state({});
+  glDepthMask(GL_TRUE);
+}
+
 void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
   const auto read = [&](GLuint texture, Format format) {
     return read_texture(texture, format, draw.shift_x, draw.shift_y, pipeline.width, pipeline.height);
@@ -254,6 +291,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.maps = buffers_->maps().used();
   options.specular_maps = buffers_->maps().specular();
   options.normal_maps = buffers_->maps().normal();
+  options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;
@@ -261,10 +299,12 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
 
 const Programs& GlRenderer::programs(const GlslShaders& text) {
   if (programs_ == nullptr || programs_->text != text)
-    programs_ = std::make_unique<Programs>(
-        Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
-                 make_program("light", text.light_vert, text.light_frag),
-                 text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag)});
+    programs_ = std::make_unique<Programs>(Programs{
+        text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+        make_program("light", text.light_vert, text.light_frag),
+        text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag),
+        text.transparent_frag.empty() ? GlProgram{}
+                                      : make_program("transparent", text.transparent_vert, text.transparent_frag)});
   return *programs_;
 }
 
@@ -307,7 +347,10 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   glUseProgram(program.geometry);
   if (reads_materials(pipeline.light_model))
     bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
-  buffers_->draw_instances();
+  const bool apart = draws_transparent(buffers_->scene(), pipeline);
+  buffers_->draw_instances(apart ? Surfaces::opaque : Surfaces::all);
+  if (apart && pipeline.transparency.mode == TransparencyMode::into_albedo)
+    blend_into_albedo(target, *buffers_, pipeline.transparency.blend);
   timer.end("geometry");
   LightPass(target, program, *buffers_, pipeline, draw).run();
   timer.end("lights");

@@ -161,9 +161,10 @@ SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene), m
   for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh &&
+    const bool transparent = scene.materials[instance.material].transparent;
+    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh && runs_.back().transparent == transparent &&
                       (!maps_.used() || runs_.back().material == instance.material);
-    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0});
+    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0, transparent});
     ++runs_.back().count;
   }
 }
@@ -216,7 +217,11 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
 }
 
-void SceneBuffers::draw_instances() const {
+bool SceneBuffers::has_transparent() const {
+  return std::any_of(runs_.begin(), runs_.end(), [](const InstanceRun& r) { return r.transparent; });
+}
+
+void SceneBuffers::draw_instances(Surfaces which) const {
   constexpr int kTangentUnit = 11;
   GLint program = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
@@ -224,6 +229,7 @@ void SceneBuffers::draw_instances() const {
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   for (const InstanceRun& run : runs_) {
+    if (which != Surfaces::all && run.transparent != (which == Surfaces::transparent)) continue;
     const MeshBuffers& mesh = meshes_[run.mesh];
     if (maps_.used()) maps_.bind(GLuint(program), run.material);
     if (maps_.normal())

@@ -235,6 +235,23 @@ std::vector<std::string> light_calls(const Pipeline& pipeline) {
           "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"};
 }
 
+/// The draw of transparent surfaces, or what becomes of them.
+std::vector<std::string> transparent_calls(const Pipeline& pipeline) {
+  const std::string blend = blend_calls(pipeline.transparency.blend);
+  switch (pipeline.transparency.mode) {
+    case TransparencyMode::none:
+      return {"with the others, as if they were opaque"};
+    case TransparencyMode::into_albedo:
+      return {"not in the geometry pass; after it, before the lights: its shaders, attachments and state again, but",
+              "glDepthMask(GL_FALSE)", "attachment of the plane albedo: " + blend,
+              "all others: glDisablei(GL_BLEND, i); glColorMaski(i, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE)"};
+    case TransparencyMode::after_lights:
+      break;
+  }
+  return {"in no pass before; after the lights: transparent.vert, transparent.frag into the light target, with the",
+          "depth of the opaque surfaces and the geometry pass's state, but", "glDepthMask(GL_FALSE)", blend};
+}
+
 /// The passes of the post chain, in order.
 std::string post_list(const Pipeline& pipeline, int version) {
   std::vector<std::string> lines;
@@ -275,6 +292,7 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options) {
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
          entry("post_passes", post_list(asked, options.version)) + entry("light_state", calls(light_calls(pipeline))) +
+         (options.transparent ? entry("transparent_draws", calls(transparent_calls(pipeline))) : "") +
          entry("light_uniforms", uniforms(pipeline)) + "  \"light_layout\": " + light_layout(pipeline.light_model) +
          "\n}\n";
 }

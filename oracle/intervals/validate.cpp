@@ -90,6 +90,8 @@ bool Verdict::suspicious() const {
 }
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture, const ValidateOptions& options) {
+  if (draws_transparent(scene, asked))
+    throw Error(ErrorKind::usage, "transparency", "transparent surfaces are not judged yet", "a pipeline with transparency none");
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
   Verdict v;

@@ -29,7 +29,11 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "trueshade_emitted_glsl";
-  const Scene scene = builtin_scene("city,objects=200,lights=20");
+  Scene scene = builtin_scene("city,objects=200,lights=20");
+  for (size_t i = 0; i < scene.materials.size(); i += 3) {
+    scene.materials[i].base_color.a = 0.5f;
+    scene.materials[i].transparent = true;
+  }
   GlRenderer renderer(*context, scene);
   for (size_t i = 0; i < presets().size() * std::size(kStrategyNames); ++i) {
     const Preset& preset = presets()[i / std::size(kStrategyNames)];
@@ -40,9 +44,13 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
                                 " --strategy " + std::string(name_of(strategy)) + " -o '" + folder.string() +
                                 "' > /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
-    const GlslShaders read{contents(folder / "geometry.vert"), contents(folder / "geometry.frag"),
-                           contents(folder / "light.vert"), contents(folder / "light.frag"),
-                           std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : ""};
+    const GlslShaders read{contents(folder / "geometry.vert"),
+                           contents(folder / "geometry.frag"),
+                           contents(folder / "light.vert"),
+                           contents(folder / "light.frag"),
+                           std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : "",
+                           contents(folder / "transparent.vert"),
+                           contents(folder / "transparent.frag")};
     CHECK(contents(folder / "state.json").find("glDepthFunc(GL_LESS)") != std::string::npos);
     Pipeline pipeline = preset.pipeline;
     pipeline.strategy = strategy;
