@@ -35,6 +35,11 @@ bool carries_ids(const Pipeline& pipeline, const GlslOptions& options) {
   return reads_materials(pipeline.light_model) || has_ids(planes_of(pipeline, options));
 }
 
+/// Fixed-point planes hold directions as (n + 1) / 2.
+bool halves_normals(const Pipeline& pipeline) {
+  return info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm;
+}
+
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: stores the surface, one plane an attachment");
   text += varyings_text(pipeline, options, "in");
@@ -47,7 +52,8 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   for (const GlslPlane& plane : planes) {
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
-    if (plane.name == "normal") text += "vec4(" + normal_text(options) + ", 1.0);\n";
+    if (plane.name == "normal")
+      text += "vec4(" + normal_text(options) + (halves_normals(pipeline) ? " * 0.5 + 0.5" : "") + ", 1.0);\n";
     if (plane.name == "albedo") text += "albedo;\n";
     if (plane.name == "specular") text += "gloss;\n";
     if (plane.name == "emission") text += "vec4(emission, 1.0);\n";
@@ -174,7 +180,9 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
   const bool ids = coverage.format == Format::r32ui;
   return "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n  if (texelFetch(" + coverage.sampler +
          (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
-         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
+         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz" +
+         (halves_normals(pipeline) ? " * 2.0 - 1.0" : "") +
+         ";\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
          (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
          (pipeline.light_model.emission ? "  vec3 emission = texelFetch(emission_plane, pixel, 0).rgb;\n" : "") +
