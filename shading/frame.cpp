@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -106,13 +105,13 @@ struct FrameWork {
   // Draws are stored by way of wider codes, clears are not: llvmpipe's targets of 10 bits.
   bool stores_wide() const { return pipeline.profile != NumericProfile::ideal && pipeline.target == Format::rgb10_a2; }
 
-  // The clear colour; where draws store wide, one that a draw would store as the nearest codes of it.
+  // The clear colour; where draws store wide, one that a draw would store as the nearest codes of it, halves upward.
   void set_clear(float clear[4]) const {
     for (int c = 0; c < 4; ++c) {
       clear[c] = prepared.scene().clear[c];
       if (!stores_wide()) continue;
       const float unit = clear[c] > 1.0f ? 1.0f : clear[c] > 0.0f ? clear[c] : 0.0f;
-      const auto code = uint32_t(std::nearbyint(unit * float(info(pipeline.target).largest_code(c))));
+      const auto code = uint32_t(unit * float(info(pipeline.target).largest_code(c)) + 0.5f);
       clear[c] = float(c == 3 ? code * 0x5555 : code << 6 | code >> 4) / 65535.0f;
     }
   }
