@@ -26,20 +26,27 @@ constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the n
 template <bool kCodes>
 struct AddedLight {
   const BlendPlan& plan;
-  VF stored[4];
+  VF stored[4], largest[3];
   hn::Vec<DI> lights;
-  uint64_t evaluated;
+  uint64_t evaluated = 0;
+
+  AddedLight(const BlendPlan& blend_plan, const StoredPixels& pixels) : plan(blend_plan), lights(pixels.lights) {
+    for (int c = 0; c < 4; ++c) stored[c] = pixels.stored[c];
+    for (int c = 0; c < 3; ++c) largest[c] = hn::Set(DF(), plan.largest(c));
+  }
 
   template <class Terms>
   HWY_INLINE void add(const Terms& terms, const PixelVector& px, const LightTerm& term) {
     const DF d;
-    VF source[4];
-    for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
-    if constexpr (kCodes) {
-      for (int c = 0; c < 3; ++c)
-        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(term.adds, unorm_code(source[c], plan.largest(c))));
+    if constexpr (kCodes) {  // a clamped result is clamped again
+      for (int c = 0; c < 3; ++c) {
+        const VF x = terms.tinted(px, term.color[c], c), unit = hn::Min(x, hn::Set(d, 1.0f));
+        const MF counts = hn::And(term.adds, hn::Gt(x, hn::Zero(d)));  // and is a number
+        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(counts, hn::Round(hn::Mul(unit, largest[c]))));
+      }
     } else {
-      VF next[4] = {stored[0], stored[1], stored[2], stored[3]};
+      VF source[4], next[4] = {stored[0], stored[1], stored[2], stored[3]};
+      for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
       source[3] = hn::Zero(d);
       blend_out_of_line(plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
@@ -48,7 +55,7 @@ struct AddedLight {
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
     if constexpr (kCodes)
-      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], hn::Set(DF(), plan.largest(c)));
+      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], largest[c]);
   }
 };
 
@@ -112,6 +119,7 @@ struct TileBlend {
   const BlendMethod method;
   const int32_t* tied = nullptr;  ///< pixels that several fragments share; null where there are none
   TileRegions regions;
+  RegionCull cull;
 
   TileBlend(const LightDraws& draws, const SurfaceTile& surface_tile, const TileRect& tile_rect,
             const float clear_color[4], BlendWork& blend_work, ColorTile& out_tile, LightCounts& light_counts)
@@ -127,7 +135,9 @@ struct TileBlend {
         add_plan(plan),
         method(blend_method(draws, plan, clear_color)) {
     add_plan.written[3] = false;
-    find_regions(surface, blocks(), regions);
+    const bool culls = in.culling && method.adds;
+    cull = {culls, culls && !adds_unlit(terms.form.shape)};
+    find_regions(surface, blocks(), cull.facing, regions);
   }
   int blocks() const { return rect.size / kBlockSize; }
   int pixels() const { return rect.size * rect.size; }
@@ -220,8 +230,7 @@ void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, int i) {
   leave_out_tied(t, px, i);
   if (hn::AllFalse(DF(), px.covered)) return;
   StoredPixels pixels(t.out, i);
-  AddedLight<kCodes> sum{
-      t.add_plan, {pixels.stored[0], pixels.stored[1], pixels.stored[2], pixels.stored[3]}, pixels.lights, 0};
+  AddedLight<kCodes> sum(t.add_plan, pixels);
   add_lights(terms, px, std::span<const ListedLight>(t.work.region), VectorPlace(t.work.lights, t.blocks(), i), sum);
   for (int c = 0; c < 3; ++c) pixels.stored[c] = sum.stored[c];
   pixels.lights = sum.lights;
@@ -247,7 +256,7 @@ struct DrawRegions {
     const LightTerms<Shape> terms(t.in.table, t.in.model, shape);
     for (int k = 0; k < t.regions.count; ++k) {
       const Region& r = t.regions.region[k];
-      region_lights(t.work.lights, r, t.blocks(), t.in.culling && t.method.adds, t.work.region);
+      region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
       if (t.work.region.empty()) continue;
       for (int y = r.by; y < r.by + r.tall; ++y) {
         const int first = (y * t.blocks() + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
@@ -277,7 +286,7 @@ void blend_tile_simd(const LightDraws& draws, const SurfaceTile& surface, const 
   touching_lights(draws, rect, draws.first_base ? 1 : 0, work.touching);
   if (t.method.saturates_alpha && t.method.adds) saturate_alpha(t);
   if (draws.culling && t.method.adds)
-    std::erase_if(work.touching, [&](uint32_t light) { return out_of_reach(draws.table.row[light], t.regions.all); });
+    std::erase_if(work.touching, [&](uint32_t light) { return out_of_reach(draws.table.row[light], t.regions.place); });
   counts.tile_pairs += uint64_t(surface.covered_pixels) * work.touching.size();
   for (size_t first = 0; first < work.touching.size(); first += kChunkLights) {
     list_chunk(t, first, std::min(work.touching.size(), first + kChunkLights));

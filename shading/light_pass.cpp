@@ -34,7 +34,7 @@ void light_vector(const TileWork& in, const LightTerms<Shape>& terms, int i, Lig
   const DF d;
   const DI di;
   const PixelVector px = terms.load(in.surface, i);
-  LightSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(di), 0};
+  LightSum sum;
   if (!hn::AllFalse(d, px.covered)) {
     for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
     add_lights(terms, px, std::span<const ListedLight>(in.work.region),
@@ -56,7 +56,7 @@ void clear_tile(const TileWork& in) {
 }
 
 // The lights of the tile into its lists.
-void list_tile_lights(const TileWork& in, const Box& box) {
+void list_tile_lights(const TileWork& in, const Box& box, int pixels) {
   in.work.tile.clear();
   if (in.culling) {
     reaching_lights(in.lights, box, in.work.reaching);
@@ -64,22 +64,23 @@ void list_tile_lights(const TileWork& in, const Box& box) {
   } else {
     for (const LightRow& row : in.lights.row) in.work.tile.add({&row, 0, 0});
   }
-  in.counts.tile_pairs += uint64_t(box.pixels) * in.work.tile.light.size();
+  in.counts.tile_pairs += uint64_t(pixels) * in.work.tile.light.size();
 }
 
 template <class Shape>
 void light_tile_of(const Shape& shape, const TileWork& in) {
   const int blocks = in.tile / kBlockSize;
   TileRegions regions;
-  find_regions(in.surface, blocks, regions);
-  if (regions.all.pixels < in.tile * in.tile) clear_tile(in);
+  const RegionCull cull{in.culling, in.culling && !adds_unlit(shape.shape)};
+  find_regions(in.surface, blocks, cull.facing, regions);
+  if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
-  list_tile_lights(in, regions.all);
+  list_tile_lights(in, regions.place, regions.pixels);
 
   const LightTerms<Shape> terms(in.lights, in.model, shape);
   for (int k = 0; k < regions.count; ++k) {
     const Region& r = regions.region[k];
-    region_lights(in.work.tile, r, blocks, in.culling, in.work.region);
+    region_lights(in.work.tile, r, blocks, cull, in.work.region);
     for (int y = r.by; y < r.by + r.tall; ++y) {
       const int first = (y * blocks + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
       for (int i = first; i < end; i += int(hn::Lanes(DF()))) light_vector(in, terms, i, in.counts);

@@ -65,7 +65,11 @@ constexpr size_t kMostHits = 128;
 struct LightSum {
   VF color[3];
   hn::Vec<DI> lights;
-  uint64_t evaluated;
+  uint64_t evaluated = 0;
+
+  LightSum() : lights(hn::Zero(DI())) {
+    for (int c = 0; c < 3; ++c) color[c] = hn::Zero(DF());
+  }
 
   template <class Terms>
   HWY_INLINE void add(const Terms&, const PixelVector&, const LightTerm& term) {

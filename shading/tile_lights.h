@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,7 +37,9 @@ struct TileLights {
       for (auto& stream : position) stream.resize(2 * i + 64);
       cut2.resize(2 * i + 64);
     }
-    for (int c = 0; c < 3; ++c) position[c][i] = listed.light->position[c];
+    // A light without a place reaches everything: no comparison with a NaN drops it.
+    const bool placed = listed.light->kind != LightKind::other;
+    for (int c = 0; c < 3; ++c) position[c][i] = placed ? listed.light->position[c] : std::nanf("");
     cut2[i] = listed.light->cut2;
   }
 };
