@@ -29,6 +29,7 @@ struct Surfaces {
   Pipeline pipeline;
   View view;
   LightTable lights;
+  LightGroups groups;
   LightMeshes meshes;
   LightOutlines outlines;
   std::vector<TileRect> rect;
@@ -40,6 +41,7 @@ struct Surfaces {
     view = make_view(scene, pipeline);
     lights = make_light_table(scene.lights, pipeline.light_model, scene.camera);
     bound_by_extents(lights, scene.lights, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
+    groups = make_light_groups(lights, 1);
     if (blends_lights(pipeline.strategy)) outlines = make_light_outlines(scene.lights, pipeline, meshes, view, 1);
     const ClusterBins bins = bin_clusters(scene, prepared.clusters(), view, kTile, true, 1);
     const auto visible = std::make_unique<VisibilityTile>();
@@ -58,9 +60,9 @@ struct Surfaces {
   }
 
   LightDraws draws() const {
-    return {scene.lights, lights,         pipeline.light_model, pipeline.light_volumes,      meshes, outlines,
-            view,         pipeline.blend, {pipeline.target},    pipeline.light_volumes.base, false,  true,
-            true};
+    return {scene.lights, lights, groups,         pipeline.light_model, pipeline.light_volumes,      meshes,
+            outlines,     view,   pipeline.blend, {pipeline.target},    pipeline.light_volumes.base, false,
+            true,         true};
   }
 };
 
@@ -92,7 +94,8 @@ void light(benchmark::State& state, const std::string& spec, const std::string& 
       if (blends)
         blend_tile(draws, *surface, nullptr, in.rect[i], kClear, blend, *color, counts);
       else
-        light_tile(*surface, kTile, in.lights, in.pipeline.light_model, kClear, true, true, lists, *color, counts);
+        light_tile(*surface, kTile, in.lights, in.groups, in.pipeline.light_model, kClear, true, true, lists, *color,
+                   counts);
       least[i] = std::min(least[i],
                           std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
     }
@@ -108,10 +111,16 @@ void light(benchmark::State& state, const std::string& spec, const std::string& 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::pair<const char*, const char*> rows[] = {
-      {"builtin:city", "light-volumes"}, {"builtin:rabbits", "light-volumes"}, {"builtin:sphere", "light-volumes"},
-      {"builtin:red", "redsdk"},         {"builtin:city", "many-lights"},      {"builtin:rabbits", "many-lights"},
-      {"builtin:sphere", "many-lights"}, {"builtin:city", "touchdesigner"}};
+  const std::pair<const char*, const char*> rows[] = {{"builtin:city", "light-volumes"},
+                                                      {"builtin:rabbits", "light-volumes"},
+                                                      {"builtin:sphere", "light-volumes"},
+                                                      {"builtin:red", "redsdk"},
+                                                      {"builtin:city", "many-lights"},
+                                                      {"builtin:rabbits", "many-lights"},
+                                                      {"builtin:sphere", "many-lights"},
+                                                      {"builtin:city", "touchdesigner"},
+                                                      {"builtin:city,lights=10000,radius=overlap", "many-lights"},
+                                                      {"builtin:city,lights=100000,radius=overlap", "many-lights"}};
   for (const auto& [scene, preset] : rows)
     for (const std::string_view target : simd_targets())
       benchmark::RegisterBenchmark((std::string(scene) + " " + preset + " " + std::string(target)).c_str(),

@@ -104,6 +104,11 @@ inline void touching_lights(const LightDraws& in, const TileRect& rect, uint32_t
   }
 }
 
+inline bool touches(const LightOutlines& o, uint32_t light, const TileRect& rect) {
+  return o.x0[light] < rect.x + rect.size && o.x1[light] > rect.x && o.y0[light] < rect.y + rect.size &&
+         o.y1[light] > rect.y;
+}
+
 /// What blend_tile() is given, and what follows from it.
 struct TileBlend {
   const LightDraws& in;
@@ -136,7 +141,7 @@ struct TileBlend {
         method(blend_method(draws, plan, clear_color)) {
     add_plan.written[3] = false;
     const bool culls = in.culling && method.adds;
-    cull = {culls, culls && !adds_unlit(terms.form.shape)};
+    cull = {culls, culls && in.table.cones, culls && !adds_unlit(terms.form.shape)};
     find_regions(surface, blocks(), cull.facing, regions);
   }
   int blocks() const { return rect.size / kBlockSize; }
@@ -225,25 +230,31 @@ void leave_out_tied(const TileBlend& t, PixelVector& px, int i) {
 }
 
 template <bool kCodes, class Shape>
-void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, int i) {
+void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i) {
   PixelVector px = terms.load(t.surface, i);
   leave_out_tied(t, px, i);
   if (hn::AllFalse(DF(), px.covered)) return;
   StoredPixels pixels(t.out, i);
   AddedLight<kCodes> sum(t.add_plan, pixels);
-  add_lights(terms, px, std::span<const ListedLight>(t.work.region), VectorPlace(t.work.lights, t.blocks(), i), sum);
+  add_lights(terms, px, list, VectorPlace(t.work.lights, t.blocks(), i), sum);
   for (int c = 0; c < 3; ++c) pixels.stored[c] = sum.stored[c];
   pixels.lights = sum.lights;
   pixels.store(t.out, i);
   t.counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
 }
 
-void draw_every_at(const TileBlend& t, int i) {
+void draw_every_at(const TileBlend& t, std::span<const ListedLight> list, int i) {
   PixelVector px = t.terms.load(t.surface, i);
   leave_out_tied(t, px, i);
   if (hn::AllFalse(DF(), px.covered)) return;
-  draw_every(t.terms, t.plan, t.surface, px, t.work.region, VectorPlace(t.work.lights, t.blocks(), i), i, t.out,
-             t.counts);
+  draw_every(t.terms, t.plan, t.surface, px, list, VectorPlace(t.work.lights, t.blocks(), i), i, t.out, t.counts);
+}
+
+// Codes add up in any order: lights of a kind follow each other, so that kernels need not choose light by light.
+void gather_kinds(const LightTable& table, std::vector<uint32_t>& lights) {
+  const auto placed = [&](uint32_t i) { return table.row[i].kind == LightKind::placed; };
+  const auto coned = [&](uint32_t i) { return table.row[i].kind == LightKind::coned; };
+  std::partition(std::partition(lights.begin(), lights.end(), placed), lights.end(), coned);
 }
 
 /// The draws of a chunk over all regions, by the terms of one shape.
@@ -254,26 +265,29 @@ struct DrawRegions {
   template <class Shape>
   void operator()(const Shape& shape) const {
     const LightTerms<Shape> terms(t.in.table, t.in.model, shape);
-    for (int k = 0; k < t.regions.count; ++k) {
-      const Region& r = t.regions.region[k];
+    for (int n = 0; n < t.regions.count; ++n) {
+      const Region& r = t.regions.region[n];
       region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
-      if (t.work.region.empty()) continue;
-      for (int y = r.by; y < r.by + r.tall; ++y) {
-        const int first = (y * t.blocks() + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
-        for (int i = first; i < end; i += int(hn::Lanes(DF()))) draw(terms, i);
+      if (t.work.region.light.empty()) continue;
+      for (int k = 0; k < r.wide * r.tall; ++k) {
+        const int block = (r.by + k / r.wide) * t.blocks() + r.bx + k % r.wide;
+        const std::span<const ListedLight> list =
+            block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);
+        for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
+          draw(terms, list, i);
       }
     }
   }
 
  private:
   template <class Shape>
-  void draw(const LightTerms<Shape>& terms, int i) const {
+  void draw(const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i) const {
     if (!t.method.adds)
-      draw_every_at(t, i);
+      draw_every_at(t, list, i);
     else if (t.method.codes)
-      add_to_vector<true>(t, terms, i);
+      add_to_vector<true>(t, terms, list, i);
     else
-      add_to_vector<false>(t, terms, i);
+      add_to_vector<false>(t, terms, list, i);
   }
 };
 
@@ -283,11 +297,21 @@ void blend_tile_simd(const LightDraws& draws, const SurfaceTile& surface, const 
   begin_all(t);
   if (surface.covered_pixels == 0 && tied == nullptr) return;
   t.tied = tied != nullptr && !tied->tied.empty() ? tied->tied.data() : nullptr;
-  touching_lights(draws, rect, draws.first_base ? 1 : 0, work.touching);
-  if (t.method.saturates_alpha && t.method.adds) saturate_alpha(t);
-  if (draws.culling && t.method.adds)
-    std::erase_if(work.touching, [&](uint32_t light) { return out_of_reach(draws.table.row[light], t.regions.place); });
+  const uint32_t first_light = draws.first_base ? 1 : 0;
+  const bool reaching = draws.culling && t.method.adds;
+  if (t.method.saturates_alpha && t.method.adds) {
+    touching_lights(draws, rect, first_light, work.touching);
+    saturate_alpha(t);
+  }
+  if (reaching) {
+    reaching_lights(draws.table, draws.groups, t.regions, t.cull, work.bits, work.touching);
+    std::erase_if(work.touching,
+                  [&](uint32_t light) { return light < first_light || !touches(draws.outlines, light, rect); });
+  } else {
+    touching_lights(draws, rect, first_light, work.touching);
+  }
   counts.tile_pairs += uint64_t(surface.covered_pixels) * work.touching.size();
+  if (t.method.adds && t.method.codes && draws.table.cones) gather_kinds(draws.table, work.touching);
   for (size_t first = 0; first < work.touching.size(); first += kChunkLights) {
     list_chunk(t, first, std::min(work.touching.size(), first + kChunkLights));
     with_shape(draws.model, draws.compiled, DrawRegions{t});

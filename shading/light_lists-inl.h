@@ -13,10 +13,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "raster/region.h"
 #include "raster/store-inl.h"
+#include "shading/light_groups.h"
 #include "shading/light_term-inl.h"
 #include "shading/tile_lights.h"
 
@@ -134,7 +136,8 @@ inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileReg
 
 /// What may keep a light from a region's pixels.
 struct RegionCull {
-  bool distance;  ///< and cones
+  bool distance;  ///< all of it is out of its reach
+  bool cone;      ///< or out of its cone
   bool facing;    ///< all normals point away: the model adds nothing then
 };
 
@@ -208,13 +211,65 @@ HWY_INLINE void for_each_bit(MF mask, size_t first, size_t count, const Found& f
   }
 }
 
-/// Lights of the table that may reach the box, ascending.
-inline void reaching_lights(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
-  const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
+/// Calls found(i) for the boxes of [first, end) that meet `box`.
+template <class Found>
+HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box,
+                                 const Found& found) {
+  const DF d;
+  for (size_t i = first; i < end; i += hn::Lanes(d)) {
+    MF meets = hn::Eq(hn::Zero(d), hn::Zero(d));
+    for (int c = 0; c < 3; ++c) {
+      const MF below = hn::Gt(hn::LoadU(d, boxes.low[c].data() + i), hn::Set(d, box.high[c]));
+      const MF above = hn::Lt(hn::LoadU(d, boxes.high[c].data() + i), hn::Set(d, box.low[c]));
+      meets = hn::AndNot(hn::Or(below, above), meets);
+    }
+    for_each_bit(meets, i, end, found);
+  }
+}
+
+/// Sets the bit of each light, found among many, that may reach the region.
+inline void reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
+                            std::vector<uint64_t>& bits) {
+  constexpr size_t kGroup = LightGroups::kGroup;
+  const float* const position[3] = {groups.position[0].data(), groups.position[1].data(), groups.position[2].data()};
+  const auto set = [&](size_t k) {
+    const uint32_t light = groups.light[k];
+    if (!cull.cone || !dark_over(lights.row[light], r.place.low, r.place.high))
+      bits[light / 64] |= uint64_t(1) << light % 64;
+  };
+  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
+    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
+    for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
+      for (size_t i = group * kGroup; i < (group + 1) * kGroup; i += hn::Lanes(DF())) {
+        MF reaches = within_reach(position, groups.cut2.data(), i, r.place);
+        if (cull.facing && !hn::AllFalse(DF(), reaches)) reaches = hn::AndNot(faced_away(position, i, r), reaches);
+        for_each_bit(reaches, i, groups.light.size(), set);
+      }
+    });
+  });
+}
+
+/// Lights of the table that may reach the tile, ascending: its box, or, of many lights, any of its regions.
+/// `bits` is scratch, all zero.
+inline void reaching_lights(const LightTable& lights, const LightGroups& groups, const TileRegions& tile,
+                            RegionCull cull, std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
   out.clear();
+  if (!groups.empty()) {
+    bits.resize((lights.size() + 63) / 64);
+    for (int k = 0; k < tile.count; ++k) reaching_groups(lights, groups, tile.region[k], cull, bits);
+    for (const uint32_t light : groups.always) bits[light / 64] |= uint64_t(1) << light % 64;
+    for (size_t w = 0; w < bits.size(); ++w) {
+      for (uint64_t word = bits[w]; word != 0; word &= word - 1)
+        out.push_back(uint32_t(64 * w) + uint32_t(std::countr_zero(word)));
+      bits[w] = 0;
+    }
+    return;
+  }
+  const Box& box = tile.place;
+  const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.size(); first += hn::Lanes(DF()))
     for_each_bit(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
-      if (!dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
+      if (!lights.cones || !dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
     });
 }
 
@@ -235,14 +290,15 @@ inline bool covers_some(const TileLights& lights, const Region& r, int blocks, L
 }
 
 /// The tile's lights that may reach a region.
-inline void region_lights(const TileLights& lights, const Region& r, int blocks, RegionCull cull,
-                          std::vector<ListedLight>& out) {
+inline void region_lights(const TileLights& lights, const Region& r, int blocks, RegionCull cull, TileLights& out) {
   const DF d;
   out.clear();
   const auto add = [&](size_t i) {
     ListedLight listed = lights.light[i];
-    if (cull.distance && dark_over(*listed.light, r.place.low, r.place.high)) return;
-    if (listed.crossing == 0 || covers_some(lights, r, blocks, listed)) out.push_back(listed);
+    if (cull.cone && dark_over(*listed.light, r.place.low, r.place.high)) return;
+    if (listed.crossing != 0 && !covers_some(lights, r, blocks, listed)) return;
+    const float place[3] = {lights.position[0][i], lights.position[1][i], lights.position[2][i]};
+    out.add(listed, place, lights.cut2[i]);
   };
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.light.size(); first += hn::Lanes(d)) {
@@ -251,6 +307,24 @@ inline void region_lights(const TileLights& lights, const Region& r, int blocks,
     if (cull.facing && !hn::AllFalse(d, reaches)) reaches = hn::AndNot(faced_away(position, first, r), reaches);
     for_each_bit(reaches, first, lights.light.size(), add);
   }
+}
+
+/// The lights that may reach a block: the region's, or where these are many those near the block. `scratch` is kept.
+inline std::span<const ListedLight> block_lights(const SurfaceTile& surface, int block, const TileLights& region,
+                                                 bool cull, std::vector<ListedLight>& scratch) {
+  constexpr size_t kMany = 40;
+  if (!cull || region.light.size() <= kMany) return region.light;
+  const DF d;
+  BoxVector vectors;
+  for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d)))
+    vectors.add(surface, kPosition, i, hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), surface.covered + i))));
+  const Box box = vectors.box();
+  const float* const position[3] = {region.position[0].data(), region.position[1].data(), region.position[2].data()};
+  scratch.clear();
+  for (size_t first = 0; first < region.light.size(); first += hn::Lanes(d))
+    for_each_bit(within_reach(position, region.cut2.data(), first, box), first, region.light.size(),
+                 [&](size_t i) { scratch.push_back(region.light[i]); });
+  return scratch;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -17,6 +17,9 @@ struct ListedLight {
   static constexpr int32_t kMasked = -1;
 };
 
+/// The place of a light that has none: no comparison with a NaN drops it.
+inline const float kNowhere[3] = {std::nanf(""), std::nanf(""), std::nanf("")};
+
 /// Lights of the tile at work, in scene order, a light as often as it is drawn; side by side what tells whether they
 /// reach a box. Kept between tiles to save allocation.
 struct TileLights {
@@ -30,17 +33,20 @@ struct TileLights {
     edges.clear();
     masks.clear();
   }
-  void add(const ListedLight& listed) {
+  /// `light`: of the table.
+  void add(const LightTable& table, uint32_t light, uint32_t first = 0, int32_t crossing = 0) {
+    const float place[3] = {table.position[0][light], table.position[1][light], table.position[2][light]};
+    add({&table.row[light], first, crossing}, place, table.cut2[light]);
+  }
+  void add(const ListedLight& listed, const float* place, float cut) {
     const size_t i = light.size();
     light.push_back(listed);
     if (cut2.size() < i + 17) {
       for (auto& stream : position) stream.resize(2 * i + 64);
       cut2.resize(2 * i + 64);
     }
-    // A light without a place reaches everything: no comparison with a NaN drops it.
-    const bool placed = listed.light->kind != LightKind::other;
-    for (int c = 0; c < 3; ++c) position[c][i] = placed ? listed.light->position[c] : std::nanf("");
-    cut2[i] = listed.light->cut2;
+    for (int c = 0; c < 3; ++c) position[c][i] = place[c];
+    cut2[i] = cut;
   }
 };
 
