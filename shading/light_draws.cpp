@@ -41,7 +41,7 @@ void list_draws(const LightDraws& in, const TileRect& rect, std::span<const uint
     const bool masked = cover == Cover::masks;
     for (int i = 0; i < in.outlines.layers[light]; ++i)
       out.add(in.table, light, masked ? masks : edges,
-              masked ? ListedLight::kMasked : int32_t(out.edges.size() - edges));
+              masked ? ListedLight::kMasked : int16_t(out.edges.size() - edges));
   }
 }
 

@@ -296,9 +296,7 @@ inline void region_lights(const TileLights& lights, const Region& r, int blocks,
   const auto add = [&](size_t i) {
     ListedLight listed = lights.light[i];
     if (cull.cone && dark_over(*listed.light, r.place.low, r.place.high)) return;
-    if (listed.crossing != 0 && !covers_some(lights, r, blocks, listed)) return;
-    const float place[3] = {lights.position[0][i], lights.position[1][i], lights.position[2][i]};
-    out.add(listed, place, lights.cut2[i]);
+    if (listed.crossing == 0 || covers_some(lights, r, blocks, listed)) out.add(listed);
   };
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.light.size(); first += hn::Lanes(d)) {

@@ -129,11 +129,10 @@ HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px,
   size_t hits = 0;
   for (const ListedLight& listed : list) {
     MF adds = px.covered;
-    if (HWY_LIKELY(listed.light->kind != LightKind::other)) {
+    if (HWY_LIKELY(listed.placed)) {
       LightChain chain;
-      chain.light = listed.light;
-      terms.place(px, false, chain);
-      terms.reach(px, false, chain);
+      terms.place(px, false, listed.position, chain);
+      terms.reach(px, false, listed.cut2, chain);
       adds = chain.term.adds;
     }
     if (HWY_UNLIKELY(listed.crossing != 0)) adds = at.covered(listed, adds);

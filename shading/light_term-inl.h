@@ -102,9 +102,12 @@ struct LightTerms {
 
   /// D, its square and N . D.
   HWY_INLINE void place(const PixelVector& px, bool directional, LightChain& at) const {
+    place(px, directional, at.light->position, at);
+  }
+  HWY_INLINE void place(const PixelVector& px, bool directional, const float* position, LightChain& at) const {
     const DF d;
     for (int c = 0; c < 3; ++c) {
-      const VF place = hn::Set(d, at.light->position[c]);
+      const VF place = hn::Set(d, position[c]);
       at.to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
     }
     at.nl = dot3(px.n, at.to_light);
@@ -112,9 +115,9 @@ struct LightTerms {
   }
 
   /// Which pixels a placed light adds something to, as far as the distance and N . D tell.
-  HWY_INLINE void reach(const PixelVector& px, bool directional, LightChain& at) const {
+  HWY_INLINE void reach(const PixelVector& px, bool directional, float cut2, LightChain& at) const {
     const DF d;
-    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, at.light->cut2)));
+    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, cut2)));
     at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
     at.term.adds = adds_unlit(form.shape) ? in_range : at.term.lit;
   }
@@ -230,7 +233,7 @@ struct LightTerms {
     LightChain at;
     at.light = &light;
     place(px, directional, at);
-    reach(px, directional, at);
+    reach(px, directional, light.cut2, at);
     if (hn::AllFalse(d, at.term.adds)) return at.term;
     fall_off(directional, at);
     narrow_if(at);
