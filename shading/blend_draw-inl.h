@@ -92,7 +92,7 @@ inline void draw_tied(const AnyTerms& terms, const BlendPlan& plan, const TiedFr
   const DF d;
   const DI di;
   for (int i = 0; i < pixels; i += int(hn::Lanes(d))) {
-    if (hn::AllTrue(di, hn::Eq(hn::Load(di, tied.tied.data() + i), hn::Zero(di)))) continue;
+    if (hn::AllTrue(di, hn::Eq(hn::LoadU(di, tied.tied.data() + i), hn::Zero(di)))) continue;
     StoredPixels out(tile, i);
     for (size_t light = 1; light < terms.lights.size(); ++light)
       for (size_t layer = 0; layer < tied.used; ++layer) {

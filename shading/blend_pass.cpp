@@ -226,7 +226,7 @@ void saturate_alpha(const TileBlend& t) {
 void leave_out_tied(const TileBlend& t, PixelVector& px, int i) {
   if (t.tied == nullptr) return;
   const DI di;
-  px.covered = hn::And(px.covered, hn::RebindMask(DF(), hn::Eq(hn::Load(di, t.tied + i), hn::Zero(di))));
+  px.covered = hn::And(px.covered, hn::RebindMask(DF(), hn::Eq(hn::LoadU(di, t.tied + i), hn::Zero(di))));
 }
 
 template <bool kCodes, class Shape>

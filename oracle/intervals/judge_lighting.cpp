@@ -29,8 +29,10 @@ class LightingJudge {
         count_(plane_of(capture, pipeline, "light.count")),
         specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
         emission_(pipeline.light_model.emission ? required(capture, "emission") : PlaneView{}),
-        viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
-    view_axis_ = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+        viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)),
+        lights_(scene, pipeline.light_model,
+                view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
+                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
     if (pipeline.gbuffer.position_from_depth) {
       depth_ = required(capture, "depth");
       invert();
@@ -92,8 +94,8 @@ class LightingJudge {
   const Pipeline pipeline_;
   const Profile profile_;
   PlaneView color_, normal_, albedo_, object_, count_, specular_, emission_, position_, depth_;
-  std::array<double, 3> view_axis_;
   Viewport viewport_;
+  LightBounds lights_;
   Matrix4 world_from_clip_{};
 };
 
@@ -180,8 +182,7 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   if (!covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_at(x, y);
-  const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic,
-                                 profile_.exact_planes, pipeline_.light_volumes);
+  const LitRange lit = lights_.at(surface);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;

@@ -72,6 +72,25 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
       }
 }
 
+TEST_CASE("what the driver drew is saved as a picture, and as a capture that is judged alike") {
+  const ScratchFolder folder;
+  const Outcome drawn =
+      judged(folder, {"--driver", "llvmpipe", "--size", "120x90", "--save", "c.exr", "--save", "c.png"});
+  if (drawn.exit_code == kNoDriver) {
+    WARN("SKIPPED: " << drawn.err);
+    return;
+  }
+  INFO(drawn.out << drawn.err);
+  CHECK(drawn.exit_code == 0);
+  CHECK(folder.entries() == Arguments{"c.exr", "c.png"});
+  const Outcome again = judged(folder, {"--gbuffer", "c.exr", "--image", "c.png", "--subpixel-bits", "8"});
+  INFO(again.out << again.err);
+  CHECK(again.exit_code == 0);
+  CHECK(has(again.out, "lighting: 10800 pixels"));
+  check_refused(judged(folder, {"--save", "c.jpg"}), 2, "--save");
+  check_refused(judged(folder, {"--gbuffer", "c.exr", "--save", "d.png"}), 2, "--save");
+}
+
 TEST_CASE("a driver's report and JSON name the driver and the tightest profile") {
   const ScratchFolder folder;
   const Outcome outcome = run_command(
@@ -108,6 +127,20 @@ TEST_CASE("our own frame is a capture like any other, and explained") {
     CHECK(outcome.exit_code == 0);
     CHECK(has(outcome.out, "lighting: 30000 pixels"));
   }
+}
+
+TEST_CASE("a capture is judged at its time: the lights have moved") {
+  const ScratchFolder folder;
+  const Outcome drawn = run_command({"render", "builtin:cornell", "--size", "120x90", "--time", "3.5", "-o", "c.exr",
+                                     "--aov", "depth,position,normal,albedo,uv,id.object,id.material"},
+                                    folder.path(""));
+  REQUIRE(drawn.exit_code == 0);
+  const Outcome same = judged(folder, {"--gbuffer", "c.exr", "--time", "3.5"});
+  INFO(same.out << same.err);
+  CHECK(same.exit_code == 0);
+  CHECK(judged(folder, {"--gbuffer", "c.exr", "--time", "3"}).exit_code == 1);
+  CHECK(judged(folder, {"--gbuffer", "c.exr"}).exit_code == 1);
+  check_refused(judged(folder, {"--gbuffer", "c.exr", "--time", "soon"}), 2, "--time");
 }
 
 TEST_CASE("one wrong value in a capture is found at its pixel") {
