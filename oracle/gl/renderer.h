@@ -17,6 +17,7 @@ struct GlDraw {
   int shift_x = 0, shift_y = 0;  ///< the picture moved by whole pixels, >= 0, and read back from there
   const GlslShaders* shaders = nullptr;  ///< instead of shaders_of(pipeline, shader_options)
   GlslOptions shader_options;            ///< of `shaders`
+  StepSink after_light;                  ///< of strategies that draw light by light: shown the target after each
 };
 
 struct GlPass {

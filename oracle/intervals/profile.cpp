@@ -35,6 +35,7 @@ Profile llvmpipe() {
   p.plane_origin = PlaneOrigin::unsnapped;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
+  p.blend = BlendRule::mesa_codes;
   p.least_depth_unit = 2;
   p.max_norm_slope = true;
   p.arithmetic.roundoff = 0x1p-24;
@@ -51,6 +52,7 @@ Profile ideal() {
   p.plane_origin = PlaneOrigin::snapped;
   p.exact_vertices = p.exact_planes = true;
   p.clips_to_view = false;
+  p.blend = BlendRule::float_once;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
   p.most_depth_unit = 1;
