@@ -17,9 +17,18 @@ Real half_value(unsigned bits) {
   return sign * (exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25));
 }
 
+std::array<Real, 256> srgb_values() {
+  std::array<Real, 256> values;
+  for (size_t code = 0; code < 256; ++code) {
+    const Real s = Real(code) / 255;
+    values[code] = s <= 0.04045L ? s / 12.92L : std::pow((s + 0.055L) / 1.055L, 2.4L);
+  }
+  return values;
+}
+
 Real srgb_value(unsigned code) {
-  const Real s = Real(code) / 255;
-  return s <= 0.04045L ? s / 12.92L : std::pow((s + 0.055L) / 1.055L, 2.4L);
+  static const std::array<Real, 256> values = srgb_values();
+  return values[code];
 }
 
 long long modulo(long long i, long long n) { return ((i % n) + n) % n; }

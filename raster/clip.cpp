@@ -80,7 +80,8 @@ std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, 
                                      double b) {
   const double ca[4] = {double(va.c[0]), double(va.c[1]), double(va.c[2]), double(va.c[3])};
   const double cb[4] = {double(vb.c[0]), double(vb.c[1]), double(vb.c[2]), double(vb.c[3])};
-  if (p.constant != 0.0) return std::nullopt;
+  // The constant takes part as constant * (a - b), and not at all in the divisor.
+  const double by_constant = p.constant * (a - b);
   const Exact da = exact_sum(ca[p.axis] * p.sign, ca[3] * p.w_factor),
               db = exact_sum(cb[p.axis] * p.sign, cb[3] * p.w_factor);
   const Exact den = exact_sum(db.value, -da.value);
@@ -88,8 +89,9 @@ std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, 
   const Exact left = exact_product(a, db.value), right = exact_product(b, da.value);
   const Exact high = exact_sum(left.value, -right.value), low = exact_sum(left.rest, -right.rest);
   const Exact mid = exact_sum(high.rest, low.value);
-  if (std::abs(high.value) < std::abs(left.value) * 0x1p-30) return std::nullopt;  // the parts cancel
-  const double n0 = high.value, n1 = mid.value, n2 = mid.rest + low.rest;
+  if (std::abs(high.value) < std::abs(left.value) * 0x1p-30) return std::nullopt;   // the parts cancel
+  if (std::abs(by_constant) > std::abs(high.value) * 0x1p-40) return std::nullopt;  // its own rounding would count
+  const double n0 = high.value, n1 = mid.value, n2 = mid.rest + (low.rest + by_constant);
   const double q1 = (n0 + n1) / den.value;
   if (!(std::abs(q1) > 1e-200 && std::abs(q1) < 1e200)) return std::nullopt;
   const Exact back = exact_product(q1, den.value);
@@ -108,6 +110,7 @@ std::optional<double> quick_crossing(const PlaneTerms& p, const ClipVertex& va, 
 // (a*db - b*da) / (db - da), exact, rounded once; da and db the plane's distances at the two ends.
 double exact_crossing(const PlaneTerms& p, const ClipVertex& va, const ClipVertex& vb, float a, float b) {
   if (a == b) return double(a);
+  if (p.axis == 3 && a == va.c[3] && b == vb.c[3]) return -p.constant;  // w on the plane of w
   if (const std::optional<double> quick = quick_crossing(p, va, vb, double(a), double(b))) return *quick;
   const double ca[2] = {double(va.c[p.axis]) * p.sign, double(va.c[3]) * p.w_factor};
   const double cb[2] = {double(vb.c[p.axis]) * p.sign, double(vb.c[3]) * p.w_factor};

@@ -29,26 +29,26 @@ HWY_INLINE VF at_most(VF x, float most) {
 }
 
 /// Of a point or spot light, at `distance` with its square and its reciprocal (0 at 0).
-HWY_INLINE VF falloff_of(Falloff falloff, const LightTable& lights, size_t light, VF distance, VF d2, VF inverse) {
+HWY_INLINE VF falloff_of(Falloff falloff, const LightRow& light, VF distance, VF d2, VF inverse) {
   const DF d;
   const VF one = hn::Set(d, 1.0f);
   switch (falloff) {
     case Falloff::none:
       return one;
     case Falloff::linear_range:
-      return positive(hn::Sub(one, hn::Div(distance, hn::Set(d, lights.range[light]))));
+      return positive(hn::Sub(one, hn::Div(distance, hn::Set(d, light.range))));
     case Falloff::linear:
-      return hn::Sub(one, hn::Div(distance, hn::Set(d, lights.range[light])));
+      return hn::Sub(one, hn::Div(distance, hn::Set(d, light.range)));
     case Falloff::quadratic:
     case Falloff::attenuation: {
-      const VF k0 = falloff == Falloff::quadratic ? one : hn::Set(d, lights.k0[light]);
-      const VF linear = hn::Add(k0, hn::Mul(hn::Set(d, lights.k1[light]), distance));
-      const VF square = hn::Mul(hn::Mul(hn::Set(d, lights.k2[light]), distance), distance);
+      const VF k0 = falloff == Falloff::quadratic ? one : hn::Set(d, light.k0);
+      const VF linear = hn::Add(k0, hn::Mul(hn::Set(d, light.k1), distance));
+      const VF square = hn::Mul(hn::Mul(hn::Set(d, light.k2), distance), distance);
       const VF f = hn::Div(one, hn::Add(linear, square));
       return falloff == Falloff::quadratic ? f : at_most(f, kLargestFalloff);
     }
     case Falloff::inverse_square: {
-      const VF u = hn::Div(d2, hn::Set(d, lights.range2[light]));
+      const VF u = hn::Div(d2, hn::Set(d, light.range2));
       const VF window = positive(hn::Sub(one, hn::Mul(u, u)));
       return hn::Mul(window, at_most(hn::Mul(inverse, inverse), kLargestFalloff));
     }
@@ -57,13 +57,13 @@ HWY_INLINE VF falloff_of(Falloff falloff, const LightTable& lights, size_t light
 }
 
 /// Of a spot light whose kind is `coned`; to_light: L, of unit length.
-HWY_INLINE VF cone_of(Cone cone, const LightTable& lights, size_t light, const VF to_light[3]) {
+HWY_INLINE VF cone_of(Cone cone, const LightRow& light, const VF to_light[3]) {
   const DF d;
   VF axis[3];
-  for (int c = 0; c < 3; ++c) axis[c] = hn::Set(d, lights.axis[c][light]);
+  for (int c = 0; c < 3; ++c) axis[c] = hn::Set(d, light.axis[c]);
   const VF cosine =
       hn::Add(hn::Add(hn::Mul(to_light[0], axis[0]), hn::Mul(to_light[1], axis[1])), hn::Mul(to_light[2], axis[2]));
-  const VF edge = hn::Set(d, lights.edge[light]), slope = hn::Set(d, lights.slope[light]);
+  const VF edge = hn::Set(d, light.edge), slope = hn::Set(d, light.slope);
   switch (cone) {
     case Cone::none:
       return hn::Set(d, 1.0f);
@@ -73,7 +73,7 @@ HWY_INLINE VF cone_of(Cone cone, const LightTable& lights, size_t light, const V
       return hn::Mul(hn::Mul(t, t), hn::Sub(hn::Set(d, 3.0f), hn::Mul(hn::Set(d, 2.0f), t)));
     }
     case Cone::exponent:
-      return hn::IfThenElseZero(hn::Ge(cosine, edge), rounded_power<-1>(positive(cosine), lights.spot_exponent[light]));
+      return hn::IfThenElseZero(hn::Ge(cosine, edge), rounded_power<-1>(positive(cosine), light.spot_exponent));
     case Cone::squared_penumbra: {
       const VF t = at_most(positive(hn::Add(hn::Mul(cosine, slope), edge)), 1.0f);
       return hn::Mul(t, t);

@@ -113,7 +113,8 @@ struct FrameWork {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
       write_stored(s.color, where, out.color);
-      if (execution.count_as_gl) counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend);
+      if (execution.count_as_gl)
+        counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend.counts, s.blend.lights);
     } else {
       light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
                  execution.compiled_models, s.lights, s.color, counts.light);

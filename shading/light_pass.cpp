@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <span>
 
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
@@ -13,29 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class Shape>
-void light_block(const SurfaceTile& surface, int block, const std::vector<uint32_t>& list,
-                 const LightTerms<Shape>& terms, const float clear[4], ColorTile& out, LightCounts& counts) {
-  const DF d;
-  const DI di;
-  for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d))) {
-    const PixelVector px = terms.load(surface, i);
-    LightSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(di), 0};
-    if (!hn::AllFalse(d, px.covered)) {
-      for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(surface, i, px, c);
-      add_lights(terms, px, list, sum);
-      for (int c = 0; c < 3; ++c) sum.color[c] = terms.finished(px, sum.color[c], c);
-    }
-    for (int c = 0; c < 3; ++c)
-      hn::Store(hn::IfThenElse(px.covered, sum.color[c], hn::Set(d, clear[c])), d, out.plane[c] + i);
-    hn::Store(hn::IfThenElse(px.covered, terms.alpha(surface, i), hn::Set(d, clear[3])), d, out.plane[3] + i);
-    int32_t* light_count = reinterpret_cast<int32_t*>(out.light_count) + i;
-    hn::Store(sum.lights, di, light_count);
-    counts.evaluated_pairs += sum.evaluated * hn::Lanes(d);
-    for (size_t lane = 0; lane < hn::Lanes(d); ++lane) counts.lit_pairs += uint64_t(light_count[lane]);
-  }
-}
 
 /// What light_tile() is given.
 struct TileWork {
@@ -50,39 +28,68 @@ struct TileWork {
   LightCounts& counts;
 };
 
+/// Colours of the vector of pixels at i: its sum over the lights of the region, or `clear`.
+template <class Shape>
+void light_vector(const TileWork& in, const LightTerms<Shape>& terms, int i, LightCounts& counts) {
+  const DF d;
+  const DI di;
+  const PixelVector px = terms.load(in.surface, i);
+  LightSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(di), 0};
+  if (!hn::AllFalse(d, px.covered)) {
+    for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
+    add_lights(terms, px, std::span<const ListedLight>(in.work.region),
+               VectorPlace(in.work.tile, in.tile / kBlockSize, i), sum);
+    for (int c = 0; c < 3; ++c) sum.color[c] = terms.finished(px, sum.color[c], c);
+  }
+  for (int c = 0; c < 3; ++c)
+    hn::Store(hn::IfThenElse(px.covered, sum.color[c], hn::Set(d, in.clear[c])), d, in.out.plane[c] + i);
+  hn::Store(hn::IfThenElse(px.covered, terms.alpha(in.surface, i), hn::Set(d, in.clear[3])), d, in.out.plane[3] + i);
+  hn::Store(sum.lights, di, reinterpret_cast<int32_t*>(in.out.light_count) + i);
+  counts.evaluated_pairs += sum.evaluated * hn::Lanes(d);
+}
+
+// Of pixels without a surface.
+void clear_tile(const TileWork& in) {
+  const size_t pixels = size_t(in.tile) * size_t(in.tile);
+  for (int c = 0; c < 4; ++c) std::fill_n(in.out.plane[c], pixels, in.clear[c]);
+  std::fill_n(in.out.light_count, pixels, 0u);
+}
+
+// The lights of the tile into its lists.
+void list_tile_lights(const TileWork& in, const Box& box) {
+  in.work.tile.clear();
+  if (in.culling) {
+    reaching_lights(in.lights, box, in.work.reaching);
+    for (const uint32_t i : in.work.reaching) in.work.tile.add({&in.lights.row[i], 0, 0});
+  } else {
+    for (const LightRow& row : in.lights.row) in.work.tile.add({&row, 0, 0});
+  }
+  in.counts.tile_pairs += uint64_t(box.pixels) * in.work.tile.light.size();
+}
+
 template <class Shape>
 void light_tile_of(const Shape& shape, const TileWork& in) {
   const int blocks = in.tile / kBlockSize;
-  int all_blocks[kMaxTilePixels / kBlockPixels];
-  for (int i = 0; i < blocks * blocks; ++i) all_blocks[i] = i;
-  in.work.tile.clear();
-  if (in.culling) {
-    reaching_lights_of_scene(in.lights, surface_box(in.surface, all_blocks, blocks * blocks), in.work.tile);
-  } else {
-    for (uint32_t i = 0; i < in.lights.size(); ++i) in.work.tile.push_back(i);
-  }
-  in.counts.tile_pairs += uint64_t(in.surface.covered_pixels) * in.work.tile.size();
+  TileRegions regions;
+  find_regions(in.surface, blocks, regions);
+  if (regions.all.pixels < in.tile * in.tile) clear_tile(in);
+  if (regions.count == 0) return;
+  list_tile_lights(in, regions.all);
 
   const LightTerms<Shape> terms(in.lights, in.model, shape);
-  for (int by = 0; by < blocks; by += kRegionBlocks) {
-    for (int bx = 0; bx < blocks; bx += kRegionBlocks) {
-      int block[kRegionBlocks * kRegionBlocks];
-      const int count = region_blocks(blocks, bx, by, block);
-      const std::vector<uint32_t>* list = &in.work.tile;
-      if (in.culling) {
-        in.work.region.clear();
-        const Box box = surface_box(in.surface, block, count);
-        if (box.pixels > 0)
-          reaching_lights(
-              in.lights, box, in.work.tile.size(), [&](size_t k) { return in.work.tile[k]; }, in.work.region);
-        list = &in.work.region;
-      }
-      for (int i = 0; i < count; ++i) light_block(in.surface, block[i], *list, terms, in.clear, in.out, in.counts);
+  for (int k = 0; k < regions.count; ++k) {
+    const Region& r = regions.region[k];
+    region_lights(in.work.tile, r, blocks, in.culling, in.work.region);
+    for (int y = r.by; y < r.by + r.tall; ++y) {
+      const int first = (y * blocks + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
+      for (int i = first; i < end; i += int(hn::Lanes(DF()))) light_vector(in, terms, i, in.counts);
     }
   }
+  in.counts.lit_pairs += sum_of(in.out.light_count, in.tile * in.tile);
 }
 
 struct LightTileOf {
+  static constexpr unsigned kCompiles = ~0u;
   const TileWork& in;
   template <class Shape>
   void operator()(const Shape& shape) const {

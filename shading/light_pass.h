@@ -5,6 +5,7 @@
 #include "raster/surfaces.h"
 #include "scenes/light_model.h"
 #include "shading/light_table.h"
+#include "shading/tile_lights.h"
 
 namespace trueshade {
 
@@ -22,7 +23,9 @@ struct ColorTile {
 
 /// Light lists of the tile at work; kept between tiles to save allocation.
 struct LightLists {
-  std::vector<uint32_t> tile, region;
+  std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
+  TileLights tile;
+  std::vector<ListedLight> region;
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha

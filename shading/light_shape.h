@@ -77,14 +77,19 @@ struct AnyShape {
   static constexpr bool compiled = false;
 };
 
-/// Calls kernel(shape) with the shape compiled for the model, or with the general one.
+/// Calls kernel(shape) with the shape compiled for the model, or with the general one. Kernel::kCompiles says which of
+/// kCompiledShapes it is compiled for, bit by bit.
 template <size_t kIndex = 0, class Kernel>
 void with_shape(const LightModel& model, bool compiled, const Kernel& kernel) {
   if constexpr (kIndex == std::size(kCompiledShapes)) {
     kernel(AnyShape{shape_of(model, false)});
-  } else if (compiled && kCompiledShapes[kIndex] == shape_of(model, kCompiledShapes[kIndex].power >= 0)) {
-    kernel(CompiledShape<kIndex>{});
   } else {
+    if constexpr ((Kernel::kCompiles >> kIndex & 1) != 0) {
+      if (compiled && kCompiledShapes[kIndex] == shape_of(model, kCompiledShapes[kIndex].power >= 0)) {
+        kernel(CompiledShape<kIndex>{});
+        return;
+      }
+    }
     with_shape<kIndex + 1>(model, compiled, kernel);
   }
 }

@@ -10,17 +10,56 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "shading/light_term-inl.h"
+#include "shading/tile_lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+alignas(64) inline constexpr int32_t kColumnOfPixel[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) inline constexpr int32_t kRowOfPixel[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+
+/// Where a vector of pixels is in its tile.
+struct VectorPlace {
+  const TileLights& lights;
+  int block, pixel;  ///< the first pixel's: block of the tile, pixel of the block
+  hn::Vec<DI> column, row;
+
+  VectorPlace(const TileLights& tile_lights, int blocks, int at)
+      : lights(tile_lights), block(at / kBlockPixels), pixel(at % kBlockPixels) {
+    const DI di;
+    column = hn::Add(hn::LoadU(di, kColumnOfPixel + pixel), hn::Set(di, block % blocks * kBlockSize));
+    row = hn::Add(hn::LoadU(di, kRowOfPixel + pixel), hn::Set(di, block / blocks * kBlockSize));
+  }
+
+  /// Pixels that the light's geometry covers, of those given.
+  HWY_INLINE MF covered(const ListedLight& listed, MF pixels) const {
+    const DF d;
+    const DI di;
+    if (HWY_LIKELY(listed.crossing == 0)) return pixels;
+    if (listed.crossing == ListedLight::kMasked) {
+      const unsigned shifted = unsigned(lights.masks[listed.first + size_t(block)]) >> pixel;
+      const uint8_t bytes[8] = {uint8_t(shifted), uint8_t(shifted >> 8)};
+      return hn::And(pixels, hn::LoadMaskBits(d, bytes));
+    }
+    const TileEdge* edge = lights.edges.data() + listed.first;
+    for (int32_t k = 0; k < listed.crossing; ++k) {
+      const auto inside = hn::Add(hn::Add(hn::Mul(column, hn::Set(di, edge[k].across)), hn::Set(di, edge[k].at)),
+                                  hn::Mul(row, hn::Set(di, edge[k].up)));
+      pixels = hn::And(pixels, hn::RebindMask(d, hn::Gt(inside, hn::Set(di, -1))));
+    }
+    return pixels;
+  }
+};
+
 // What becomes of the terms is an accumulator's matter. It has
-//   limit(k, term)       takes pixels from `adds` and `lit` that the k-th light of the list does not draw
 //   add(terms, px, term) one light's term
+//   settle()             after at most kMostHits terms
 //   lights, evaluated    how many lights light each pixel; lights whose terms were computed
+constexpr size_t kMostHits = 128;
 
 /// Sums of a vector of pixels.
 struct LightSum {
@@ -28,11 +67,11 @@ struct LightSum {
   hn::Vec<DI> lights;
   uint64_t evaluated;
 
-  HWY_INLINE void limit(size_t, LightTerm&) const {}
   template <class Terms>
   HWY_INLINE void add(const Terms&, const PixelVector&, const LightTerm& term) {
     for (int k = 0; k < 3; ++k) color[k] = hn::Add(color[k], hn::IfThenElseZero(term.adds, term.color[k]));
   }
+  HWY_INLINE void settle() {}
 };
 
 template <class Terms, class Sum>
@@ -42,82 +81,89 @@ HWY_INLINE void add_term(const Terms& terms, const PixelVector& px, const LightT
   sum.lights = hn::Add(sum.lights, hn::IfThenElseZero(hn::RebindMask(di, term.lit), hn::Set(di, 1)));
 }
 
-/// A light of a list, and where in the list it is.
-struct ListedLight {
-  uint32_t light;
-  uint32_t place;
+/// A light that may add something to pixels of a vector, and to which.
+struct LightHit {
+  const LightRow* light;
+  uint8_t adds[8];  ///< bit by bit
+
+  HWY_INLINE MF mask() const { return hn::LoadMaskBits(DF(), adds); }
 };
 
-/// Four point or spot lights, a step of each after the other: the latencies of one hide behind the others.
-template <class Shape, class Sum>
-HWY_INLINE void add_four(const LightTerms<Shape>& terms, const PixelVector& px, const ListedLight of[4], bool coned,
-                         Sum& sum) {
-  LightChain a, b, c, e;
-  a.light = of[0].light, b.light = of[1].light, c.light = of[2].light, e.light = of[3].light;
-  terms.approach(px, false, a), terms.approach(px, false, b), terms.approach(px, false, c),
-      terms.approach(px, false, e);
-  sum.limit(of[0].place, a.term), sum.limit(of[1].place, b.term), sum.limit(of[2].place, c.term),
-      sum.limit(of[3].place, e.term);
-  terms.fall_off(false, a), terms.fall_off(false, b), terms.fall_off(false, c), terms.fall_off(false, e);
-  if (coned) terms.narrow_if(a), terms.narrow_if(b), terms.narrow_if(c), terms.narrow_if(e);
-  terms.reflect(px, a), terms.reflect(px, b), terms.reflect(px, c), terms.reflect(px, e);
-  terms.shine(px, a), terms.shine(px, b), terms.shine(px, c), terms.shine(px, e);
-  terms.color(px, a), terms.color(px, b), terms.color(px, c), terms.color(px, e);
-  add_term(terms, px, a.term, sum), add_term(terms, px, b.term, sum), add_term(terms, px, c.term, sum),
-      add_term(terms, px, e.term, sum);
+/// Some point or spot lights, a step of each after the other: the latencies of one hide behind the others.
+template <class Shape, class Sum, size_t... k>
+HWY_INLINE void add_together(const LightTerms<Shape>& terms, const PixelVector& px, const LightHit* of,
+                             std::index_sequence<k...>, Sum& sum) {
+  LightChain at[sizeof...(k)];
+  ((at[k].light = of[k].light), ...);
+  (terms.place(px, false, at[k]), ...);
+  (terms.reach(of[k].mask(), at[k]), ...);
+  (terms.fall_off(false, at[k]), ...);
+  (terms.narrow_if(at[k]), ...);
+  (terms.reflect(px, at[k]), ...);
+  (terms.shine(px, at[k]), ...);
+  (terms.color(px, at[k]), ...);
+  (add_term(terms, px, at[k].term, sum), ...);
 }
 
 template <class Shape, class Sum>
-HWY_NOINLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, ListedLight of, Sum& sum) {
+HWY_NOINLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px, const LightHit& of, Sum& sum) {
   const DF d;
-  LightTerm term = terms(px, of.light);
-  sum.limit(of.place, term);
+  LightTerm term = terms(px, *of.light);
+  const MF pixels = of.mask();
+  term.adds = hn::And(term.adds, pixels);
+  term.lit = hn::And(term.lit, pixels);
   if (hn::AllFalse(d, term.adds)) return;
   add_term(terms, px, term, sum);
-  if (terms.lights.type[of.light] != LightType::ambient) ++sum.evaluated;
+  if (of.light->kind != LightKind::other || of.light->type != LightType::ambient) ++sum.evaluated;
 }
 
-/// Lights of list[first, end) that may add something to one of the pixels, in its order; returns how many.
-template <class Shape, class Sum>
-HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px, std::span<const uint32_t> list,
-                          size_t first, size_t end, const Sum& sum, ListedLight* hit) {
+/// Lights of a list that may add something to one of the pixels, in its order; returns how many.
+template <class Shape>
+HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px, std::span<const ListedLight> list,
+                          const VectorPlace& at, LightHit* hit) {
   const DF d;
   size_t hits = 0;
-  for (size_t k = first; k < end; ++k) {
-    LightChain at;
-    at.light = list[k];
-    hit[hits] = {list[k], uint32_t(k)};
-    if (terms.lights.kind[list[k]] == LightKind::other) {
-      ++hits;
-      continue;
+  for (const ListedLight& listed : list) {
+    MF adds = px.covered;
+    if (HWY_LIKELY(listed.light->kind != LightKind::other)) {
+      LightChain chain;
+      chain.light = listed.light;
+      terms.place(px, false, chain);
+      terms.reach(px, false, chain);
+      adds = chain.term.adds;
     }
-    terms.approach(px, false, at);
-    sum.limit(k, at.term);
-    hits += hn::AllFalse(d, at.term.adds) ? 0u : 1u;
+    if (HWY_UNLIKELY(listed.crossing != 0)) adds = at.covered(listed, adds);
+    hit[hits].light = listed.light;
+    hn::StoreMaskBits(d, adds, hit[hits].adds);
+    hits += hn::AllFalse(d, adds) ? 0u : 1u;
   }
   return hits;
 }
 
 template <class Shape, class Sum>
-HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px, std::span<const uint32_t> list,
-                           Sum& sum) {
-  constexpr size_t kChunk = 128;
-  ListedLight hit[kChunk];
-  for (size_t first = 0; first < list.size(); first += kChunk) {
-    const size_t hits = hits_of(terms, px, list, first, std::min(list.size(), first + kChunk), sum, hit);
+HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px, std::span<const ListedLight> list,
+                           const VectorPlace& at, Sum& sum) {
+  LightHit hit[kMostHits + 1];
+  for (size_t first = 0; first < list.size(); first += kMostHits) {
+    const size_t hits = hits_of(terms, px, list.subspan(first, std::min(list.size() - first, kMostHits)), at, hit);
     size_t i = 0;
-    for (; i + 4 <= hits && Shape::compiled; i += 4) {
-      const LightKind* kind = terms.lights.kind.data();
-      const LightKind k =
-          std::max({kind[hit[i].light], kind[hit[i + 1].light], kind[hit[i + 2].light], kind[hit[i + 3].light]});
-      if (k == LightKind::other) {
-        for (size_t j = i; j < i + 4; ++j) add_one(terms, px, hit[j], sum);
-      } else if constexpr (Shape::compiled) {
-        add_four(terms, px, hit + i, k == LightKind::coned, sum);
-        sum.evaluated += 4;
+    if constexpr (Shape::compiled) {
+      while (i + 2 <= hits) {
+        const size_t together = i + 4 <= hits ? 4 : 2;
+        bool placed = true;
+        for (size_t k = i; k < i + together; ++k) placed = placed && hit[k].light->kind != LightKind::other;
+        if (HWY_UNLIKELY(!placed))
+          for (size_t k = i; k < i + together; ++k) add_one(terms, px, hit[k], sum);
+        else if (together == 4)
+          add_together(terms, px, hit + i, std::make_index_sequence<4>(), sum);
+        else
+          add_together(terms, px, hit + i, std::make_index_sequence<2>(), sum);
+        i += together;
+        sum.evaluated += placed ? together : 0;
       }
     }
     for (; i < hits; ++i) add_one(terms, px, hit[i], sum);
+    sum.settle();
   }
 }
 

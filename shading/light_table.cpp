@@ -62,28 +62,24 @@ ConeRow cone_row(const Light& light, Cone cone) {
   return {true, offset, slope, float(-double(offset) / double(slope) - 1e-5)};
 }
 
-void push(LightTable& table, const Light& light, const LightModel& model, float cut2) {
+LightRow row_of(const Light& light, const LightModel& model) {
   const glm::vec3 place = light.type == LightType::directional ? -light.direction : light.position;
   const ConeRow cone = cone_row(light, model.cone);
-  table.type.push_back(light.type);
-  table.kind.push_back(!placed(light.type) ? LightKind::other : cone.narrow ? LightKind::coned : LightKind::placed);
+  LightRow row{};
+  row.type = light.type;
+  row.kind = !placed(light.type) ? LightKind::other : cone.narrow ? LightKind::coned : LightKind::placed;
   for (int c = 0; c < 3; ++c) {
-    table.position[c].push_back(place[c]);
-    table.color[c].push_back(light.color[c] * model.damping);
-    table.ambient[c].push_back(light.ambient[c]);
-    table.axis[c].push_back(-light.direction[c]);
+    row.position[c] = place[c];
+    row.color[c] = light.color[c] * model.damping;
+    row.ambient[c] = light.ambient[c];
+    row.axis[c] = -light.direction[c];
   }
-  table.range.push_back(light.range);
-  table.range2.push_back(light.range * light.range);
-  table.k0.push_back(light.attenuation.x);
-  table.k1.push_back(light.attenuation.y);
-  table.k2.push_back(light.attenuation.z);
-  table.cut2.push_back(cut2);
-  table.extent2.push_back(kInfinity);
-  table.edge.push_back(cone.edge);
-  table.slope.push_back(cone.slope);
-  table.dark_cosine.push_back(cone.dark);
-  table.spot_exponent.push_back(exponent_of(light.spot_exponent, false));
+  row.range = light.range, row.range2 = light.range * light.range;
+  row.k0 = light.attenuation.x, row.k1 = light.attenuation.y, row.k2 = light.attenuation.z;
+  row.cut2 = row.extent2 = kInfinity;
+  row.edge = cone.edge, row.slope = cone.slope, row.dark_cosine = cone.dark;
+  row.spot_exponent = exponent_of(light.spot_exponent, false);
+  return row;
 }
 
 }  // namespace
@@ -92,15 +88,17 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
   LightTable table;
   const glm::vec3 axis = view_axis(camera);
   for (int c = 0; c < 3; ++c) table.eye[c] = camera.eye[c], table.view_axis[c] = axis[c];
+  const size_t padded = (lights.size() + 15) / 16 * 16;
+  for (auto& stream : table.position) stream.resize(padded, 0.0f);
+  table.cut2.resize(padded, 0.0f);
+  table.row.reserve(lights.size());
   for (const Light& light : lights) {
-    const bool bounded = ends(model.falloff) && placed(light.type);
-    push(table, light, model, bounded ? cut_distance2(model.falloff, light.range) : kInfinity);
+    const size_t i = table.row.size();
+    LightRow& row = table.row.emplace_back(row_of(light, model));
+    if (ends(model.falloff) && placed(light.type)) row.cut2 = cut_distance2(model.falloff, light.range);
+    for (int c = 0; c < 3; ++c) table.position[c][i] = row.position[c];
+    table.cut2[i] = row.cut2;
   }
-  Light nowhere;
-  nowhere.color = glm::vec3(0.0f);
-  const size_t lights_in_all = table.size();
-  for (size_t i = lights_in_all; i % 16 != 0; ++i) push(table, nowhere, model, 0.0f);
-  table.type.resize(lights_in_all);
   return table;
 }
 
@@ -109,17 +107,18 @@ void bound_by_extents(LightTable& table, std::span<const Light> lights, const Li
   for (size_t i = 0; i < lights.size(); ++i) {
     const LightExtent extent = drawn_extent(lights[i], volumes);
     if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
-    table.extent2[i] = least_outside([&](float d2) { return std::sqrt(d2) < lights[i].range; });
-    table.cut2[i] = std::min(table.cut2[i], table.extent2[i]);
+    LightRow& row = table.row[i];
+    row.extent2 = least_outside([&](float d2) { return std::sqrt(d2) < lights[i].range; });
+    row.cut2 = table.cut2[i] = std::min(row.cut2, row.extent2);
   }
 }
 
-bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]) {
-  if (table.kind[light] != LightKind::coned) return false;
+bool dark_over(const LightRow& light, const float low[3], const float high[3]) {
+  if (light.kind != LightKind::coned) return false;
   double distance2 = 0.0, radius2 = 0.0, axis2 = 0.0, along = 0.0;
   for (int c = 0; c < 3; ++c) {
-    const double half = (double(high[c]) - double(low[c])) * 0.5, axis = double(table.axis[c][light]);
-    const double v = double(table.position[c][light]) - (double(low[c]) + half);
+    const double half = (double(high[c]) - double(low[c])) * 0.5, axis = double(light.axis[c]);
+    const double v = double(light.position[c]) - (double(low[c]) + half);
     distance2 += v * v, radius2 += half * half, axis2 += axis * axis, along += v * axis;
   }
   const double distance = std::sqrt(distance2), radius = std::sqrt(radius2), length = std::sqrt(axis2);
@@ -130,7 +129,7 @@ bool dark_over(const LightTable& table, size_t light, const float low[3], const 
   const double cosine_r = std::sqrt(1.0 - sine_r * sine_r);
   const double most =
       cosine >= cosine_r ? 1.0 : cosine * cosine_r + std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) * sine_r;
-  return most * length + 1e-5 < double(table.dark_cosine[light]);  // some ten roundings of 2^-24
+  return most * length + 1e-5 < double(light.dark_cosine);  // some ten roundings of 2^-24
 }
 
 }  // namespace trueshade

@@ -18,24 +18,31 @@ enum class LightKind : uint8_t {
   other,   ///< ambient, directional
 };
 
-/// A frame's lights as the light pass reads them, a stream per field, in scene order; and the viewer they have in
-/// common.
-struct LightTable {
-  std::vector<LightType> type;
-  std::vector<LightKind> kind;
-  std::vector<float> position[3];  ///< directional: minus the direction the light travels
-  std::vector<float> color[3];     ///< times the model's damping
-  std::vector<float> ambient[3];
-  std::vector<float> range, range2, k0, k1, k2;  ///< range2: range * range
-  std::vector<float> cut2;  ///< the least squared distance at which the falloff is 0; infinity if it never is
+/// A light as kernels read it, field by field: two cache lines.
+struct alignas(64) LightRow {
+  float position[3];  ///< directional: minus the direction the light travels
+  float cut2;         ///< the least squared distance at which the falloff is 0; infinity if it never is
+  float color[3];     ///< times the model's damping
+  float range;
   // Cones (docs/arithmetic.md section 8); lights without one have numbers that give 1.
-  std::vector<float> axis[3];      ///< minus the direction the light travels
-  std::vector<float> edge, slope;  ///< smooth: e0 and w; exponent: e0; squared: offset and scale
-  std::vector<float> dark_cosine;  ///< the cone is exactly 0 where the cosine is below; -2: nowhere
-  std::vector<Exponent> spot_exponent;
+  float axis[3];      ///< minus the direction the light travels
+  float edge, slope;  ///< smooth: e0 and w; exponent: e0; squared: offset and scale
+  float dark_cosine;  ///< the cone is exactly 0 where the cosine is below; -2: nowhere
+  LightType type;
+  LightKind kind;
+  float range2;  ///< range * range
+  float k0, k1, k2;
+  float ambient[3];
+  float extent2;  ///< the least squared distance that the light's extent leaves out; infinity for none
+  Exponent spot_exponent;
+};
+
+/// A frame's lights in scene order, and the viewer they have in common.
+struct LightTable {
+  std::vector<LightRow> row;
+  std::vector<float> position[3], cut2;  ///< of the rows again, padded with lights that reach nothing to full vectors
   float eye[3], view_axis[3];
-  std::vector<float> extent2;  ///< the least squared distance that the light's extent leaves out; infinity for none
-  size_t size() const { return type.size(); }
+  size_t size() const { return row.size(); }
 };
 
 /// Bounds the lights by their extents, where these are not drawn: `cut2` is at most `extent2`.
@@ -43,9 +50,8 @@ void bound_by_extents(LightTable& table, std::span<const Light> lights, const Li
 
 /// Whether a light with a cone leaves the whole box between two corners dark: its cone is exactly 0 there, in the
 /// kernel's own operations. False for lights without one, and where it cannot tell.
-bool dark_over(const LightTable& table, size_t light, const float low[3], const float high[3]);
+bool dark_over(const LightRow& light, const float low[3], const float high[3]);
 
-/// Streams padded with lights that reach nothing to a multiple of 16.
 LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera);
 
 }  // namespace trueshade

@@ -46,7 +46,7 @@ struct LightTerm {
 
 /// A light on its way through the formulas: the steps of several are interleaved, so that none waits for itself.
 struct LightChain {
-  size_t light;
+  const LightRow* light;
   VF to_light[3];  ///< D, then L
   VF d2, nl;       ///< D . D; N . D, then N . L
   VF strength;     ///< falloff times cone
@@ -77,11 +77,8 @@ struct LightTerms {
       out.p[c] = hn::Load(d, s.plane[kPosition + c] + i);
       out.n[c] = hn::Load(d, s.plane[kNormal + c] + i);
       out.albedo[c] = hn::Load(d, s.plane[kAlbedo + c] + i);
-      out.v[c] = hn::Sub(hn::Set(d, lights.eye[c]), out.p[c]);
     }
-    const VF toward = inverse_length(dot3(out.v, out.v));
-    for (int c = 0; c < 3; ++c)
-      out.v[c] = model.viewer == Viewer::local ? hn::Mul(out.v[c], toward) : hn::Set(d, lights.view_axis[c]);
+    if (form.shape.specular != Specular::none) look(out);
     if (form.shape.renormalize) {
       const VF unit = inverse_length(dot3(out.n, out.n));
       for (int c = 0; c < 3; ++c) out.n[c] = hn::Mul(out.n[c], unit);
@@ -94,19 +91,38 @@ struct LightTerms {
     return out;
   }
 
-  /// D, its square and N . D; which pixels the light adds something to, as far as these tell.
-  HWY_INLINE void approach(const PixelVector& px, bool directional, LightChain& at) const {
+  /// V.
+  HWY_INLINE void look(PixelVector& px) const {
+    const DF d;
+    for (int c = 0; c < 3; ++c) px.v[c] = hn::Sub(hn::Set(d, lights.eye[c]), px.p[c]);
+    const VF toward = inverse_length(dot3(px.v, px.v));
+    for (int c = 0; c < 3; ++c)
+      px.v[c] = model.viewer == Viewer::local ? hn::Mul(px.v[c], toward) : hn::Set(d, lights.view_axis[c]);
+  }
+
+  /// D, its square and N . D.
+  HWY_INLINE void place(const PixelVector& px, bool directional, LightChain& at) const {
     const DF d;
     for (int c = 0; c < 3; ++c) {
-      const VF place = hn::Set(d, lights.position[c][at.light]);
+      const VF place = hn::Set(d, at.light->position[c]);
       at.to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
     }
     at.nl = dot3(px.n, at.to_light);
     at.d2 = dot3(at.to_light, at.to_light);
-    const MF in_range =
-        directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, lights.cut2[at.light])));
+  }
+
+  /// Which pixels a placed light adds something to, as far as the distance and N . D tell.
+  HWY_INLINE void reach(const PixelVector& px, bool directional, LightChain& at) const {
+    const DF d;
+    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, at.light->cut2)));
     at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
     at.term.adds = adds_unlit() ? in_range : at.term.lit;
+  }
+
+  /// The same where it is known already which pixels it adds something to.
+  HWY_INLINE void reach(MF adds, LightChain& at) const {
+    at.term.adds = adds;
+    at.term.lit = adds_unlit() ? hn::And(adds, hn::Gt(at.nl, hn::Zero(DF()))) : adds;
   }
 
   /// Falloff and unit length; of a directional light they are 1 already.
@@ -115,17 +131,18 @@ struct LightTerms {
     const VF one = hn::Set(d, 1.0f);
     at.strength = one;
     if (directional) return;
-    const VF distance = hn::Sqrt(at.d2);
-    const VF inverse = hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), hn::Div(one, distance));
+    const VF distance = hn::Sqrt(at.d2), reciprocal = hn::Div(one, distance);
+    // Where only lit pixels count none of them is at the light itself.
+    const VF inverse = adds_unlit() ? hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), reciprocal) : reciprocal;
     at.nl = hn::Mul(at.nl, inverse);
     for (int c = 0; c < 3; ++c) at.to_light[c] = hn::Mul(at.to_light[c], inverse);
-    at.strength = falloff_of(form.shape.falloff, lights, at.light, distance, at.d2, inverse);
+    at.strength = falloff_of(form.shape.falloff, *at.light, distance, at.d2, inverse);
   }
 
   /// The cone of a light whose kind is `coned`: outside it the light adds nothing.
   HWY_INLINE void narrow(LightChain& at) const {
     const DF d;
-    const VF cone = cone_of(form.shape.cone, lights, at.light, at.to_light);
+    const VF cone = cone_of(form.shape.cone, *at.light, at.to_light);
     const MF inside = hn::Gt(cone, hn::Zero(d));
     at.term.lit = hn::And(at.term.lit, inside);
     at.term.adds = hn::And(at.term.adds, inside);
@@ -133,7 +150,7 @@ struct LightTerms {
   }
 
   HWY_INLINE void narrow_if(LightChain& at) const {
-    if (lights.kind[at.light] == LightKind::coned) narrow(at);
+    if (form.shape.cone != Cone::none && at.light->kind == LightKind::coned) narrow(at);
   }
 
   /// The cosine of the specular term, or its square where the exponent is that of a square.
@@ -175,12 +192,12 @@ struct LightTerms {
   HWY_INLINE void color(const PixelVector& px, LightChain& at) const {
     const DF d;
     const bool shines = form.shape.specular != Specular::none, tinted = form.shape.source == SpecularSource::albedo;
-    VF c = form.shape.diffuse == Diffuse::clamped ? positive(at.nl) : at.nl;
+    VF c = form.shape.diffuse == Diffuse::clamped && adds_unlit() ? positive(at.nl) : at.nl;  // lit: positive already
     if (form.shape.specular == Specular::phong && form.shape.diffuse == Diffuse::clamped) c = at_most(c, 1.0f);
     const VF f = at.strength, s = at.cosine;
     const VF all = shines && tinted ? hn::Add(c, s) : c;  // what the albedo multiplies
     for (int k = 0; k < 3; ++k) {
-      const VF albedo = px.albedo[k], color = hn::Set(d, lights.color[k][at.light]);
+      const VF albedo = px.albedo[k], color = hn::Set(d, at.light->color[k]);
       const VF ks = tinted ? albedo : px.specular[k];
       VF reflected = hn::Mul(albedo, all);
       if (shines && !tinted) reflected = hn::Add(reflected, hn::Mul(ks, s));
@@ -196,7 +213,7 @@ struct LightTerms {
           at.term.color[k] = hn::Mul(hn::Mul(all, f), color);
           break;
         case TermOrder::with_ambient: {
-          const VF ambient = hn::Mul(albedo, hn::Set(d, lights.ambient[k][at.light]));
+          const VF ambient = hn::Mul(albedo, hn::Set(d, at.light->ambient[k]));
           at.term.color[k] = hn::Mul(hn::Add(ambient, hn::Mul(reflected, color)), f);
           break;
         }
@@ -205,16 +222,17 @@ struct LightTerms {
   }
 
   /// One light. Where `adds` is empty nothing else is computed.
-  HWY_INLINE LightTerm operator()(const PixelVector& px, size_t light) const {
+  HWY_INLINE LightTerm operator()(const PixelVector& px, const LightRow& light) const {
     const DF d;
-    if (lights.type[light] == LightType::ambient) return ambient(px, light);
-    const bool directional = lights.type[light] == LightType::directional;
+    if (light.type == LightType::ambient) return ambient(px, light);
+    const bool directional = light.type == LightType::directional;
     LightChain at;
-    at.light = light;
-    approach(px, directional, at);
+    at.light = &light;
+    place(px, directional, at);
+    reach(px, directional, at);
     if (hn::AllFalse(d, at.term.adds)) return at.term;
     fall_off(directional, at);
-    if (lights.kind[light] == LightKind::coned) narrow(at);
+    narrow_if(at);
     reflect(px, at);
     shine(px, at);
     color(px, at);
@@ -261,13 +279,13 @@ struct LightTerms {
   }
   HWY_INLINE VF power_of_model(const AnyShape&, VF x) const { return rounded_power<-1>(x, exponent); }
 
-  HWY_INLINE LightTerm ambient(const PixelVector& px, size_t light) const {
+  HWY_INLINE LightTerm ambient(const PixelVector& px, const LightRow& light) const {
     const DF d;
     LightTerm out;
     out.adds = px.covered;
     out.lit = hn::Lt(hn::Zero(d), hn::Zero(d));
     for (int k = 0; k < 3; ++k) {
-      const VF color = hn::Set(d, lights.color[k][light]);
+      const VF color = hn::Set(d, light.color[k]);
       out.color[k] = form.shape.order == TermOrder::albedo_last ? color : hn::Mul(px.albedo[k], color);
     }
     return out;

@@ -63,8 +63,9 @@ bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& poin
   return true;
 }
 
+/// `bound`: of each pixel, what is sure to be in front; what lies behind is not added.
 void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect,
-               std::vector<Entry>& out) {
+               const std::vector<double>& bound, std::vector<Entry>& out) {
   const GeometryState& state = p.pipeline().geometry;
   const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
   const bool masked = p.scene().materials[p.scene().instances[base.instance].material].masked();
@@ -91,12 +92,13 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
         c.certain = false, c.cut = true, c.chance_other = 0.5f;
       if (masked && !test_alpha(p, piece, point, values, x + 0.5, y + 0.5, c)) continue;
       key_range(state, z, order, c);
-      out.push_back({uint32_t(y) * uint32_t(p.width()) + uint32_t(x), c});
+      const uint32_t pixel = uint32_t(y) * uint32_t(p.width()) + uint32_t(x);
+      if (c.low <= bound[pixel]) out.push_back({pixel, c});
     }
   }
 }
 
-void scan(const Projector& projector, const Work& work, double order, std::vector<Entry>& out) {
+void scan(const Projector& projector, const Work& work, double order, const std::vector<double>& bound, std::vector<Entry>& out) {
   std::vector<Piece> pieces;
   PixelRect rect;
   for (uint32_t t = work.first; t < work.last; ++t) {
@@ -107,7 +109,7 @@ void scan(const Projector& projector, const Work& work, double order, std::vecto
     base.triangle = t;
     for (size_t k = 0; k < pieces.size(); ++k) {
       base.piece = uint8_t(k);
-      add_piece(projector, pieces[k], base, order + (t - work.first), rect, out);
+      add_piece(projector, pieces[k], base, order + (t - work.first), rect, bound, out);
     }
   }
 }
@@ -152,8 +154,9 @@ CandidateMap find_candidates(const Projector& projector, int threads) {
     std::vector<std::vector<Entry>> found(count);
     std::vector<double> starts(count);
     for (size_t k = 0; k < count; ++k) starts[k] = order, order += work[from + k].last - work[from + k].first;
+    // Nothing writes `bound` meanwhile, and it only falls: what it drops here the merge would drop as well.
     parallel_for(int(count), threads,
-                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], found[size_t(k)]); });
+                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], bound, found[size_t(k)]); });
     for (const std::vector<Entry>& list : found)
       for (Entry e : list) {
         double& limit = bound[e.pixel];

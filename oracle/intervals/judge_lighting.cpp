@@ -23,7 +23,9 @@ class LightingJudge {
         surface_(scene, pipeline, profile, capture),
         color_(target_of(capture, pipeline)),
         count_(plane_of(capture, pipeline, "light.count")),
-        view_axis_(view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height))) {}
+        lights_(scene, pipeline.light_model,
+                view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
+                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {}
 
   void judge_row(int y, RowTally& row) const {
     for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y, row);
@@ -39,7 +41,7 @@ class LightingJudge {
   const Profile profile_;
   const CapturedSurface surface_;
   const PlaneView color_, count_;
-  const std::array<double, 3> view_axis_;
+  const LightBounds lights_;
 };
 
 bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const {
@@ -70,8 +72,7 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_.at(x, y);
-  const LitRange lit = lit_range(surface, scene_, pipeline_.light_model, view_axis_, profile_.arithmetic,
-                                 profile_.exact_planes, pipeline_.light_volumes);
+  const LitRange lit = lights_.at(surface);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
   Match nominal;

@@ -14,19 +14,26 @@ LightOutputs::LightOutputs(const Scene& scene, const Pipeline& pipeline, const P
   alone_.global_ambient = glm::vec3(0.0f);
   if (is_forward(pipeline.strategy)) limits_ = pipeline.light_volumes;  // else a light's fragments end where it does
   view_axis_ = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+  start_.emplace(bounds(dark_, pipeline.light_model));
 }
 
-LightOutput LightOutputs::term(const ShadedSurface& surface) const { return output(surface, scene_, alone_); }
-LightOutput LightOutputs::first(const ShadedSurface& surface) const {
-  return output(surface, scene_, pipeline_.light_model);
-}
-LightOutput LightOutputs::start(const ShadedSurface& surface) const {
-  return output(surface, dark_, pipeline_.light_model);
+void LightOutputs::set_light(const Light& light) {
+  scene_.lights.assign(1, light);
+  term_.emplace(bounds(scene_, alone_));
+  first_.emplace(bounds(scene_, pipeline_.light_model));
 }
 
-LightOutput LightOutputs::output(const ShadedSurface& surface, const Scene& scene, const LightModel& model) const {
-  const LitRange lit =
-      lit_range(surface, scene, model, view_axis_, profile_.arithmetic, profile_.exact_planes, limits_);
+LightBounds LightOutputs::bounds(const Scene& scene, const LightModel& model) const {
+  return {scene, model, view_axis_, profile_.arithmetic, profile_.exact_planes, limits_};
+}
+
+LightOutput LightOutputs::term(const ShadedSurface& surface) const { return output(surface, *term_); }
+LightOutput LightOutputs::first(const ShadedSurface& surface) const { return output(surface, *first_); }
+LightOutput LightOutputs::start(const ShadedSurface& surface) const { return output(surface, *start_); }
+
+LightOutput LightOutputs::output(const ShadedSurface& surface, const LightBounds& bounds) const {
+  const LightModel& model = pipeline_.light_model;
+  const LitRange lit = bounds.one_by_one(surface);
   LightOutput out;
   out.undefined = lit.undefined;
   out.either_way = !lit.branches.empty();

@@ -1,6 +1,6 @@
 #pragma once
 // What the fragment shader of one light's draw may output at a surface.
-#include <span>
+#include <optional>
 
 #include "oracle/intervals/shading.h"
 #include "oracle/intervals/store.h"
@@ -19,7 +19,7 @@ class LightOutputs {
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
 
   /// The light whose outputs are asked for next. Not while others ask.
-  void set_light(const Light& light) { scene_.lights.assign(1, light); }
+  void set_light(const Light& light);
 
   LightOutput term(const ShadedSurface& surface) const;   ///< the light's own, alone
   LightOutput first(const ShadedSurface& surface) const;  ///< with what the sum starts from
@@ -32,7 +32,8 @@ class LightOutputs {
   InRange in_range(const ShadedSurface& surface) const;
 
  private:
-  LightOutput output(const ShadedSurface& surface, const Scene& scene, const LightModel& model) const;
+  LightOutput output(const ShadedSurface& surface, const LightBounds& bounds) const;
+  LightBounds bounds(const Scene& scene, const LightModel& model) const;
 
   Scene scene_, dark_;
   const Pipeline pipeline_;
@@ -40,6 +41,7 @@ class LightOutputs {
   LightModel alone_;  ///< the model, its sum starting from 0
   LightVolumes limits_;
   std::array<double, 3> view_axis_;
+  std::optional<LightBounds> term_, first_, start_;
 };
 
 }  // namespace trueshade::oracle

@@ -26,6 +26,22 @@ enum class BlendRule : uint8_t {
   mesa_codes,     ///< section 11: products of codes for rgba8 and rgba16, float32 for floats; else any_precision
 };
 
+/// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
+/// filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers measured do.
+struct Sampling {
+  double weight_error = 0x1p-7;       ///< of a weight between texels of 8 bits a channel (VK-GL-CTS: 7 bits of u and v)
+  double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
+  double lerp_codes = 1;  ///< codes of 255 that one linear step (along u, along v, between levels) of 8-bit texels may be
+                          ///< off: either neighbour of its value. 0: filtered as floats
+  double srgb_codes = 1;      ///< codes that a decoded sRGB texel may be off: either neighbour
+  bool decodes_late = true;   ///< sRGB may be filtered, in 8 bits, before it is decoded (GL 4.6 core, 8.24: "allowed")
+  bool mesa_decode = false;   ///< sRGB is decoded by Mesa 22.3's polynomial; srgb_codes is from there
+  bool any_scale = true;      ///< rho anything 8.14.1 allows; false: equation 8.11
+  double lod_error = 0.05;    ///< of log2 rho: llvmpipe's log2 is 0.043 off
+  double relative = 8 * 0x1p-23;  ///< of a filtered value, in floats
+  bool operator==(const Sampling&) const = default;
+};
+
 struct Profile {
   std::string name = "unknown";
   int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
@@ -41,6 +57,7 @@ struct Profile {
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
   double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
+  Sampling sampling;
   Arithmetic arithmetic;
 };
 

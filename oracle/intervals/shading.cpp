@@ -46,6 +46,12 @@ Bounded smoothstep(const Arithmetic& a, const Bounded& e0, const Bounded& e1, co
   return product(a, product(a, t, t), difference(a, {3, 0}, product(a, {2, 0}, t)));
 }
 
+/// Whether a light adds something to a surface that faces away from it.
+bool adds_unlit(const LightModel& model) {
+  return model.order == TermOrder::with_ambient || model.diffuse == Diffuse::unclamped ||
+         (model.specular != Specular::none && !model.specular_masked);
+}
+
 class LightSum {
  public:
   LightSum(const ShadedSurface& s, const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
@@ -60,8 +66,7 @@ class LightSum {
     if (view_undefined_) view_ = {};
     for (size_t k = 0; k < 3 && model.viewer == Viewer::infinite; ++k) view_[k] = rounded_once(view_axis[k]);
     shines_ = model.specular != Specular::none;
-    adds_unlit_ = model.order == TermOrder::with_ambient || model.diffuse == Diffuse::unclamped ||
-                  (shines_ && !model.specular_masked);
+    adds_unlit_ = adds_unlit(model);
   }
 
   bool undefined() const { return undefined_; }
@@ -104,6 +109,20 @@ class LightSum {
     return t;
   }
 
+  /// The pixel as lanes read it; false where they do not suit it.
+  bool for_lanes(LanePixel& px) const {
+    const double s = shininess();
+    if (shines_ && (view_undefined_ || !(s >= 1 && s <= 8192) || s != std::nearbyint(s))) return false;
+    const bool last = model_.order == TermOrder::albedo_last;
+    px.position = surface_.position, px.normal = normal_, px.view = view_;
+    for (size_t k = 0; k < 3; ++k) {
+      px.diffuse[k] = last ? Bounded{1, 0} : surface_.albedo[k];
+      px.specular[k] = last ? Bounded{1, 0} : specular_color(k);
+    }
+    if (shines_) px.shininess = int(s);
+    return true;
+  }
+
   /// Emission and global ambient light.
   Bounded start(size_t k) const {
     const Bounded given{double(model_.global_ambient[int(k)]), 0};
@@ -114,6 +133,13 @@ class LightSum {
   }
 
  private:
+  bool is_tinted() const { return shines_ && model_.specular_source == SpecularSource::albedo; }
+  double shininess() const { return reads_specular_plane(model_) ? surface_.shininess : double(model_.shininess); }
+  Bounded specular_color(size_t k) const {
+    if (is_tinted()) return surface_.albedo[k];
+    return reads_specular_plane(model_) ? surface_.specular[k] : Bounded{double(model_.specular_color[int(k)]), 0};
+  }
+
   Bounded color_of(const Light& light, size_t k) const {
     const Bounded color{double(light.color[int(k)]), 0};
     return model_.damping == 1.0f ? color : product(a_, color, {double(model_.damping), 0});
@@ -223,14 +249,12 @@ class LightSum {
 
   Bounded term_of(const Light& light, size_t k, const Bounded& cosine, const Bounded& specular,
                   const Bounded& strength) const {
-    const bool tinted = shines_ && model_.specular_source == SpecularSource::albedo;
+    const bool tinted = is_tinted();
     const Bounded& albedo = surface_.albedo[k];
     const Bounded color = color_of(light, k);
     if (model_.order == TermOrder::albedo_last)
       return product(a_, product(a_, shines_ ? sum(a_, cosine, specular) : cosine, strength), color);
-    const Bounded ks = tinted                         ? albedo
-                       : reads_specular_plane(model_) ? surface_.specular[k]
-                                                      : Bounded{double(model_.specular_color[int(k)]), 0};
+    const Bounded ks = specular_color(k);
     const Bounded diffuse = product(a_, albedo, cosine), shine = shines_ ? product(a_, ks, specular) : Bounded{};
     const Bounded reflected = tinted    ? product(a_, albedo, sum(a_, cosine, specular))
                               : shines_ ? sum(a_, diffuse, shine)
@@ -251,7 +275,7 @@ class LightSum {
     if (!shines_) return {};
     const Bounded cosine =
         model_.specular == Specular::phong ? reflected_cosine(to_light, n_l) : half_cosine(to_light, undefined);
-    const double s = reads_specular_plane(model_) ? surface_.shininess : double(model_.shininess);
+    const double s = shininess();
     double low = std::max(0.0, cosine.low()), high = cosine.high(), value = cosine.value;
     if (model_.renormalize || model_.specular == Specular::phong) {
       // Of unit vectors, whatever was rounded: |N||H| <= 1 and a few roundings.
@@ -291,52 +315,118 @@ class LightSum {
   Bounded3 normal_, view_;
 };
 
+/// What lights add up to.
+struct Total {
+  LitRange lit;
+  std::array<double, 3> magnitude{};
+  int added = 0;
+
+  void start(const LightSum& term) {
+    lit.undefined = term.undefined();
+    for (size_t k = 0; k < 3; ++k) {
+      lit.color[k] = term.start(k);
+      magnitude[k] = std::fabs(lit.color[k].value);
+      if (magnitude[k] > 0) added = 1;
+    }
+  }
+
+  void add(const Light& light, const LightTerm& t) {
+    lit.undefined = lit.undefined || t.undefined;
+    if (light.type != LightType::ambient) {
+      if (t.in_range && t.facing) ++lit.lights_low;
+      if (t.maybe_in_range && t.maybe_facing) ++lit.lights_high;
+    }
+    if (!t.maybe_in_range) return;
+    ++added;
+    for (size_t k = 0; k < 3; ++k) {
+      lit.color[k].value += t.color[k].value;
+      lit.color[k].error += t.color[k].error;
+      magnitude[k] += std::fabs(t.either_way ? t.lit[k] : t.color[k].value) + t.color[k].error;
+    }
+    if (!t.either_way) return;
+    OtherBranch other;
+    for (size_t k = 0; k < 3; ++k) other.change[k] = t.dark ? t.lit[k] : -t.lit[k];
+    lit.branches.push_back(other);
+  }
+
+  void add(const LaneSums& sums) {
+    added += sums.added;
+    lit.lights_low += sums.lights_low, lit.lights_high += sums.lights_high;
+    for (size_t k = 0; k < 3; ++k) {
+      lit.color[k].value += sums.value[k];
+      lit.color[k].error += sums.error[k];
+      magnitude[k] += sums.magnitude[k];
+    }
+  }
+
+  LitRange finished(const ShadedSurface& surface, const LightModel& model, const Arithmetic& a) {
+    if (added > 1)
+      for (size_t k = 0; k < 3; ++k) lit.color[k].error += (added - 1) * a.roundoff * magnitude[k];
+    if (model.order != TermOrder::albedo_last) return std::move(lit);
+    for (size_t k = 0; k < 3; ++k) {  // whichever branches were taken, the sum is at most `magnitude`
+      const Bounded& albedo = surface.albedo[k];
+      const double error = albedo.error * magnitude[k] +
+                           a.roundoff * std::fabs(albedo.value) * (magnitude[k] + lit.color[k].error);
+      const double inherited = (std::fabs(albedo.value) + albedo.error) * lit.color[k].error;
+      lit.color[k] = {lit.color[k].value * albedo.value, inherited + error + kSmallestFloat};
+      for (OtherBranch& other : lit.branches) other.change[k] *= albedo.value;
+    }
+    return std::move(lit);
+  }
+};
+
+/// Whether the arithmetic of lanes covers a light: a point, or a spot that the model takes for one.
+bool for_lanes(const Light& light, const LightModel& model, const LightVolumes& volumes) {
+  const bool point = light.type == LightType::point ||
+                     (light.type == LightType::spot && model.cone == Cone::none && volumes.spot == volumes.point);
+  return point && lanes_suit(model) && light.attenuation.x >= 0 && light.attenuation.y >= 0 && light.attenuation.z >= 0;
+}
+
 }  // namespace
+
+LightBounds::LightBounds(const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
+                         const Arithmetic& arithmetic, bool exact, const LightVolumes& volumes)
+    : scene_(scene), model_(model), view_axis_(view_axis), arithmetic_(arithmetic), exact_(exact), volumes_(volumes),
+      lanes_(model, arithmetic, volumes.point != LightExtent::unbounded, adds_unlit(model)) {
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    if (for_lanes(light, model, volumes))
+      columns_.add(light.position, light.color, model.damping, light.range, light.attenuation, i);
+    else
+      others_.push_back(i);
+  }
+  columns_.pad();
+}
+
+LitRange LightBounds::at(const ShadedSurface& surface) const {
+  const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
+  LanePixel pixel;
+  if (columns_.count == 0 || !term.for_lanes(pixel)) return one_by_one(surface);
+  Total total;
+  total.start(term);
+  LaneSums sums;
+  judge_lanes(columns_, lanes_, pixel, sums);
+  total.add(sums);
+  for (const uint32_t i : others_) total.add(scene_.lights[i], term(scene_.lights[i]));
+  for (const uint32_t at : sums.left) {
+    const Light& light = scene_.lights[columns_.index[at]];
+    total.add(light, term(light));
+  }
+  return total.finished(surface, model_, arithmetic_);
+}
+
+LitRange LightBounds::one_by_one(const ShadedSurface& surface) const {
+  const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
+  Total total;
+  total.start(term);
+  for (const Light& light : scene_.lights) total.add(light, term(light));
+  return total.finished(surface, model_, arithmetic_);
+}
 
 LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
                    const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact,
                    const LightVolumes& volumes) {
-  const LightSum term(surface, scene, model, view_axis, arithmetic, exact, volumes);
-  LitRange result;
-  result.undefined = term.undefined();
-  std::array<double, 3> magnitude{};
-  int added = 0;
-  for (size_t k = 0; k < 3; ++k) {
-    result.color[k] = term.start(k);
-    magnitude[k] = std::fabs(result.color[k].value);
-    if (magnitude[k] > 0) added = 1;
-  }
-  for (const Light& light : scene.lights) {
-    const LightTerm t = term(light);
-    result.undefined = result.undefined || t.undefined;
-    if (light.type != LightType::ambient) {
-      if (t.in_range && t.facing) ++result.lights_low;
-      if (t.maybe_in_range && t.maybe_facing) ++result.lights_high;
-    }
-    if (!t.maybe_in_range) continue;
-    ++added;
-    for (size_t k = 0; k < 3; ++k) {
-      result.color[k].value += t.color[k].value;
-      result.color[k].error += t.color[k].error;
-      magnitude[k] += std::fabs(t.either_way ? t.lit[k] : t.color[k].value) + t.color[k].error;
-    }
-    if (!t.either_way) continue;
-    OtherBranch other;
-    for (size_t k = 0; k < 3; ++k) other.change[k] = t.dark ? t.lit[k] : -t.lit[k];
-    result.branches.push_back(other);
-  }
-  if (added > 1)
-    for (size_t k = 0; k < 3; ++k) result.color[k].error += (added - 1) * arithmetic.roundoff * magnitude[k];
-  if (model.order != TermOrder::albedo_last) return result;
-  for (size_t k = 0; k < 3; ++k) {  // whichever branches were taken, the sum is at most `magnitude`
-    const Bounded& albedo = surface.albedo[k];
-    const double error = albedo.error * magnitude[k] +
-                         arithmetic.roundoff * std::fabs(albedo.value) * (magnitude[k] + result.color[k].error);
-    const double inherited = (std::fabs(albedo.value) + albedo.error) * result.color[k].error;
-    result.color[k] = {result.color[k].value * albedo.value, inherited + error + kSmallestFloat};
-    for (OtherBranch& other : result.branches) other.change[k] *= albedo.value;
-  }
-  return result;
+  return LightBounds(scene, model, view_axis, arithmetic, exact, volumes).at(surface);
 }
 
 }  // namespace trueshade::oracle

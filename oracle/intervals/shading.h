@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "oracle/intervals/bounded.h"
+#include "oracle/intervals/light_lanes.h"
 #include "scenes/light_model.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
@@ -30,11 +31,37 @@ struct LitRange {
   int lights_low = 0, lights_high = 0;  ///< lights in range and facing: light.count may be any number between
 };
 
+/// The lights of a scene under a model, ready for any surface. Borrows the scene, which must outlive it.
 /// Lights in any order: sum of the errors, and (N - 1) v sum |c_i| for the N - 1 additions.
 /// A cone whose cosine may lie on either side of its edge counts as either branch. Not clamped to [0, 1].
-///   view_axis: of the pipeline's camera, where the model's viewer is infinite
-///   volumes: a light whose extent is bounded has no term from its range on
-///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
+class LightBounds {
+ public:
+  ///   view_axis: of the pipeline's camera, where the model's viewer is infinite
+  ///   volumes: a light whose extent is bounded has no term from its range on
+  ///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
+  LightBounds(const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
+              const Arithmetic& arithmetic, bool exact, const LightVolumes& volumes = {});
+
+  /// Lights in lanes where the model lets them (light_lanes.h), the others one by one.
+  LitRange at(const ShadedSurface& surface) const;
+
+  /// All one by one, every error carried operation by operation. The same lights, branches and counts; bounds of at() are
+  /// no smaller, and less than 1.1 times as large.
+  LitRange one_by_one(const ShadedSurface& surface) const;
+
+ private:
+  const Scene& scene_;
+  LightModel model_;
+  std::array<double, 3> view_axis_;
+  Arithmetic arithmetic_;
+  bool exact_;
+  LightVolumes volumes_;
+  LightColumns columns_;
+  std::vector<uint32_t> others_;  ///< lights that are not in the columns
+  LaneModel lanes_;
+};
+
+/// Of one surface: LightBounds::at().
 LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,
                    const std::array<double, 3>& view_axis, const Arithmetic& arithmetic, bool exact,
                    const LightVolumes& volumes = {});

@@ -185,11 +185,18 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
     const auto unit = [&](double z) {
       return std::ldexp(1.0, std::ilogb(std::clamp(float(z), 0x1p-126f, 0x1p127f)) - 23);
     };
-    r = {unit(largest), unit(largest * (1 - slack)), unit(largest * (1 + slack))};
+    double least = largest, most = largest;
+    if (!profile_.exact_planes && (piece_.cut || piece_.leaves_view)) {
+      // Whatever triangles a driver cuts it into: the sample's has some vertex as deep as the sample, none past the range.
+      const Range here = depth();
+      least = std::min(least, std::max({here.low, -here.high, 0.0}));
+      if (piece_.cut) most = std::max({most, std::fabs(double(state.depth_near)), std::fabs(double(state.depth_far))});
+    }
+    r = {unit(largest), unit(least * (1 - slack)), unit(most * (1 + slack))};
   }
-  const auto least = [](const Range& x, double by) { return by * (by < 0 ? x.high : x.low); };
-  const auto most = [](const Range& x, double by) { return by * (by < 0 ? x.low : x.high); };
-  return {m.value * factor + r.value * units, least(m, factor) + least(r, units), most(m, factor) + most(r, units)};
+  const auto low = [](const Range& x, double by) { return by * (by < 0 ? x.high : x.low); };
+  const auto high = [](const Range& x, double by) { return by * (by < 0 ? x.low : x.high); };
+  return {m.value * factor + r.value * units, low(m, factor) + low(r, units), high(m, factor) + high(r, units)};
 }
 
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,

@@ -42,7 +42,8 @@ class SurfacePoint {
   Range depth() const;
 
   /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
-  /// of both, of the plane through any vertices of the box; r of the profile. `largest`: |z| of the vertices.
+  /// of both, of the plane through any vertices of the box; r of the profile, in float depth of the largest |z| of the
+  /// vertices, `largest`, or of the triangles that clipping may have cut the piece into.
   Range depth_offset(const GeometryState& state, double largest) const;
 
   /// value, error: at the three vertices of the piece.

@@ -9,12 +9,69 @@ namespace {
 
 using Ranges = std::array<Range, 4>;
 
-constexpr double kLodError = 0.05, kWeightError = 0x1p-8;
 constexpr long long kFewTexels = 8;  // of a side: beyond, a box is sampled as the whole level
 
 Ranges nothing() {
   return {{{0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}}};
 }
+
+long double srgb_encoded(long double x) { return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L; }
+long double srgb_decoded(long double s) {
+  if (s <= 0.04045L) return std::max(0.0L, s) / 12.92L;
+  return std::pow((std::min(s, 1.0L) + 0.055L) / 1.055L, 2.4L);
+}
+/// Mesa 22.3, gallium/auxiliary/gallivm/lp_bld_format_srgb.c: a line, and a polynomial from code 16 on.
+long double mesa_decoded(long double s) {
+  if (s * 255 <= 15) return s / 12.6L;
+  return 0.0023L + s * (0.0030L + s * (0.6935L + s * 0.3012L));
+}
+
+/// Codes -1 to 256 decoded: texels are looked up 100 times a sample.
+struct SrgbTable {
+  std::array<long double, 258> value, mesa;
+  SrgbTable() {
+    for (int k = -1; k <= 256; ++k) {
+      value[size_t(k + 1)] = srgb_decoded(k / 255.0L);
+      mesa[size_t(k + 1)] = mesa_decoded(std::clamp(k / 255.0L, 0.0L, 1.0L));
+    }
+  }
+  /// The code whose value rounds to the float; -1 for what is no texel, as a border.
+  int code_of(long double texel) const {
+    const auto at = std::lower_bound(value.begin() + 1, value.end() - 1, texel, [](long double a, long double b) { return float(a) < float(b); });
+    return at != value.end() - 1 && float(*at) == float(texel) ? int(at - value.begin()) - 1 : -1;
+  }
+};
+
+const SrgbTable& srgb_table() {
+  static const SrgbTable table;
+  return table;
+}
+
+/// A level of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.
+struct TexelSource {
+  const Texture& texture;
+  const Sampler& sampler;
+  const Sampling& rules;
+  bool encoded = false;
+  double codes = 0;
+
+  Rgba at(size_t level, long long i, long long j) const {
+    Rgba t = wrapped_texel(texture, sampler, level, i, j);
+    if (texture.format != TextureFormat::srgb8_a8) return t;
+    const SrgbTable& table = srgb_table();
+    const auto& decoded = rules.mesa_decode ? table.mesa : table.value;
+    for (size_t c = 0; c < 3; ++c) {
+      const int code = table.code_of(t[c]);
+      if (encoded) {
+        t[c] = code >= 0 ? code / 255.0L : srgb_encoded(t[c]);
+      } else if (code >= 0) {
+        const auto k = size_t(code + 1);
+        t[c] = decoded[k] + (codes < 0 ? decoded[k - 1] - decoded[k] : decoded[k + 1] - decoded[k]) * std::fabs(codes);
+      }
+    }
+    return t;
+  }
+};
 
 void include(Ranges& r, const Rgba& texel) {
   for (size_t c = 0; c < 4; ++c)
@@ -34,11 +91,11 @@ Ranges mixed(const Ranges& a, const Ranges& b, double weight) {
 }
 
 /// All texels of a level, and the border if it may be read.
-Ranges whole_level(const Texture& texture, const Sampler& s, size_t level) {
+Ranges whole_level(const TexelSource& texels, size_t level) {
   Ranges r = nothing();
-  const TextureLevel& l = texture.levels[level];
+  const TextureLevel& l = texels.texture.levels[level];
   for (long long j = -1; j <= l.height; ++j)
-    for (long long i = -1; i <= l.width; ++i) include(r, wrapped_texel(texture, s, level, i, j));
+    for (long long i = -1; i <= l.width; ++i) include(r, texels.at(level, i, j));
   return r;
 }
 
@@ -52,31 +109,33 @@ Interval texels_of(const Range& coordinate, int side, double off) {
   return {low - off, high + off};
 }
 
-Ranges level_range(const Texture& texture, const Sampler& s, size_t level, Filter filter, const TextureSample& at,
+Ranges level_range(const TexelSource& texels, size_t level, Filter filter, const TextureSample& at,
                    const Profile& profile) {
-  const TextureLevel& l = texture.levels[level];
+  const TextureLevel& l = texels.texture.levels[level];
+  const bool narrow = texels.texture.format == TextureFormat::rgba8 || texels.encoded;
+  const double weight = narrow ? texels.rules.weight_error : texels.rules.wide_weight_error;
   const auto off = [&](const Range& coordinate, int side) {  // weights, and the float product
     if (profile.exact_planes) return 0.0;
     const double size = std::max(std::fabs(coordinate.low), std::fabs(coordinate.high)) * side;
-    return (filter == Filter::linear ? kWeightError : 0.0) + 3 * 0x1p-23 * (size + 1);
+    return (filter == Filter::linear ? weight : 0.0) + 3 * 0x1p-23 * (size + 1);
   };
   const Interval x = texels_of(at.u, l.width, off(at.u, l.width)), y = texels_of(at.v, l.height, off(at.v, l.height));
   const long double shift = filter == Filter::linear ? 0.5L : 0;
   if (!(x.high - x.low < kFewTexels) || !(y.high - y.low < kFewTexels) || std::fabs(x.low) > 0x1p40L ||
       std::fabs(y.low) > 0x1p40L)
-    return whole_level(texture, s, level);
+    return whole_level(texels, level);
   const auto i0 = (long long)(std::floor(x.low - shift)), i1 = (long long)(std::floor(x.high - shift));
   const auto j0 = (long long)(std::floor(y.low - shift)), j1 = (long long)(std::floor(y.high - shift));
   Ranges r = nothing();
   for (long long j = j0; j <= j1; ++j)
     for (long long i = i0; i <= i1; ++i) {
       if (filter == Filter::nearest) {
-        include(r, wrapped_texel(texture, s, level, i, j));
+        include(r, texels.at(level, i, j));
         continue;
       }
       // Bilinear in a cell: the extremes are at the corners of what the box has of it.
-      const Rgba t00 = wrapped_texel(texture, s, level, i, j), t10 = wrapped_texel(texture, s, level, i + 1, j);
-      const Rgba t01 = wrapped_texel(texture, s, level, i, j + 1), t11 = wrapped_texel(texture, s, level, i + 1, j + 1);
+      const Rgba t00 = texels.at(level, i, j), t10 = texels.at(level, i + 1, j);
+      const Rgba t01 = texels.at(level, i, j + 1), t11 = texels.at(level, i + 1, j + 1);
       const long double a[2] = {std::clamp<long double>(x.low - shift - i, 0, 1),
                                 std::clamp<long double>(x.high - shift - i, 0, 1)};
       const long double b[2] = {std::clamp<long double>(y.low - shift - j, 0, 1),
@@ -93,10 +152,10 @@ Ranges level_range(const Texture& texture, const Sampler& s, size_t level, Filte
 }
 
 /// Minified at a level of detail in [low, high].
-Ranges minified(const Texture& texture, const Sampler& s, double low, double high, const TextureSample& at,
-                const Profile& profile) {
-  const int last = int(texture.levels.size()) - 1;
-  const auto level = [&](int k) { return level_range(texture, s, size_t(k), s.min_filter, at, profile); };
+Ranges minified(const TexelSource& texels, double low, double high, const TextureSample& at, const Profile& profile) {
+  const Sampler& s = texels.sampler;
+  const int last = int(texels.texture.levels.size()) - 1;
+  const auto level = [&](int k) { return level_range(texels, size_t(k), s.min_filter, at, profile); };
   if (s.mip_filter == MipFilter::none) return level(0);
   low = std::clamp<double>(low, 0, last), high = std::clamp<double>(high, 0, last);
   Ranges r = nothing();
@@ -170,37 +229,74 @@ TextureSample texture_sample(const Piece& piece, const std::array<std::array<dou
   return s;
 }
 
-std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const TextureSample& at,
-                                 const Profile& profile) {
-  const long double w = texture.levels[0].width, h = texture.levels[0].height;
+namespace {
+
+/// Levels of detail that a lookup may have, biased and clamped.
+Interval lod_range(const Texture& texture, const Sampler& s, const TextureSample& at, const Sampling& rules) {
   LodRange lod;
-  if (profile.exact_planes) {
+  if (rules.any_scale) {
+    lod = {legal_lod(texture, at.least).low, legal_lod(texture, at.most).high};
+  } else {
+    const long double w = texture.levels[0].width, h = texture.levels[0].height;
     const auto rho = [&](const TexturePlace& p) {
       return std::max(std::hypot(p.u_x * w, p.v_x * h), std::hypot(p.u_y * w, p.v_y * h));
     };
-    lod = {std::log2(rho(at.least)) - 1e-6L, std::log2(rho(at.most)) + 1e-6L};
-  } else {
-    lod = {legal_lod(texture, at.least).low - kLodError, legal_lod(texture, at.most).high + kLodError};
+    lod = {std::log2(rho(at.least)), std::log2(rho(at.most))};
   }
-  const auto clamped = [&](long double v) {
-    return double(std::clamp<long double>(v + s.lod_bias, s.lod_min, s.lod_max));
-  };
-  const double low = clamped(lod.low), high = clamped(lod.high);
+  const auto clamped = [&](long double v) { return std::clamp<long double>(v + s.lod_bias, s.lod_min, s.lod_max); };
+  return {clamped(lod.low - rules.lod_error), clamped(lod.high + rules.lod_error)};
+}
+
+/// What the sampler's filters make of the texels, in real arithmetic, and how many linear steps at most that took.
+Ranges filtered_range(const TexelSource& texels, const Interval& lod, const TextureSample& at, const Profile& profile,
+                      int& steps) {
+  const Sampler& s = texels.sampler;
   // OpenGL lets the two filters meet at 0.5 where the one is linear and the other nearest with levels (8.15).
   const bool half =
       s.mag_filter == Filter::linear && s.min_filter == Filter::nearest && s.mip_filter != MipFilter::none;
   Ranges r = nothing();
-  if (low <= (half ? 0.5 : 0.0)) include(r, level_range(texture, s, 0, s.mag_filter, at, profile));
-  if (high > 0) include(r, minified(texture, s, low, high, at, profile));
+  steps = 0;
+  if (lod.low <= (half ? 0.5L : 0.0L)) {
+    include(r, level_range(texels, 0, s.mag_filter, at, profile));
+    steps = s.mag_filter == Filter::linear ? 2 : 0;
+  }
+  if (lod.high > 0) {
+    include(r, minified(texels, double(lod.low), double(lod.high), at, profile));
+    steps = std::max(steps, (s.min_filter == Filter::linear ? 2 : 0) + (s.mip_filter == MipFilter::linear ? 1 : 0));
+  }
+  return r;
+}
+
+}  // namespace
+
+std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const TextureSample& at,
+                                 const Profile& profile) {
+  const Sampling& rules = profile.sampling;
+  const Interval lod = lod_range(texture, s, at, rules);
+  const bool srgb = texture.format == TextureFormat::srgb8_a8;
+  int steps = 0;
+  Ranges r;
+  if (!srgb || (rules.srgb_codes == 0 && !rules.mesa_decode)) {
+    r = filtered_range({texture, s, rules}, lod, at, profile, steps);
+  } else {
+    // Filters weigh texels by what is not negative: all of them low, or all high.
+    r = filtered_range({texture, s, rules, false, -rules.srgb_codes}, lod, at, profile, steps);
+    include(r, filtered_range({texture, s, rules, false, rules.srgb_codes}, lod, at, profile, steps));
+  }
+  const double off = rules.lerp_codes * steps / 255;
+  if (srgb && rules.decodes_late) {
+    Ranges late = filtered_range({texture, s, rules, true}, lod, at, profile, steps);
+    for (size_t c = 0; c < 4; ++c) {
+      const double more = off + (c < 3 ? rules.srgb_codes / 255 : 0);
+      late[c] = {0, late[c].low - more, late[c].high + more};
+      if (c < 3) late[c] = {0, double(srgb_decoded(late[c].low)), double(srgb_decoded(late[c].high))};
+    }
+    include(r, late);
+  }
   const Rgba nominal = filtered(texture, s, at.nominal.u, at.nominal.v, level_of_detail(texture, s, at.nominal));
-  const bool linear =
-      s.mag_filter == Filter::linear || s.min_filter == Filter::linear || s.mip_filter == MipFilter::linear;
   for (size_t c = 0; c < 4; ++c) {
     const double largest = std::max(std::fabs(r[c].low), std::fabs(r[c].high));
-    double more = (profile.exact_planes ? 0x1p-24 : 8 * 0x1p-23) * largest;
-    if (!profile.exact_planes && texture.format == TextureFormat::rgba8 && linear) more += 2.0 / 255;
-    if (!profile.exact_planes && texture.format == TextureFormat::srgb8_a8)
-      more += 1.3e-3 + (linear && c == 3 ? 2.0 / 255 : 0);
+    const double more = rules.relative * largest + (texture.format == TextureFormat::rgba8 ? off : 0);
     r[c].value = std::clamp(double(nominal[c]), r[c].low, r[c].high);
     r[c].low -= more, r[c].high += more;
   }

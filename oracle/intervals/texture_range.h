@@ -19,9 +19,7 @@ struct TextureSample {
 TextureSample texture_sample(const Piece& piece, const std::array<std::array<double, 3>, 2>& uv, Interpolation how,
                              const Range& u, const Range& v, double x, double y);
 
-/// RGBA of a lookup: nominal value and hull. Levels of detail: where planes are exact by equation 8.11, else anything
-/// from max|d| to sqrt(2) times their sum, off by 0.05 (llvmpipe's log2); weights off by 2^-8; 8-bit formats filtered
-/// in 8 bits, sRGB decoded with an error of 1.3e-3.
+/// RGBA of a lookup: nominal value and hull, over the places of the sample and what Profile::sampling leaves open.
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& sampler, const TextureSample& sample,
                                  const Profile& profile);
 

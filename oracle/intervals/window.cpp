@@ -1,6 +1,7 @@
 #include "oracle/intervals/window.h"
 
 #include <cmath>
+#include <span>
 
 #include "oracle/scalar_renderer.h"
 
@@ -373,9 +374,12 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
              std::fabs(c[1]) > c[3] - corners[i].error[1] - corners[i].error[3];
   }
   if (profile_.exact_vertices && (!inside || huge)) return exact_pieces(corners, out);
-  std::vector<ClipVertex> polygon(corners.begin(), corners.end());
-  if (!inside)
-    for (int plane = pipeline_.geometry.depth_clamp ? 2 : 0; plane < 3 && !polygon.empty(); ++plane) cut(polygon, plane);
+  std::vector<ClipVertex> cut_polygon;
+  if (!inside) {
+    cut_polygon.assign(corners.begin(), corners.end());
+    for (int plane = pipeline_.geometry.depth_clamp ? 2 : 0; plane < 3 && !cut_polygon.empty(); ++plane) cut(cut_polygon, plane);
+  }
+  const std::span<const ClipVertex> polygon = inside ? std::span<const ClipVertex>(corners) : cut_polygon;
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {
     Piece piece;
     piece.cut = !inside;

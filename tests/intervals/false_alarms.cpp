@@ -77,7 +77,7 @@ TEST_CASE("The bound on lighting holds for N lights and shininess s, and is with
       }
       LightModel model;
       model.shininess = s;
-      const Arithmetic spec;
+      const LightBounds bounds(scene, model, {}, Arithmetic{}, false);
       double nearest_ratio = 0, loose_ratio = 0, largest_bound = 0;
       int branches = 0;
       for (int y = 0; y < 128; ++y)
@@ -92,7 +92,7 @@ TEST_CASE("The bound on lighting holds for N lights and shininess s, and is with
             surface.normal[k] = {double(normal[k]), 0};
             surface.albedo[k] = {double(albedo[k]), 0};
           }
-          const LitRange range = lit_range(surface, scene, model, {}, spec, false);
+          const LitRange range = bounds.at(surface);
           if (!range.branches.empty()) {
             ++branches;
             continue;

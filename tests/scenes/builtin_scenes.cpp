@@ -165,7 +165,7 @@ TEST_CASE("every built-in scene takes any number of lights") {
   for (const BuiltinInfo& info : builtin_scenes()) {
     if (info.name == "red") continue;  // its rock takes seconds to make
     INFO(info.name);
-    for (const size_t count : {0, 1, 2, 757, 100000}) {
+    for (const size_t count : {0u, 1u, 2u, 757u, 100000u}) {
       Scene scene = builtin_scene(std::string(info.name) + ",lights=" + std::to_string(count) + ",seed=9");
       CHECK(scene.lights.size() == count);
       CHECK_NOTHROW(set_time(scene, 3.3));

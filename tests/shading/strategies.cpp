@@ -149,6 +149,30 @@ TEST_CASE("Without lights a surface is black with its alpha, and the rest is the
   }
 }
 
+TEST_CASE("Alpha is written where a light's extent leaves fragments, and not where it discards them") {
+  Scene scene = squares(1);
+  Light light;
+  light.position = {0.0f, 0.0f, 0.5f};
+  light.range = 1.0f;
+  scene.lights.push_back(light);
+  Pipeline p = float_planes(Strategy::deferred_volumes, Format::rgba8);
+  p.light_volumes = {LightExtent::range, LightExtent::range, 16, 8, CullFace::none, true, false};
+  p.blend.mask[3] = true;
+  const std::vector<std::string> planes{"position"};
+  const Frame frame = render_frame(scene, p, {}, planes);
+  size_t inside = 0, wrong = 0;
+  for (int y = 0; y < p.height; ++y)
+    for (int x = 0; x < p.width; ++x) {
+      double d2 = 0.25;
+      for (int c = 0; c < 2; ++c) d2 += std::pow(frame.aovs[0].image.value(x, y, c), 2.0);
+      if (std::abs(d2 - 1.0) < 1e-4) continue;
+      inside += d2 < 1.0;
+      wrong += (int(frame.color.texel(x, y)[3]) == 255) != (d2 < 1.0);
+    }
+  CHECK(inside > 100);
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("Each light shows where exact integers say its geometry is, as often as that covers the pixel") {
   const FpScope fp;
   Scene scene = squares(1);
