@@ -98,7 +98,13 @@ class LightPass {
   }
 
  private:
+  /// Targets of sRGB codes take linear values: after each state, which turns encoding off for the planes.
+  void encode_target() const {
+    if (info(pipeline_.target).srgb) glEnable(GL_FRAMEBUFFER_SRGB);
+  }
+
   void clear(GLuint framebuffer) const {
+    encode_target();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b, scene_.clear.a};
     glClearBufferfv(GL_COLOR, 0, color.data());
@@ -187,6 +193,7 @@ class LightPass {
     glEnableVertexAttribArray(0);
     if (pipeline_.light_volumes.base) {
       set_volume_state(pipeline_, false, draw_.shift_x, draw_.shift_y);
+      encode_target();
       use(programs_.base);
       draw_quad(programs_.base);
     }
@@ -202,6 +209,7 @@ class LightPass {
       const Light& light = scene_.lights[size_t(i)];
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
       set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
+      encode_target();
       set_blend_state(pipeline_.blend);
       set_uniform(programs_.light, "light", i);
       if (is_mesh(extent))

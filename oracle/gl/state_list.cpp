@@ -218,6 +218,12 @@ std::vector<std::string> light_calls(const Pipeline& pipeline) {
           "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"};
 }
 
+std::vector<std::string> target_calls(const Pipeline& pipeline) {
+  std::vector<std::string> lines = light_calls(pipeline);
+  if (info(pipeline.target).srgb) lines.push_back("glEnable(GL_FRAMEBUFFER_SRGB)");
+  return lines;
+}
+
 }  // namespace
 
 std::string state_list(const Pipeline& asked, const GlslOptions& options) {
@@ -238,7 +244,7 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options) {
          entry("light_shaders", light_shaders(pipeline)) +
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
-         entry("light_state", calls(light_calls(pipeline))) + entry("light_uniforms", uniforms(pipeline)) +
+         entry("light_state", calls(target_calls(pipeline))) + entry("light_uniforms", uniforms(pipeline)) +
          "  \"light_layout\": " + light_layout(pipeline.light_model) + "\n}\n";
 }
 

@@ -7,6 +7,7 @@
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/validate.h"
 #include "scenes/builtin.h"
+#include "scenes/pcg32.h"
 #include "scenes/presets.h"
 
 using namespace trueshade;
@@ -68,6 +69,59 @@ TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by 
         check_frame(*context, renderer, scene, pipeline);
       }
   }
+}
+
+TEST_CASE("llvmpipe's blends into every target format are explained, whatever the equation and the factors") {
+  std::unique_ptr<GlContext> context;
+  try {
+    context = std::make_unique<GlContext>(GlDriver::llvmpipe);
+  } catch (const Error& error) {
+    WARN("SKIPPED: " << error.what());
+    return;
+  }
+  const bool known = context->info().line().find("Mesa 22.3") != std::string::npos;
+  const Scene scene = builtin_scene("cornell");
+  GlRenderer renderer(*context, scene);
+  Pcg32 random(5);
+  int judged = 0;
+  for (const Format target : kTargetFormats)
+    for (int i = 0; i < 6; ++i) {
+      Pipeline pipeline;
+      pipeline.width = 48, pipeline.height = 36;
+      pipeline.target = target;
+      pipeline.strategy = Strategy::deferred_volumes;
+      pipeline.light_volumes.point = pipeline.light_volumes.spot = i % 2 == 0 ? LightExtent::sphere : LightExtent::range;
+      pipeline.light_model.alpha_from_albedo = true;
+      if (i > 0) {
+        pipeline.blend.rgb = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)), BlendFactor(random.below(kBlendFactors))};
+        pipeline.blend.alpha = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)), BlendFactor(random.below(kBlendFactors))};
+        pipeline.blend.constant = {0.75f, 0.5f, 0.25f, 0.5f};
+        pipeline.blend.mask[3] = true;
+      }
+      Capture capture;
+      try {
+        capture = renderer.draw(pipeline).capture;
+      } catch (const std::runtime_error&) {
+        continue;  // a format this driver does not render to
+      }
+      ++judged;
+      for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
+        const bool promised = target == Format::rgba8 || target == Format::rgba16 || target == Format::rgba16f || target == Format::rgba32f ||
+                              target == Format::r11g11b10f;
+        if (name != std::string_view("unknown") && !(known && promised)) continue;
+        Profile profile = *profile_named(name);
+        profile.subpixel_bits = 8;
+        const StageVerdict v = judge_blending(scene, pipeline, profile, capture, steps_of(renderer, pipeline));
+        CAPTURE(info(target).name, name, i, int(pipeline.blend.rgb.equation), int(pipeline.blend.rgb.src), int(pipeline.blend.rgb.dst),
+                int(pipeline.blend.alpha.equation), int(pipeline.blend.alpha.src), int(pipeline.blend.alpha.dst));
+        if (v.worst.size() > 0)
+          UNSCOPED_INFO(v.worst[0].x << ',' << v.worst[0].y << ' ' << v.worst[0].plane << ' ' << v.worst[0].low << ".." << v.worst[0].high << " given "
+                                     << v.worst[0].given << ' ' << v.worst[0].note);
+        CHECK(v.passes());
+        CHECK(judge_lighting(scene, pipeline, profile, capture).passes());
+      }
+    }
+  CHECK(judged >= 36);
 }
 
 TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred") {
