@@ -8,11 +8,17 @@
 
 namespace trueshade::testing {
 
-/// Our own frame as a capture: the target and all planes, or those named.
-inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipeline,
-                                std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "specular", "emission", "uv",
-                                                                   "id.object", "id.material", "light.count"}) {
-  Frame frame = render_frame(scene, pipeline, {}, planes);
+/// The planes that are judged: those of every surface, and those that the light model reads.
+inline std::vector<std::string> judged_planes(const LightModel& model) {
+  std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material", "light.count"};
+  if (reads_specular_plane(model)) planes.emplace_back("specular");
+  if (model.emission) planes.emplace_back("emission");
+  return planes;
+}
+
+/// Our own frame as a capture: the target and planes.
+inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipeline) {
+  Frame frame = render_frame(scene, pipeline, {}, judged_planes(pipeline.light_model));
   return {"trueshade", std::move(frame.color), std::move(frame.aovs)};
 }
 inline oracle::Capture captured(const Scene& scene, const Pipeline& pipeline) { return captured(PreparedScene(scene), pipeline); }
