@@ -69,6 +69,7 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       count("pixels", "pixels", s.pixels),
       count("covered_pixels", "covered pixels", s.covered_pixels),
       real("covered_share", "covered share", ratio(s.covered_pixels, s.pixels)),
+      count("transparent_fragments", "transparent fragments blended", s.transparent_fragments),
       count("triangles", "triangles", s.triangles),
       count("lights", "lights", s.lights),
       count("pixel_lights", "pixel-light pairs", s.pixel_lights),

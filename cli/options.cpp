@@ -219,7 +219,9 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::string>& strategy) {
   CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
   glsl->add_option("--preset", options.preset, "Row of numbers, as for render")->required();
+  glsl->add_option("--pipeline", options.pipeline_file, "Pipeline in JSON, over the preset");
   glsl->add_option("--strategy", strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  glsl->add_flag("--maps", options.maps, "Materials with colour, specular and normal maps and alpha masks");
   glsl->add_option("-o,--output", options.folder, "Folder for the files; made if it is not there")->required();
   return glsl;
 }
@@ -232,13 +234,14 @@ GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::str
 
 /// Option values of validate as text.
 struct ValidationTexts {
-  std::optional<std::string> size, subpixel_bits, strategy;
+  std::optional<std::string> size, subpixel_bits, strategy, time;
 };
 
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
   add_pipeline_options(command, options, texts.size);
   command->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  command->add_option("--time", texts.time, "Time of the scene's timeline, seconds");
   command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
   command->add_option(
       "--gbuffer", options.gbuffer_file,
@@ -264,6 +267,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
+  if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
   if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))

@@ -57,13 +57,16 @@ struct ListOptions {
 struct GlslFilesOptions {
   std::string preset;  ///< name of a row
   std::optional<Strategy> strategy;
-  std::string folder;  ///< made if it is not there
+  std::optional<std::string> pipeline_file;  ///< over the preset
+  bool maps = false;                         ///< shaders of materials with colour, specular and normal maps
+  std::string folder;                        ///< made if it is not there
 };
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
   std::optional<std::string> driver;     ///< default, llvmpipe or softpipe; none where there is a capture
   std::optional<std::string> held_to;    ///< what profile to hold the driver to; nothing: what OpenGL promises of any
+  double time = 0.0;                     ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
   std::optional<std::string> report;     ///< .html

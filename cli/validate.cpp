@@ -50,7 +50,8 @@ void read_files(const ValidationOptions& options, Validation& v) {
 
 bool judge_opengl(const ValidationOptions& options) {
   if (options.report) check_folders({&*options.report, 1});
-  const Scene scene = load_scene(options.scene, {}, decode_image);
+  Scene scene = load_scene(options.scene, {}, decode_image);
+  set_time(scene, options.time);
   Validation v;
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);

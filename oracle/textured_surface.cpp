@@ -34,11 +34,18 @@ bool close(Real a, Real b, Real scale) { return std::fabs(a - b) <= scale; }
 /// Whether a coordinate that may be off by `off` texels lies on the same side of every boundary that counts.
 bool inside_texel(Real texels, Real off) { return !close(texels, std::nearbyint(texels), off); }
 
+/// Whether a lookup jumps at a level of detail this close: between the filters at 0, or, where one level is chosen,
+/// from it to the next at every half. Elsewhere it is smooth.
+bool at_jump(const Texture& texture, const Sampler& s, Real lod) {
+  if (s.mag_filter != s.min_filter && close(lod, 0, 1e-6L)) return true;
+  const Real half = std::floor(lod) + 0.5L;
+  return s.mip_filter == MipFilter::nearest && half > 0 && half < Real(texture.levels.size() - 1) &&
+         close(lod, half, 1e-6L);
+}
+
 /// Whether any coordinate within its bounds reads the same texels the same way, smoothly or not at all different.
 bool certain_lookup(const Texture& texture, const Sampler& s, const TexturePlace& p, double u_off, double v_off) {
-  const Real lod = level_of_detail(texture, s, p);
-  const bool chooses = s.mip_filter != MipFilter::none || s.mag_filter != s.min_filter;
-  if (chooses && (close(lod, 0, 1e-6L) || close(lod * 2, std::nearbyint(lod * 2), 1e-6L))) return false;
+  if (at_jump(texture, s, level_of_detail(texture, s, p))) return false;
   if (s.mag_filter == Filter::linear && s.min_filter == Filter::linear) return true;
   for (const TextureLevel& level : texture.levels)
     if (!inside_texel(p.u * level.width, Real(u_off) * level.width) ||

@@ -89,6 +89,29 @@ double polygon_offset(const TriangleSetup<T>& s, const DepthRule& rule) {
   return slope * rule.factor + unit * rule.units;
 }
 
+/// Lanes that a depth test lets through, whatever was submitted when; none of those that are NaN.
+HWY_INLINE hn::Mask<D32> passing(DepthFunc func, V32 z, V32 there) {
+  switch (func) {
+    case DepthFunc::never:
+      break;
+    case DepthFunc::less:
+      return hn::Lt(z, there);
+    case DepthFunc::lequal:
+      return hn::Le(z, there);
+    case DepthFunc::greater:
+      return hn::Gt(z, there);
+    case DepthFunc::gequal:
+      return hn::Ge(z, there);
+    case DepthFunc::equal:
+      return hn::Eq(z, there);
+    case DepthFunc::notequal:
+      return hn::Or(hn::Lt(z, there), hn::Gt(z, there));
+    case DepthFunc::always:
+      return hn::Eq(z, z);
+  }
+  return hn::Lt(z, z);  // none
+}
+
 /// Tests depth and keeps the visible id.
 struct DepthCommit {
   VisibilityTile& tile;
@@ -217,10 +240,10 @@ struct DepthCommit {
   }
 };
 
-/// Lists the fragments whose depth is the one stored.
-struct TieCommit {
+/// Lists the fragments that a depth test lets through; the depths stay.
+struct ListCommit {
   VisibilityTile& tile;
-  DepthCommit test;  ///< for its depths
+  DepthCommit test;  ///< for its depths, and by its function
   std::vector<DepthFragment>& out;
   bool skip_hidden;
   uint32_t id = 0;
@@ -235,21 +258,19 @@ struct TieCommit {
   bool hidden(int block) const { return test.hidden(block); }
   HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D32 df;
-    alignas(64) float z[HWY_MAX_BYTES / sizeof(float)];
-    V32 depth = test.depths(covered, e[1], e[2]);
-    if (test.alpha != nullptr) {
-      const auto equal = hn::Eq(depth, hn::Load(df, tile.depth + at));
-      const auto kept = hn::And(equal, test.opaque(e, equal));
-      depth = hn::IfThenElse(kept, depth, hn::Set(df, std::numeric_limits<float>::quiet_NaN()));
-    }
-    hn::Store(depth, df, z);
+    alignas(64) float one[HWY_MAX_BYTES / sizeof(float)];
+    auto pass = passing(test.func, test.depths(covered, e[1], e[2]), hn::Load(df, tile.depth + at));
+    if (hn::AllFalse(df, pass)) return false;
+    if (test.alpha != nullptr) pass = hn::And(pass, test.opaque(e, pass));
+    hn::Store(hn::IfThenElseZero(pass, hn::Set(df, 1.0f)), df, one);
     for (size_t i = 0; i < hn::Lanes(df); ++i)
-      if (z[i] == tile.depth[size_t(at) + i]) out.push_back({at + int(i), id});
+      if (one[i] != 0.0f) out.push_back({at + int(i), id});
     return false;
   }
   bool scalar(int at, double e0, double e1, double e2) {
-    const bool equal = test.depth(e1, e2) == tile.depth[at];
-    if (equal && (test.alpha == nullptr || test.opaque(e0, e1, e2))) out.push_back({at, id});
+    const D32 df;
+    const auto pass = passing(test.func, hn::Set(df, test.depth(e1, e2)), hn::Set(df, tile.depth[at]));
+    if (!hn::AllFalse(df, pass) && (test.alpha == nullptr || test.opaque(e0, e1, e2))) out.push_back({at, id});
     return false;
   }
   void finish_block(int) {}

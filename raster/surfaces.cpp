@@ -390,12 +390,33 @@ void fill_material_planes(const MaterialValues& m, const LightModel& model, int 
   out.plane[kSpecular + 3][i] = m.specular[3];
 }
 
+// Fixed-point planes hold directions as (n + 1) / 2.
+void store_directions(int first, Format format, const GBufferState& planes, NumericProfile profile, int pixels,
+                      SurfaceTile& out) {
+  const DF d;
+  const VF half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f);
+  for (int c = 0; c < 3; ++c) {
+    float* plane = out.plane[first + c];
+    for (int i = 0; i < pixels; i += int(hn::Lanes(d))) {
+      const VF moved = hn::Add(hn::Mul(hn::Load(d, plane + i), half), half);
+      const VF held = stored_value(moved, format, c, planes.half_round, profile);
+      hn::Store(hn::Sub(hn::Add(held, held), one), d, plane + i);
+    }
+  }
+}
+
 void store_plane(int first, int count, Format format, const GBufferState& planes, NumericProfile profile, int pixels,
                  SurfaceTile& out) {
   const DF d;
   if (info(format).bytes_per_channel == 4) return;
+  if (first == kNormal && info(format).number_class == NumberClass::unorm)
+    return store_directions(first, format, planes, profile, pixels, out);
   for (int c = 0; c < count; ++c) {
     float* plane = out.plane[first + c];
+    if (c >= info(format).channels) {
+      std::fill_n(plane, pixels, 1.0f);  // a missing alpha
+      continue;
+    }
     for (int i = 0; i < pixels; i += int(hn::Lanes(d)))
       hn::Store(stored_value(hn::Load(d, plane + i), format, c, planes.half_round, profile), d, plane + i);
   }

@@ -135,7 +135,7 @@ void set_source(const TileDraws& in, const Instance& instance, const Cluster& cl
 }
 
 DepthCommit& depth_test(DepthCommit& commit) { return commit; }
-DepthCommit& depth_test(TieCommit& commit) { return commit.test; }
+DepthCommit& depth_test(ListCommit& commit) { return commit.test; }
 
 template <class Commit>
 void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work, Commit& commit,
@@ -257,9 +257,6 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
 
 // Keeps the pixels where not the visible fragment alone has the stored depth.
 void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& fragments) {
-  std::sort(fragments.begin(), fragments.end(), [](const DepthFragment& a, const DepthFragment& b) {
-    return a.at < b.at || (a.at == b.at && a.id < b.id);
-  });
   size_t kept = 0;
   for (size_t i = 0, end = 0; i < fragments.size(); i = end) {
     while (end < fragments.size() && fragments[end].at == fragments[i].at) ++end;
@@ -269,14 +266,23 @@ void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& frag
   fragments.resize(kept);
 }
 
-void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
-                                   std::vector<DepthFragment>& out) {
+void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc func, bool culling,
+                            VisibilityTile& visible, std::vector<DepthFragment>& out) {
   out.clear();
   const WindowTransform& t = in.view.window;
-  TieCommit commit{visible, {visible, DepthFunc::equal, t.depth_low, t.depth_high, culling, t.depth}, out, culling};
-  RasterCounts again;
+  const bool cull = culling && (func == DepthFunc::less || func == DepthFunc::lequal || func == DepthFunc::equal);
+  ListCommit commit{visible, {visible, func, t.depth_low, t.depth_high, cull, t.depth}, out, cull};
+  RasterCounts uncounted;
   ClusterScratch work;
-  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, again);
+  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, uncounted);
+  std::sort(out.begin(), out.end(), [](const DepthFragment& a, const DepthFragment& b) {
+    return a.at < b.at || (a.at == b.at && a.id < b.id);
+  });
+}
+
+void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                                   std::vector<DepthFragment>& out) {
+  passing_fragments_simd(in, rect, DepthFunc::equal, culling, visible, out);
   keep_shared(visible, out);
 }
 
@@ -299,12 +305,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(passing_fragments_simd);
 HWY_EXPORT(fragments_at_equal_depth_simd);
 HWY_EXPORT(clip_corners_simd);
 
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void passing_fragments(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                       std::vector<DepthFragment>& out) {
+  HWY_DYNAMIC_DISPATCH(passing_fragments_simd)(in, rect, in.state.depth_func, culling, visible, out);
 }
 
 void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,

@@ -71,6 +71,11 @@ void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, Cli
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts);
 
+/// The fragments that the state's depth test lets through against `visible`, whose depths stay: by pixel, then in order
+/// of submission. `culling`: as in draw_visibility(), which has drawn `visible`, perhaps from another list.
+void passing_fragments(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                       std::vector<DepthFragment>& out);
+
 /// The fragments that a depth test with EQUAL lets through at pixels where that is another set than the visible one
 /// alone: by pixel, then in order of submission. `culling`: as in draw_visibility(), which has drawn `visible`.
 void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,

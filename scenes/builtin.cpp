@@ -50,6 +50,7 @@ struct Row {
   BuiltinInfo info;
   Scene (*make)(const builtin::Parameters&);
   uint32_t most_objects;  ///< 0: the scene has no parameter `objects`
+  bool has_glass = false;
 };
 
 constexpr std::array<Row, 8> kRows{{
@@ -60,7 +61,7 @@ constexpr std::array<Row, 8> kRows{{
     {{"cornell", "the Cornell box with two blocks and coloured lights"}, builtin::cornell, 0},
     {{"circle", "lights on a circle, coloured by a ramp and noise, around a torus knot"}, builtin::circle, 1u << 20},
     {{"lecture", "a textured room under 14 sweeping spot lights"}, builtin::lecture, 0},
-    {{"atrium", "a hall of arches with a fountain under 256 warm and cool lamps"}, builtin::atrium, 0},
+    {{"atrium", "a hall of arches with a fountain under 256 warm and cool lamps"}, builtin::atrium, 0, true},
 }};
 
 std::string joined_names() {
@@ -83,7 +84,7 @@ class SpecReader {
 
   builtin::Parameters parameters(const Row& row, const SceneLimits& limits) {
     builtin::Parameters p;
-    bool has_seed = false, has_radius = false;
+    bool has_seed = false, has_radius = false, has_glass = false;
     while (more_) {
       const std::string_view text = piece();
       const size_t equals = text.find('=');
@@ -100,6 +101,9 @@ class SpecReader {
       } else if (key == "seed" && !has_seed) {
         p.seed = number(key, value, 0, UINT64_MAX);
         has_seed = true;
+      } else if (key == "glass" && row.has_glass && !has_glass) {
+        p.glass = number(key, value, 0, 1) == 1;
+        has_glass = true;
       } else if (key == "radius" && !has_radius) {
         if (value != "overlap" && value != "constant")
           fail("radius is '" + std::string(value) + "'", "overlap or constant");
@@ -107,7 +111,9 @@ class SpecReader {
         has_radius = true;
       } else {
         fail("the key '" + key + "' is unknown here or given twice",
-             row.most_objects > 0 ? "keys are lights seed objects radius" : "keys are lights seed radius");
+             row.most_objects > 0 ? "keys are lights seed objects radius"
+             : row.has_glass      ? "keys are lights seed glass radius"
+                                  : "keys are lights seed radius");
       }
     }
     return p;

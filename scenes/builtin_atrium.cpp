@@ -26,8 +26,11 @@ enum MaterialId : uint32_t {
   kPlaster,
   kWaterBlue,
   kBrass,
-  kPainted
+  kPainted,
+  kClearGlass,  // and six tinted ones; of glass=1
+  kTintedGlass
 };
+constexpr int kTints = 6;
 
 /// Base, fluted shaft with a little swelling, and capital; 1 high, for a shaft of radius 0.1.
 Profile column_profile() {
@@ -70,7 +73,7 @@ class Builder {
  public:
   explicit Builder(Scene& scene) : scene_(scene) {}
 
-  void build() {
+  void build(bool glass) {
     floor();
     for (const double side : {-1.0, 1.0}) {
       arcade(side);
@@ -79,6 +82,7 @@ class Builder {
     add(kVaultMesh, kPainted, {0.0, kVault, 0.0}, {kRow, kRow * 0.8, 1.0});
     ends();
     fountain();
+    if (glass) glazing();
   }
 
  private:
@@ -158,6 +162,20 @@ class Builder {
     }
   }
 
+  /// From far to near as the camera looks, so that drawing in order is drawing back to front.
+  void glazing() {
+    const auto tinted = [](int i) { return MaterialId(kTintedGlass + (i + kTints) % kTints); };
+    for (int i = 0; i < kBays; ++i) {
+      const double z = (i + 0.5 - kBays / 2.0) * kBay;
+      for (const double side : {-1.0, 1.0}) box(tinted(i + int(side)), {side * kRow, 2.0, z}, {0.03, 3.0, kBay - 1.5});
+      if (i != 2) continue;
+      for (int k = -3; k <= 3; ++k) box(tinted(k), {0.98 * k, 1.75, z}, {0.9, 3.3, 0.04});  // a screen across the nave
+    }
+    add(kBall, kClearGlass, {0.0, 3.25, -2.2}, glm::dvec3(0.62));
+    add(kBall, tinted(2), {-1.7, 1.0, 3.4}, glm::dvec3(0.55));
+    add(kBall, tinted(4), {2.3, 0.75, 4.6}, glm::dvec3(0.4));
+  }
+
   Scene& scene_;
 };
 
@@ -224,6 +242,14 @@ Scene atrium(const Parameters& parameters) {
   for (size_t i = 0; i < std::size(colors); ++i) {
     scene.materials.push_back({names[i], colors[i]});
   }
+  if (parameters.glass) {
+    const glm::vec4 tints[kTints] = {{0.95f, 0.55f, 0.15f, 0.4f},  {0.20f, 0.45f, 0.95f, 0.45f},
+                                     {0.25f, 0.80f, 0.40f, 0.4f},  {0.90f, 0.25f, 0.35f, 0.45f},
+                                     {0.55f, 0.35f, 0.90f, 0.45f}, {0.95f, 0.85f, 0.35f, 0.35f}};
+    scene.materials.push_back({"clear glass", {0.85f, 0.95f, 0.98f, 0.2f}});
+    for (const glm::vec4& tint : tints) scene.materials.push_back({"tinted glass", tint});
+    for (size_t i = kClearGlass; i < scene.materials.size(); ++i) scene.materials[i].transparent = true;
+  }
   const double radius = 0.5 * kBay - 0.42, small = 0.25 * kBay - 0.16;
   scene.meshes = {cube_mesh(),
                   turned_mesh(column_profile(), 160, 20, 0.10),
@@ -235,7 +261,7 @@ Scene atrium(const Parameters& parameters) {
                   turned_mesh(bowl_profile(), 80),
                   water_mesh(0.006),
                   sphere_mesh(14)};
-  Builder(scene).build();
+  Builder(scene).build(parameters.glass);
   Pcg32 random(parameters.seed, 7);
   add_lights(scene, parameters.lights_or(kLights), parameters.reach(kLights), random);
   scene.camera.eye = {1.7f, 2.5f, 9.6f};

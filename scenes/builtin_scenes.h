@@ -14,6 +14,7 @@ struct Parameters {
   std::optional<uint32_t> lights, objects;  ///< absent: the scene's own number
   uint64_t seed = 1;
   bool constant_radius = false;  ///< radius=constant: lights keep their range however many there are
+  bool glass = false;            ///< glass=1: with transparent surfaces
 
   uint32_t lights_or(uint32_t usual) const { return lights.value_or(usual); }
   uint32_t objects_or(uint32_t usual) const { return objects.value_or(usual); }

@@ -157,6 +157,7 @@ Material MaterialReader::read_material(const json::Node& node) const {
   if (const auto map = node.find("normal_map")) material.normal_map = read_map(*map);
   if (const auto scale = node.find("normal_scale")) material.normal_scale = scale->real(-1000.0, 1000.0);
   if (const auto cutoff = node.find("alpha_cutoff")) material.alpha_cutoff = cutoff->real(0.0, 1.0);
+  if (const auto transparent = node.find("transparent")) material.transparent = transparent->boolean();
   return material;
 }
 

@@ -13,9 +13,9 @@ inline constexpr std::string_view kTextureKeys[] = {"name", "file", "levels", "e
 inline constexpr std::string_view kPatternKeys[] = {"type", "size", "format", "colors", "cells", "seed"};
 inline constexpr std::string_view kMapKeys[] = {"texture",  "wrap",    "mag",     "min",   "mip",
                                                 "lod_bias", "lod_min", "lod_max", "border"};
-inline constexpr std::string_view kMaterialKeys[] = {"name",         "color",      "specular_color", "shininess",
-                                                     "emission",     "metallic",   "roughness",      "color_map",
-                                                     "specular_map", "normal_map", "normal_scale",   "alpha_cutoff"};
+inline constexpr std::string_view kMaterialKeys[] = {
+    "name",      "color",        "specular_color", "shininess",    "emission",     "metallic",   "roughness",
+    "color_map", "specular_map", "normal_map",     "normal_scale", "alpha_cutoff", "transparent"};
 
 /// Reads a scene text's textures and materials into a scene. Borrows all it is given.
 class MaterialReader {

@@ -9,6 +9,7 @@
 #include "scenes/image_view.h"
 #include "scenes/light_model.h"
 #include "scenes/post_chain.h"
+#include "scenes/transparency.h"
 
 namespace trueshade {
 
@@ -107,6 +108,7 @@ struct Pipeline {
   LightModel light_model;
   LightVolumes light_volumes;
   BlendState blend = kAddLight;  ///< of deferred-volumes, a light's draws; forward-multipass always has kAddLight
+  TransparencyState transparency;
   Strategy strategy = Strategy::deferred_loop;
   Format target = Format::rgba8;  ///< one of kTargetFormats
   NumericProfile profile = NumericProfile::ideal;

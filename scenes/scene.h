@@ -30,6 +30,7 @@ struct Material {
   TextureSlot normal_map{};         ///< tangent space, (n + 1) / 2
   float normal_scale = 1.0f;        ///< of the map's x and y
   float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
+  bool transparent = false;         ///< drawn as Pipeline::transparency says, its alpha the source's when blended
 
   bool masked() const { return alpha_cutoff > 0.0f; }
   bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }

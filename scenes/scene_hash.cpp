@@ -107,6 +107,10 @@ class SceneHasher {
     add(material.roughness);
   }
 
+  void add_transparent(uint64_t place, const Material& material) {
+    if (material.transparent) add(place);
+  }
+
   void add(const Camera& camera) {
     add(camera.eye);
     add(camera.target);
@@ -143,9 +147,11 @@ std::string scene_hash(const Scene& scene) {
   for (const Light& light : scene.lights) hasher.add(light);
   hasher.add(scene.camera);
   hasher.add(scene.clear);
-  constexpr uint64_t kMaterials = uint64_t(1) << 62, kLights = uint64_t(1) << 63;  // no count is as large
+  // No count is as large.
+  constexpr uint64_t kMaterials = uint64_t(1) << 62, kLights = uint64_t(1) << 63, kTransparent = kLights | kMaterials;
   for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_if_set(kMaterials + i, scene.materials[i]);
   for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
+  for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_transparent(kTransparent + i, scene.materials[i]);
   const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.textured() || m.masked(); });
   if (plain) return hasher.hex();

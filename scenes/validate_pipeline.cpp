@@ -90,13 +90,30 @@ void check_light_volumes(const LightVolumes& v) {
   require_enumerator(v.cull_face, CullFace::front_and_back, "light_volumes.cull_face");
 }
 
-void check_blend(const BlendState& b) {
+void check_blend(const BlendState& b, const std::string& field) {
   for (const BlendTerm& term : {b.rgb, b.alpha}) {
-    require_enumerator(term.equation, BlendEquation::max, "blend: equation");
-    require_enumerator(term.src, BlendFactor::src_alpha_saturate, "blend: src");
-    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, "blend: dst");
+    require_enumerator(term.equation, BlendEquation::max, (field + ": equation").c_str());
+    require_enumerator(term.src, BlendFactor::src_alpha_saturate, (field + ": src").c_str());
+    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, (field + ": dst").c_str());
   }
-  for (const float constant : b.constant) require_real(constant, -1e18f, 1e18f, "blend.constant", "each -1e18 to 1e18");
+  for (const float constant : b.constant)
+    require_real(constant, -1e18f, 1e18f, (field + ".constant").c_str(), "each -1e18 to 1e18");
+}
+
+void check_transparency(const Pipeline& p) {
+  const TransparencyState& t = p.transparency;
+  require_enumerator(t.mode, TransparencyMode::after_lights, "transparency.mode");
+  check_blend(t.blend, "transparency.blend");
+  if (t.mode != TransparencyMode::into_albedo) return;
+  if (is_forward(p.strategy))
+    throw Error(ErrorKind::usage, "transparency.mode",
+                "into-albedo blends into the G-buffer, which " + std::string(name_of(p.strategy)) + " has not",
+                "after-lights, or a deferred strategy");
+  if (!profile_has(p.profile, p.gbuffer.albedo.format))
+    throw Error(ErrorKind::usage, "transparency.mode",
+                std::string(profile_name(p.profile)) + " does not promise the bits of blending into " +
+                    std::string(info(p.gbuffer.albedo.format).name),
+                "use the profile ideal, or an albedo plane of rgba8, rgba16f or rgba32f");
 }
 
 void check_post(const PostChain& p) {
@@ -124,7 +141,8 @@ void validate(const Pipeline& pipeline) {
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
   check_light_volumes(pipeline.light_volumes);
-  check_blend(pipeline.blend);
+  check_blend(pipeline.blend, "blend");
+  check_transparency(pipeline);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");

@@ -10,6 +10,7 @@
 #include "core/fp_env.h"
 #include "raster/cluster_bins.h"
 #include "raster/clusters.h"
+#include "raster/fragment_layers.h"
 #include "raster/overdraw.h"
 #include "raster/simd_target.h"
 #include "raster/surfaces.h"
@@ -22,6 +23,8 @@
 #include "shading/light_planes.h"
 #include "shading/light_table.h"
 #include "shading/target.h"
+#include "shading/transparent_blend.h"
+#include "shading/transparent_pass.h"
 
 namespace trueshade {
 namespace {
@@ -42,6 +45,7 @@ struct TileScratch {
   TiedFragments tied;
   std::vector<DepthFragment> fragments;
   VisibilityTile layer;
+  std::unique_ptr<TransparentWork> transparent;  // of scenes that need it
 };
 
 TileScratch& thread_scratch() {
@@ -52,7 +56,7 @@ TileScratch& thread_scratch() {
 struct TileCounts {
   RasterCounts raster;
   LightCounts light;
-  uint64_t covered = 0;
+  uint64_t covered = 0, transparent = 0;
   uint64_t lit_geometry = 0;  ///< P of the counters
   double geometry_ms = 0.0, light_ms = 0.0;
 };
@@ -69,6 +73,7 @@ struct FrameWork {
   const LightOutlines outlines;  ///< of strategies that blend
   bool need_uv;
   const LightPlanes light_planes;
+  const TransparentPass transparent;
   Frame& out;
 
   LightDraws light_draws() const {
@@ -95,31 +100,51 @@ struct FrameWork {
     return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
   }
 
+  // Scratch for the transparent surfaces; null where there are none.
+  TransparentWork* transparent_work(TileScratch& s) const {
+    if (transparent.active() && s.transparent == nullptr) s.transparent = std::make_unique<TransparentWork>();
+    return transparent.active() ? s.transparent.get() : nullptr;
+  }
+
   bool resolve_tied(const TileDraws& draws, const TileRect& where, const GBufferState& planes, TileScratch& s) const;
 
   void draw(int tile, TileScratch& s, TileCounts& counts) const {
     const double start = now_ms();
     const Scene& scene = prepared.scene();
     const TileRect where = rect(tile);
-    const TileDraws draws{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
+    const TileDraws all{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
+    TransparentWork* const glass = transparent_work(s);
+    const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
     const GBufferState planes = surface_planes(pipeline);
     resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
     const bool tied = pipeline.strategy == Strategy::forward_multipass && resolve_tied(draws, where, planes, s);
     counts.covered += uint64_t(s.surface.covered_pixels);
+    if (glass != nullptr) {
+      counts.transparent += transparent.find_fragments(all, where, execution.geometry_culling, s.visible, *glass);
+      if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
+    }
     const double middle = now_ms();
     const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
-      write_stored(s.color, where, out.color);
       if (execution.count_as_gl)
         counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend.counts, s.blend.lights);
     } else {
       light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
                  execution.compiled_models, s.lights, s.color, counts.light);
-      store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
     }
+    bool stored = blends_lights(pipeline.strategy);
+    if (glass != nullptr && transparent.after_lights()) {
+      if (!stored) encode_colors(transparent.target(), where.size * where.size, s.color);
+      transparent.blend_after_lights(all, where, execution, s.vertices, s.lights, *glass, s.color);
+      stored = true;
+    }
+    if (stored)
+      write_stored(s.color, where, out.color);
+    else
+      store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
     light_planes.draw(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
                       out.aovs);
     for (NamedImage& aov : out.aovs) {
@@ -129,7 +154,7 @@ struct FrameWork {
         continue;
       }
       const bool counts_fragments = aov.name == "overdraw";
-      if (counts_fragments) count_fragments(draws, where, s.extra.light_count);
+      if (counts_fragments) count_fragments(all, where, s.extra.light_count);
       store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where, planes.half_round,
                 aov.image);
     }
@@ -149,18 +174,10 @@ bool FrameWork::resolve_tied(const TileDraws& draws, const TileRect& where, cons
   if (s.fragments.empty()) return false;
   s.tied.tied.assign(kMaxTilePixels, 0);
   for (const DepthFragment& f : s.fragments) s.tied.tied[size_t(f.at)] = -1;
+  std::copy(std::begin(s.visible.depth), std::end(s.visible.depth), s.layer.depth);
+  FragmentLayers layers(s.fragments);
   for (size_t layer = 0;; ++layer) {
-    std::fill(std::begin(s.layer.id), std::end(s.layer.id), 0u);
-    std::copy(std::begin(s.visible.depth), std::end(s.visible.depth), s.layer.depth);
-    bool any = false;
-    for (size_t i = layer; i < s.fragments.size(); ++i) {
-      if (s.fragments[i].at != s.fragments[i - layer].at) continue;
-      const bool begins = i == layer || s.fragments[i - layer - 1].at != s.fragments[i].at;
-      if (!begins) continue;
-      s.layer.id[s.fragments[i].at] = s.fragments[i].id;
-      any = true;
-    }
-    if (!any) return true;
+    if (!layers.next(s.layer)) return true;
     if (layer == kMostLayers)
       throw Error(ErrorKind::limit, "strategy", "more than 256 fragments share one pixel's depth",
                   "draw coincident surfaces once, or with another strategy");
@@ -207,6 +224,7 @@ void check_memory(const Pipeline& pipeline, const Execution& execution, std::spa
 void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
   for (const TileCounts& t : tiles) {  // in tile order, so that the sums do not depend on scheduling
     stats.covered_pixels += t.covered;
+    stats.transparent_fragments += t.transparent;
     stats.lit_pixel_lights += t.light.lit_pairs;
     stats.clusters_drawn += t.raster.clusters;
     stats.triangles_tested += t.raster.triangles;
@@ -272,7 +290,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
   draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(meshes),
-              std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model), frame},
+              std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
+              TransparentPass(scene, pipeline), frame},
              progress);
 
   FrameStats& stats = frame.stats;

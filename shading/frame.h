@@ -30,11 +30,12 @@ struct GlCounts {
 
 /// Counts of one frame. The first group depends on scene and pipeline alone; the second on Execution too.
 struct FrameStats {
-  uint64_t pixels = 0;            ///< of the image
-  uint64_t covered_pixels = 0;    ///< N: with a surface
-  uint64_t lit_pixel_lights = 0;  ///< pairs of covered pixel and light that is in range and faces it
-  uint64_t pixel_lights = 0;      ///< covered pixels times lights
-  uint64_t triangles = 0;         ///< submitted, over all instances
+  uint64_t pixels = 0;                 ///< of the image
+  uint64_t covered_pixels = 0;         ///< N: with an opaque surface
+  uint64_t lit_pixel_lights = 0;       ///< pairs of covered pixel and light that is in range and faces it
+  uint64_t pixel_lights = 0;           ///< covered pixels times lights
+  uint64_t transparent_fragments = 0;  ///< blended: they pass the depth test
+  uint64_t triangles = 0;              ///< submitted, over all instances
   uint64_t lights = 0;
 
   GlCounts gl;  ///< of deferred-volumes with Execution::count_as_gl alone whole: P has to be counted

@@ -22,11 +22,28 @@ uint64_t geometry_triangles(const Scene& scene, const LightVolumes& volumes) {
   return triangles;
 }
 
+uint64_t transparent_instances(const Scene& scene) {
+  return uint64_t(std::count_if(scene.instances.begin(), scene.instances.end(),
+                                [&](const Instance& i) { return scene.materials[i.material].transparent; }));
+}
+
+// Draws of transparent surfaces, once each, in whatever strategy.
+void add_transparent(const Scene& scene, const Pipeline& pipeline, uint64_t fragments, GlCounts& c) {
+  const bool into_albedo = pipeline.transparency.mode == TransparencyMode::into_albedo;
+  c.draws += transparent_instances(scene);
+  c.fragments_written += fragments;
+  if (!into_albedo) c.material_computations += fragments * scene.lights.size();
+  if (pipeline.transparency.blend.enabled)
+    (into_albedo ? c.gbuffer_fragments_read : c.target_fragments_read) += fragments;
+}
+
 }  // namespace
 
 GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const FrameStats& stats) {
   GlCounts c;
-  const uint64_t n = stats.covered_pixels, lights = scene.lights.size(), instances = scene.instances.size();
+  const bool transparent = draws_transparent(scene, pipeline);
+  const uint64_t n = stats.covered_pixels, lights = scene.lights.size();
+  const uint64_t instances = scene.instances.size() - (transparent ? transparent_instances(scene) : 0);
   const uint64_t passes = std::max<uint64_t>(lights, 1);
   switch (pipeline.strategy) {
     case Strategy::forward_multipass:
@@ -60,6 +77,7 @@ GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const Frame
     c.gbuffer_fragments_read = planes * c.light_pixels;
     c.fragments_written = planes * n + c.light_pixels;
   }
+  if (transparent) add_transparent(scene, pipeline, stats.transparent_fragments, c);
   return c;
 }
 

@@ -141,10 +141,14 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
     return;
   }
   const Planes planes = planes_of(name);
+  const bool halved = name == "normal" && info(plane.format).number_class == NumberClass::unorm;  // (n + 1) / 2
   for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
     if (surface.covered[i] == 0) return;
     float value[4] = {0.0f, 0.0f, 0.0f, planes.fourth};
-    for (int c = 0; c < planes.count; ++c) value[c] = surface.plane[planes.first + c][i];
+    for (int c = 0; c < planes.count; ++c) {
+      value[c] = surface.plane[planes.first + c][i];
+      if (halved) value[c] = value[c] * 0.5f + 0.5f;
+    }
     write_channels(value, plane.format, half_round, texel);
   });
 }

@@ -53,9 +53,13 @@ Image linear_colors(const Image& plane, const Image& object) {
 }
 
 Image directions(const Image& normal, const Image& object) {
+  const bool halved = info(normal.format).number_class == NumberClass::unorm;  // (n + 1) / 2 already
   return picture(object, [&](int x, int y) {
     Rgb rgb;
-    for (int k = 0; k < 3; ++k) rgb[size_t(k)] = code(0.5 * normal.value(x, y, k) + 0.5);
+    for (int k = 0; k < 3; ++k) {
+      const double value = normal.value(x, y, k);
+      rgb[size_t(k)] = code(halved ? value : 0.5 * value + 0.5);
+    }
     return rgb;
   });
 }

@@ -111,7 +111,7 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
     names.push_back(textures.back());
   }
   depth = make_texture(Format::d32f, pipeline.width, pipeline.height);
-  color = make_texture(pipeline.target, pipeline.width, pipeline.height);
+  color = make_texture(renderable(pipeline.target, options.rgb16f), pipeline.width, pipeline.height);
   const std::array<GLuint, 1> target{color};
   geometry_target = make_target(names, depth);
   light_target = make_target(target, 0);

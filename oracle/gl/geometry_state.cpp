@@ -55,12 +55,14 @@ void set_clip_control(ClipOrigin origin, ClipDepth depth) {
                 depth == ClipDepth::zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
 }
 
-/// What no pipeline asks for, and a context may start with: dithering is on initially (GL 4.6 core, 17.3.8).
+/// What no pipeline asks for, and a context may start with: dithering is on initially (GL 4.6 core, 17.3.8). sRGB
+/// targets are encoded, and blended in linear values (17.3.6); of others FRAMEBUFFER_SRGB says nothing.
 void set_common_state() {
-  constexpr GLenum kOff[] = {GL_DITHER,           GL_MULTISAMPLE,      GL_BLEND,
-                             GL_SCISSOR_TEST,     GL_STENCIL_TEST,     GL_POLYGON_OFFSET_FILL,
-                             GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART};
+  constexpr GLenum kOff[] = {GL_DITHER,           GL_MULTISAMPLE,  GL_BLEND,
+                             GL_SCISSOR_TEST,     GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL,
+                             GL_PRIMITIVE_RESTART};
   for (const GLenum capability : kOff) glDisable(capability);
+  glEnable(GL_FRAMEBUFFER_SRGB);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }

@@ -22,6 +22,10 @@ std::string qualifier(Interpolation interpolation) {
 
 constexpr size_t kMostPlanes = 8;  // GL_MAX_DRAW_BUFFERS, at least
 
+bool reads_specular_map(const LightModel& model, const GlslOptions& options) {
+  return options.specular_maps && reads_specular_plane(model) && !maps_metals(model);
+}
+
 bool has_ids(const std::vector<GlslPlane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
 }
@@ -29,6 +33,11 @@ bool has_ids(const std::vector<GlslPlane>& planes) {
 /// Whether fragments know their object and material.
 bool carries_ids(const Pipeline& pipeline, const GlslOptions& options) {
   return reads_materials(pipeline.light_model) || has_ids(planes_of(pipeline, options));
+}
+
+/// Fixed-point planes hold directions as (n + 1) / 2.
+bool halves_normals(const Pipeline& pipeline) {
+  return info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm;
 }
 
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -43,7 +52,8 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   for (const GlslPlane& plane : planes) {
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
-    if (plane.name == "normal") text += "vec4(world_normal, 1.0);\n";
+    if (plane.name == "normal")
+      text += "vec4(" + normal_text(options) + (halves_normals(pipeline) ? " * 0.5 + 0.5" : "") + ", 1.0);\n";
     if (plane.name == "albedo") text += "albedo;\n";
     if (plane.name == "specular") text += "gloss;\n";
     if (plane.name == "emission") text += "vec4(emission, 1.0);\n";
@@ -54,6 +64,24 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   }
   return text + "}\n";
 }
+
+/// docs/arithmetic.md section 13: a texel of a normal map in the frame of the triangle's texture coordinates.
+constexpr const char* kBentNormal = R"(uniform sampler2D normal_map;
+uniform float normal_scale;
+
+// The normal of a texel: x along growing u, y along growing v, both across N; N where u and v do not grow.
+vec3 bent_normal(vec3 N, vec3 texel) {
+  float n2 = dot(N, N);
+  vec3 T = along_u - N * (dot(N, along_u) / n2);
+  float t2 = dot(T, T);
+  if (!(n2 > 0.0 && t2 > 0.0)) return N;
+  T = T * inversesqrt(t2);
+  vec3 C = cross(N, T);
+  vec3 B = C * (dot(C, along_v) < 0.0 ? -inversesqrt(n2) : inversesqrt(n2));
+  vec3 t = vec3((2.0 * texel.xy - 1.0) * normal_scale, 2.0 * texel.z - 1.0);
+  return (T * t.x + B * t.y) + N * t.z;
+}
+)";
 
 /// `vec3 P` from its plane, or from the stored depth as docs/arithmetic.md section 7 says.
 std::string position_text(const GBufferState& g) {
@@ -82,10 +110,10 @@ std::string glsl_float(float value) {
 
 std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& options) {
   const GBufferState& g = pipeline.gbuffer;
-  const auto renderable = [&](Format f) { return f == Format::rgb16f && !options.rgb16f ? Format::rgba16f : f; };
   std::vector<GlslPlane> planes;
   const auto add = [&](const char* name, const char* word, Format format) {
-    planes.push_back({name, std::string("out_") + word, std::string(word) + "_plane", renderable(format)});
+    planes.push_back(
+        {name, std::string("out_") + word, std::string(word) + "_plane", renderable(format, options.rgb16f)});
   };
   if (!g.position_from_depth) add("position", "position", g.position.format);
   add("normal", "normal", g.normal.format);
@@ -122,8 +150,13 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
   if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
-  if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
+  if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_u");
+  if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_v");
   if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
+  if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
+  if (reads_specular_map(pipeline.light_model, options) && direction == "in")
+    text += "uniform sampler2D specular_map;\n";
+  if (options.normal_maps && direction == "in") text += kBentNormal;
   return text;
 }
 
@@ -147,7 +180,9 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
   const bool ids = coverage.format == Format::r32ui;
   return "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n  if (texelFetch(" + coverage.sampler +
          (ids ? ", pixel, 0).x == 0u" : ", pixel, 0).w == 0.0") + ") discard;\n" + position_text(pipeline.gbuffer) +
-         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz;\n"
+         "  vec3 stored_normal = texelFetch(normal_plane, pixel, 0).xyz" +
+         (halves_normals(pipeline) ? " * 2.0 - 1.0" : "") +
+         ";\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
          (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
          (pipeline.light_model.emission ? "  vec3 emission = texelFetch(emission_plane, pixel, 0).rgb;\n" : "") +
@@ -175,6 +210,7 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
   text +=
       "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
       "  vec4 glow = texelFetch(materials, 2 * int(ids.y) - 1);\n  vec3 emission = glow.rgb;\n";
+  if (reads_specular_map(model, options)) text += "  gloss.rgb = gloss.rgb * texture(specular_map, texcoord).rgb;\n";
   if (maps_metals(model))
     text +=
         "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
@@ -185,6 +221,10 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
 std::string albedo_text(const GlslOptions& options) {
   return std::string(options.vertex_color ? "color * " : "") + (options.maps ? "texture(color_map, texcoord) * " : "") +
          "base";
+}
+
+std::string normal_text(const GlslOptions& options) {
+  return options.normal_maps ? "bent_normal(world_normal, texture(normal_map, texcoord).xyz)" : "world_normal";
 }
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -205,6 +245,8 @@ layout(location = 11) in vec3 normal_from_object[3];  // inverse transpose
 layout(location = 14) in vec4 base_color;
 layout(location = 15) in uvec2 instance_ids;
 )";
+  if (options.normal_maps)
+    text += "uniform samplerBuffer tangents;  // two texels a triangle, in the object: where u grows, where v grows\n";
   text += varyings_text(pipeline, options, "out");
   if (options.version >= 400) text += "precise gl_Position;\n";
   text += R"(
@@ -227,6 +269,14 @@ void main() {
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
   if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
+  if (options.normal_maps)
+    text +=
+        "  vec3 u = texelFetch(tangents, gl_VertexID / 3 * 2).xyz, v = texelFetch(tangents, gl_VertexID / 3 * 2 + "
+        "1).xyz;\n"
+        "  along_u = vec3(linear(world_from_object[0].xyz, u), linear(world_from_object[1].xyz, u), "
+        "linear(world_from_object[2].xyz, u));\n"
+        "  along_v = vec3(linear(world_from_object[0].xyz, v), linear(world_from_object[1].xyz, v), "
+        "linear(world_from_object[2].xyz, v));\n";
   if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }
@@ -241,6 +291,15 @@ GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {
   const Pipeline drawn = drawn_pipeline(pipeline);
   GlslShaders shaders{vertex_text(drawn, options), geometry_fragment_text(drawn, options), {}, {}, {}};
   set_light_shaders(drawn, options, shaders);
+  if (!options.transparent || pipeline.transparency.mode != TransparencyMode::after_lights) return shaders;
+  Pipeline forward = pipeline;
+  forward.strategy = Strategy::forward_loop;
+  forward.light_model.alpha_from_albedo = true;
+  forward = drawn_pipeline(forward);
+  shaders.transparent_vert = vertex_text(forward, options);
+  GlslShaders lit{{}, {}, {}, {}, {}};
+  set_light_shaders(forward, options, lit);
+  shaders.transparent_frag = lit.light_frag;
   return shaders;
 }
 

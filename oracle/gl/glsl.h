@@ -18,9 +18,17 @@ struct GlslOptions {
   bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
-  bool vertex_color = true;        ///< false: no mesh has any, so the base colour is the albedo
+  bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
+  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool transparent = false;  ///< surfaces are drawn after the lights
+  bool vertex_color = true;  ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
+
+/// What a format is stored as: rgba16f for rgb16f where the driver cannot render to that.
+constexpr Format renderable(Format format, bool rgb16f) {
+  return format == Format::rgb16f && !rgb16f ? Format::rgba16f : format;
+}
 
 /// A plane of the G-buffer: colour attachment i of the geometry pass is the i-th of planes_of().
 struct GlslPlane {
@@ -39,9 +47,11 @@ const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
 
 /// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
 /// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with
-/// light_vert: the draw before the lights of deferred-volumes, empty where there is none.
+/// light_vert: the draw before the lights of deferred-volumes, empty where there is none. transparent_*: the draw of
+/// transparent surfaces after the lights, of GlslOptions::transparent.
 struct GlslShaders {
   std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
+  std::string transparent_vert{}, transparent_frag{};
   bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
@@ -72,8 +82,9 @@ std::string glsl_header(int version, std::string_view purpose);
 std::string glsl_float(float value);  ///< a literal that reads back as the same float
 /// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
-/// The surface's colour in a fragment shader with those varyings.
+/// The surface's colour and its normal, of any length, in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
+std::string normal_text(const GlslOptions& options);
 /// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
 /// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
 bool reads_materials(const LightModel& model);

@@ -15,8 +15,8 @@ std::string loop_text(const Pipeline& p) { return light_loop_text(p, "lights", "
 
 /// The surface of a fragment of the scene itself.
 std::string forward_surface_text(const Pipeline& p, const GlslOptions& options) {
-  return "  vec3 P = world_position;\n  vec3 stored_normal = world_normal;\n" + material_text(p.light_model, options) +
-         surface_text(p.light_model);
+  return "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(options) + ";\n" +
+         material_text(p.light_model, options) + surface_text(p.light_model);
 }
 
 std::string forward_text(const Pipeline& p, const GlslOptions& options) {

@@ -1,6 +1,7 @@
 #include "oracle/gl/map_textures.h"
 
 #include <algorithm>
+#include <array>
 
 namespace trueshade::oracle {
 
@@ -72,25 +73,39 @@ GlTexture uploaded(const Texture& texture, const Sampler& s) {
   return out;
 }
 
-Texture white_texel() {
-  Texture texture{"", TextureFormat::rgba8, {{1, 1, {255, 255, 255, 255}}}};
+/// A texture of one texel, so that a lookup gives it exactly.
+Texture constant_texture(const std::array<float, 4>& value) {
+  Texture texture{"", TextureFormat::rgba32f, {{1, 1, {}}}};
+  append_texel(texture.format, value, texture.levels[0].bytes);
   return texture;
 }
 
 }  // namespace
 
 MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
-  if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                   [](const Material& m) { return m.color_map.used() || m.masked(); }))
-    return;
-  for (const Material& m : scene.materials)
-    color_.push_back(m.color_map.used() ? uploaded(scene.textures[size_t(m.color_map.texture)], m.color_map.sampler)
-                                        : uploaded(white_texel(), Sampler{}));
+  const auto any = [&](auto has) { return std::any_of(scene.materials.begin(), scene.materials.end(), has); };
+  if (!any([](const Material& m) { return m.textured() || m.masked(); })) return;
+  const Texture white = constant_texture({1, 1, 1, 1}), level = constant_texture({0.5f, 0.5f, 1, 1});
+  const auto upload = [&](const TextureSlot Material::*slot, const Texture& none) {
+    std::vector<GlTexture> textures;
+    for (const Material& m : scene.materials)
+      textures.push_back((m.*slot).used() ? uploaded(scene.textures[size_t((m.*slot).texture)], (m.*slot).sampler)
+                                          : uploaded(none, Sampler{}));
+    return textures;
+  };
+  color_ = upload(&Material::color_map, white);
+  if (any([](const Material& m) { return m.specular_map.used(); })) specular_ = upload(&Material::specular_map, white);
+  if (any([](const Material& m) { return m.normal_map.used(); })) normal_ = upload(&Material::normal_map, level);
 }
 
-void MapTextures::bind(GLuint program, uint32_t material, int unit) const {
-  bind_texture(program, "color_map", unit, GL_TEXTURE_2D, color_[material]);
+void MapTextures::bind(GLuint program, uint32_t material) const {
+  constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;  // the last that every OpenGL has
+  bind_texture(program, "color_map", kColorUnit, GL_TEXTURE_2D, color_[material]);
   set_uniform(program, "alpha_cutoff", scene_->materials[material].alpha_cutoff);
+  if (specular()) bind_texture(program, "specular_map", kSpecularUnit, GL_TEXTURE_2D, specular_[material]);
+  if (!normal()) return;
+  bind_texture(program, "normal_map", kNormalUnit, GL_TEXTURE_2D, normal_[material]);
+  set_uniform(program, "normal_scale", scene_->materials[material].normal_scale);
 }
 
 }  // namespace trueshade::oracle

@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <vector>
 
 #include "oracle/gl/objects.h"
@@ -7,20 +6,21 @@
 
 namespace trueshade::oracle {
 
-/// The colour maps of a scene's materials as OpenGL textures, levels as the scene has them. The context must be
-/// current.
+/// The maps of a scene's materials as OpenGL textures, levels as the scene has them. The context must be current.
 class MapTextures {
  public:
   explicit MapTextures(const Scene& scene);
 
   bool used() const { return !color_.empty(); }  ///< some material has a map or a mask
+  bool specular() const { return !specular_.empty(); }
+  bool normal() const { return !normal_.empty(); }
 
-  /// Hands a material's map and cutoff to a program of GlslOptions::maps.
-  void bind(GLuint program, uint32_t material, int unit) const;
+  /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 15.
+  void bind(GLuint program, uint32_t material) const;
 
  private:
   const Scene* scene_;
-  std::vector<GlTexture> color_;  ///< one a material; a white texel where it has none
+  std::vector<GlTexture> color_, specular_, normal_;  ///< one a material; where it has none, a texel that does nothing
 };
 
 }  // namespace trueshade::oracle

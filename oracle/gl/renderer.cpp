@@ -9,6 +9,8 @@
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
+#include "oracle/gl/post_frame.h"
+#include "oracle/gl/post_glsl.h"
 #include "oracle/gl/probes.h"
 #include "oracle/gl/read_back.h"
 #include "oracle/gl/scene_buffers.h"
@@ -26,11 +28,12 @@ struct Targets {
   std::vector<GlTexture> textures;  ///< one a plane
   GlTexture depth, color, forward_depth;
   GlTarget geometry, light, forward;  ///< forward: the target with a depth of its own
+  GlTarget over;                      ///< the target with the geometry pass's depth
 };
 
 struct Programs {
   GlslShaders text;
-  GlProgram geometry, light, base;
+  GlProgram geometry, light, base, transparent;
 };
 
 namespace {
@@ -55,6 +58,7 @@ std::unique_ptr<Targets> make_targets(int width, int height, Format color_format
   t->light = make_target(color, 0);
   t->forward_depth = make_texture(depth_format, width, height);
   t->forward = make_target(color, t->forward_depth);
+  t->over = make_target(color, t->depth);
   if (!t->geometry.complete || !t->light.complete)
     throw std::runtime_error("the driver cannot render to the planes of this pipeline");
   return t;
@@ -82,9 +86,16 @@ class LightPass {
       : t_(t), programs_(programs), buffers_(buffers), pipeline_(pipeline), draw_(draw), scene_(buffers.scene()) {
     const int all = int(scene_.lights.size());
     lights_ = draw.lights < 0 ? all : std::min(draw.lights, all);
+    stands_in_ = t.color_format != pipeline.target;
   }
 
   void run() {
+    draw_lights();
+    if (transparent() && pipeline_.transparency.mode == TransparencyMode::after_lights) draw_over();
+  }
+
+ private:
+  void draw_lights() {
     switch (pipeline_.strategy) {
       case Strategy::forward_multipass:
         return multipass();
@@ -97,16 +108,26 @@ class LightPass {
     }
   }
 
- private:
-  /// Targets of sRGB codes take linear values: after each state, which turns encoding off for the planes.
-  void encode_target() const {
-    if (info(pipeline_.target).srgb) glEnable(GL_FRAMEBUFFER_SRGB);
+  bool transparent() const { return draws_transparent(scene_, pipeline_); }
+  Surfaces solid() const { return transparent() ? Surfaces::opaque : Surfaces::all; }
+
+  /// Transparent surfaces lit one by one, blended into the target.
+  void draw_over() const {
+    set_scene_state();
+    glBindFramebuffer(GL_FRAMEBUFFER, (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer);
+    use(programs_.transparent);
+    glDepthMask(GL_FALSE);
+    BlendState blend = pipeline_.transparency.blend;
+    if (stands_in_) blend.mask[3] = false;
+    set_blend_state(blend);
+    buffers_.draw_instances(Surfaces::transparent);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
   void clear(GLuint framebuffer) const {
-    encode_target();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b, scene_.clear.a};
+    const std::array<float, 4> color{scene_.clear.r, scene_.clear.g, scene_.clear.b,
+                                     stands_in_ ? 1.0f : scene_.clear.a};
     glClearBufferfv(GL_COLOR, 0, color.data());
   }
 
@@ -141,7 +162,7 @@ class LightPass {
 
   void forward_loop() const {
     begin_forward();
-    buffers_.draw_instances();
+    buffers_.draw_instances(solid());
   }
 
   /// The first light stores depth and colour, the others add where the depth is the one stored.
@@ -150,13 +171,12 @@ class LightPass {
     if (lights_ > 0) show(-1, t_.forward.framebuffer);
     for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
       set_uniform(programs_.light, "light", light);
-      buffers_.draw_instances();
-      if (light >= 0) show(light, t_.forward.framebuffer);
+      buffers_.draw_instances(solid());
+      show(light, t_.forward.framebuffer);
       glDepthMask(GL_FALSE);
       glDepthFunc(GL_EQUAL);
       set_blend_state(kAddLight);
     }
-    if (lights_ == 0) show(-1, t_.forward.framebuffer);
   }
 
   void deferred_loop() const {
@@ -193,7 +213,7 @@ class LightPass {
     glEnableVertexAttribArray(0);
     if (pipeline_.light_volumes.base) {
       set_volume_state(pipeline_, false, draw_.shift_x, draw_.shift_y);
-      encode_target();
+      if (stands_in_) glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
       use(programs_.base);
       draw_quad(programs_.base);
     }
@@ -204,13 +224,14 @@ class LightPass {
     for (size_t r = 0; r < 4; ++r)
       for (size_t c = 0; c < 4; ++c) rows[4 * r + c] = float(clip[4 * c + r]);
     glUniform4fv(glGetUniformLocation(programs_.light, "clip_from_world"), 4, rows.data());
+    BlendState blend = pipeline_.blend;
+    if (stands_in_) blend.mask[3] = false;
     const LightMeshes meshes(pipeline_.light_volumes);
     for (int i = 0; i < lights_; ++i) {
       const Light& light = scene_.lights[size_t(i)];
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
       set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
-      encode_target();
-      set_blend_state(pipeline_.blend);
+      set_blend_state(blend);
       set_uniform(programs_.light, "light", i);
       if (is_mesh(extent))
         draw_mesh(meshes[extent], light);
@@ -228,7 +249,22 @@ class LightPass {
   const GlDraw& draw_;
   const Scene& scene_;
   int lights_ = 0;
+  bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
+
+/// Transparent surfaces by the geometry pass's program, into the colour plane alone.
+void blend_into_albedo(const Targets& t, const SceneBuffers& buffers, const BlendState& blend) {
+  glDepthMask(GL_FALSE);
+  set_blend_state(blend);
+  for (size_t i = 0; i < t.planes.size(); ++i) {
+    if (t.planes[i].name == "albedo") continue;
+    glDisablei(GL_BLEND, GLuint(i));
+    glColorMaski(GLuint(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  }
+  buffers.draw_instances(Surfaces::transparent);
+  set_blend_state({});
+  glDepthMask(GL_TRUE);
+}
 
 void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
   const auto read = [&](GLuint texture, Format format) {
@@ -263,7 +299,10 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
-  options.maps = buffers_->has_maps();
+  options.maps = buffers_->maps().used();
+  options.specular_maps = buffers_->maps().specular();
+  options.normal_maps = buffers_->maps().normal();
+  options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;
@@ -271,25 +310,29 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
 
 const Programs& GlRenderer::programs(const GlslShaders& text) {
   if (programs_ == nullptr || programs_->text != text)
-    programs_ = std::make_unique<Programs>(
-        Programs{text, make_program("geometry", text.geometry_vert, text.geometry_frag),
-                 make_program("light", text.light_vert, text.light_frag),
-                 text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag)});
+    programs_ = std::make_unique<Programs>(Programs{
+        text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+        make_program("light", text.light_vert, text.light_frag),
+        text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag),
+        text.transparent_frag.empty() ? GlProgram{}
+                                      : make_program("transparent", text.transparent_vert, text.transparent_frag)});
   return *programs_;
 }
 
 const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {
   const int width = pipeline.width + draw.shift_x, height = pipeline.height + draw.shift_y;
+  const Format color_format = renderable(pipeline.target, options.rgb16f);
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   const Targets* t = targets_.get();
-  if (t == nullptr || t->width != width || t->height != height || t->color_format != pipeline.target ||
+  if (t == nullptr || t->width != width || t->height != height || t->color_format != color_format ||
       t->depth_format != pipeline.geometry.depth_format || t->planes != planes)
-    targets_ = make_targets(width, height, pipeline.target, pipeline.geometry.depth_format, planes);
+    targets_ = make_targets(width, height, color_format, pipeline.geometry.depth_format, planes);
   return *targets_;
 }
 
 GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
-  const Pipeline pipeline = drawn_pipeline(asked);
+  const bool post = draw.post && asked.post.active();
+  const Pipeline pipeline = drawn_pipeline(post ? pipeline_without_post(asked) : asked);
   context_->make_current();
   check_limits(*context_, pipeline, pipeline.width + draw.shift_x, pipeline.height + draw.shift_y);
   const GlslOptions options = draw.shaders != nullptr ? draw.shader_options : shader_options(draw);
@@ -302,6 +345,8 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   frame.capture.drawn_at = {draw.shift_x, draw.shift_y};
   if (!options.rgb16f && wants_rgb16f(pipeline.gbuffer))
     frame.notes.push_back("rgb16f is not renderable on this driver: its planes are rgba16f");
+  if (!options.rgb16f && pipeline.target == Format::rgb16f)
+    frame.notes.push_back("rgb16f is not renderable on this driver: the target is rgba16f whose alpha stays 1");
   if (options.ids && !options.primitive)
     frame.notes.push_back("gl_PrimitiveID draws nothing on this driver: there is no plane id.primitive");
   PassTimer timer(frame.passes);
@@ -313,12 +358,19 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   glUseProgram(program.geometry);
   if (reads_materials(pipeline.light_model))
     bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
-  buffers_->draw_instances();
+  const bool apart = draws_transparent(buffers_->scene(), pipeline);
+  buffers_->draw_instances(apart ? Surfaces::opaque : Surfaces::all);
+  if (apart && pipeline.transparency.mode == TransparencyMode::into_albedo)
+    blend_into_albedo(target, *buffers_, pipeline.transparency.blend);
   timer.end("geometry");
   LightPass(target, program, *buffers_, pipeline, draw).run();
   timer.end("lights");
   read_all(target, pipeline, draw, frame.capture);
   timer.end("read back");
+  if (post) {
+    frame.finished = finished_by_gl(buffers_->scene(), asked, options.version, target.color, target.depth);
+    timer.end("post");
+  }
   check_gl("drawing");
   return frame;
 }

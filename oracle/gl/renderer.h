@@ -15,6 +15,7 @@ struct GlDraw {
   bool planes = true;            ///< read every plane back, depth and ids among them; otherwise the target alone
   int lights = -1;               ///< only the first so many; -1: all. So the target after each light can be had
   int shift_x = 0, shift_y = 0;  ///< the picture moved by whole pixels, >= 0, and read back from there
+  bool post = false;             ///< the post chain too, where the pipeline has one; the picture is not moved then
   const GlslShaders* shaders = nullptr;  ///< instead of shaders_of(pipeline, shader_options)
   GlslOptions shader_options;            ///< of `shaders`
   StepSink after_light;                  ///< of strategies that draw light by light: shown the target after each
@@ -26,7 +27,8 @@ struct GlPass {
 };
 
 struct GlFrame {
-  Capture capture;
+  Capture capture;  ///< with GlDraw::post, of the frame before the chain: pipeline_without_post()
+  Image finished;   ///< what the post chain made of the target; empty without GlDraw::post
   std::vector<GlPass> passes;
   std::vector<std::string> notes;  ///< where the driver could not do what the pipeline says, and what was done instead
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "oracle/gl/glsl.h"
 #include "oracle/matrices.h"
@@ -26,6 +27,50 @@ std::vector<float> interleaved(const Mesh& mesh) {
       for (const auto& stream : mesh.color) out.push_back(stream[v]);
     if (mesh.has_uv())
       for (const auto& stream : mesh.uv) out.push_back(stream[v]);
+  }
+  return out;
+}
+
+/// The same triangles, none of which shares a vertex: triangle i has vertices 3 i to 3 i + 2.
+Mesh unshared(const Mesh& mesh) {
+  Mesh out;
+  const auto copied = [&mesh](const auto& streams, auto& to) {
+    for (size_t c = 0; c < streams.size(); ++c)
+      for (size_t i = 0; i < mesh.indices.size() && !streams[c].empty(); ++i)
+        to[c].push_back(streams[c][mesh.indices[i]]);
+  };
+  copied(mesh.position, out.position);
+  copied(mesh.normal, out.normal);
+  copied(mesh.color, out.color);
+  copied(mesh.uv, out.uv);
+  out.indices.resize(mesh.indices.size());
+  std::iota(out.indices.begin(), out.indices.end(), 0u);
+  return out;
+}
+
+/// Of each triangle of unshared() where u and where v grow, unit vectors in the object; zero where uv has no area.
+std::vector<float> tangents(const Mesh& mesh) {
+  std::vector<float> out(8 * (mesh.indices.size() / 3));
+  for (size_t i = 0; mesh.has_uv() && i < mesh.indices.size(); i += 3) {
+    const auto edge = [&](size_t k, int c) {
+      return double(mesh.position[size_t(c)][i + k]) - double(mesh.position[size_t(c)][i]);
+    };
+    const double a1 = double(mesh.uv[0][i + 1]) - double(mesh.uv[0][i]),
+                 b1 = double(mesh.uv[1][i + 1]) - double(mesh.uv[1][i]);
+    const double a2 = double(mesh.uv[0][i + 2]) - double(mesh.uv[0][i]),
+                 b2 = double(mesh.uv[1][i + 2]) - double(mesh.uv[1][i]);
+    const double area = a1 * b2 - a2 * b1, sign = area < 0 ? -1 : 1;
+    glm::dvec3 u(0.0), v(0.0);
+    for (int c = 0; c < 3 && area != 0; ++c) {
+      u[c] = sign * (edge(1, c) * b2 - edge(2, c) * b1);
+      v[c] = sign * (edge(2, c) * a1 - edge(1, c) * a2);
+    }
+    for (glm::dvec3* axis : {&u, &v})
+      if (const double length = std::hypot(axis->x, axis->y, axis->z); length > 0) *axis /= length;
+    for (int c = 0; c < 3; ++c) {
+      out[8 * (i / 3) + size_t(c)] = float(u[c]);
+      out[8 * (i / 3) + 4 + size_t(c)] = float(v[c]);
+    }
   }
   return out;
 }
@@ -116,15 +161,19 @@ SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene), m
   for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh &&
+    const bool transparent = scene.materials[instance.material].transparent;
+    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh && runs_.back().transparent == transparent &&
                       (!maps_.used() || runs_.back().material == instance.material);
-    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0});
+    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0, transparent});
     ++runs_.back().count;
   }
 }
 
-SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& mesh, int rotation) const {
+SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& shared, int rotation) const {
   MeshBuffers out;
+  const Mesh own = maps_.normal() ? unshared(shared) : Mesh{};
+  const Mesh& mesh = maps_.normal() ? own : shared;
+  if (maps_.normal()) out.tangents = make_texel_buffer(tangents(mesh));
   out.array = make_vertex_array();
   glBindVertexArray(out.array);
   const size_t stride = 6 + (mesh.has_color() ? 4 : 0) + (mesh.has_uv() ? 2 : 0);
@@ -168,16 +217,23 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
 }
 
-void SceneBuffers::draw_instances() const {
-  constexpr int kMapUnit = 15;  // the last that every OpenGL has
+bool SceneBuffers::has_transparent() const {
+  return std::any_of(runs_.begin(), runs_.end(), [](const InstanceRun& r) { return r.transparent; });
+}
+
+void SceneBuffers::draw_instances(Surfaces which) const {
+  constexpr int kTangentUnit = 11;
   GLint program = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   for (const InstanceRun& run : runs_) {
+    if (which != Surfaces::all && run.transparent != (which == Surfaces::transparent)) continue;
     const MeshBuffers& mesh = meshes_[run.mesh];
-    if (maps_.used()) maps_.bind(GLuint(program), run.material, kMapUnit);
+    if (maps_.used()) maps_.bind(GLuint(program), run.material);
+    if (maps_.normal())
+      bind_texture(GLuint(program), "tangents", kTangentUnit, GL_TEXTURE_BUFFER, mesh.tangents.texture);
     glBindVertexArray(mesh.array);
     glBindBuffer(GL_ARRAY_BUFFER, instances_);
     point_at_instances(run.first);

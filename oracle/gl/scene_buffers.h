@@ -11,12 +11,16 @@
 
 namespace trueshade::oracle {
 
-/// A run of instances, consecutive in the scene, of one mesh and, where materials have maps, of one material: one
-/// instanced draw.
+/// A run of instances, consecutive in the scene, of one mesh, all transparent or none, and, where materials have maps,
+/// of one material: one instanced draw.
 struct InstanceRun {
   uint32_t mesh = 0, material = 0;
   uint32_t first = 0, count = 0;
+  bool transparent = false;
 };
+
+/// Which surfaces a pass draws.
+enum class Surfaces : uint8_t { all, opaque, transparent };
 
 /// What a draw needs to know of an instance.
 struct InstanceRecord {
@@ -38,12 +42,13 @@ class SceneBuffers {
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
-  /// Every triangle, in submission order, by the program in use; one of GlslOptions::maps where has_maps(), whose
-  /// texture goes to unit 15.
-  void draw_instances() const;
+  bool has_transparent() const;
+  /// Every triangle of those surfaces, in submission order, by the program in use; one of GlslOptions::maps where
+  /// maps() are used; texture units 11 (frames of normal maps) and 13 to 15.
+  void draw_instances(Surfaces which = Surfaces::all) const;
   /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
   void draw_each_instance(GLuint program) const;
-  bool has_maps() const { return maps_.used(); }
+  const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
@@ -54,6 +59,7 @@ class SceneBuffers {
   struct MeshBuffers {
     GlVertexArray array;
     GlBuffer vertices, indices;
+    GlTexelBuffer tangents;  ///< where there are normal maps
     GLsizei index_count = 0;
   };
   MeshBuffers upload(const Mesh& mesh, int rotation) const;

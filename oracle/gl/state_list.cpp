@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "oracle/gl/post_glsl.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -81,7 +83,7 @@ std::vector<std::string> geometry_calls(const Pipeline& pipeline) {
   return {"glDisable(GL_DITHER)",
           "glDisable(GL_BLEND)",
           "glDisable(GL_MULTISAMPLE)",
-          "glDisable(GL_FRAMEBUFFER_SRGB)",
+          "glEnable(GL_FRAMEBUFFER_SRGB)",
           "glViewport(" + number(v.x) + ", " + number(v.y) + ", " + number(v.width) + ", " + number(v.height) + ")",
           "glDepthRange(" + glsl_float(g.depth_near) + ", " + glsl_float(g.depth_far) + ")",
           "glEnable(GL_DEPTH_TEST); glDepthMask(GL_TRUE); glDepthFunc(" + gl_name(g.depth_func) + ")",
@@ -117,6 +119,21 @@ std::string attributes() {
        "8 to 10 world_from_object: rows; divisor 1",
        "11 to 13 normal_from_object: rows of the inverse transpose of its linear part; divisor 1",
        "14 base_color: vec4; divisor 1", "15 instance_ids: uvec2, object + 1 and material + 1; divisor 1"});
+}
+
+/// Samplers of GlslOptions::maps, a draw a material.
+std::string maps(const GlslOptions& options) {
+  std::vector<std::string> lines;
+  if (options.maps) lines = {"color_map: sampler2D, a white texel where the material has none", "alpha_cutoff: float"};
+  if (options.specular_maps) lines.emplace_back("specular_map: sampler2D, a white texel where the material has none");
+  if (options.normal_maps) {
+    lines.emplace_back("normal_map: sampler2D, a texel 0.5, 0.5, 1 where the material has none; normal_scale: float");
+    lines.emplace_back(
+        "tangents: samplerBuffer over GL_RGBA32F, two texels a triangle of the mesh, unit vectors in the object along "
+        "growing u and growing v, 0 where uv has no area; no two triangles share a vertex: gl_VertexID / 3 is the "
+        "triangle");
+  }
+  return calls(lines);
 }
 
 std::string uniforms(const Pipeline& pipeline) {
@@ -218,10 +235,39 @@ std::vector<std::string> light_calls(const Pipeline& pipeline) {
           "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"};
 }
 
-std::vector<std::string> target_calls(const Pipeline& pipeline) {
-  std::vector<std::string> lines = light_calls(pipeline);
-  if (info(pipeline.target).srgb) lines.push_back("glEnable(GL_FRAMEBUFFER_SRGB)");
-  return lines;
+/// The draw of transparent surfaces, or what becomes of them.
+std::vector<std::string> transparent_calls(const Pipeline& pipeline) {
+  const std::string blend = blend_calls(pipeline.transparency.blend);
+  switch (pipeline.transparency.mode) {
+    case TransparencyMode::none:
+      return {"with the others, as if they were opaque"};
+    case TransparencyMode::into_albedo:
+      return {"not in the geometry pass; after it, before the lights: its shaders, attachments and state again, but",
+              "glDepthMask(GL_FALSE)", "attachment of the plane albedo: " + blend,
+              "all others: glDisablei(GL_BLEND, i); glColorMaski(i, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE)"};
+    case TransparencyMode::after_lights:
+      break;
+  }
+  return {"in no pass before; after the lights: transparent.vert, transparent.frag into the light target, with the",
+          "depth of the opaque surfaces and the geometry pass's state, but", "glDepthMask(GL_FALSE)", blend};
+}
+
+/// The passes of the post chain, in order.
+std::string post_list(const Pipeline& pipeline, int version) {
+  std::vector<std::string> lines;
+  for (const PostPass& pass : post_passes(pipeline, version)) {
+    std::string reads;
+    for (const auto& [sampler, picture] : pass.reads)
+      reads += (reads.empty() ? "" : ", ") + quoted(sampler) + ": " + quoted(picture);
+    lines.push_back("{\"shaders\": [\"post.vert\", \"post_" + pass.name + ".frag\"], \"reads\": {" + reads +
+                    "}, \"writes\": " + quoted(pass.writes) + ", \"size\": [" + std::to_string(pass.width) + ", " +
+                    std::to_string(pass.height) + "], \"format\": " + quoted(gl_name(pass.format)) + "}");
+    if (pass.name == "load" && pipeline.post.marker_radius > 0.0f)
+      lines.push_back(
+          "{\"shaders\": [\"markers.vert\", \"markers.frag\"], \"writes\": \"loaded\", \"depth\": \"the frame's\", "
+          "\"draws\": \"a sphere a light, the geometry pass's state, back faces culled\"}");
+  }
+  return array_of(lines);
 }
 
 }  // namespace
@@ -240,12 +286,15 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options) {
          entry("geometry_depth", "{\"format\": " + quoted(gl_name(pipeline.geometry.depth_format)) +
                                      ", \"clear\": " + glsl_float(pipeline.geometry.clear_depth) + "}") +
          entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
+         entry("geometry_maps", maps(options)) +
          entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
          entry("light_shaders", light_shaders(pipeline)) +
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
-         entry("light_state", calls(target_calls(pipeline))) + entry("light_uniforms", uniforms(pipeline)) +
-         "  \"light_layout\": " + light_layout(pipeline.light_model) + "\n}\n";
+         entry("post_passes", post_list(asked, options.version)) + entry("light_state", calls(light_calls(pipeline))) +
+         (options.transparent ? entry("transparent_draws", calls(transparent_calls(pipeline))) : "") +
+         entry("light_uniforms", uniforms(pipeline)) + "  \"light_layout\": " + light_layout(pipeline.light_model) +
+         "\n}\n";
 }
 
 }  // namespace trueshade::oracle

@@ -127,6 +127,20 @@ TEST_CASE("our own frame is a capture like any other, and explained") {
   }
 }
 
+TEST_CASE("a capture is judged at its time: the lights have moved") {
+  const ScratchFolder folder;
+  const Outcome drawn = run_command({"render", "builtin:cornell", "--size", "120x90", "--time", "3.5", "-o", "c.exr",
+                                     "--aov", "depth,position,normal,albedo,uv,id.object,id.material"},
+                                    folder.path(""));
+  REQUIRE(drawn.exit_code == 0);
+  const Outcome same = judged(folder, {"--gbuffer", "c.exr", "--time", "3.5"});
+  INFO(same.out << same.err);
+  CHECK(same.exit_code == 0);
+  CHECK(judged(folder, {"--gbuffer", "c.exr", "--time", "3"}).exit_code == 1);
+  CHECK(judged(folder, {"--gbuffer", "c.exr"}).exit_code == 1);
+  check_refused(judged(folder, {"--gbuffer", "c.exr", "--time", "soon"}), 2, "--time");
+}
+
 TEST_CASE("one wrong value in a capture is found at its pixel") {
   const ScratchFolder folder;
   write_capture(folder);

@@ -80,14 +80,14 @@ TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a c
   }
 }
 
-TEST_CASE("Float targets, upper_left, zero_to_one and a position from depth agree too") {
+TEST_CASE("Float targets, upper_left, zero_to_one, a position from depth and normals of 10 bits agree too") {
   const GlContext* context = driver(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = builtin_scene("cornell");
   const PreparedScene prepared(scene);
   GlRenderer renderer(*context, scene);
   const std::string aovs[] = {"id.object"};
-  for (int variant = 0; variant < 6; ++variant) {
+  for (int variant = 0; variant < 7; ++variant) {
     INFO("variant " << variant);
     Pipeline pipeline = *preset_pipeline(presets().front().name);
     pipeline.width = 160;
@@ -95,6 +95,7 @@ TEST_CASE("Float targets, upper_left, zero_to_one and a position from depth agre
     if (variant & 1) pipeline.geometry.clip_origin = ClipOrigin::upper_left;
     if (variant & 2) pipeline.geometry.clip_depth = ClipDepth::zero_to_one;
     if (variant >= 3) pipeline.gbuffer.position_from_depth = true;
+    if (variant == 6) pipeline.gbuffer.normal.format = Format::rgb10_a2;
     if (variant == 2) pipeline.gbuffer.normal.format = pipeline.gbuffer.position.format = Format::rgb16f;
     pipeline.target = variant == 4 ? Format::rgba32f : variant == 5 ? Format::rgba16f : Format::rgba8;
     const GlFrame frame = renderer.draw(pipeline);

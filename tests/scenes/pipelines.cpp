@@ -68,6 +68,8 @@ Pipeline strange_pipeline() {
              {BlendEquation::max, BlendFactor::zero, BlendFactor::constant_alpha},
              {-1.0f, 0.1f, 1e18f, 0.0f},
              {false, true, false, true}};
+  p.transparency = {TransparencyMode::into_albedo, p.blend};
+  p.transparency.blend.constant[3] = 0.5f;
   return p;
 }
 
@@ -105,7 +107,10 @@ TEST_CASE("the text of the default pipeline stays as it is") {
         R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"unbounded",)"
         R"("spot":"unbounded","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
         R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
-        R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"strategy":"deferred-loop",)"
+        R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"transparency":{"mode":"after-lights","blend":{)"
+        R"("enabled":true,"rgb":{"equation":"add","src":"src_alpha","dst":"one_minus_src_alpha"},)"
+        R"("alpha":{"equation":"add","src":"one","dst":"one_minus_src_alpha"},"constant":[0,0,0,0],)"
+        R"("mask":[true,true,true,true]}},"strategy":"deferred-loop",)"
         R"("target":"rgba8","profile":"ideal",)"
         R"("post":{"samples":1,"marker_radius":0,"bloom":{"strength":0,"threshold":1,"radius":8,"passes":1},)"
         R"("tone_map":"none","key":0.18,"white":0,"log_offset":1e-04,"encode":"linear","edge_filter":false,)"
@@ -160,6 +165,11 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"blend": {"rgb": {"src": "GL_ONE"}}})", "p.json: /blend/rgb/src: found \"GL_ONE\" (one of zero one"},
       {R"({"blend": {"mask": [true, true, true]}})", "p.json: /blend/mask: found an array of 3 (an array of 4)"},
       {R"({"blend": {"constant": [0, 0, 0, 2e18]}})", "p.json: /blend/constant/3: found 2e+18"},
+      {R"({"transparency": {"mode": "sorted"}})",
+       "p.json: /transparency/mode: found \"sorted\" (one of none into-albedo after-lights)"},
+      {R"({"transparency": {"blend": {"rgb": {"dst": "alpha"}}}})",
+       "p.json: /transparency/blend/rgb/dst: found \"alpha\" (one of zero"},
+      {R"({"transparency": {"alpha": 1}})", "p.json: /transparency/alpha: this key is unknown"},
       {R"({"light_model": {"cone": "cosine"}})",
        "p.json: /light_model/cone: found \"cosine\" (one of none smooth_cutoff"},
       {R"({"light_model": {"order": "albedo_last"}})",
@@ -243,6 +253,34 @@ TEST_CASE("light volumes and blending out of range are named by field") {
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.alpha.dst = BlendFactor(15); }), "blend: dst: 15");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.constant[2] = INFINITY; }), "blend.constant");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.strategy = Strategy(4); }), "strategy: 4");
+}
+
+TEST_CASE("transparency out of range is named by field, and wants a G-buffer where it blends into one") {
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.mode = TransparencyMode(3); }), "transparency.mode: 3");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.blend.rgb.src = BlendFactor(15); }),
+                    "transparency.blend: src: 15");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.blend.constant[0] = INFINITY; }),
+                    "transparency.blend.constant");
+  const auto into_albedo = [](Strategy strategy, NumericProfile profile, Format plane) {
+    return [=](Pipeline& p) {
+      p.transparency.mode = TransparencyMode::into_albedo;
+      p.strategy = strategy;
+      p.profile = profile;
+      p.gbuffer.albedo.format = plane;
+    };
+  };
+  constexpr NumericProfile kIdeal = NumericProfile::ideal, kMesa = NumericProfile::mesa_llvmpipe_22_3;
+  for (const Strategy forward : {Strategy::forward_multipass, Strategy::forward_loop})
+    CHECK_STARTS_WITH(invalid(into_albedo(forward, kIdeal, Format::rgba8)),
+                      "transparency.mode: into-albedo blends into the G-buffer, which forward-");
+  CHECK_STARTS_WITH(invalid(into_albedo(Strategy::deferred_loop, kMesa, Format::rgb10_a2)),
+                    "transparency.mode: mesa-llvmpipe-22.3 does not promise the bits of blending into rgb10_a2");
+  for (const Format plane : kAlbedoFormats)
+    for (const Strategy deferred : {Strategy::deferred_volumes, Strategy::deferred_loop}) {
+      Pipeline p;
+      into_albedo(deferred, kIdeal, plane)(p);
+      CHECK_NOTHROW(validate(p));
+    }
 }
 
 TEST_CASE("executions out of range are named by field") {

@@ -60,13 +60,14 @@ TEST_CASE("a texture's rows start at v = 0, which is a picture's bottom unless i
 
 TEST_CASE("maps say how a texture is read") {
   const Scene scene = load(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
-    {"name": "a", "color": [1, 1, 1], "alpha_cutoff": 0.25, "normal_scale": -2,
+    {"name": "a", "color": [1, 1, 1], "alpha_cutoff": 0.25, "transparent": true, "normal_scale": -2,
      "color_map": {"texture": "t", "wrap": ["clamp_to_border", "mirrored_repeat"], "mag": "nearest", "min": "linear",
                    "mip": "nearest", "lod_bias": -1.5, "lod_min": 0, "lod_max": 3, "border": [0.5, 0.25, 1, 0.125]},
      "specular_map": {"texture": "t"}, "normal_map": {"texture": "t", "wrap": "mirror_clamp_to_edge"}})"));
   const Material& m = scene.materials.at(0);
   CHECK(scene.textures[0].format == TextureFormat::rgba8);
   CHECK(m.alpha_cutoff == 0.25f);
+  CHECK(m.transparent);
   CHECK(m.normal_scale == -2.0f);
   const Sampler expected{{Wrap::clamp_to_border, Wrap::mirrored_repeat},
                          Filter::nearest,
@@ -305,6 +306,7 @@ TEST_CASE("a scene's hash covers texels and samplers, and names none") {
   CHECK(changed([](Scene& s) { s.materials[0].color_map.sampler.lod_bias = 1.0f; }));
   CHECK(changed([](Scene& s) { s.materials[0].color_map.sampler.wrap[1] = Wrap::clamp_to_edge; }));
   CHECK(changed([](Scene& s) { s.materials[0].alpha_cutoff = 0.5f; }));
+  CHECK(changed([](Scene& s) { s.materials[0].transparent = true; }));
   CHECK(changed([](Scene& s) { s.materials[0].specular_map = s.materials[0].color_map; }));
   CHECK_FALSE(changed([](Scene& s) { s.textures[0].name = "other"; }));
   Scene codes = plain_scene, values = plain_scene;  // the same values in another format

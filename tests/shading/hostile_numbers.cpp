@@ -116,6 +116,13 @@ constexpr Field kFields[] = {
     {"material.metallic", [](Frame32& f, float x) { f.scene.materials[0].metallic = x; }},
     {"material.roughness", [](Frame32& f, float x) { f.scene.materials[0].roughness = x; }},
     {"material.alpha_cutoff", [](Frame32& f, float x) { f.scene.materials[0].alpha_cutoff = x; }},
+    {"material.base_color.a of glass",
+     [](Frame32& f, float x) { f.scene.materials[0].transparent = true, f.scene.materials[0].base_color.a = x; }},
+    {"material.base_color of glass",
+     [](Frame32& f, float x) {
+       f.scene.materials[0].transparent = true;
+       f.scene.materials[0].base_color = {x, x, x, 0.5f};
+     }},
     {"instance.position.x", [](Frame32& f, float x) { f.scene.instances[0].world_from_object[3].x = x; }},
     {"instance.scale",
      [](Frame32& f, float x) {
@@ -131,13 +138,43 @@ constexpr Field kFields[] = {
     {"geometry.depth_near", [](Frame32& f, float x) { f.pipeline.geometry.depth_near = x; }},
     {"geometry.depth_far", [](Frame32& f, float x) { f.pipeline.geometry.depth_far = x; }},
     {"geometry.clear_depth", [](Frame32& f, float x) { f.pipeline.geometry.clear_depth = x; }},
+    {"geometry.polygon_offset_factor", [](Frame32& f, float x) { f.pipeline.geometry.polygon_offset_factor = x; }},
+    {"geometry.polygon_offset_units", [](Frame32& f, float x) { f.pipeline.geometry.polygon_offset_units = x; }},
+    {"blend.constant",
+     [](Frame32& f, float x) {
+       f.pipeline.blend.constant = {x, x, x, x};
+     }},
+    {"transparency.blend.constant",
+     [](Frame32& f, float x) {
+       f.scene.materials[0].transparent = true;
+       f.pipeline.transparency.blend.constant = {x, x, x, x};
+       f.pipeline.transparency.blend.rgb = {BlendEquation::add, BlendFactor::constant_alpha, BlendFactor::one};
+     }},
     {"light_model.shininess", [](Frame32& f, float x) { f.pipeline.light_model.shininess = x; }},
     {"light_model.specular_color", [](Frame32& f, float x) { f.pipeline.light_model.specular_color = glm::vec3(x); }},
     {"light_model.global_ambient", [](Frame32& f, float x) { f.pipeline.light_model.global_ambient = glm::vec3(x); }},
     {"light_model.damping", [](Frame32& f, float x) { f.pipeline.light_model.damping = x; }},
 };
 
-/// The presets; and the first one with each falloff, cone, specular term and order in turn, whatever presets there are.
+/// The first preset with lights blended one by one: as draws of the scene, as each kind of geometry, with factors that
+/// read every number of the state; and glass in the colour plane.
+void add_blending(std::vector<Pipeline>& all) {
+  for (uint8_t i = 0; i < 5; ++i) {
+    Pipeline p = presets().front().pipeline;
+    p.strategy = i == 0 ? Strategy::forward_multipass : Strategy::deferred_volumes;
+    p.light_volumes.point = p.light_volumes.spot = LightExtent(i);
+    p.light_volumes.cull_face = CullFace(i % 3);
+    p.light_volumes.base = i % 2 == 0;
+    if (i >= 2) p.blend.rgb = {BlendEquation(i % 3), BlendFactor::constant_color, BlendFactor::one};
+    if (i == 4) p.blend.rgb.dst = BlendFactor::constant_alpha;
+    p.blend.constant = {0.5f, 1.0f, 2.0f, 0.5f};
+    p.transparency.mode = TransparencyMode(i == 0 ? 2 : i % 3);
+    all.push_back(p);
+  }
+}
+
+/// The presets; the first one with each falloff, cone, specular term and order in turn, whatever presets there are; and
+/// with lights blended.
 std::vector<Pipeline> pipelines() {
   std::vector<Pipeline> all;
   for (const Preset& preset : presets()) all.push_back(preset.pipeline);
@@ -155,6 +192,7 @@ std::vector<Pipeline> pipelines() {
     p.gbuffer.position_from_depth = i == 4;
     all.push_back(p);
   }
+  add_blending(all);
   return all;
 }
 
@@ -244,6 +282,8 @@ constexpr Text kTexts[] = {
     {"material", R"("color": [1, 1, 1], "emission": [@, 0, 0])"},
     {"material", R"("color": [1, 1, 1], "metallic": @)"},
     {"material", R"("color": [1, 1, 1], "roughness": @)"},
+    {"material", R"("color": [1, 1, 1, @], "transparent": true)"},
+    {"material", R"("color": [1, 1, 1, 0.5], "transparent": true, "alpha_cutoff": @)"},
     {"light", R"("type": "ambient", "color": [@, 1, 1])"},
     {"light", R"("type": "ambient", "intensity": @)"},
     {"light", R"("type": "directional", "direction": [@, -1, 0])"},
@@ -276,6 +316,13 @@ constexpr Text kTexts[] = {
     {"pipeline", R"("light_model": {"specular_color": [@, @, @]})"},
     {"pipeline", R"("light_model": {"global_ambient": [@, 0, 0]})"},
     {"pipeline", R"("light_model": {"damping": @})"},
+    {"pipeline", R"("geometry": {"polygon_offset_factor": @, "polygon_offset_units": @})"},
+    {"pipeline", R"("strategy": "forward-multipass", "light_model": {"damping": @})"},
+    {"pipeline", R"("strategy": "deferred-volumes", "light_volumes": {"point": "sphere", "slices": @})"},
+    {"pipeline", R"("strategy": "deferred-volumes", "light_volumes": {"point": "sphere", "stacks": @})"},
+    {"pipeline",
+     R"("strategy": "deferred-volumes", "blend": {"constant": [@, 0, 0, @], "rgb": {"src": "constant_color"}})"},
+    {"pipeline", R"("transparency": {"blend": {"constant": [@, 0, 0, 0]}})"},
 };
 
 // As they may stand in a file: beyond float, beyond double, no JSON at all.

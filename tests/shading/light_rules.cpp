@@ -208,24 +208,3 @@ TEST_CASE("a light without a number for a colour, where it does not reach, chang
     }
   }
 }
-
-TEST_CASE("0, 1, 757 and 100,000 lights give one image, culled or not, under every preset of the light loop") {
-  for (const Preset& row : presets()) {
-    if (row.pipeline.strategy != Strategy::deferred_loop) continue;
-    for (const int count : {0, 1, 757, 100000}) {
-      Random random(67);
-      Scene scene = sheet(random);
-      for (int i = 0; i < count; ++i) {
-        scene.lights.push_back(random_light(random));
-        scene.lights.back().color *= 1.0f / float(count);
-        if (count > 1000) scene.lights.back().range *= 0.1f;
-      }
-      Pipeline pipeline = loop_pipeline(row.name);
-      if (count > 1000) pipeline.width = 24, pipeline.height = 16;
-      const Image expected = render_on(scene, pipeline, "avx2", false).frame.color;
-      INFO(row.name << ", " << count << " lights");
-      CHECK(render_on(scene, pipeline, "best").frame.color.texels == expected.texels);
-      if (count <= 1000) CHECK(render_on(scene, pipeline, "scalar").frame.color.texels == expected.texels);
-    }
-  }
-}

@@ -90,7 +90,9 @@ std::vector<Choice> pairwise(const Choice& counts) {
   }
 }
 
-bool is_dense(std::string_view scene) { return scene == "builtin:rabbits" || scene == "builtin:red"; }
+bool is_dense(std::string_view scene) {
+  return scene == "builtin:rabbits" || scene == "builtin:red" || scene.starts_with("builtin:atrium");
+}
 
 void check(const PreparedScene& scene, const GoldenFrame& golden, const Way& way) {
   Pipeline pipeline = *preset_pipeline(golden.preset);

@@ -1,9 +1,12 @@
 // Frames in every target format: the bytes are those of the float frame, stored by the scalar twin.
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "oracle/blend.h"
 #include "raster/simd_target.h"
 #include "scenes/builtin.h"
+#include "scenes/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 
@@ -49,4 +52,35 @@ TEST_CASE("A frame in any format is the rgba32f frame rounded once, texel by tex
         CHECK(wrong == 0);
       }
   }
+}
+
+TEST_CASE("Normals in rgb10_a2 are (n + 1) / 2, rounded to 10 bits, and light sees them so") {
+  const Scene scene = builtin_scene("sphere,lights=20");
+  Pipeline p = *preset_pipeline("many-lights");
+  p.width = p.height = 100;
+  const std::string aovs[] = {"normal", "id.object"};
+  const Frame floats = render_frame(scene, p, {}, aovs);
+  p.gbuffer.normal.format = Format::rgb10_a2;
+  const Frame codes = render_frame(scene, p, {}, aovs);
+  const Image &n = floats.aovs[0].image, &held = codes.aovs[0].image;
+  int negative = 0, covered = 0;
+  double worst = 0;
+  for (int y = 0; y < p.height; ++y)
+    for (int x = 0; x < p.width; ++x) {
+      if (floats.aovs[1].image.value(x, y, 0) == 0) continue;
+      ++covered;
+      for (int c = 0; c < 3; ++c) {
+        const float moved = float(n.value(x, y, c)) * 0.5f + 0.5f;
+        CAPTURE(x, y, c, moved);
+        REQUIRE(held.code(x, y, c) == uint32_t(std::nearbyint(1023.0f * moved)));
+        negative += n.value(x, y, c) < -0.1;
+        worst = std::max(worst, std::fabs(codes.color.value(x, y, c) - floats.color.value(x, y, c)));
+      }
+      REQUIRE(held.code(x, y, 3) == 3);
+    }
+  CHECK(covered > 3000);
+  CHECK(negative > 1000);
+  // Each component moves by at most 1/1023, N.L and N.H by sqrt(3) of that, the power of 32 by 32 times as much.
+  CHECK(worst < 0.1);
+  CHECK(worst > 0.0);
 }
