@@ -121,6 +121,7 @@ class BlendingJudge {
         }
         if (count.least < count.most) may_be_other(x, y, index, count);
         const bool first = multipass_ && index == 0;
+        if (multipass_ && index == 1) may_tie(x, y);
         judge(x, y, given, index, fragments(x, y, index, count, extent), first ? BlendState{} : blend_);
       }
     });
@@ -152,6 +153,15 @@ class BlendingJudge {
   void may_be_other(int x, int y, int light, const FragmentCount& count) {
     pixels_[at(x, y)].same *= 1 - double(count.chance_other);
     rows_[size_t(y)].surface_choices.push_back({uint64_t(uint32_t(light)) << 32 | count.triangle, count.chance_other});
+  }
+
+  /// Depths that may be equal are so for all lights or for none.
+  void may_tie(int x, int y) {
+    for (const TiedSurface& t : tied_->at(x, y)) {
+      if (t.certain) continue;
+      pixels_[at(x, y)].same *= 0.5;
+      rows_[size_t(y)].surface_choices.push_back({uint64_t(at(x, y)), 0.5f});
+    }
   }
 
   std::vector<DrawnFragment> fragments(int x, int y, int light, const FragmentCount& count, LightExtent extent);

@@ -110,6 +110,12 @@ LightOutline::LightOutline(const Scene& scene, const Pipeline& pipeline, const P
     : scene_(scene_of(scene, light, mesh)),
       projector_(std::make_unique<Projector>(scene_, pipeline_of(pipeline), profile, drawn_at)) {
   const bool depth_clamp = pipeline.light_volumes.depth_clamp;
+  // Near the eye's plane w has few digits left: a vertex is anywhere, and its edges are where they are all the same.
+  const auto blurred = [&](const Piece& piece) {
+    return std::any_of(piece.v.begin(), piece.v.end(), [&](const WindowVertex& v) {
+      return std::max(v.high[0] - v.low[0], v.high[1] - v.low[1]) > std::ldexp(2.0, -profile.subpixel_bits) + 0.0625;
+    });
+  };
   std::vector<Piece> pieces;
   for (uint32_t t = 0; t < mesh.triangles(); ++t) {
     bool behind = false;
@@ -119,6 +125,10 @@ LightOutline::LightOutline(const Scene& scene, const Pipeline& pipeline, const P
       continue;
     }
     projector_->pieces(0, t, pieces);
+    if (depth_clamp && !profile.exact_vertices && std::any_of(pieces.begin(), pieces.end(), blurred)) {
+      add_endless(t);
+      continue;
+    }
     for (const Piece& piece : pieces) {
       Shape& shape = shapes_.emplace_back();
       shape.triangle = t, shape.piece = piece, shape.sign = piece.sign, shape.cut = piece.cut || piece.leaves_view;
