@@ -254,6 +254,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   command->add_option(
       "--subpixel-bits", texts.subpixel_bits,
       "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
+  command->add_option("--save", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
   command->add_flag("--quick", options.quick, "Do not look for the tightest profile that explains the image");
   command->add_flag("--json", options.json, "Print all of it as one JSON document");
   command->add_option("-o,--output", options.report, "Report to write, .html");
@@ -279,6 +280,11 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
                 "one of: " + joined(oracle::profile_names()));
   if (options.gbuffer_file.empty() && !options.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
+  for (const std::string& path : options.saved)
+    if (!path.ends_with(".png") && !path.ends_with(".exr"))
+      throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+  if (!options.saved.empty() && !options.gbuffer_file.empty())
+    throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
   if (options.report && !options.report->ends_with(".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   return options;

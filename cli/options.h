@@ -69,6 +69,7 @@ struct ValidationOptions : PipelineOptions {
   double time = 0.0;                     ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
+  std::vector<std::string> saved;        ///< .png, .exr: what was drawn here
   std::optional<std::string> report;     ///< .html
   bool quick = false;                    ///< do not look for the tightest profile
   bool json = false;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,6 +37,15 @@ void draw_here(const ValidationOptions& options, const Scene& scene, Validation&
   if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
 }
 
+/// A capture that `--gbuffer` takes, but for the planes that no file holds.
+void save(const oracle::Capture& capture, const std::string& path) {
+  constexpr std::string_view kPlanes[] = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material"};
+  std::vector<NamedImage> planes;
+  for (const NamedImage& plane : capture.planes)
+    if (std::find(std::begin(kPlanes), std::end(kPlanes), plane.name) != std::end(kPlanes)) planes.push_back(plane);
+  write_image(path, capture.color, planes, {{"trueshade:driver", capture.driver}});
+}
+
 void read_files(const ValidationOptions& options, Validation& v) {
   v.capture = capture_from_files(options.gbuffer_file, options.image_file);
   const Image& plane = v.capture.planes.front().image;
@@ -50,6 +60,7 @@ void read_files(const ValidationOptions& options, Validation& v) {
 
 bool judge_opengl(const ValidationOptions& options) {
   if (options.report) check_folders({&*options.report, 1});
+  check_folders(options.saved);
   Scene scene = load_scene(options.scene, {}, decode_image);
   set_time(scene, options.time);
   Validation v;
@@ -63,6 +74,7 @@ bool judge_opengl(const ValidationOptions& options) {
     else
       read_files(options, v);
   });
+  for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, steps});
   });

@@ -89,6 +89,25 @@ TEST_CASE("a capture of lights blended one by one is judged by its last image, m
   check_refused(drawn("depth,position,normal,albedo,specular,id.object"), 3, "emission");
 }
 
+TEST_CASE("what the driver drew is saved as a picture, and as a capture that is judged alike") {
+  const ScratchFolder folder;
+  const Outcome drawn =
+      judged(folder, {"--driver", "llvmpipe", "--size", "120x90", "--save", "c.exr", "--save", "c.png"});
+  if (drawn.exit_code == kNoDriver) {
+    WARN("SKIPPED: " << drawn.err);
+    return;
+  }
+  INFO(drawn.out << drawn.err);
+  CHECK(drawn.exit_code == 0);
+  CHECK(folder.entries() == Arguments{"c.exr", "c.png"});
+  const Outcome again = judged(folder, {"--gbuffer", "c.exr", "--image", "c.png", "--subpixel-bits", "8"});
+  INFO(again.out << again.err);
+  CHECK(again.exit_code == 0);
+  CHECK(has(again.out, "lighting: 10800 pixels"));
+  check_refused(judged(folder, {"--save", "c.jpg"}), 2, "--save");
+  check_refused(judged(folder, {"--gbuffer", "c.exr", "--save", "d.png"}), 2, "--save");
+}
+
 TEST_CASE("a driver's report and JSON name the driver and the tightest profile") {
   const ScratchFolder folder;
   const Outcome outcome = run_command(

@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Pictures of docs/presets.md and docs/strategies.md: ours, OpenGL's, and their difference times 16, side by side.
+
+Usage: comparison_sheets.py COMMAND FOLDER [--driver NAME] [--only SHEET]...
+Writes a PNG a preset (rows: scenes) and a PNG a scene (rows: strategies), each under 60 kB, and prints how far the two
+pictures are apart. Uses `trueshade render` and `trueshade validate --save`, and nothing but Python's own library."""
+import argparse
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+SCENES = ["city", "lecture", "atrium"]
+SIZE = (160, 120)
+# Light models without an end of their own saturate under hundreds of lights, and candelas are dim: the constant damping
+# (light_model.damping) with which SCENES are shown; 1 elsewhere.
+DAMPING = {
+    "touchdesigner": (0.5, 1, 0.6),
+    "gl-fixed": (0.4, 2, 0.5),
+    "punctual": (20, 2, 1),
+    "lecture": (0.004, 1, 0.012),
+    "light-volumes-literal": (0.12, 1, 0.2),
+    "redsdk": (0.08, 1, 0.09),
+}
+GAP = 2
+MOST_BYTES = 60000
+
+
+def read_png(path):
+    """Rows of (r, g, b), from 8-bit RGB or RGBA without interlacing."""
+    data = open(path, "rb").read()
+    at, idat = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert depth == 8 and color in (2, 6), "not 8-bit RGB or RGBA"
+        if kind == b"IDAT":
+            idat += body
+        at += 12 + length
+    n = 3 if color == 2 else 4
+    raw, row, rows = zlib.decompress(idat), bytearray(width * n), []
+    for y in range(height):
+        start = y * (width * n + 1)
+        filtered, above = raw[start], row
+        row = bytearray(raw[start + 1:start + 1 + width * n])
+        for i in range(width * n):
+            a = row[i - n] if i >= n else 0
+            b, c = above[i], above[i - n] if i >= n else 0
+            if filtered == 1:
+                row[i] = (row[i] + a) & 255
+            elif filtered == 2:
+                row[i] = (row[i] + b) & 255
+            elif filtered == 3:
+                row[i] = (row[i] + (a + b) // 2) & 255
+            elif filtered == 4:
+                p = a + b - c
+                nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+                row[i] = (row[i] + nearest) & 255
+        rows.append([tuple(row[i:i + 3]) for i in range(0, width * n, n)])
+    return rows
+
+
+def palette_of(colors, most):
+    """At most so many colours for a count of colours: median cut."""
+    boxes = [list(colors.items())]
+    while len(boxes) < most:
+        spans = []
+        for i, box in enumerate(boxes):
+            if len(box) > 1:
+                spread = [max(c[k] for c, _ in box) - min(c[k] for c, _ in box) for k in range(3)]
+                spans.append((max(spread) * sum(n for _, n in box) ** 0.5, i, spread.index(max(spread))))
+        if not spans:
+            break
+        _, i, axis = max(spans)
+        box = sorted(boxes[i], key=lambda entry: entry[0][axis])
+        half, count, cut = sum(n for _, n in box) / 2, 0, 1
+        for cut, (_, n) in enumerate(box, 1):
+            count += n
+            if count >= half:
+                break
+        cut = min(max(cut, 1), len(box) - 1)
+        boxes[i:i + 1] = [box[:cut], box[cut:]]
+    index, palette = {}, []
+    for box in boxes:
+        total = sum(n for _, n in box)
+        palette.append(tuple(round(sum(c[k] * n for c, n in box) / total) for k in range(3)))
+        index.update((c, len(palette) - 1) for c, _ in box)
+    return palette, index
+
+
+def png_bytes(rows, most_colors):
+    colors = {}
+    for row in rows:
+        for c in row:
+            colors[c] = colors.get(c, 0) + 1
+    palette, index = palette_of(colors, most_colors)
+    raw = b"".join(b"\0" + bytes(index[c] for c in row) for row in rows)
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 3, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"PLTE", b"".join(bytes(c) for c in palette)) +
+            chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
+
+
+def write_sheet(path, grid):
+    """Rows of pictures, as many colours as the size allows."""
+    rows = []
+    for pictures in grid:
+        rows += [[(255, 255, 255)] * (len(pictures) * (SIZE[0] + GAP) - GAP)] * GAP if rows else []
+        for y in range(SIZE[1]):
+            row = []
+            for picture in pictures:
+                row += ([(255, 255, 255)] * GAP if row else []) + picture[y]
+            rows.append(row)
+    for most in (256, 192, 128, 96, 64, 48, 32):
+        data = png_bytes(rows, most)
+        if len(data) <= MOST_BYTES:
+            break
+    open(path, "wb").write(data)
+    print(f"{path}: {len(data)} bytes, {most} colours", flush=True)
+
+
+class Drawer:
+    def __init__(self, command, driver, folder):
+        self.command, self.driver, self.folder = command, driver, folder
+
+    def row(self, scene, name, options):
+        """Ours, theirs, 16 times their difference."""
+        options = [f"builtin:{scene}", "--size", f"{SIZE[0]}x{SIZE[1]}"] + options
+        ours, theirs = os.path.join(self.folder, "ours.png"), os.path.join(self.folder, "theirs.png")
+        for path in (ours, theirs):
+            if os.path.exists(path):
+                os.remove(path)
+        subprocess.run([self.command, "render"] + options + ["-o", ours], check=True, stdout=subprocess.DEVNULL)
+        judged = subprocess.run([self.command, "validate"] + options +
+                                ["--driver", self.driver, "--quick", "--save", theirs],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if not os.path.exists(theirs):
+            sys.exit(judged.stderr)
+        a, b = read_png(ours), read_png(theirs)
+        apart = [[tuple(abs(p[k] - q[k]) for k in range(3)) for p, q in zip(*rows)] for rows in zip(a, b)]
+        worst = [max(c) for row in apart for c in row]
+        verdict = {0: "every pixel explained", 1: "a pixel is in no legal set"}.get(judged.returncode, "not judged")
+        print(f"| {scene} | {name} | {sum(w > 0 for w in worst)} | {sum(w > 2 for w in worst)} | {max(worst)} "
+              f"| {verdict} |", flush=True)
+        return [a, b, [[tuple(min(255, 16 * v) for v in c) for c in row] for row in apart]]
+
+
+def damped(folder, preset, scene):
+    """A pipeline file of the damping that a preset is shown with."""
+    path = os.path.join(folder, f"{preset}_{scene}.json")
+    with open(path, "w") as file:
+        json.dump({"light_model": {"damping": DAMPING.get(preset, (1, 1, 1))[scene]}}, file)
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("command")
+    parser.add_argument("folder")
+    parser.add_argument("--driver", default="llvmpipe")
+    parser.add_argument("--only", action="append")
+    given = parser.parse_args()
+    known = json.loads(subprocess.run([given.command, "list", "--json"], check=True, stdout=subprocess.PIPE).stdout)
+    presets = [row["name"] for row in known["presets"]]
+    strategies = [row["name"] for row in known["strategies"]]
+    print("| scene | drawn | pixels that differ | by more than 2 codes | most codes | judged |\n|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as scratch:
+        drawer = Drawer(given.command, given.driver, scratch)
+        sheets = {f"preset_{p}": [(s, p, ["--preset", p, "--pipeline", damped(scratch, p, i)])
+                                  for i, s in enumerate(SCENES)] for p in presets}
+        sheets.update({f"strategies_{s}": [(s, t, ["--strategy", t]) for t in strategies] for s in SCENES})
+        for name, rows in sheets.items():
+            if not given.only or name in given.only:
+                write_sheet(os.path.join(given.folder, name + ".png"), [drawer.row(*row) for row in rows])
+
+
+if __name__ == "__main__":
+    main()
