@@ -54,6 +54,24 @@ TileScratch& thread_scratch() {
   return *scratch;
 }
 
+// Bins that a frame has for its time, kept for the thread's next one.
+struct BinsLoan {
+  std::unique_ptr<ClusterBins> bins;
+
+  BinsLoan() : bins(std::move(kept())) {
+    if (!bins) bins = std::make_unique<ClusterBins>();
+  }
+  ~BinsLoan() { kept() = std::move(bins); }
+  BinsLoan(const BinsLoan&) = delete;
+  BinsLoan& operator=(const BinsLoan&) = delete;
+
+ private:
+  static std::unique_ptr<ClusterBins>& kept() {
+    thread_local std::unique_ptr<ClusterBins> bins;
+    return bins;
+  }
+};
+
 struct TileCounts {
   RasterCounts raster;
   LightCounts light;
@@ -68,7 +86,7 @@ struct FrameWork {
   const Pipeline& pipeline;
   const Execution& execution;
   const View view;
-  const ClusterBins bins;
+  const ClusterBins& bins;
   const LightTable lights;
   const LightGroups groups;
   const LightMeshes meshes;
@@ -131,7 +149,8 @@ struct FrameWork {
     const double start = now_ms();
     const Scene& scene = prepared.scene();
     const TileRect where = rect(tile);
-    const TileDraws all{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
+    const TileDraws all{prepared.clusters(),    scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile),
+                        execution.fast_geometry};
     TransparentWork* const glass = transparent_work(s);
     const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
@@ -173,8 +192,8 @@ struct FrameWork {
                       out.aovs);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
-      if (aov.name == "specular") {
-        store_specular(s.surface, pipeline.light_model, where, aov.image);
+      if (aov.name == "specular" || aov.name == "emission") {
+        store_material_plane(aov.name, s.surface, pipeline.light_model, where, planes.half_round, aov.image);
         continue;
       }
       const bool counts_fragments = aov.name == "overdraw";
@@ -274,6 +293,10 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
   });
   add_up(counts, work.out.stats);
+  for (const int tile : order) {
+    const TileCounts& t = counts[size_t(tile)];
+    work.out.stats.tile_ms.push_back(t.geometry_ms + t.light_ms);
+  }
 }
 
 // Of forward-multipass every light is a draw of the scene, wherever it reaches.
@@ -303,8 +326,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
   View view = make_view(scene, pipeline);
-  ClusterBins bins =
-      bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
+  BinsLoan bins;
+  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
+               *bins.bins);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
   LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads);
@@ -315,7 +339,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   LightOutlines outlines;
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
-  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(groups),
+  frame.stats.before_tiles_ms = now_ms() - start;
+  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(groups),
               std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
               TransparentPass(scene, pipeline), frame},
              progress);

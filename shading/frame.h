@@ -46,10 +46,13 @@ struct FrameStats {
   uint64_t tile_pixel_lights = 0;                      ///< covered pixels times lights in the tile's list
   uint64_t evaluated_pixel_lights = 0;                 ///< lanes the light kernel computed a contribution for
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
+  double before_tiles_ms = 0;                          ///< wall time: view, bins, light tables
+  std::vector<double> tile_ms;                         ///< each tile's, in the order they are started
 };
 
-/// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular uv
-/// id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the scene.
+/// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular
+/// emission uv id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the
+/// scene.
 std::span<const std::string_view> aov_names();  ///< but for light.<i>
 bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
 

@@ -37,6 +37,7 @@ Profile llvmpipe() {
   p.plane_origin = PlaneOrigin::unsnapped;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
+  p.blend = BlendRule::mesa_codes;
   p.least_depth_unit = 2;
   p.max_norm_slope = true;
   // RGBA8 with 8-bit weights and results, other formats in floats; rho the longer gradient.
@@ -55,6 +56,7 @@ Profile ideal() {
   p.plane_origin = PlaneOrigin::snapped;
   p.exact_vertices = p.exact_planes = true;
   p.clips_to_view = false;
+  p.blend = BlendRule::float_once;
   p.unorm_reach = 0.5;
   p.half = HalfStore::toward_zero;
   p.most_depth_unit = 1;
