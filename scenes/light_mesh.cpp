@@ -1,7 +1,7 @@
 #include "scenes/light_mesh.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "scenes/trig.h"
@@ -63,11 +63,15 @@ void add_cone(LightMesh& mesh, int slices) {
 }
 
 void find_neighbours(LightMesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> triangle_of;  // by directed edge
+  const auto vertices = uint32_t(mesh.unit.size());
   const auto end_of = [&](size_t i) { return mesh.indices[i % 3 == 2 ? i - 2 : i + 1]; };
-  for (size_t i = 0; i < mesh.indices.size(); ++i) triangle_of[{mesh.indices[i], end_of(i)}] = uint32_t(i / 3);
-  for (size_t i = 0; i < mesh.indices.size(); ++i)
-    mesh.neighbour.push_back(triangle_of.at({end_of(i), mesh.indices[i]}));
+  std::vector<std::pair<uint32_t, uint32_t>> side(mesh.indices.size());  // directed edge, and its triangle
+  for (size_t i = 0; i < side.size(); ++i) side[i] = {mesh.indices[i] * vertices + end_of(i), uint32_t(i / 3)};
+  std::sort(side.begin(), side.end());
+  for (size_t i = 0; i < side.size(); ++i) {
+    const std::pair<uint32_t, uint32_t> turned{end_of(i) * vertices + mesh.indices[i], 0};
+    mesh.neighbour.push_back(std::lower_bound(side.begin(), side.end(), turned)->second);
+  }
 }
 
 }  // namespace

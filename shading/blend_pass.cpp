@@ -26,20 +26,27 @@ constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the n
 template <bool kCodes>
 struct AddedLight {
   const BlendPlan& plan;
-  VF stored[4];
+  VF stored[4], largest[3];
   hn::Vec<DI> lights;
-  uint64_t evaluated;
+  uint64_t evaluated = 0;
+
+  AddedLight(const BlendPlan& blend_plan, const StoredPixels& pixels) : plan(blend_plan), lights(pixels.lights) {
+    for (int c = 0; c < 4; ++c) stored[c] = pixels.stored[c];
+    for (int c = 0; c < 3; ++c) largest[c] = hn::Set(DF(), plan.largest(c));
+  }
 
   template <class Terms>
   HWY_INLINE void add(const Terms& terms, const PixelVector& px, const LightTerm& term) {
     const DF d;
-    VF source[4];
-    for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
-    if constexpr (kCodes) {
-      for (int c = 0; c < 3; ++c)
-        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(term.adds, unorm_code(source[c], plan.largest(c))));
+    if constexpr (kCodes) {  // a clamped result is clamped again
+      for (int c = 0; c < 3; ++c) {
+        const VF x = terms.tinted(px, term.color[c], c), unit = hn::Min(x, hn::Set(d, 1.0f));
+        const MF counts = hn::And(term.adds, hn::Gt(x, hn::Zero(d)));  // and is a number
+        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(counts, hn::Round(hn::Mul(unit, largest[c]))));
+      }
     } else {
-      VF next[4] = {stored[0], stored[1], stored[2], stored[3]};
+      VF source[4], next[4] = {stored[0], stored[1], stored[2], stored[3]};
+      for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
       source[3] = hn::Zero(d);
       blend_out_of_line(plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
@@ -48,7 +55,7 @@ struct AddedLight {
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
     if constexpr (kCodes)
-      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], hn::Set(DF(), plan.largest(c)));
+      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], largest[c]);
   }
 };
 
@@ -97,6 +104,11 @@ inline void touching_lights(const LightDraws& in, const TileRect& rect, uint32_t
   }
 }
 
+inline bool touches(const LightOutlines& o, uint32_t light, const TileRect& rect) {
+  return o.x0[light] < rect.x + rect.size && o.x1[light] > rect.x && o.y0[light] < rect.y + rect.size &&
+         o.y1[light] > rect.y;
+}
+
 /// What blend_tile() is given, and what follows from it.
 struct TileBlend {
   const LightDraws& in;
@@ -112,6 +124,7 @@ struct TileBlend {
   const BlendMethod method;
   const int32_t* tied = nullptr;  ///< pixels that several fragments share; null where there are none
   TileRegions regions;
+  RegionCull cull;
 
   TileBlend(const LightDraws& draws, const SurfaceTile& surface_tile, const TileRect& tile_rect,
             const float clear_color[4], BlendWork& blend_work, ColorTile& out_tile, LightCounts& light_counts)
@@ -127,7 +140,9 @@ struct TileBlend {
         add_plan(plan),
         method(blend_method(draws, plan, clear_color)) {
     add_plan.written[3] = false;
-    find_regions(surface, blocks(), regions);
+    const bool culls = in.culling && method.adds;
+    cull = {culls, culls && in.table.cones, culls && !adds_unlit(terms.form.shape)};
+    find_regions(surface, blocks(), cull.facing, regions);
   }
   int blocks() const { return rect.size / kBlockSize; }
   int pixels() const { return rect.size * rect.size; }
@@ -215,26 +230,31 @@ void leave_out_tied(const TileBlend& t, PixelVector& px, int i) {
 }
 
 template <bool kCodes, class Shape>
-void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, int i) {
+void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i) {
   PixelVector px = terms.load(t.surface, i);
   leave_out_tied(t, px, i);
   if (hn::AllFalse(DF(), px.covered)) return;
   StoredPixels pixels(t.out, i);
-  AddedLight<kCodes> sum{
-      t.add_plan, {pixels.stored[0], pixels.stored[1], pixels.stored[2], pixels.stored[3]}, pixels.lights, 0};
-  add_lights(terms, px, std::span<const ListedLight>(t.work.region), VectorPlace(t.work.lights, t.blocks(), i), sum);
+  AddedLight<kCodes> sum(t.add_plan, pixels);
+  add_lights(terms, px, list, VectorPlace(t.work.lights, t.blocks(), i), sum);
   for (int c = 0; c < 3; ++c) pixels.stored[c] = sum.stored[c];
   pixels.lights = sum.lights;
   pixels.store(t.out, i);
   t.counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
 }
 
-void draw_every_at(const TileBlend& t, int i) {
+void draw_every_at(const TileBlend& t, std::span<const ListedLight> list, int i) {
   PixelVector px = t.terms.load(t.surface, i);
   leave_out_tied(t, px, i);
   if (hn::AllFalse(DF(), px.covered)) return;
-  draw_every(t.terms, t.plan, t.surface, px, t.work.region, VectorPlace(t.work.lights, t.blocks(), i), i, t.out,
-             t.counts);
+  draw_every(t.terms, t.plan, t.surface, px, list, VectorPlace(t.work.lights, t.blocks(), i), i, t.out, t.counts);
+}
+
+// Codes add up in any order: lights of a kind follow each other, so that kernels need not choose light by light.
+void gather_kinds(const LightTable& table, std::vector<uint32_t>& lights) {
+  const auto placed = [&](uint32_t i) { return table.row[i].kind == LightKind::placed; };
+  const auto coned = [&](uint32_t i) { return table.row[i].kind == LightKind::coned; };
+  std::partition(std::partition(lights.begin(), lights.end(), placed), lights.end(), coned);
 }
 
 /// The draws of a chunk over all regions, by the terms of one shape.
@@ -245,26 +265,29 @@ struct DrawRegions {
   template <class Shape>
   void operator()(const Shape& shape) const {
     const LightTerms<Shape> terms(t.in.table, t.in.model, shape);
-    for (int k = 0; k < t.regions.count; ++k) {
-      const Region& r = t.regions.region[k];
-      region_lights(t.work.lights, r, t.blocks(), t.in.culling && t.method.adds, t.work.region);
-      if (t.work.region.empty()) continue;
-      for (int y = r.by; y < r.by + r.tall; ++y) {
-        const int first = (y * t.blocks() + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
-        for (int i = first; i < end; i += int(hn::Lanes(DF()))) draw(terms, i);
+    for (int n = 0; n < t.regions.count; ++n) {
+      const Region& r = t.regions.region[n];
+      region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
+      if (t.work.region.light.empty()) continue;
+      for (int k = 0; k < r.wide * r.tall; ++k) {
+        const int block = (r.by + k / r.wide) * t.blocks() + r.bx + k % r.wide;
+        const std::span<const ListedLight> list =
+            block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);
+        for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
+          draw(terms, list, i);
       }
     }
   }
 
  private:
   template <class Shape>
-  void draw(const LightTerms<Shape>& terms, int i) const {
+  void draw(const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i) const {
     if (!t.method.adds)
-      draw_every_at(t, i);
+      draw_every_at(t, list, i);
     else if (t.method.codes)
-      add_to_vector<true>(t, terms, i);
+      add_to_vector<true>(t, terms, list, i);
     else
-      add_to_vector<false>(t, terms, i);
+      add_to_vector<false>(t, terms, list, i);
   }
 };
 
@@ -274,11 +297,21 @@ void blend_tile_simd(const LightDraws& draws, const SurfaceTile& surface, const 
   begin_all(t);
   if (surface.covered_pixels == 0 && tied == nullptr) return;
   t.tied = tied != nullptr && !tied->tied.empty() ? tied->tied.data() : nullptr;
-  touching_lights(draws, rect, draws.first_base ? 1 : 0, work.touching);
-  if (t.method.saturates_alpha && t.method.adds) saturate_alpha(t);
-  if (draws.culling && t.method.adds)
-    std::erase_if(work.touching, [&](uint32_t light) { return out_of_reach(draws.table.row[light], t.regions.all); });
+  const uint32_t first_light = draws.first_base ? 1 : 0;
+  const bool reaching = draws.culling && t.method.adds;
+  if (t.method.saturates_alpha && t.method.adds) {
+    touching_lights(draws, rect, first_light, work.touching);
+    saturate_alpha(t);
+  }
+  if (reaching) {
+    reaching_lights(draws.table, draws.groups, t.regions, t.cull, work.bits, work.touching);
+    std::erase_if(work.touching,
+                  [&](uint32_t light) { return light < first_light || !touches(draws.outlines, light, rect); });
+  } else {
+    touching_lights(draws, rect, first_light, work.touching);
+  }
   counts.tile_pairs += uint64_t(surface.covered_pixels) * work.touching.size();
+  if (t.method.adds && t.method.codes && draws.table.cones) gather_kinds(draws.table, work.touching);
   for (size_t first = 0; first < work.touching.size(); first += kChunkLights) {
     list_chunk(t, first, std::min(work.touching.size(), first + kChunkLights));
     with_shape(draws.model, draws.compiled, DrawRegions{t});

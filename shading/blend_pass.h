@@ -18,9 +18,10 @@ struct TiedFragments {
 
 /// Scratch of the tile at work.
 struct BlendWork {
+  std::vector<uint64_t> bits;
   std::vector<uint32_t> touching;  ///< lights whose geometry may touch the tile
-  TileLights lights;               ///< their draws, as many as are drawn at once
-  std::vector<ListedLight> region;
+  TileLights lights, region;       ///< their draws, as many as are drawn at once
+  std::vector<ListedLight> block;
   std::vector<uint16_t> counts;
 };
 

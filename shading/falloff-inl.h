@@ -28,15 +28,15 @@ HWY_INLINE VF at_most(VF x, float most) {
   return hn::IfThenElse(hn::Gt(x, limit), limit, x);
 }
 
-/// Of a point or spot light, at `distance` with its square and its reciprocal (0 at 0).
+/// Of a point or spot light, at `distance` with its square and its reciprocal (0 at 0); means nothing where the square
+/// is not below the light's cut.
 HWY_INLINE VF falloff_of(Falloff falloff, const LightRow& light, VF distance, VF d2, VF inverse) {
   const DF d;
   const VF one = hn::Set(d, 1.0f);
   switch (falloff) {
     case Falloff::none:
       return one;
-    case Falloff::linear_range:
-      return positive(hn::Sub(one, hn::Div(distance, hn::Set(d, light.range))));
+    case Falloff::linear_range:  // nearer than the light's cut, and so above 0
     case Falloff::linear:
       return hn::Sub(one, hn::Div(distance, hn::Set(d, light.range)));
     case Falloff::quadratic:

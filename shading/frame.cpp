@@ -19,6 +19,7 @@
 #include "shading/blend_pass.h"
 #include "shading/draw_frame.h"
 #include "shading/gl_counts.h"
+#include "shading/light_groups.h"
 #include "shading/light_pass.h"
 #include "shading/light_planes.h"
 #include "shading/light_table.h"
@@ -69,6 +70,7 @@ struct FrameWork {
   const View view;
   const ClusterBins bins;
   const LightTable lights;
+  const LightGroups groups;
   const LightMeshes meshes;
   const LightOutlines outlines;  ///< of strategies that blend
   bool need_uv;
@@ -80,6 +82,7 @@ struct FrameWork {
     const bool multipass = pipeline.strategy == Strategy::forward_multipass;
     return {prepared.scene().lights,
             lights,
+            groups,
             pipeline.light_model,
             pipeline.light_volumes,
             meshes,
@@ -132,7 +135,7 @@ struct FrameWork {
       if (execution.count_as_gl)
         counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend.counts, s.blend.lights);
     } else {
-      light_tile(s.surface, where.size, lights, pipeline.light_model, clear, execution.light_culling,
+      light_tile(s.surface, where.size, lights, groups, pipeline.light_model, clear, execution.light_culling,
                  execution.compiled_models, s.lights, s.color, counts.light);
     }
     bool stored = blends_lights(pipeline.strategy);
@@ -283,14 +286,16 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
       bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
-  LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera);
+  LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads);
   bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
+  LightGroups groups;
+  if (execution.light_culling) groups = make_light_groups(lights, execution.threads);
   LightMeshes meshes(pipeline.light_volumes);
   LightOutlines outlines;
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
-  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(meshes),
-              std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
+  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(groups),
+              std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
               TransparentPass(scene, pipeline), frame},
              progress);
 

@@ -19,7 +19,7 @@ void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::
       for (int k = 0; k < kBlockPixels; ++k) mask |= unsigned(counts[size_t(i + k)] >= layer) << k;
       out.masks.push_back(uint16_t(mask));
     }
-    out.add({&in.table.row[light], first, ListedLight::kMasked});
+    out.add(in.table, light, first, ListedLight::kMasked);
   }
 }
 
@@ -38,10 +38,10 @@ void list_draws(const LightDraws& in, const TileRect& rect, std::span<const uint
     const Cover cover =
         kind == OutlineKind::everywhere ? Cover::all : tile_cover(in.outlines, light, rect, out.edges, out.masks);
     if (cover == Cover::none) continue;
-    const ListedLight listed = cover == Cover::masks
-                                   ? ListedLight{&in.table.row[light], masks, ListedLight::kMasked}
-                                   : ListedLight{&in.table.row[light], edges, int32_t(out.edges.size() - edges)};
-    for (int i = 0; i < in.outlines.layers[light]; ++i) out.add(listed);
+    const bool masked = cover == Cover::masks;
+    for (int i = 0; i < in.outlines.layers[light]; ++i)
+      out.add(in.table, light, masked ? masks : edges,
+              masked ? ListedLight::kMasked : int16_t(out.edges.size() - edges));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "raster/light_outlines.h"
 #include "raster/surfaces.h"
 #include "shading/blend.h"
+#include "shading/light_groups.h"
 #include "shading/light_table.h"
 #include "shading/tile_lights.h"
 
@@ -15,6 +16,7 @@ namespace trueshade {
 struct LightDraws {
   std::span<const Light> lights;
   const LightTable& table;
+  const LightGroups& groups;
   const LightModel& model;
   const LightVolumes& volumes;
   const LightMeshes& meshes;

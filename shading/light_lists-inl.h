@@ -10,11 +10,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "raster/region.h"
 #include "raster/store-inl.h"
+#include "shading/light_groups.h"
 #include "shading/light_term-inl.h"
 #include "shading/tile_lights.h"
 
@@ -22,16 +26,17 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Box of the covered pixels' positions: the very floats that the lights are tested against.
+/// Least and largest of each component.
 struct Box {
   float low[3], high[3];
-  int pixels;
 };
 
-/// A region of a tile: its first block, how many blocks it has each way, and the box of its surfaces.
+/// A region of a tile: its first block, how many blocks it has each way, and what its surfaces are within: the very
+/// floats that the lights are tested against.
 struct Region {
   int bx, by, wide, tall;
-  Box box;
+  int pixels;  ///< with a surface
+  Box place, normal;
 };
 constexpr int kMostRegions = (kMaxTile / kRegionSize) * (kMaxTile / kRegionSize);
 
@@ -39,7 +44,8 @@ constexpr int kMostRegions = (kMaxTile / kRegionSize) * (kMaxTile / kRegionSize)
 struct TileRegions {
   Region region[kMostRegions];
   int count = 0;
-  Box all;
+  int pixels;
+  Box place;
 };
 
 /// Of a plane of a tile.
@@ -58,55 +64,88 @@ inline uint64_t sum_of(const uint32_t* plane, int pixels) {
   return total;
 }
 
-inline Box region_box(const SurfaceTile& s, int blocks, const Region& r) {
+constexpr Box kNoBox = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/// Components of a vector of boxes, a box a lane.
+struct BoxVector {
+  VF low[3], high[3];
+
+  BoxVector() {
+    for (int c = 0; c < 3; ++c) {
+      low[c] = hn::Set(DF(), kNoBox.low[c]);
+      high[c] = hn::Set(DF(), kNoBox.high[c]);
+    }
+  }
+  HWY_INLINE void add(const SurfaceTile& s, int plane, int i, MF covered) {
+    const DF d;
+    for (int c = 0; c < 3; ++c) {
+      const VF p = hn::Load(d, s.plane[plane + c] + i);
+      low[c] = hn::IfThenElse(hn::And(covered, hn::Lt(p, low[c])), p, low[c]);
+      high[c] = hn::IfThenElse(hn::And(covered, hn::Gt(p, high[c])), p, high[c]);
+    }
+  }
+  Box box() const {
+    const DF d;
+    alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
+    Box out;
+    for (int c = 0; c < 3; ++c) {
+      hn::Store(low[c], d, lane);
+      out.low[c] = *std::min_element(lane, lane + hn::Lanes(d));
+      hn::Store(high[c], d, lane);
+      out.high[c] = *std::max_element(lane, lane + hn::Lanes(d));
+    }
+    return out;
+  }
+};
+
+inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region& r) {
   const DF d;
-  const DI di;
-  const VF inf = hn::Set(d, std::numeric_limits<float>::infinity());
-  VF low[3] = {inf, inf, inf}, high[3] = {hn::Neg(inf), hn::Neg(inf), hn::Neg(inf)};
-  Box box{};
+  BoxVector place, normal;
+  r.pixels = 0;
   for (int y = r.by; y < r.by + r.tall; ++y) {
     const int end = (y * blocks + r.bx + r.wide) * kBlockPixels;
     for (int i = (y * blocks + r.bx) * kBlockPixels; i < end; i += int(hn::Lanes(d))) {
-      const MF covered = hn::MaskFromVec(hn::BitCast(d, hn::Load(di, s.covered + i)));
-      box.pixels += int(hn::CountTrue(d, covered));
-      for (int c = 0; c < 3; ++c) {
-        const VF p = hn::Load(d, s.plane[kPosition + c] + i);
-        low[c] = hn::IfThenElse(hn::And(covered, hn::Lt(p, low[c])), p, low[c]);
-        high[c] = hn::IfThenElse(hn::And(covered, hn::Gt(p, high[c])), p, high[c]);
-      }
+      const MF covered = hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), s.covered + i)));
+      r.pixels += int(hn::CountTrue(d, covered));
+      place.add(s, kPosition, i, covered);
+      if (normals) normal.add(s, kNormal, i, covered);
     }
   }
-  alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
-  for (int c = 0; c < 3; ++c) {
-    hn::Store(low[c], d, lane);
-    box.low[c] = *std::min_element(lane, lane + hn::Lanes(d));
-    hn::Store(high[c], d, lane);
-    box.high[c] = *std::max_element(lane, lane + hn::Lanes(d));
-  }
-  return box;
+  r.place = place.box();
+  if (normals) r.normal = normal.box();
 }
 
-inline void find_regions(const SurfaceTile& s, int blocks, TileRegions& out) {
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  out.count = 0;
-  out.all = {{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}, 0};
+inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileRegions& out) {
+  out.count = out.pixels = 0;
+  out.place = kNoBox;
   for (int by = 0; by < blocks; by += kRegionBlocks)
     for (int bx = 0; bx < blocks; bx += kRegionBlocks) {
-      Region r{bx, by, std::min(kRegionBlocks, blocks - bx), std::min(kRegionBlocks, blocks - by), {}};
-      r.box = region_box(s, blocks, r);
-      if (r.box.pixels == 0) continue;
-      out.all.pixels += r.box.pixels;
+      Region& r = out.region[out.count];
+      r.bx = bx, r.by = by;
+      r.wide = std::min(kRegionBlocks, blocks - bx), r.tall = std::min(kRegionBlocks, blocks - by);
+      bound_region(s, blocks, normals, r);
+      if (r.pixels == 0) continue;
+      out.pixels += r.pixels;
       for (int c = 0; c < 3; ++c) {
-        out.all.low[c] = std::min(out.all.low[c], r.box.low[c]);
-        out.all.high[c] = std::max(out.all.high[c], r.box.high[c]);
+        out.place.low[c] = std::min(out.place.low[c], r.place.low[c]);
+        out.place.high[c] = std::max(out.place.high[c], r.place.high[c]);
       }
-      out.region[out.count++] = r;
+      ++out.count;
     }
 }
+
+/// What may keep a light from a region's pixels.
+struct RegionCull {
+  bool distance;  ///< all of it is out of its reach
+  bool cone;      ///< or out of its cone
+  bool facing;    ///< all normals point away: the model adds nothing then
+};
 
 // A light is dropped only if the least squared distance, with slack for its six roundings, is past the light's cut:
 // then the kernel's own d2 is past it at every pixel. A light without a cut is never dropped: to pixels whose positions
 // are infinite (a half plane overflowed) every distance is, and ambient light is there too.
+HWY_INLINE VF greater_of(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
+
 HWY_INLINE bool out_of_reach(const LightRow& light, const Box& box) {
   float d2 = 0.0f;
   for (int c = 0; c < 3; ++c) {
@@ -126,7 +165,7 @@ HWY_INLINE MF within_reach(const float* const position[3], const float* cut2, si
   for (int c = 0; c < 3; ++c) {
     const VF place = hn::LoadU(d, position[c] + i);
     const VF below = hn::Sub(hn::Set(d, box.low[c]), place), above = hn::Sub(place, hn::Set(d, box.high[c]));
-    const VF outside = hn::IfThenElse(hn::Gt(below, above), below, above);
+    const VF outside = greater_of(below, above);
     const VF gap = hn::IfThenElseZero(hn::Gt(outside, zero), outside);
     d2 = hn::Add(d2, hn::Mul(gap, gap));
   }
@@ -135,30 +174,103 @@ HWY_INLINE MF within_reach(const float* const position[3], const float* cut2, si
   return hn::Or(hn::Not(hn::Ge(hn::Mul(d2, slack), cut)), hn::Eq(cut, inf));
 }
 
-/// Calls found(i) for the lights of `count` that may reach the box, ascending.
-template <class Found>
-HWY_INLINE void for_each_within_reach(const float* const position[3], const float* cut2, size_t count, const Box& box,
-                                      const Found& found) {
+/// Lights of a vector that no normal of the region faces: N . D is at most the sum of the largest products, and where
+/// that is below 0 by more than the roundings of N's length and of the sum are worth, the kernel's own N . D is not
+/// above 0 at any pixel. The least weight of a component covers products that underflow.
+HWY_INLINE MF faced_away(const float* const position[3], size_t i, const Region& r) {
   const DF d;
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, within_reach(position, cut2, i, box), bytes);
-    uint64_t bits = 0;
-    std::memcpy(&bits, bytes, sizeof bits);
-    for (; bits != 0; bits &= bits - 1) {
-      const size_t at = i + size_t(std::countr_zero(bits));
-      if (at < count) found(at);
-    }
+  float weight[3], most_weight = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    weight[c] = std::max(std::abs(r.normal.low[c]), std::abs(r.normal.high[c]));
+    most_weight = std::max(most_weight, weight[c]);
+  }
+  VF bound = hn::Zero(d), size = hn::Zero(d);
+  for (int c = 0; c < 3; ++c) {
+    const VF place = hn::LoadU(d, position[c] + i);
+    const VF least = hn::Sub(place, hn::Set(d, r.place.high[c])), most = hn::Sub(place, hn::Set(d, r.place.low[c]));
+    const VF low = hn::Set(d, r.normal.low[c]), high = hn::Set(d, r.normal.high[c]);
+    const VF a = greater_of(hn::Mul(low, least), hn::Mul(low, most)),
+             b = greater_of(hn::Mul(high, least), hn::Mul(high, most));
+    bound = hn::Add(bound, greater_of(a, b));
+    const VF reach = greater_of(hn::Abs(least), hn::Abs(most));
+    size = hn::Add(size, hn::Mul(reach, hn::Set(d, std::max(weight[c], most_weight * 0x1p-40f))));
+  }
+  return hn::Lt(bound, hn::Mul(size, hn::Set(d, -0x1p-20f)));
+}
+
+/// Calls found(first + k) for each bit k, ascending, as far as that is below `count`.
+template <class Found>
+HWY_INLINE void for_each_bit(MF mask, size_t first, size_t count, const Found& found) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(DF(), mask, bytes);
+  uint64_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  for (; bits != 0; bits &= bits - 1) {
+    const size_t at = first + size_t(std::countr_zero(bits));
+    if (at < count) found(at);
   }
 }
 
-/// Lights of the table that may reach the box, ascending.
-inline void reaching_lights(const LightTable& lights, const Box& box, std::vector<uint32_t>& out) {
-  const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
-  out.clear();
-  for_each_within_reach(position, lights.cut2.data(), lights.size(), box, [&](size_t i) {
-    if (!dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
+/// Calls found(i) for the boxes of [first, end) that meet `box`.
+template <class Found>
+HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box,
+                                 const Found& found) {
+  const DF d;
+  for (size_t i = first; i < end; i += hn::Lanes(d)) {
+    MF meets = hn::Eq(hn::Zero(d), hn::Zero(d));
+    for (int c = 0; c < 3; ++c) {
+      const MF below = hn::Gt(hn::LoadU(d, boxes.low[c].data() + i), hn::Set(d, box.high[c]));
+      const MF above = hn::Lt(hn::LoadU(d, boxes.high[c].data() + i), hn::Set(d, box.low[c]));
+      meets = hn::AndNot(hn::Or(below, above), meets);
+    }
+    for_each_bit(meets, i, end, found);
+  }
+}
+
+/// Sets the bit of each light, found among many, that may reach the region.
+inline void reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
+                            std::vector<uint64_t>& bits) {
+  constexpr size_t kGroup = LightGroups::kGroup;
+  const float* const position[3] = {groups.position[0].data(), groups.position[1].data(), groups.position[2].data()};
+  const auto set = [&](size_t k) {
+    const uint32_t light = groups.light[k];
+    if (!cull.cone || !dark_over(lights.row[light], r.place.low, r.place.high))
+      bits[light / 64] |= uint64_t(1) << light % 64;
+  };
+  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
+    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
+    for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
+      for (size_t i = group * kGroup; i < (group + 1) * kGroup; i += hn::Lanes(DF())) {
+        MF reaches = within_reach(position, groups.cut2.data(), i, r.place);
+        if (cull.facing && !hn::AllFalse(DF(), reaches)) reaches = hn::AndNot(faced_away(position, i, r), reaches);
+        for_each_bit(reaches, i, groups.light.size(), set);
+      }
+    });
   });
+}
+
+/// Lights of the table that may reach the tile, ascending: its box, or, of many lights, any of its regions.
+/// `bits` is scratch, all zero.
+inline void reaching_lights(const LightTable& lights, const LightGroups& groups, const TileRegions& tile,
+                            RegionCull cull, std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
+  out.clear();
+  if (!groups.empty()) {
+    bits.resize((lights.size() + 63) / 64);
+    for (int k = 0; k < tile.count; ++k) reaching_groups(lights, groups, tile.region[k], cull, bits);
+    for (const uint32_t light : groups.always) bits[light / 64] |= uint64_t(1) << light % 64;
+    for (size_t w = 0; w < bits.size(); ++w) {
+      for (uint64_t word = bits[w]; word != 0; word &= word - 1)
+        out.push_back(uint32_t(64 * w) + uint32_t(std::countr_zero(word)));
+      bits[w] = 0;
+    }
+    return;
+  }
+  const Box& box = tile.place;
+  const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
+  for (size_t first = 0; first < lights.size(); first += hn::Lanes(DF()))
+    for_each_bit(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
+      if (!lights.cones || !dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
+    });
 }
 
 /// Whether the cover of a listed light has pixels of the region; where it has all of them `listed` says so.
@@ -177,20 +289,40 @@ inline bool covers_some(const TileLights& lights, const Region& r, int blocks, L
   return any != 0;
 }
 
-/// The tile's lights that may reach a region. `cull`: leave out those whose distance or cone says they do not.
-inline void region_lights(const TileLights& lights, const Region& r, int blocks, bool cull,
-                          std::vector<ListedLight>& out) {
+/// The tile's lights that may reach a region.
+inline void region_lights(const TileLights& lights, const Region& r, int blocks, RegionCull cull, TileLights& out) {
+  const DF d;
   out.clear();
   const auto add = [&](size_t i) {
     ListedLight listed = lights.light[i];
-    if (cull && dark_over(*listed.light, r.box.low, r.box.high)) return;
-    if (listed.crossing == 0 || covers_some(lights, r, blocks, listed)) out.push_back(listed);
+    if (cull.cone && dark_over(*listed.light, r.place.low, r.place.high)) return;
+    if (listed.crossing == 0 || covers_some(lights, r, blocks, listed)) out.add(listed);
   };
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
-  if (cull)
-    for_each_within_reach(position, lights.cut2.data(), lights.light.size(), r.box, add);
-  else
-    for (size_t i = 0; i < lights.light.size(); ++i) add(i);
+  for (size_t first = 0; first < lights.light.size(); first += hn::Lanes(d)) {
+    MF reaches = hn::Eq(hn::Zero(d), hn::Zero(d));
+    if (cull.distance) reaches = within_reach(position, lights.cut2.data(), first, r.place);
+    if (cull.facing && !hn::AllFalse(d, reaches)) reaches = hn::AndNot(faced_away(position, first, r), reaches);
+    for_each_bit(reaches, first, lights.light.size(), add);
+  }
+}
+
+/// The lights that may reach a block: the region's, or where these are many those near the block. `scratch` is kept.
+inline std::span<const ListedLight> block_lights(const SurfaceTile& surface, int block, const TileLights& region,
+                                                 bool cull, std::vector<ListedLight>& scratch) {
+  constexpr size_t kMany = 40;
+  if (!cull || region.light.size() <= kMany) return region.light;
+  const DF d;
+  BoxVector vectors;
+  for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d)))
+    vectors.add(surface, kPosition, i, hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), surface.covered + i))));
+  const Box box = vectors.box();
+  const float* const position[3] = {region.position[0].data(), region.position[1].data(), region.position[2].data()};
+  scratch.clear();
+  for (size_t first = 0; first < region.light.size(); first += hn::Lanes(d))
+    for_each_bit(within_reach(position, region.cut2.data(), first, box), first, region.light.size(),
+                 [&](size_t i) { scratch.push_back(region.light[i]); });
+  return scratch;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -20,6 +20,7 @@ struct TileWork {
   const SurfaceTile& surface;
   int tile;
   const LightTable& lights;
+  const LightGroups& groups;
   const LightModel& model;
   const float* clear;
   bool culling;
@@ -30,15 +31,15 @@ struct TileWork {
 
 /// Colours of the vector of pixels at i: its sum over the lights of the region, or `clear`.
 template <class Shape>
-void light_vector(const TileWork& in, const LightTerms<Shape>& terms, int i, LightCounts& counts) {
+void light_vector(const TileWork& in, const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i,
+                  LightCounts& counts) {
   const DF d;
   const DI di;
   const PixelVector px = terms.load(in.surface, i);
-  LightSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(di), 0};
+  LightSum sum;
   if (!hn::AllFalse(d, px.covered)) {
     for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
-    add_lights(terms, px, std::span<const ListedLight>(in.work.region),
-               VectorPlace(in.work.tile, in.tile / kBlockSize, i), sum);
+    add_lights(terms, px, list, VectorPlace(in.work.tile, in.tile / kBlockSize, i), sum);
     for (int c = 0; c < 3; ++c) sum.color[c] = terms.finished(px, sum.color[c], c);
   }
   for (int c = 0; c < 3; ++c)
@@ -56,33 +57,37 @@ void clear_tile(const TileWork& in) {
 }
 
 // The lights of the tile into its lists.
-void list_tile_lights(const TileWork& in, const Box& box) {
+void list_tile_lights(const TileWork& in, const TileRegions& regions, RegionCull cull) {
   in.work.tile.clear();
   if (in.culling) {
-    reaching_lights(in.lights, box, in.work.reaching);
-    for (const uint32_t i : in.work.reaching) in.work.tile.add({&in.lights.row[i], 0, 0});
+    reaching_lights(in.lights, in.groups, regions, cull, in.work.bits, in.work.reaching);
+    for (const uint32_t i : in.work.reaching) in.work.tile.add(in.lights, i);
   } else {
-    for (const LightRow& row : in.lights.row) in.work.tile.add({&row, 0, 0});
+    for (uint32_t i = 0; i < in.lights.size(); ++i) in.work.tile.add(in.lights, i);
   }
-  in.counts.tile_pairs += uint64_t(box.pixels) * in.work.tile.light.size();
+  in.counts.tile_pairs += uint64_t(regions.pixels) * in.work.tile.light.size();
 }
 
 template <class Shape>
 void light_tile_of(const Shape& shape, const TileWork& in) {
   const int blocks = in.tile / kBlockSize;
   TileRegions regions;
-  find_regions(in.surface, blocks, regions);
-  if (regions.all.pixels < in.tile * in.tile) clear_tile(in);
+  const RegionCull cull{in.culling, in.culling && in.lights.cones, in.culling && !adds_unlit(shape.shape)};
+  find_regions(in.surface, blocks, cull.facing, regions);
+  if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
-  list_tile_lights(in, regions.all);
+  list_tile_lights(in, regions, cull);
 
   const LightTerms<Shape> terms(in.lights, in.model, shape);
   for (int k = 0; k < regions.count; ++k) {
     const Region& r = regions.region[k];
-    region_lights(in.work.tile, r, blocks, in.culling, in.work.region);
-    for (int y = r.by; y < r.by + r.tall; ++y) {
-      const int first = (y * blocks + r.bx) * kBlockPixels, end = first + r.wide * kBlockPixels;
-      for (int i = first; i < end; i += int(hn::Lanes(DF()))) light_vector(in, terms, i, in.counts);
+    region_lights(in.work.tile, r, blocks, cull, in.work.region);
+    for (int k = 0; k < r.wide * r.tall; ++k) {
+      const int block = (r.by + k / r.wide) * blocks + r.bx + k % r.wide;
+      const std::span<const ListedLight> list =
+          block_lights(in.surface, block, in.work.region, in.culling, in.work.block);
+      for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
+        light_vector(in, terms, list, i, in.counts);
     }
   }
   in.counts.lit_pairs += sum_of(in.out.light_count, in.tile * in.tile);
@@ -97,10 +102,10 @@ struct LightTileOf {
   }
 };
 
-void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                     const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
-                     LightCounts& counts) {
-  const TileWork in{surface, tile, lights, model, clear, culling, work, out, counts};
+void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
+                     const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                     ColorTile& out, LightCounts& counts) {
+  const TileWork in{surface, tile, lights, groups, model, clear, culling, work, out, counts};
   with_shape(model, compiled, LightTileOf{in});
 }
 
@@ -111,10 +116,11 @@ HWY_AFTER_NAMESPACE();
 namespace trueshade {
 HWY_EXPORT(light_tile_simd);
 
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
-                LightCounts& counts) {
-  HWY_DYNAMIC_DISPATCH(light_tile_simd)(surface, tile, lights, model, clear, culling, compiled, work, out, counts);
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
+                const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                ColorTile& out, LightCounts& counts) {
+  HWY_DYNAMIC_DISPATCH(light_tile_simd)
+  (surface, tile, lights, groups, model, clear, culling, compiled, work, out, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

@@ -4,6 +4,7 @@
 
 #include "raster/surfaces.h"
 #include "scenes/light_model.h"
+#include "shading/light_groups.h"
 #include "shading/light_table.h"
 #include "shading/tile_lights.h"
 
@@ -23,17 +24,18 @@ struct ColorTile {
 
 /// Light lists of the tile at work; kept between tiles to save allocation.
 struct LightLists {
+  std::vector<uint64_t> bits;
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
-  TileLights tile;
-  std::vector<ListedLight> region;
+  TileLights tile, region;
+  std::vector<ListedLight> block;
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha
 /// included. Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by
 /// tile, by 16x16 region and by vector: never changes a bit. `compiled`: by the kernel compiled for the model's shape,
-/// where there is one (shading/light_shape.h); never changes a bit either.
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightModel& model,
-                const float clear[4], bool culling, bool compiled, LightLists& work, ColorTile& out,
-                LightCounts& counts);
+/// where there is one (shading/light_shape.h); never changes a bit either. `groups`: of the table's lights.
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
+                const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                ColorTile& out, LightCounts& counts);
 
 }  // namespace trueshade

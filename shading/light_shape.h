@@ -38,6 +38,12 @@ inline LightShape shape_of(const LightModel& m, bool power) {
           own && power ? exponent.integer : -1};
 }
 
+/// Whether a light adds anything to pixels that face away.
+constexpr bool adds_unlit(const LightShape& s) {
+  return s.order == TermOrder::with_ambient || s.diffuse == Diffuse::unclamped ||
+         (s.specular != Specular::none && !s.specular_masked);
+}
+
 /// Shapes that light_tile() is compiled for; all others, and these too where nothing fits, run the general kernel with
 /// equal bits (tests/shading/light_shapes.cpp).
 inline constexpr LightShape kCompiledShapes[] = {

@@ -65,7 +65,11 @@ constexpr size_t kMostHits = 128;
 struct LightSum {
   VF color[3];
   hn::Vec<DI> lights;
-  uint64_t evaluated;
+  uint64_t evaluated = 0;
+
+  LightSum() : lights(hn::Zero(DI())) {
+    for (int c = 0; c < 3; ++c) color[c] = hn::Zero(DF());
+  }
 
   template <class Terms>
   HWY_INLINE void add(const Terms&, const PixelVector&, const LightTerm& term) {
@@ -125,11 +129,10 @@ HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px,
   size_t hits = 0;
   for (const ListedLight& listed : list) {
     MF adds = px.covered;
-    if (HWY_LIKELY(listed.light->kind != LightKind::other)) {
+    if (HWY_LIKELY(listed.placed)) {
       LightChain chain;
-      chain.light = listed.light;
-      terms.place(px, false, chain);
-      terms.reach(px, false, chain);
+      terms.place(px, false, listed.position, chain);
+      terms.reach(px, false, listed.cut2, chain);
       adds = chain.term.adds;
     }
     if (HWY_UNLIKELY(listed.crossing != 0)) adds = at.covered(listed, adds);
@@ -148,18 +151,18 @@ HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px
     const size_t hits = hits_of(terms, px, list.subspan(first, std::min(list.size() - first, kMostHits)), at, hit);
     size_t i = 0;
     if constexpr (Shape::compiled) {
-      while (i + 2 <= hits) {
-        const size_t together = i + 4 <= hits ? 4 : 2;
-        bool placed = true;
-        for (size_t k = i; k < i + together; ++k) placed = placed && hit[k].light->kind != LightKind::other;
-        if (HWY_UNLIKELY(!placed))
-          for (size_t k = i; k < i + together; ++k) add_one(terms, px, hit[k], sum);
-        else if (together == 4)
+      while (i < hits) {
+        size_t placed = 0;
+        while (placed < 4 && i + placed < hits && hit[i + placed].light->kind != LightKind::other) ++placed;
+        const size_t together = placed < 2 ? 1 : placed < 4 ? 2 : 4;
+        if (together == 4)
           add_together(terms, px, hit + i, std::make_index_sequence<4>(), sum);
-        else
+        else if (together == 2)
           add_together(terms, px, hit + i, std::make_index_sequence<2>(), sum);
+        else
+          add_one(terms, px, hit[i], sum);
         i += together;
-        sum.evaluated += placed ? together : 0;
+        sum.evaluated += together > 1 ? together : 0;
       }
     }
     for (; i < hits; ++i) add_one(terms, px, hit[i], sum);

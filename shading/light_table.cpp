@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fp_env.h"
 #include "scenes/light_mesh.h"
 #include "scenes/trig.h"
 
@@ -21,14 +22,18 @@ bool lit_at(Falloff falloff, float d2, float range) {
   return std::sqrt(d2) < range && 1.0f - u * u > 0.0f;
 }
 
-// The least float that is not inside; `inside` holds below one value and not from there on.
+// The least float that is not inside; `inside` holds below one value and not from there on. `guess` is near it.
 template <class Inside>
-float least_outside(const Inside& inside) {
-  uint32_t low = 0, high = std::bit_cast<uint32_t>(kInfinity);
-  if (inside(std::numeric_limits<float>::max())) return kInfinity;
+float least_outside(float guess, const Inside& inside) {
+  constexpr uint32_t kEnd = std::bit_cast<uint32_t>(kInfinity);
+  const auto holds = [&](uint32_t bits) { return inside(std::bit_cast<float>(bits)); };
+  if (holds(kEnd - 1)) return kInfinity;
+  uint32_t low = std::isfinite(guess) && guess > 0.0f ? std::bit_cast<uint32_t>(guess) : 1, high = low;
+  for (uint32_t step = 1; high < kEnd && holds(high); step *= 2) low = high + 1, high += std::min(step, kEnd - high);
+  for (uint32_t step = 1; low > 0 && !holds(low - 1); step *= 2) high = low - 1, low -= std::min(step, low);
   while (low < high) {  // least bit pattern, and so least float
     const uint32_t middle = low + (high - low) / 2;
-    if (inside(std::bit_cast<float>(middle)))
+    if (holds(middle))
       low = middle + 1;
     else
       high = middle;
@@ -37,7 +42,7 @@ float least_outside(const Inside& inside) {
 }
 
 float cut_distance2(Falloff falloff, float range) {
-  return least_outside([&](float d2) { return lit_at(falloff, d2, range); });
+  return least_outside(range * range, [&](float d2) { return lit_at(falloff, d2, range); });
 }
 
 bool placed(LightType type) { return type == LightType::point || type == LightType::spot; }
@@ -84,21 +89,26 @@ LightRow row_of(const Light& light, const LightModel& model) {
 
 }  // namespace
 
-LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera) {
+LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads) {
+  constexpr size_t kChunk = 2048;
   LightTable table;
   const glm::vec3 axis = view_axis(camera);
   for (int c = 0; c < 3; ++c) table.eye[c] = camera.eye[c], table.view_axis[c] = axis[c];
   const size_t padded = (lights.size() + 15) / 16 * 16;
   for (auto& stream : table.position) stream.resize(padded, 0.0f);
   table.cut2.resize(padded, 0.0f);
-  table.row.reserve(lights.size());
-  for (const Light& light : lights) {
-    const size_t i = table.row.size();
-    LightRow& row = table.row.emplace_back(row_of(light, model));
-    if (ends(model.falloff) && placed(light.type)) row.cut2 = cut_distance2(model.falloff, light.range);
-    for (int c = 0; c < 3; ++c) table.position[c][i] = row.position[c];
-    table.cut2[i] = row.cut2;
-  }
+  table.row.resize(lights.size());
+  parallel_for(int((lights.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
+    for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kChunk); ++i) {
+      LightRow& row = table.row[i] = row_of(lights[i], model);
+      if (ends(model.falloff) && placed(lights[i].type)) row.cut2 = cut_distance2(model.falloff, lights[i].range);
+      // No comparison with a NaN drops a light.
+      for (int c = 0; c < 3; ++c) table.position[c][i] = placed(lights[i].type) ? row.position[c] : std::nanf("");
+      table.cut2[i] = row.cut2;
+    }
+  });
+  table.cones = model.cone != Cone::none &&
+                std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type == LightType::spot; });
   return table;
 }
 
@@ -108,7 +118,8 @@ void bound_by_extents(LightTable& table, std::span<const Light> lights, const Li
     const LightExtent extent = drawn_extent(lights[i], volumes);
     if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
     LightRow& row = table.row[i];
-    row.extent2 = least_outside([&](float d2) { return std::sqrt(d2) < lights[i].range; });
+    row.extent2 =
+        least_outside(lights[i].range * lights[i].range, [&](float d2) { return std::sqrt(d2) < lights[i].range; });
     row.cut2 = table.cut2[i] = std::min(row.cut2, row.extent2);
   }
 }

@@ -40,7 +40,9 @@ struct alignas(64) LightRow {
 /// A frame's lights in scene order, and the viewer they have in common.
 struct LightTable {
   std::vector<LightRow> row;
-  std::vector<float> position[3], cut2;  ///< of the rows again, padded with lights that reach nothing to full vectors
+  std::vector<float> position[3], cut2;  ///< of the rows again, NaN for a light without a place; padded to full vectors
+                                         ///< with lights that reach nothing
+  bool cones = false;                    ///< some light's kind is `coned`
   float eye[3], view_axis[3];
   size_t size() const { return row.size(); }
 };
@@ -52,6 +54,7 @@ void bound_by_extents(LightTable& table, std::span<const Light> lights, const Li
 /// kernel's own operations. False for lights without one, and where it cannot tell.
 bool dark_over(const LightRow& light, const float low[3], const float high[3]);
 
-LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera);
+LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera,
+                            int threads = 1);
 
 }  // namespace trueshade

@@ -102,9 +102,12 @@ struct LightTerms {
 
   /// D, its square and N . D.
   HWY_INLINE void place(const PixelVector& px, bool directional, LightChain& at) const {
+    place(px, directional, at.light->position, at);
+  }
+  HWY_INLINE void place(const PixelVector& px, bool directional, const float* position, LightChain& at) const {
     const DF d;
     for (int c = 0; c < 3; ++c) {
-      const VF place = hn::Set(d, at.light->position[c]);
+      const VF place = hn::Set(d, position[c]);
       at.to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
     }
     at.nl = dot3(px.n, at.to_light);
@@ -112,17 +115,17 @@ struct LightTerms {
   }
 
   /// Which pixels a placed light adds something to, as far as the distance and N . D tell.
-  HWY_INLINE void reach(const PixelVector& px, bool directional, LightChain& at) const {
+  HWY_INLINE void reach(const PixelVector& px, bool directional, float cut2, LightChain& at) const {
     const DF d;
-    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, at.light->cut2)));
+    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, cut2)));
     at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
-    at.term.adds = adds_unlit() ? in_range : at.term.lit;
+    at.term.adds = adds_unlit(form.shape) ? in_range : at.term.lit;
   }
 
   /// The same where it is known already which pixels it adds something to.
   HWY_INLINE void reach(MF adds, LightChain& at) const {
     at.term.adds = adds;
-    at.term.lit = adds_unlit() ? hn::And(adds, hn::Gt(at.nl, hn::Zero(DF()))) : adds;
+    at.term.lit = adds_unlit(form.shape) ? hn::And(adds, hn::Gt(at.nl, hn::Zero(DF()))) : adds;
   }
 
   /// Falloff and unit length; of a directional light they are 1 already.
@@ -133,7 +136,7 @@ struct LightTerms {
     if (directional) return;
     const VF distance = hn::Sqrt(at.d2), reciprocal = hn::Div(one, distance);
     // Where only lit pixels count none of them is at the light itself.
-    const VF inverse = adds_unlit() ? hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), reciprocal) : reciprocal;
+    const VF inverse = adds_unlit(form.shape) ? hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), reciprocal) : reciprocal;
     at.nl = hn::Mul(at.nl, inverse);
     for (int c = 0; c < 3; ++c) at.to_light[c] = hn::Mul(at.to_light[c], inverse);
     at.strength = falloff_of(form.shape.falloff, *at.light, distance, at.d2, inverse);
@@ -186,13 +189,14 @@ struct LightTerms {
                                      : rounded_power(at.cosine, px.exponents);
     else
       at.cosine = power_of_model(form, at.cosine);
-    if (form.shape.specular_masked && adds_unlit()) at.cosine = hn::IfThenElseZero(at.term.lit, at.cosine);
+    if (form.shape.specular_masked && adds_unlit(form.shape)) at.cosine = hn::IfThenElseZero(at.term.lit, at.cosine);
   }
 
   HWY_INLINE void color(const PixelVector& px, LightChain& at) const {
     const DF d;
     const bool shines = form.shape.specular != Specular::none, tinted = form.shape.source == SpecularSource::albedo;
-    VF c = form.shape.diffuse == Diffuse::clamped && adds_unlit() ? positive(at.nl) : at.nl;  // lit: positive already
+    VF c = form.shape.diffuse == Diffuse::clamped && adds_unlit(form.shape) ? positive(at.nl)
+                                                                            : at.nl;  // lit: positive already
     if (form.shape.specular == Specular::phong && form.shape.diffuse == Diffuse::clamped) c = at_most(c, 1.0f);
     const VF f = at.strength, s = at.cosine;
     const VF all = shines && tinted ? hn::Add(c, s) : c;  // what the albedo multiplies
@@ -229,7 +233,7 @@ struct LightTerms {
     LightChain at;
     at.light = &light;
     place(px, directional, at);
-    reach(px, directional, at);
+    reach(px, directional, light.cut2, at);
     if (hn::AllFalse(d, at.term.adds)) return at.term;
     fall_off(directional, at);
     narrow_if(at);
@@ -252,8 +256,13 @@ struct LightTerms {
 
   /// What becomes of a sum, or of what one light adds where each is stored by itself.
   HWY_INLINE VF finished(const PixelVector& px, VF sum, int k) const {
-    if (form.shape.order == TermOrder::albedo_last) sum = hn::Mul(sum, px.albedo[k]);
+    sum = tinted(px, sum, k);
     return model.clamp_result ? at_most(positive(sum), 1.0f) : sum;
+  }
+
+  /// The same before it is clamped.
+  HWY_INLINE VF tinted(const PixelVector& px, VF sum, int k) const {
+    return form.shape.order == TermOrder::albedo_last ? hn::Mul(sum, px.albedo[k]) : sum;
   }
 
   HWY_INLINE VF alpha(const SurfaceTile& s, int i) const {
@@ -263,12 +272,6 @@ struct LightTerms {
   }
 
  private:
-  /// Whether a light adds anything to pixels that face away.
-  HWY_INLINE bool adds_unlit() const {
-    return form.shape.order == TermOrder::with_ambient || form.shape.diffuse == Diffuse::unclamped ||
-           (form.shape.specular != Specular::none && !form.shape.specular_masked);
-  }
-
   HWY_INLINE bool squared(const PixelVector& px) const {
     return has_gloss() ? px.exponents.common.squared : form.shape.squared;
   }

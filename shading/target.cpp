@@ -71,19 +71,17 @@ void write_channels(const float* value, Format format, HalfRound half_round, uin
   if (f.packed()) std::memcpy(texel, &word, sizeof word);
 }
 
-/// Words of a tile, one a texel and plane, into their places.
-void write_words(const uint32_t* words, int at_byte, const TileRect& rect, Image& target) {
+/// Words of a tile, one a texel, into their places `step` bytes apart.
+void write_words(const uint32_t* words, int at_byte, int step, const TileRect& rect, Image& target) {
   const int width = std::min(rect.size, target.width - rect.x), height = std::min(rect.size, target.height - rect.y);
-  const bool whole = info(target.format).bytes_per_texel() == 4;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; x += kBlockSize) {
-      const uint32_t* from = words + tile_index(rect.size, x, y);
-      uint8_t* to = target.texel(rect.x + x, target.height - 1 - (rect.y + y)) + at_byte;
-      const int count = std::min(kBlockSize, width - x);
-      if (whole) std::memcpy(to, from, size_t(4 * count));
-      for (int i = 0; i < count && !whole; ++i)
-        std::memcpy(to + i * info(target.format).bytes_per_texel(), from + i, 4);
-    }
+  const int whole = step == 4 ? width / kBlockSize * kBlockSize : 0;
+  for (int y = 0; y < height; ++y) {
+    uint8_t* to = target.texel(rect.x, target.height - 1 - (rect.y + y)) + at_byte;
+    const uint32_t* from = words + tile_index(rect.size, 0, y);  // of the row's first block; the next is a block on
+    for (int x = 0; x < whole; x += kBlockSize) std::memcpy(to + 4 * x, from + x * kBlockSize, 4 * kBlockSize);
+    for (int x = whole; x < width; ++x)
+      std::memcpy(to + x * step, from + x / kBlockSize * kBlockPixels + x % kBlockSize, 4);
+  }
 }
 
 void write_tile(const ColorTile& color, bool encode, const TileRect& rect, HalfRound half_round, Image& target) {
@@ -93,7 +91,7 @@ void write_tile(const ColorTile& color, bool encode, const TileRect& rect, HalfR
     const int channels = layout.bytes_per_channel == 2 ? 2 : 4;  // of a word
     for (int first = 0; first < layout.channels; first += channels) {
       HWY_DYNAMIC_DISPATCH(pack_codes)(color, encode, rect.size * rect.size, target.format, first, channels, words);
-      write_words(words, first * layout.bytes_per_channel, rect, target);
+      write_words(words, first * layout.bytes_per_channel, layout.bytes_per_texel(), rect, target);
     }
     return;
   }

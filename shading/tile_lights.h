@@ -8,13 +8,16 @@
 
 namespace trueshade {
 
-/// A light that may reach some pixels, and which of them its geometry covers.
+/// A light that may reach some pixels, with what tells which, and which of them its geometry covers.
 struct ListedLight {
   const LightRow* light;
-  uint32_t first;    ///< of its edges or masks in the TileLights
-  int32_t crossing;  ///< edges that its cover is inside of; 0: all pixels; kMasked: a mask a block
-  static constexpr int32_t kMasked = -1;
+  float position[3], cut2;  ///< the row's
+  uint32_t first;           ///< of its edges or masks in the TileLights
+  int16_t crossing;         ///< edges that its cover is inside of; 0: all pixels; kMasked: a mask a block
+  bool placed;              ///< its kind is not `other`
+  static constexpr int16_t kMasked = -1;
 };
+static_assert(sizeof(ListedLight) == 32 && kMostOutlineCorners < 32768);
 
 /// Lights of the tile at work, in scene order, a light as often as it is drawn; side by side what tells whether they
 /// reach a box. Kept between tiles to save allocation.
@@ -29,6 +32,11 @@ struct TileLights {
     edges.clear();
     masks.clear();
   }
+  /// A light of the table. One without a place reaches everything: no comparison with its NaN drops it.
+  void add(const LightTable& table, uint32_t i, uint32_t first = 0, int16_t crossing = 0) {
+    const float x = table.position[0][i];
+    add({&table.row[i], {x, table.position[1][i], table.position[2][i]}, table.cut2[i], first, crossing, x == x});
+  }
   void add(const ListedLight& listed) {
     const size_t i = light.size();
     light.push_back(listed);
@@ -36,8 +44,8 @@ struct TileLights {
       for (auto& stream : position) stream.resize(2 * i + 64);
       cut2.resize(2 * i + 64);
     }
-    for (int c = 0; c < 3; ++c) position[c][i] = listed.light->position[c];
-    cut2[i] = listed.light->cut2;
+    for (int c = 0; c < 3; ++c) position[c][i] = listed.position[c];
+    cut2[i] = listed.cut2;
   }
 };
 

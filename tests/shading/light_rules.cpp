@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "scenes/presets.h"
@@ -176,6 +177,51 @@ TEST_CASE("lights whose range or cone just touches a pixel, a block or a tile ar
       scene.lights.push_back(light);
     }
     require_culling_changes_nothing(scene, pipeline);
+  }
+}
+
+TEST_CASE("lights in the plane of a surface, and a last bit above and below it, are culled without changing a bit") {
+  Random random(67);
+  for (const float length : {1.0f, 1e-18f, 3e15f}) {
+    // Specks of about a pixel, apart, so that the boxes that culling asks hold one position and one normal.
+    Scene scene;
+    scene.materials.resize(1);
+    scene.instances.resize(1);
+    scene.camera.eye = {0.2f, -0.1f, 4};
+    scene.camera.fov_y_rad = 0.9f;
+    Mesh mesh;
+    for (uint32_t i = 0; i < 24; ++i) {
+      const float x = float(i % 6) * 0.83f - 2.1f, y = float(i / 6) * 0.9f - 1.4f;
+      const float normal[3] = {between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
+      for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        const float position[3] = {x + 0.06f * float(dx), y + 0.06f * float(dy), 0.0f};
+        for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(position[k]);
+        for (size_t k = 0; k < 3; ++k) mesh.normal[k].push_back(normal[k] * length);
+      }
+      for (const uint32_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(4 * i + corner);
+    }
+    scene.meshes = {mesh};
+    Pipeline pipeline = loop_pipeline("many-lights");
+    const Result surface = render(scene, pipeline);
+    for (int i = 0; i < 6 * 57 * 43; ++i) {
+      const int x = i / 6 % 57, y = i / 6 / 57;
+      if (!surface.covered(x, y)) continue;
+      const Vec p = surface.pixel(x, y).position, n = surface.pixel(x, y).normal;
+      const glm::dvec3 normal = glm::dvec3(n.x, n.y, n.z) / double(length);
+      const glm::dvec3 a(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+      const glm::dvec3 along = a - normal * (glm::dot(a, normal) / glm::dot(normal, normal));
+      Light light;
+      light.position = glm::vec3(glm::dvec3(p.x, p.y, p.z) + along);
+      for (int c = 0; c < 3; ++c)
+        if (random() % 2 == 0) light.position[c] = std::nextafter(light.position[c], i % 2 == 0 ? -9.0f : 9.0f);
+      light.range = 5.0f;
+      scene.lights.push_back(light);
+    }
+    CHECK(scene.lights.size() >= 50);
+    for (const bool renormalize : {true, false}) {
+      pipeline.light_model.renormalize = renormalize;
+      require_culling_changes_nothing(scene, pipeline);
+    }
   }
 }
 
