@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -65,11 +66,27 @@ oracle::GlDraw moved() {
   return draw;
 }
 
+/// A driver and a scene on it.
+struct Session {
+  Session(std::string_view driver, const Scene& scene) : context(driver_named(driver)), renderer(context, scene) {}
+  oracle::GlContext context;
+  oracle::GlRenderer renderer;
+};
+
+oracle::LightSteps steps_of(const std::shared_ptr<Session>& session, const Pipeline& pipeline) {
+  return [session, pipeline](const oracle::StepSink& sink) {
+    oracle::GlDraw draw;
+    draw.after_light = sink;
+    session->renderer.draw(pipeline, draw);
+  };
+}
+
 }  // namespace
 
 DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline) {
-  const oracle::GlContext context(driver_named(driver));
-  oracle::GlRenderer renderer(context, scene);
+  const auto session = std::make_shared<Session>(driver, scene);
+  const oracle::GlContext& context = session->context;
+  oracle::GlRenderer& renderer = session->renderer;
   oracle::GlFrame frame = renderer.draw(pipeline);
   DriverFrame drawn;
   drawn.capture = std::move(frame.capture);
@@ -79,6 +96,7 @@ DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const P
   drawn.move_changes = changed_pixels(drawn.capture, renderer.draw(pipeline, moved()).capture);
   for (const oracle::GlPass& pass : timed_passes(renderer, pipeline, frame.passes, drawn.timed_frames))
     drawn.passes.push_back({pass.name, pass.ms});
+  if (blends_lights(pipeline.strategy)) drawn.steps = steps_of(session, pipeline);
   return drawn;
 }
 

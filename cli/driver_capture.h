@@ -23,9 +23,10 @@ struct DriverFrame {
   /// out (4.6 core, appendix A, rule 1), and in one moved by whole pixels (14.2), which drivers are known not to keep.
   uint64_t repeat_changes = 0, move_changes = 0;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
+  oracle::LightSteps steps;        ///< of strategies that draw light by light; keeps the driver open
 };
 
-/// Draws with the driver of that name (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a
+/// Draws with the driver of that name; `scene` must outlive `steps` (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a
 /// build without OpenGL. This header is all the command sees of OpenGL.
 DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline);
 

@@ -24,7 +24,7 @@ double timed(Job job) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
+void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v, oracle::LightSteps& steps) {
   DriverFrame frame = drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
@@ -32,6 +32,7 @@ void draw_here(const ValidationOptions& options, const Scene& scene, Validation&
   v.repeat_changes = frame.repeat_changes;
   v.move_changes = frame.move_changes;
   v.notes = std::move(frame.notes);
+  steps = std::move(frame.steps);
   // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
   if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
 }
@@ -66,15 +67,16 @@ bool judge_opengl(const ValidationOptions& options) {
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
+  oracle::LightSteps steps;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty())
-      draw_here(options, scene, v);
+      draw_here(options, scene, v, steps);
     else
       read_files(options, v);
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick});
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, steps});
   });
   if (options.report) {
     const std::string page = validation_page(v);

@@ -29,6 +29,8 @@ Format stored_format(const Pipeline& pipeline, const std::string& plane) {
   if (plane == "position") return pipeline.gbuffer.position.format;
   if (plane == "normal") return pipeline.gbuffer.normal.format;
   if (plane == "albedo") return pipeline.gbuffer.albedo.format;
+  if (plane == "specular") return pipeline.gbuffer.specular;
+  if (plane == "emission") return pipeline.gbuffer.emission;
   if (plane == "uv") return pipeline.gbuffer.uv.format;
   return plane == "depth" ? Format::d32f : Format::r32ui;
 }
@@ -143,7 +145,9 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
   return capture;
 }
 
-void store_as(const Pipeline& pipeline, const std::string& where, oracle::Capture& capture) {
+void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& capture) {
+  Pipeline pipeline = asked;
+  pipeline.gbuffer = surface_planes(asked);
   const Image& first = capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
     throw bad_capture(

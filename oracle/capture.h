@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,5 +23,12 @@ struct Capture {
     return nullptr;
   }
 };
+
+/// Looks at the target after one light's draw: its index; before the first -1, the target as it was cleared or as the
+/// draw before the lights left it (forward-multipass without lights: as its one draw left it).
+using StepSink = std::function<void(int light, const Image& target)>;
+
+/// Draws the lights of a capture again and shows the target after each, in order.
+using LightSteps = std::function<void(const StepSink&)>;
 
 }  // namespace trueshade::oracle

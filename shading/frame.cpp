@@ -152,8 +152,8 @@ struct FrameWork {
                       out.aovs);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
-      if (aov.name == "specular") {
-        store_specular(s.surface, pipeline.light_model, where, aov.image);
+      if (aov.name == "specular" || aov.name == "emission") {
+        store_material_plane(aov.name, s.surface, pipeline.light_model, where, planes.half_round, aov.image);
         continue;
       }
       const bool counts_fragments = aov.name == "overdraw";

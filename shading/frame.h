@@ -48,8 +48,9 @@ struct FrameStats {
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
 };
 
-/// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular uv
-/// id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the scene.
+/// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular
+/// emission uv id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the
+/// scene.
 std::span<const std::string_view> aov_names();  ///< but for light.<i>
 bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
 

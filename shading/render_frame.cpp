@@ -17,8 +17,8 @@ namespace trueshade {
 namespace {
 
 constexpr std::string_view kAovNames[] = {
-    "depth",     "Z",           "position",    "normal",     "albedo",          "specular", "uv",
-    "id.object", "id.material", "light.count", "light.tile", "light.intensity", "overdraw"};
+    "depth", "Z",         "position",    "normal",      "albedo",     "specular",        "emission",
+    "uv",    "id.object", "id.material", "light.count", "light.tile", "light.intensity", "overdraw"};
 
 bool is_plane(std::string_view name) {
   return light_of_plane(name) || std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames);

@@ -151,15 +151,20 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
   });
 }
 
-void store_specular(const SurfaceTile& surface, const LightModel& model, const TileRect& rect, Image& plane) {
+void store_material_plane(std::string_view name, const SurfaceTile& surface, const LightModel& model,
+                          const TileRect& rect, HalfRound half_round, Image& plane) {
+  const bool emission = name == "emission", own = reads_specular_plane(model);
+  const bool albedo = model.specular_source == SpecularSource::albedo;
   for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
     if (surface.covered[i] == 0) return;
-    float value[3];
+    float value[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     for (int c = 0; c < 3; ++c)
-      value[c] = reads_specular_plane(model)                       ? surface.plane[kSpecular + c][i]
-                 : model.specular_source == SpecularSource::albedo ? surface.plane[kAlbedo + c][i]
-                                                                   : model.specular_color[c];
-    std::memcpy(texel, value, sizeof value);
+      value[c] = emission ? (model.emission ? surface.plane[kEmission + c][i] : 0.0f)
+                 : own    ? surface.plane[kSpecular + c][i]
+                 : albedo ? surface.plane[kAlbedo + c][i]
+                          : model.specular_color[c];
+    if (!emission) value[3] = own ? surface.plane[kSpecular + 3][i] : model.shininess;
+    write_channels(value, plane.format, half_round, texel);
   });
 }
 
@@ -169,7 +174,9 @@ Format aov_format(std::string_view name, const GBufferState& planes) {
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;
   if (name == "uv") return planes.uv.format;
-  return name == "specular" || light_of_plane(name) ? Format::rgb32f : Format::r32ui;
+  if (name == "specular") return planes.specular;
+  if (name == "emission") return planes.emission;
+  return light_of_plane(name) ? Format::rgb32f : Format::r32ui;
 }
 
 }  // namespace trueshade

@@ -131,6 +131,13 @@ class LightPass {
     glClearBufferfv(GL_COLOR, 0, color.data());
   }
 
+  void show(int light, GLuint framebuffer) const {
+    if (!draw_.after_light) return;
+    draw_.after_light(light, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width,
+                                          pipeline_.height));
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  }
+
   void use(GLuint program) const {
     glUseProgram(program);
     const int unit =
@@ -161,9 +168,11 @@ class LightPass {
   /// The first light stores depth and colour, the others add where the depth is the one stored.
   void multipass() const {
     begin_forward();
+    if (lights_ > 0) show(-1, t_.forward.framebuffer);
     for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
       set_uniform(programs_.light, "light", light);
       buffers_.draw_instances(solid());
+      show(light, t_.forward.framebuffer);
       glDepthMask(GL_FALSE);
       glDepthFunc(GL_EQUAL);
       set_blend_state(kAddLight);
@@ -208,6 +217,7 @@ class LightPass {
       use(programs_.base);
       draw_quad(programs_.base);
     }
+    show(-1, t_.light.framebuffer);
     use(programs_.light);
     const Matrix4 clip = projection_of(scene_.camera, pipeline_.geometry, pipeline_.width, pipeline_.height);
     std::array<float, 16> rows{};
@@ -227,6 +237,7 @@ class LightPass {
         draw_mesh(meshes[extent], light);
       else
         draw_quad(programs_.light);
+      show(i, t_.light.framebuffer);
     }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }

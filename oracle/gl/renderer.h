@@ -18,6 +18,7 @@ struct GlDraw {
   bool post = false;             ///< the post chain too, where the pipeline has one; the picture is not moved then
   const GlslShaders* shaders = nullptr;  ///< instead of shaders_of(pipeline, shader_options)
   GlslOptions shader_options;            ///< of `shaders`
+  StepSink after_light;                  ///< of strategies that draw light by light: shown the target after each
 };
 
 struct GlPass {

@@ -5,8 +5,8 @@
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/judge.h"
-#include "oracle/intervals/map_range.h"
 #include "oracle/intervals/patch.h"
+#include "oracle/intervals/surface_values.h"
 #include "oracle/intervals/tally.h"
 
 namespace trueshade::oracle {
@@ -31,8 +31,8 @@ class GBufferJudge {
         depth_(plane_of(capture, pipeline, "depth")),
         object_(plane_of(capture, pipeline, "id.object")),
         material_(plane_of(capture, pipeline, "id.material")),
-        specular_(plane_of(capture, pipeline, "specular")),
-        emission_(plane_of(capture, pipeline, "emission")) {
+        specular_(reads_specular_plane(pipeline.light_model) ? plane_of(capture, pipeline, "specular") : PlaneView{}),
+        emission_(pipeline.light_model.emission ? plane_of(capture, pipeline, "emission") : PlaneView{}) {
     const GBufferState& g = pipeline.gbuffer;
     const AttributePlane all[] = {
         {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
@@ -90,23 +90,14 @@ class GBufferJudge {
     identifier(object_, "id.object", c.instance + 1.0);
     identifier(material_, "id.material", instance.material + 1.0);
     if (!m.legal && object_) return m;
-    std::vector<Piece> pieces;
-    projector_.pieces(c.instance, c.triangle, pieces);
-    const Piece& piece = pieces[c.piece];
-    const SurfacePoint point(piece, profile_, projector_.window_reach(), sx, sy);
-    bounded = point.bounded();
-    if (depth_) {
-      double largest = 0;
-      for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
-      m.channel_is(depth_, "depth", 0, stored_depth(point, pipeline_.geometry, profile_, largest),
-                   held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)), pixel, profile_);
-    }
+    const SurfaceValues surface(projector_, c, sx, sy);
+    bounded = surface.bounded();
+    if (depth_)
+      m.channel_is(depth_, "depth", 0, surface.depth(), held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)),
+                   pixel, profile_);
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
-    const TriangleValues values = triangle_values(projector_, c.instance, c.triangle);
-    const Material& material = projector_.scene().materials[instance.material];
-    const auto texel = color_texel(projector_, material, piece, point, values, sx, sy);
     const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored) {
-      if (texel)
+      if (surface.textured())
         m.lookup_is(view, name, k, range, stored, pixel, profile_);
       else
         m.channel_is(view, name, k, range, stored, pixel, profile_);
@@ -119,73 +110,29 @@ class GBufferJudge {
           if (stored != rest) m.note(p.name, k, {rest, rest, rest}, stored, 1);
           continue;
         }
-        Range range = value_of(point, piece, values, p, k);
-        if (p.first == kAlbedo && texel) range = product(range, (*texel)[size_t(k)], profile_);
-        if (p.first == kAlbedo) range = tinted(range, double(material.base_color[k]));
-        if (p.first == kAlbedo && k < 3) {
-          if (specular_)
-            judge_channel(specular_, "specular", k, specular_of(material, range, k), specular_.stored(x, y_top, k));
-          if (maps_metals(pipeline_.light_model)) range = tinted(range, double(1.0f - material.metallic));
+        if (p.first != kAlbedo) {
+          m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel, profile_);
+          continue;
         }
-        if (p.first == kAlbedo)
-          judge_channel(p.view, p.name, k, range, stored);
-        else
-          m.channel_is(p.view, p.name, k, range, stored, pixel, profile_);
+        const Range base = surface.base_color(k, p.interpolation);
+        if (specular_ && k < 3)
+          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k));
+        judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored);
       }
-    constant_planes(material, x, y_top, pixel, m);
+    constant_planes(surface, x, y_top, pixel, m);
     return m;
   }
 
   /// What the material alone decides: the shininess and the emission.
-  void constant_planes(const Material& material, int x, int y_top, uint32_t pixel, Match& m) const {
-    if (specular_) {
-      const double r = std::max(double(material.roughness), 0.04);
-      const double s = maps_metals(pipeline_.light_model) ? std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0)
-                                                          : double(material.shininess);
+  void constant_planes(const SurfaceValues& surface, int x, int y_top, uint32_t pixel, Match& m) const {
+    if (specular_ && specular_.channels > 3) {
+      const double s = surface.shininess();
       m.channel_is(specular_, "specular", 3, {s, s, s}, specular_.stored(x, y_top, 3), pixel, profile_);
     }
     for (int k = 0; k < 3 && emission_; ++k) {
-      const double e = double(material.emission[k]);
+      const double e = double(surface.material().emission[k]);
       m.channel_is(emission_, "emission", k, {e, e, e}, emission_.stored(x, y_top, k), pixel, profile_);
     }
-  }
-
-  /// The specular colour: the material's, or 0.04 (1 - metallic) + base metallic, of four roundings at most.
-  Range specular_of(const Material& material, const Range& base, int k) const {
-    const double given = double(material.specular_color[k]);
-    if (!maps_metals(pipeline_.light_model)) return {given, given, given};
-    if (material.metallic == 0.0f) return {double(0.04f), double(0.04f), double(0.04f)};
-    const double metallic = double(material.metallic), rest = double(0.04f) * (1 - metallic);
-    const double v =
-        4 * std::max(profile_.arithmetic.roundoff, 0x1p-24) * (rest + std::fabs(base.high) * metallic) + kSmallestFloat;
-    return {rest + base.value * metallic, rest + base.low * metallic - v, rest + base.high * metallic + v};
-  }
-
-  Range value_of(const SurfacePoint& point, const Piece& piece, const TriangleValues& values, const AttributePlane& p,
-                 int k) const {
-    const size_t index = p.first + size_t(k);
-    if (p.interpolation == Interpolation::flat) {
-      const size_t corner = pipeline_.geometry.provoking == Provoking::last ? 2 : 0;
-      const double v = values.value[corner][index], e = values.error[corner][index];
-      return {v, v - e, v + e};
-    }
-    std::array<double, 3> value{}, error{};
-    piece_values(piece, values, index, value, error);
-    return point.attribute(value, error, p.interpolation);
-  }
-
-  /// Times the material's base colour: one more product.
-  Range tinted(const Range& r, double tint) const {
-    if (profile_.exact_planes) {
-      const auto times = [&](double v) { return double(float(float(v) * float(tint))); };
-      const Range f{double(float(r.value)), double(float(r.low)), double(float(r.high))};
-      if (tint >= 0)
-        return {times(f.value), std::min(times(f.low), times(f.value)), std::max(times(f.high), times(f.value))};
-      return {times(f.value), times(f.high), times(f.low)};
-    }
-    const double a = r.low * tint, b = r.high * tint;
-    const double v = profile_.arithmetic.roundoff * std::max(std::fabs(a), std::fabs(b)) + kSmallestFloat;
-    return {r.value * tint, std::min(a, b) - v, std::max(a, b) + v};
   }
 
   /// Candidates that may be seen, the nominal one first.

@@ -38,6 +38,7 @@ Profile llvmpipe() {
   p.unorm_reach = 0.5;
   p.srgb_reach = 0.67;  // 0.6608 in 4.7 million values (tests/intervals/srgb_targets.cpp)
   p.half = HalfStore::toward_zero;
+  p.blend = BlendRule::mesa_codes;
   p.least_depth_unit = 2;
   p.max_norm_slope = true;
   // RGBA8 with 8-bit weights and results, other formats in floats; rho the longer gradient.
@@ -56,6 +57,7 @@ Profile ideal() {
   p.plane_origin = PlaneOrigin::snapped;
   p.exact_vertices = p.exact_planes = true;
   p.clips_to_view = false;
+  p.blend = BlendRule::float_once;
   p.unorm_reach = p.srgb_reach = 0.5;
   p.half = HalfStore::toward_zero;
   p.most_depth_unit = 1;

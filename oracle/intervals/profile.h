@@ -20,6 +20,11 @@ enum class SnapRule : uint8_t {
 enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
 enum class FillRule : uint8_t { left_low, left_high, unstated };  ///< which horizontal edge is in; GL window, y up
 enum class HalfStore : uint8_t { toward_zero, nearest, either };
+enum class BlendRule : uint8_t {
+  any_precision,  ///< no less than the target's (GL 4.6 core, 17.3.6): anything from its codes to real numbers, fused or not
+  float_once,     ///< docs/arithmetic.md section 10: codes added for ONE, ONE; else float32, rounded once
+  mesa_codes,     ///< section 11: products of codes for rgba8 and rgba16, float32 for floats; else any_precision
+};
 
 /// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
 /// filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers measured do.
@@ -51,6 +56,7 @@ struct Profile {
   HalfStore half = HalfStore::either;
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
+  BlendRule blend = BlendRule::any_precision;
   double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
   Sampling sampling;
   Arithmetic arithmetic;

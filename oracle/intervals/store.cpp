@@ -14,13 +14,17 @@ struct SmallFloat {
   double spacing(double x) const { return std::ldexp(1.0, (x == 0 ? -14 : std::max(std::ilogb(x), -14)) - fraction); }
 
   double below(double x) const {
+    if (std::isinf(x)) return x;
     const double unit = spacing(x), found = std::floor(x / unit) * unit;
-    if (found > largest()) return x == HUGE_VAL ? x : largest();
+    if (found > largest()) return largest();
     return found < -largest() ? -HUGE_VAL : found;
   }
   double above(double x) const { return -below(-x); }
 
-  double toward_zero(double x) const { return std::copysign(std::min(below(std::fabs(x)), largest()), x); }
+  double toward_zero(double x) const {
+    if (std::isinf(x)) return x;
+    return std::copysign(std::min(below(std::fabs(x)), largest()), x);
+  }
   double nearest(double x) const {
     if (std::fabs(x) >= largest() + spacing(largest()) / 2) return std::copysign(HUGE_VAL, x);
     const double low = below(x), high = above(x);
@@ -106,6 +110,7 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
   if (!grid.has_sign())
     for (double* end : {&t.nominal, &t.low, &t.high})
       if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
+  if (!std::isfinite(r.value)) return t;
   const double spacing = grid.spacing(r.value);
   const bool truncates = profile.half != HalfStore::nearest;
   const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);

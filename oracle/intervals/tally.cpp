@@ -57,6 +57,12 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
   return view;
 }
 
+PlaneView target_of(const Capture& capture, const Pipeline& pipeline) {
+  const PlaneView view = plane_of(capture, pipeline, "color");
+  if (!view) throw Error(ErrorKind::bad_input, "capture", "has no plane color", "lighting is judged from it");
+  return view;
+}
+
 void Match::lookup_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
                       uint32_t pixel, const Profile& profile) {
   const bool before = second;
@@ -80,11 +86,15 @@ void Match::note(const char* name, int at, const LegalTexel& value, double store
 
 void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
                        uint32_t pixel, const Profile& profile) {
-  const LegalTexel texel = legal_texel(range, view.image->format, at, profile);
+  texel_is(view, name, at, legal_texel(range, view.image->format, at, profile), range.value, stored, pixel, profile);
+}
+
+void Match::texel_is(const PlaneView& view, const char* name, int at, const LegalTexel& texel, double value,
+                     double stored, uint32_t pixel, const Profile& profile) {
   if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, at, texel.nominal));
   if (!view.quantised()) {
-    const double bound = std::max(texel.high - range.value, range.value - texel.low);
-    if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - range.value) / bound);
+    const double bound = std::max(texel.high - value, value - texel.low);
+    if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - value) / bound);
     return;
   }
   ++stored_values;
@@ -94,7 +104,7 @@ void Match::channel_is(const PlaneView& view, const char* name, int at, const Ra
     return;  // which neighbour is the nominal one is not known
   const auto side = int8_t(texel.second_chance > 0 ? texel.second_side : taken);
   if (taken != 0 || texel.second_chance > 0)
-    choices.push_back({pixel, float(range.value), float(texel.second_chance), side, taken});
+    choices.push_back({pixel, float(value), float(texel.second_chance), side, taken});
 }
 
 void RowTally::may_be_other(uint64_t surface, double chance) {
@@ -105,6 +115,10 @@ void RowTally::may_be_other(uint64_t surface, double chance) {
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
   classes.push_back(c);
+  record(x, y, c, match, surface);
+}
+
+void RowTally::record(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
   stored_values += match.stored_values;
   worst_error = std::max(worst_error, match.worst_error);
   choices.insert(choices.end(), match.choices.begin(), match.choices.end());

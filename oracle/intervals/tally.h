@@ -29,6 +29,9 @@ struct PlaneView {
 /// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
 
+/// The target. Error(bad_input) if there is none.
+PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
+
 /// How one pixel fares against one surface.
 struct Match {
   bool legal = true;
@@ -49,6 +52,9 @@ struct Match {
   /// The same of a channel that a texture lookup decides: another legal value is TEX, and no rounding to be counted.
   void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                  uint32_t pixel, const Profile& profile);
+  /// The same of a channel whose legal texels are known; `value` is the real one before the store.
+  void texel_is(const PlaneView& view, const char* name, int channel, const LegalTexel& texel, double value,
+                double stored, uint32_t pixel, const Profile& profile);
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 
@@ -63,6 +69,8 @@ struct RowTally {
 
   void may_be_other(uint64_t surface, double chance);
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+  /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
+  void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 };
 
 /// The profile as it applies: `ideal` follows the pipeline's half_round.

@@ -74,6 +74,22 @@ std::string inference_json(const Inference& i) {
          ",\"unorm_reach\":" + (i.unorm_reach ? number(*i.unorm_reach) : "null") + ",\"tried\":" + array(i.tried, tried) + "}";
 }
 
+void judge_target(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options,
+                  std::vector<StageVerdict>& stages) {
+  if (!blends_lights(pipeline.strategy) || !options.steps)
+    return stages.push_back(judge_lighting(scene, pipeline, options.profile, capture));
+  bool same = true;
+  const LightSteps watched = [&](const StepSink& sink) {
+    const int last = int(scene.lights.size()) - 1;
+    options.steps([&](int light, const Image& target) {
+      if (light == last) same = target.texels == capture.color.texels;
+      sink(light, target);
+    });
+  };
+  stages.push_back(judge_blending(scene, pipeline, options.profile, capture, watched));
+  if (!same) stages.push_back(judge_lighting(scene, pipeline, options.profile, capture));
+}
+
 }  // namespace
 
 uint64_t Verdict::violations() const {
@@ -101,7 +117,7 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
   const auto has = [&](std::string_view name) { return capture.plane(name) != nullptr; };
   const bool geometry = has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") || has("id.material");
   if (geometry) v.stages.push_back(judge_gbuffer(scene, pipeline, options.profile, capture));
-  if (capture.color.width > 0) v.stages.push_back(judge_lighting(scene, pipeline, options.profile, capture));
+  if (capture.color.width > 0) judge_target(scene, pipeline, capture, options, v.stages);
   if (v.stages.empty()) throw Error(ErrorKind::bad_input, "capture", "has no planes", "capture the target or a G-buffer plane");
   for (const StageVerdict& s : v.stages) v.aggregates.push_back(aggregate_tests(s));
   if (options.infer && geometry) v.inferred = infer_profile(scene, pipeline, capture);

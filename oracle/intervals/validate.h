@@ -13,12 +13,13 @@ namespace trueshade::oracle {
 struct ValidateOptions {
   Profile profile;     ///< what is promised; by default what OpenGL promises with 4 subpixel bits
   bool infer = false;  ///< also find the tightest profile: some fifteen judgements more
+  LightSteps steps{};  ///< of strategies that draw light by light: to judge each light by itself
 };
 
 struct Verdict {
   std::string scene, driver;
   std::string profile;
-  std::vector<StageVerdict> stages;         ///< those the capture has planes for: gbuffer, lighting
+  std::vector<StageVerdict> stages;         ///< those the capture has planes for: gbuffer; lighting or blending
   std::vector<std::vector<AggregateTest>> aggregates;  ///< a list a stage
   std::optional<Inference> inferred;
 
@@ -26,7 +27,8 @@ struct Verdict {
   bool suspicious() const;      ///< some aggregate test fails: legal pixel by pixel, yet not what chance makes
 };
 
-/// Judges every stage the capture has planes for. Throws Error(bad_input) where there is none, or a size is wrong.
+/// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by
+/// light, as `blending`, and by its last state only where drawing it again with a look at each light made another one. Throws Error(bad_input) where there is none, or a size is wrong.
 Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options = {});
 
 /// The verdict as JSON, fixed key order: scene, driver, profile, pass, suspicious, stages [{stage, width, height, counts by

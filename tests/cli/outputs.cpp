@@ -50,7 +50,7 @@ TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata"
 TEST_CASE("an EXR has the planes asked for under their channel names") {
   const ScratchFolder folder;
   output_of({"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
-             "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,light.1,light.tile,"
+             "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,emission,light.1,light.tile,"
              "light.intensity,overdraw"},
             folder.path(""));
   const auto file = OIIO::ImageInput::open(folder.path("x.exr"));
@@ -73,6 +73,10 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
                                           "albedo.G",
                                           "albedo.R",
                                           "depth.Z",
+                                          "emission.A",
+                                          "emission.B",
+                                          "emission.G",
+                                          "emission.R",
                                           "id.material",
                                           "id.object",
                                           "light.0001.B",
@@ -82,6 +86,7 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
                                           "light.intensity",
                                           "light.tile",
                                           "overdraw",
+                                          "specular.A",
                                           "specular.B",
                                           "specular.G",
                                           "specular.R",

@@ -61,6 +61,7 @@ TEST_CASE("planes written to an EXR are read back under their names, bit for bit
   const std::vector<NamedImage> planes = {
       {"depth", pattern(37, 131, Format::d32f)},        {"position", pattern(37, 131, Format::rgb32f)},
       {"normal", pattern(37, 131, Format::rgb16f)},     {"albedo", pattern(37, 131, Format::rgba32f)},
+      {"specular", pattern(37, 131, Format::rgba32f)},  {"emission", pattern(37, 131, Format::rgba16f)},
       {"uv", pattern(37, 131, Format::rg32f)},          {"id.object", pattern(37, 131, Format::r32ui)},
       {"id.material", pattern(37, 131, Format::r32ui)}, {"light.count", pattern(37, 131, Format::r32ui)}};
   write_image(folder.path("p.exr"), color, planes, {});

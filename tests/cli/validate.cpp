@@ -72,6 +72,23 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
       }
 }
 
+TEST_CASE("a capture of lights blended one by one is judged by its last image, materials from their planes") {
+  const ScratchFolder folder;
+  const auto drawn = [&](const std::string& planes) {
+    const Outcome outcome = run_command({"render", "builtin:cornell", "--preset", "gl-fixed", "--strategy", "deferred-volumes", "--size",
+                                         "80x60", "-o", "c.exr", "--aov", planes},
+                                        folder.path(""));
+    REQUIRE(outcome.exit_code == 0);
+    return judged(folder, {"--gbuffer", "c.exr", "--preset", "gl-fixed", "--strategy", "deferred-volumes", "--subpixel-bits", "8"});
+  };
+  const Outcome whole = drawn("depth,position,normal,albedo,specular,emission,id.object,id.material");
+  INFO(whole.out << whole.err);
+  CHECK(whole.exit_code == 0);
+  CHECK(has(whole.out, "lighting: 4800 pixels"));
+  check_refused(drawn("depth,position,normal,albedo,emission,id.object"), 3, "specular");
+  check_refused(drawn("depth,position,normal,albedo,specular,id.object"), 3, "emission");
+}
+
 TEST_CASE("what the driver drew is saved as a picture, and as a capture that is judged alike") {
   const ScratchFolder folder;
   const Outcome drawn =

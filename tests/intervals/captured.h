@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -7,19 +8,39 @@
 
 namespace trueshade::testing {
 
-/// Whether a capture of our own frame can be judged: lights that are blended draw by draw are not judged yet, and our frames
-/// hand out no planes of shininess or emission.
-inline bool judgeable(const Pipeline& pipeline) {
-  return pipeline.strategy == Strategy::deferred_loop && !pipeline.light_model.emission && !reads_specular_plane(pipeline.light_model);
+/// The planes that are judged: those of every surface, and those that the light model reads.
+inline std::vector<std::string> judged_planes(const LightModel& model) {
+  std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material", "light.count"};
+  if (reads_specular_plane(model)) planes.emplace_back("specular");
+  if (model.emission) planes.emplace_back("emission");
+  return planes;
 }
 
-/// Our own frame as a capture: the target and all planes, or those named.
-inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipeline,
-                                std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object",
-                                                                   "id.material", "light.count"}) {
-  Frame frame = render_frame(scene, pipeline, {}, planes);
+/// Our own frame as a capture: the target and planes.
+inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipeline) {
+  Frame frame = render_frame(scene, pipeline, {}, judged_planes(pipeline.light_model));
   return {"trueshade", std::move(frame.color), std::move(frame.aovs)};
 }
 inline oracle::Capture captured(const Scene& scene, const Pipeline& pipeline) { return captured(PreparedScene(scene), pipeline); }
+
+/// The pipeline as judge_gbuffer() and the others take it: with the planes that surfaces really have.
+inline Pipeline with_surface_planes(Pipeline pipeline) {
+  pipeline.gbuffer = surface_planes(pipeline);
+  return pipeline;
+}
+
+/// Our own target after each light: a frame of the first so many lights. The scene is borrowed.
+inline oracle::LightSteps steps_of(const Scene& scene, const Pipeline& pipeline) {
+  return [&scene, pipeline](const oracle::StepSink& sink) {
+    Scene part = scene;
+    for (int last = -1; last < int(scene.lights.size()); ++last) {
+      part.lights.assign(scene.lights.begin(), scene.lights.begin() + last + 1);
+      // The first draw of forward-multipass is a light's, unless there is none.
+      const bool cleared = last < 0 && pipeline.strategy == Strategy::forward_multipass && !scene.lights.empty();
+      part.instances = cleared ? std::vector<Instance>{} : scene.instances;
+      sink(last, render_frame(part, pipeline).color);
+    }
+  };
+}
 
 }  // namespace trueshade::testing

@@ -1,0 +1,40 @@
+#pragma once
+// What a candidate hands to the fragment shader at a sample, and what the material makes of it.
+#include <optional>
+#include <vector>
+
+#include "oracle/intervals/candidates.h"
+#include "oracle/intervals/map_range.h"
+
+namespace trueshade::oracle {
+
+/// One candidate at one sample (x, y), pixels, y up. Borrows the projector.
+class SurfaceValues {
+ public:
+  SurfaceValues(const Projector& projector, const Candidate& candidate, double x, double y);
+
+  bool bounded() const { return point_->bounded(); }
+  bool textured() const { return texel_.has_value(); }  ///< channels of the colour come from a lookup
+  const Material& material() const { return *material_; }
+
+  Range depth() const;                                               ///< as the depth buffer may hold it
+  Range attribute(size_t index, Interpolation interpolation) const;  ///< a ValueIndex plus a component
+  Range base_color(int k, Interpolation interpolation) const;        ///< vertex colour times texel times base colour
+  Range albedo(const Range& base) const;                             ///< of the base colour: less what is metal
+  Range specular(const Range& base, int k) const;
+  double shininess() const;
+
+ private:
+  Range tinted(const Range& r, double tint) const;
+
+  const Projector& projector_;
+  const LightModel& model_;
+  const Material* material_;
+  std::vector<Piece> pieces_;
+  const Piece* piece_;
+  std::optional<SurfacePoint> point_;
+  TriangleValues values_;
+  std::optional<std::array<Range, 4>> texel_;
+};
+
+}  // namespace trueshade::oracle
