@@ -12,7 +12,8 @@ using oracle::GlPeer;
 constexpr int kPixelsPerChange = 50000;
 
 bool is_fast(GlDesign design) {
-  return design == GlDesign::tiled || design == GlDesign::forward_plus || design == GlDesign::deferred_volumes;
+  return design == GlDesign::tiled || design == GlDesign::forward_plus || design == GlDesign::deferred_volumes ||
+         design == GlDesign::deferred_loop;
 }
 
 /// Pixels that are not the same without back faces: none inside closed meshes, a few where a silhouette's edges round,

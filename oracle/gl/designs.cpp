@@ -52,6 +52,7 @@ struct GlPeer::Work {
   VolumeBatches volumes;  ///< of deferred_volumes
   GlTexelBuffer tile_ranges, tile_records;
   std::vector<float> depths;  ///< read back, row 0 at the bottom
+  std::vector<uint16_t> normals;  ///< and RGBA halves
 
   Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size);
   const Scene& scene() { return renderer.buffers().scene(); }
@@ -61,6 +62,7 @@ struct GlPeer::Work {
   void draw_scene(GLuint program);
   void draw_gbuffer();
   void draw_depth();
+  void read_normals();
   void bin_lights();
   void begin_forward();
   void use_lighting();
@@ -87,7 +89,7 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
     : renderer(r),
       pipeline(design_pipeline(p, d)),
       design(d),
-      tile(tile_size),
+      tile(tile_size > 0 ? tile_size : d == GlDesign::forward_plus ? 16 : 32),
       options(lean_options(r)),
       planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
   renderer.context().make_current();
@@ -158,12 +160,23 @@ void GlPeer::Work::draw_depth() {
   draw_scene(depth_only);
 }
 
+/// The thin G-buffer's halves as they are: on llvmpipe a copy.
+void GlPeer::Work::read_normals() {
+  for (size_t i = 0; i < planes.size(); ++i) {
+    if (planes[i].name != "normal" || planes[i].format != Format::rgba16f) continue;
+    normals.resize(4 * depths.size());
+    glReadBuffer(GLenum(GL_COLOR_ATTACHMENT0 + i));
+    glReadPixels(0, 0, pipeline.width, pipeline.height, GL_RGBA, GL_HALF_FLOAT, normals.data());
+  }
+}
+
 void GlPeer::Work::bin_lights() {
   depths.resize(size_t(pipeline.width) * size_t(pipeline.height));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, geometry_target.framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, pipeline.width, pipeline.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  const LightTiles tiles = light_tiles(scene(), pipeline, depths, tile);
+  if (design == GlDesign::tiled) read_normals();
+  const LightTiles tiles = light_tiles(scene(), pipeline, depths, normals, tile);
   std::vector<uint32_t> ranges;
   ranges.reserve(2 * tiles.first.size());
   for (size_t i = 0; i < tiles.first.size(); ++i) ranges.insert(ranges.end(), {tiles.first[i], tiles.count[i]});

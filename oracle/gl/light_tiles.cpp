@@ -7,6 +7,7 @@
 #include "oracle/exact_coverage.h"
 #include "oracle/gl/glsl.h"
 #include "oracle/gl/scene_buffers.h"
+#include "oracle/gl/tile_surfaces.h"
 #include "oracle/matrices.h"
 
 namespace trueshade::oracle {
@@ -51,26 +52,14 @@ class TileSlabs {
   std::vector<Plane> planes_;
 };
 
-struct DepthBounds {
-  float low = 2, high = -1;  ///< low > high: the tile shows nothing
-};
-
-std::vector<DepthBounds> depth_bounds(const LightTiles& tiles, const Pipeline& pipeline, std::span<const float> depth) {
-  std::vector<DepthBounds> bounds(size_t(tiles.columns) * size_t(tiles.rows));
-  for (int y = 0; y < pipeline.height; ++y)
-    for (int x = 0; x < pipeline.width; ++x) {
-      const float z = depth[size_t(y) * size_t(pipeline.width) + size_t(x)];
-      if (z == pipeline.geometry.clear_depth) continue;
-      DepthBounds& b = bounds[size_t(y / tiles.tile) * size_t(tiles.columns) + size_t(x / tiles.tile)];
-      b.low = std::min(b.low, z);
-      b.high = std::max(b.high, z);
-    }
-  return bounds;
+/// Whether a light adds nothing to a surface that faces away from it.
+bool lights_faces_alone(const LightModel& m) {
+  return m.diffuse == Diffuse::clamped && m.order != TermOrder::with_ambient && (m.specular == Specular::none || m.specular_masked);
 }
 
 /// Lights of each tile, ascending.
 std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pipeline, const LightTiles& tiles,
-                                         const std::vector<DepthBounds>& bounds) {
+                                         const std::vector<TileSurface>& surfaces) {
   const GeometryState& g = pipeline.geometry;
   const Matrix4 m = projection_of(scene.camera, g, pipeline.width, pipeline.height);
   const Viewport v = resolved_viewport(g, pipeline.width, pipeline.height);
@@ -81,11 +70,12 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
   const double near = double(g.depth_near), far = double(g.depth_far);
   const double scale = zero_to_one ? far - near : (far - near) / 2, offset = zero_to_one ? near : (near + far) / 2;
   std::vector<std::array<Plane, 2>> depths;
-  for (const DepthBounds& b : bounds) {
+  for (const TileSurface& b : surfaces) {
     const double a = (double(b.low) - offset) / scale, c = (double(b.high) - offset) / scale;
     depths.push_back({clip_plane(m, 2, std::min(a, c), 1), clip_plane(m, 2, std::max(a, c), -1)});
   }
-  std::vector<std::vector<uint32_t>> out(bounds.size());
+  std::vector<std::vector<uint32_t>> out(surfaces.size());
+  const bool faces_alone = lights_faces_alone(pipeline.light_model);
   const bool ends = ends_at_range(pipeline.light_model.falloff) || limits_range(pipeline);
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -95,9 +85,14 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
     for (int row = y.begin; row < y.end; ++row)
       for (int column = x.begin; column < x.end; ++column) {
         const size_t tile = size_t(row) * size_t(tiles.columns) + size_t(column);
-        if (bounds[tile].low > bounds[tile].high) continue;
-        if (depths[tile][0].distance(light.position) > -radius && depths[tile][1].distance(light.position) > -radius)
-          out[tile].push_back(i);
+        const TileSurface& surface = surfaces[tile];
+        if (surface.low > surface.high) continue;
+        const bool reaches = depths[tile][0].distance(light.position) > -radius &&
+                             depths[tile][1].distance(light.position) > -radius && surface.within(light.position, radius);
+        if (reaches || !bounded) {
+          const bool placed = light.type >= LightType::point;
+          if (!faces_alone || !placed || surface.faces(light.position)) out[tile].push_back(i);
+        }
       }
   }
   return out;
@@ -105,16 +100,17 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
 
 }  // namespace
 
-LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth, int tile) {
+LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth,
+                       std::span<const uint16_t> normals, int tile) {
   LightTiles tiles;
   tiles.tile = tile;
   tiles.columns = (pipeline.width + tile - 1) / tile;
   tiles.rows = (pipeline.height + tile - 1) / tile;
-  const std::vector<DepthBounds> bounds = depth_bounds(tiles, pipeline, depth);
+  const std::vector<TileSurface> surfaces = tile_surfaces(scene, pipeline, depth, normals, tile);
   const std::vector<float> lights = light_records(scene, pipeline.light_model);
   const auto floats = size_t(4 * LightLayout(pipeline.light_model).texels());
   uint32_t next = 0;
-  for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, bounds)) {
+  for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, surfaces)) {
     tiles.first.push_back(next);
     tiles.count.push_back(uint32_t(list.size()));
     next += uint32_t(list.size());

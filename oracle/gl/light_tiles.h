@@ -9,7 +9,7 @@
 namespace trueshade::oracle {
 
 /// Lights by tile, as a clever user of OpenGL bins them on the CPU: a tile's list leaves out lights that reach nothing
-/// between its least and greatest depth.
+/// between its least and greatest depth, and, where only faces that look at a light are lit, those that none looks at.
 struct LightTiles {
   int tile = 32, columns = 0, rows = 0;  ///< pixels a side; tiles, row 0 at the bottom
   std::vector<uint32_t> first, count;    ///< a tile: where its records start, in lights, and how many
@@ -17,6 +17,8 @@ struct LightTiles {
 };
 
 /// `depth`: the stored depths, row 0 at the bottom, width * height; those equal to clear_depth hold no surface.
-LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth, int tile);
+/// `normals`: RGBA halves in the same order, or none.
+LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth,
+                       std::span<const uint16_t> normals, int tile);
 
 }  // namespace trueshade::oracle

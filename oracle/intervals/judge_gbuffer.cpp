@@ -60,6 +60,14 @@ class GBufferJudge {
     return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
   }
 
+  /// Whether a depth key is sure to pass the test against the clear value.
+  bool passes_clear(double key) const {
+    const GeometryState& g = pipeline_.geometry;
+    const bool equal_passes = g.depth_func == DepthFunc::lequal || g.depth_func == DepthFunc::gequal;
+    const double clear = clear_key(g);
+    return key < clear || (equal_passes && key == clear);
+  }
+
   bool is_clear(int x, int y) const {
     if (object_ && object_.stored(x, y, 0) != 0) return false;
     if (material_ && material_.stored(x, y, 0) != 0) return false;
@@ -230,7 +238,7 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
   if (is_clear(x, y_top)) {
     Match none;
-    const bool hidden = !clear_legal || patch_key(projector_, all, sx, sy) < HUGE_VAL;
+    const bool hidden = !clear_legal || passes_clear(patch_key(projector_, all, sx, sy));
     if (hidden) none.note("id.object", 0, {1, 1, 1}, 0, 1);
     row.take(x, y_top, hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal), none, name_of(nominal));
     return;

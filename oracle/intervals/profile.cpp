@@ -17,7 +17,7 @@ Profile d3d_class() {
   p.snap = SnapRule::nearest_0_6;
   p.fill = FillRule::unstated;  // top-left in memory: which way memory lies in a GL window is the driver's secret
   p.plane_origin = PlaneOrigin::snapped;
-  p.unorm_reach = 0.6;
+  p.unorm_reach = p.srgb_reach = 0.6;
   p.half = HalfStore::toward_zero;
   p.most_depth_unit = 1;  // 15.10
   p.max_norm_slope = true;
@@ -36,6 +36,7 @@ Profile llvmpipe() {
   p.fill = FillRule::left_low;
   p.plane_origin = PlaneOrigin::unsnapped;
   p.unorm_reach = 0.5;
+  p.srgb_reach = 0.67;  // 0.6608 in 4.7 million values (tests/intervals/srgb_targets.cpp)
   p.half = HalfStore::toward_zero;
   p.blend = BlendRule::mesa_codes;
   p.least_depth_unit = 2;
@@ -57,7 +58,7 @@ Profile ideal() {
   p.exact_vertices = p.exact_planes = true;
   p.clips_to_view = false;
   p.blend = BlendRule::float_once;
-  p.unorm_reach = 0.5;
+  p.unorm_reach = p.srgb_reach = 0.5;
   p.half = HalfStore::toward_zero;
   p.most_depth_unit = 1;
   p.max_norm_slope = true;

@@ -88,13 +88,11 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
     const double c = std::clamp(x, 0.0, 1.0);
     return 255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
   };
-  const bool exact = profile.exact_planes;
-  const double slack = profile.unorm_reach == 1.0 ? 0.002 : 0;
+  const double slack = profile.srgb_reach == 1.0 ? 0.002 : 0;
   const double low = scaled(r.low), high = scaled(r.high), value = scaled(r.value);
   LegalTexel t;
   t.nominal = std::nearbyint(value);
-  set_reach(t, std::max(0.0, low - slack), std::min(255.0, high + slack),
-            exact ? 0.5 : std::max(0.6, profile.unorm_reach), 255);
+  set_reach(t, std::max(0.0, low - slack), std::min(255.0, high + slack), profile.srgb_reach, 255);
   if (low < high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
   return t;
 }

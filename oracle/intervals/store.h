@@ -24,9 +24,8 @@ struct LegalTexel {
 
 /// What a channel of `format` may hold for an output in `range`.
 ///   Unorm: codes c with |c - largest x| <= reach (reach 1: < 1, GL 4.6 core 2.3.5.2), x clamped to [0, 1], the
-///   product's rounding to float included. sRGB: the same of the encoded value, but never less than 0.6 unless the
-///   profile is exact: drivers approximate the power (GL_RULES section 3), and GL's own exponent of 0.41666 (17.3.7) is
-///   0.002 off. Half: by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the
+///   product's rounding to float included. sRGB: the same of the encoded value with Profile::srgb_reach; GL's own exponent
+///   of 0.41666 (17.3.7) is 0.002 off. Half: by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the
 ///   same, but negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward
 ///   to floats.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);

@@ -1,5 +1,5 @@
 // GL_RULES rows 61, 63 and 64, and our own frames: what is judged must be explained, and nothing more be let through.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <cstring>
 

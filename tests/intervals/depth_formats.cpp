@@ -1,6 +1,6 @@
 // Depth buffers of every format, with and without polygon offset (GL_RULES sections 2 and 8, rows 20 to 26): frames of ours
 // and of llvmpipe are explained, wrong depths are not.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <cstdio>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "tests/intervals/drivers.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

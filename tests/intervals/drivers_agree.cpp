@@ -1,5 +1,5 @@
 // GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge explains it.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cstdio>
 
 #include "oracle/gl/renderer.h"

@@ -1,5 +1,5 @@
 // GL_RULES row 57 on real drivers: 256 x 128 pixels, N lights, shininess s, lighting judged from the driver's own planes.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <cstdio>
 

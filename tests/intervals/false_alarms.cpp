@@ -1,5 +1,5 @@
 // Images drawn by legal means of every kind must be accepted; and the bound of lighting must hold without being slack.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <iostream>
 
@@ -25,6 +25,12 @@ Liberties random_liberties(Pcg32& random) {
   l.turn_ties = random.below(2) == 0;
   l.any_neighbour = random.below(2) == 0;
   l.reverse_lights = random.below(2) == 0;
+  constexpr int weights[] = {0, 7, 8};
+  l.weight_bits = weights[random.below(3)];
+  l.decode_late = random.below(2) == 0;
+  l.any_level = random.below(2) == 0;
+  l.depth_unit = 1 + int(random.below(2));
+  l.slope_norm = random.between(0, 1);
   return l;
 }
 
@@ -51,6 +57,7 @@ int rejected(int count, uint64_t first_seed) {
     }
     alarms += alarm ? 1 : 0;
   }
+  std::printf("legal images: %d, %d rejected\n", count, alarms);
   return alarms;
 }
 

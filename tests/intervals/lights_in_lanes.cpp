@@ -1,6 +1,6 @@
 // Lights judged in lanes against the same lights judged one by one, operation by operation: no smaller a bound, hardly a
 // larger one, the same lights, on every SIMD target.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <cstdio>
 #include <string>

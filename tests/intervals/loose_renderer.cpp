@@ -13,110 +13,22 @@ namespace trueshade::testing {
 
 using oracle::Capture;
 
-float LooseFloat::round(double exact) {
-  const auto nearest = float(exact);
-  if (!any_ || double(nearest) == exact || !std::isfinite(nearest)) return nearest;
-  const float infinity = std::numeric_limits<float>::infinity();
-  const float other = std::nextafter(nearest, double(nearest) < exact ? infinity : -infinity);
-  return (random_.next() & 1) != 0 ? nearest : other;
-}
-
-float LooseFloat::off_by(double exact, double ulps) {
-  if (!any_ || exact == 0) return float(exact);
-  const double ulp = std::ldexp(1.0, std::ilogb(exact) - 23);
-  // Half an ulp of the allowance is left for this rounding itself.
-  return float(exact + ulp * (ulps - 0.5) * random_.between(-1, 1));
-}
-
-float LooseFloat::mad(float a, float b, float c) {
-  if (any_ && (random_.next() & 1) != 0) return round(double(a) * double(b) + double(c));
-  return add(mul(a, b), c);
-}
-float LooseFloat::div(float a, float b) { return off_by(double(a) / double(b), 2.5); }
-float LooseFloat::inverse_sqrt(float x) { return off_by(1 / std::sqrt(double(x)), 2); }
-float LooseFloat::sqrt(float x) { return x == 0 ? 0 : any_ ? div(1, inverse_sqrt(x)) : float(std::sqrt(double(x))); }
-
-float LooseFloat::pow(float x, float y) {
-  if (y == 0) return 1;
-  if (x == 0) return 0;
-  const double exact = std::log2(double(x));
-  float log2_x = float(exact);
-  if (any_) log2_x = x >= 0.5f && x <= 2 ? float(exact + (0x1p-21 - 0x1p-24) * random_.between(-1, 1)) : off_by(exact, 3);
-  const float e = mul(y, log2_x);
-  return off_by(std::exp2(double(e)), 3 + 2 * std::fabs(double(e)));
-}
-
-float LooseFloat::dot(const float a[3], const float b[3]) {
-  std::array<int, 3> order = {0, 1, 2};
-  if (any_)
-    for (int i = 2; i > 0; --i) std::swap(order[size_t(i)], order[size_t(random_.below(uint32_t(i) + 1))]);
-  const float first = mul(a[order[0]], b[order[0]]);
-  return mad(a[order[2]], b[order[2]], mad(a[order[1]], b[order[1]], first));
-}
-
-void LooseFloat::unit(const float in[3], float out[3]) {
-  const float l2 = dot(in, in), r = l2 > 0 ? inverse_sqrt(l2) : 0;
-  for (int k = 0; k < 3; ++k) out[k] = mul(in[k], r);
-}
-
-void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, bool reverse, const float position[3],
-                 const float normal[3], const float albedo[3], float color[3]) {
-  float n[3] = {normal[0], normal[1], normal[2]}, to_eye[3], v[3], sum[3] = {0, 0, 0};
-  if (model.renormalize) f.unit(normal, n);
-  for (int k = 0; k < 3; ++k) to_eye[k] = f.sub(scene.camera.eye[k], position[k]);
-  f.unit(to_eye, v);
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[reverse ? scene.lights.size() - 1 - i : i];
-    if (light.type == LightType::ambient) {
-      for (int k = 0; k < 3; ++k) sum[k] = f.mad(albedo[k], light.color[k], sum[k]);
-      continue;
-    }
-    float l[3], falloff = 1;
-    if (light.type == LightType::directional) {
-      for (int k = 0; k < 3; ++k) l[k] = -light.direction[k];
-    } else {
-      float d[3];
-      for (int k = 0; k < 3; ++k) d[k] = f.sub(light.position[k], position[k]);
-      const float length = f.sqrt(f.dot(d, d));
-      f.unit(d, l);
-      if (model.falloff == Falloff::linear_range)
-        falloff = std::max(0.0f, f.sub(1, f.div(length, light.range)));
-      else
-        falloff = f.div(1, f.mad(f.mul(light.attenuation.z, length), length, f.mad(light.attenuation.y, length, 1)));
-    }
-    const float n_l = f.dot(n, l), c = std::max(n_l, 0.0f);
-    if (model.specular_masked && !(n_l > 0)) continue;
-    float h[3], unit_h[3];
-    for (int k = 0; k < 3; ++k) h[k] = f.add(l[k], v[k]);
-    f.unit(h, unit_h);
-    const float s = f.pow(std::max(f.dot(n, unit_h), 0.0f), model.shininess);
-    for (int k = 0; k < 3; ++k) {
-      const float strength = f.mul(light.color[k], falloff), ks = model.specular_color[k];
-      if (model.order == TermOrder::factored)
-        sum[k] = f.mad(f.mad(albedo[k], c, f.mul(ks, s)), strength, sum[k]);
-      else
-        sum[k] = f.add(sum[k], f.add(f.mul(f.mul(f.mul(c, albedo[k]), light.color[k]), falloff), f.mul(f.mul(f.mul(light.color[k], s), ks), falloff)));
-    }
-  }
-  for (int k = 0; k < 3; ++k) color[k] = sum[k];
-}
-
 namespace {
 
 struct LooseVertex {
   float x, y, plane_x, plane_y, z, u;
-  float attribute[10];  ///< world position, normal, albedo RGBA
+  float attribute[12];  ///< world position, normal, albedo RGBA, uv
 };
 
 class Drawing {
  public:
   Drawing(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed)
-      : scene_(scene), pipeline_(pipeline), free_(liberties), f_(seed, liberties.any_rounding),
+      : scene_(scene), pipeline_(pipeline), free_(liberties), f_(seed, liberties.any_rounding), textures_(scene, liberties),
         projection_(oracle::projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
     const int w = pipeline.width, h = pipeline.height;
     capture_.color = Image(w, h, pipeline.target);
     for (const auto& [name, format] : {std::pair<const char*, Format>{"depth", Format::d32f}, {"position", Format::rgba32f},
-                                       {"normal", Format::rgba32f}, {"albedo", Format::rgba8}, {"id.object", Format::r32ui}})
+                                       {"normal", pipeline.gbuffer.normal.format}, {"albedo", Format::rgba8}, {"id.object", Format::r32ui}})
       capture_.planes.push_back({name, Image(w, h, format)});
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) put(0, x, y, 0, 1.0f);
@@ -126,7 +38,11 @@ class Drawing {
     for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
       const std::vector<uint32_t>& indices = scene_.meshes[scene_.instances[i].mesh].indices;
       std::vector<LooseVertex> vertices;
-      for (uint32_t v = 0; v < scene_.meshes[scene_.instances[i].mesh].vertex_count(); ++v) vertices.push_back(vertex(scene_.instances[i], v));
+      const Mesh& mesh = scene_.meshes[scene_.instances[i].mesh];
+      for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        vertices.push_back(vertex(scene_.instances[i], v));
+        share_place(mesh, v, vertices);
+      }
       for (size_t t = 0; t + 2 < indices.size(); t += 3)
         triangle(i, {&vertices[indices[t]], &vertices[indices[t + 1]], &vertices[indices[t + 2]]});
     }
@@ -141,6 +57,19 @@ class Drawing {
 
   float row(const float m[4], const float p[3]) {  // four terms, contracted or not
     return f_.mad(m[0], p[0], f_.mad(m[1], p[1], f_.mad(m[2], p[2], m[3])));
+  }
+
+  /// Vertices of one position are one in the window: the same shader, the same input (GL 4.6, appendix A, rule 4).
+  static void share_place(const Mesh& mesh, uint32_t v, std::vector<LooseVertex>& vertices) {
+    for (uint32_t earlier = 0; earlier < v; ++earlier) {
+      bool same = true;
+      for (size_t k = 0; k < 3; ++k) same = same && mesh.position[k][earlier] == mesh.position[k][v];
+      if (!same) continue;
+      const LooseVertex& first = vertices[earlier];
+      LooseVertex& now = vertices[v];
+      now.x = first.x, now.y = first.y, now.plane_x = first.plane_x, now.plane_y = first.plane_y, now.z = first.z, now.u = first.u;
+      return;
+    }
   }
 
   LooseVertex vertex(const Instance& instance, uint32_t index) {
@@ -172,6 +101,7 @@ class Drawing {
     }
     normal_of(instance, mesh, index, v.attribute + 3);
     for (size_t k = 0; k < 4; ++k) v.attribute[6 + k] = mesh.has_color() ? mesh.color[k][index] : 1;
+    for (size_t k = 0; k < 2 && !mesh.uv[0].empty(); ++k) v.attribute[10 + k] = mesh.uv[k][index];
     return v;
   }
 
@@ -224,37 +154,93 @@ class Drawing {
     if (area == 0) return;
     const float z[3] = {v[0]->z, v[1]->z, v[2]->z}, u[3] = {v[0]->u, v[1]->u, v[2]->u};
     const Plane depth = plane(v, z), divisor = plane(v, u);
-    std::array<Plane, 10> planes{};
-    for (size_t k = 0; k < 10; ++k) {
+    std::array<Plane, 12> planes{};
+    for (size_t k = 0; k < 12; ++k) {
       const float n[3] = {f_.mul(v[0]->attribute[k], u[0]), f_.mul(v[1]->attribute[k], u[1]), f_.mul(v[2]->attribute[k], u[2])};
       planes[k] = plane(v, n);
     }
-    const glm::vec4 tint = scene_.materials[scene_.instances[instance].material].base_color;
+    const Material& material = scene_.materials[scene_.instances[instance].material];
     for (int y = 0; y < pipeline_.height; ++y)
       for (int x = 0; x < pipeline_.width; ++x) {
         const float sx = float(x) + 0.5f, sy = float(pipeline_.height - 1 - y) + 0.5f;
         if (!inside(v, area, double(sx), double(sy))) continue;
-        const float d = std::clamp(at(depth, sx, sy), 0.0f, 1.0f);
+        const float d = stored_depth(depth, z, sx, sy);
         if (!(d < get(0, x, y, 0))) continue;
         put(0, x, y, 0, d);
+        std::array<float, 4> texel{1, 1, 1, 1};
+        if (material.color_map.used()) texel = textures_.texel(f_, material.color_map, place(planes, divisor, sx, sy));
         for (int k = 0; k < 10; ++k) {
           const float a = f_.div(at(planes[size_t(k)], sx, sy), at(divisor, sx, sy));
-          if (k < 6)
-            put(k < 3 ? 1 : 2, x, y, k % 3, a);
+          if (k < 3)
+            put(1, x, y, k, a);
+          else if (k < 6)
+            store(capture_.planes[2].image, x, y, k - 3, a);
           else
-            capture_.planes[3].image.texel(x, y)[k - 6] = code(f_.mul(a, tint[k - 6]));
+            store(capture_.planes[3].image, x, y, k - 6,
+                  f_.mul(material.color_map.used() ? f_.mul(a, texel[size_t(k - 6)]) : a, material.base_color[k - 6]));
         }
         put(1, x, y, 3, 1);
-        put(2, x, y, 3, 1);
+        store(capture_.planes[2].image, x, y, 3, 1);
         const uint32_t id = instance + 1;
         std::memcpy(capture_.planes[4].image.texel(x, y), &id, 4);
       }
   }
 
-  uint8_t code(float v) {
-    const double scaled = std::clamp(double(v), 0.0, 1.0) * 255;
-    if (free_.any_neighbour) return uint8_t((f_.random().next() & 1) != 0 ? std::floor(scaled) : std::ceil(scaled));
-    return uint8_t(std::nearbyint(scaled));
+  /// Where a lookup is, and the change to a neighbour in its quad: to the right and up, or from the left and below.
+  oracle::TexturePlace place(const std::array<Plane, 12>& planes, const Plane& divisor, float x, float y) {
+    const float next = (f_.random().next() & 1) != 0 ? 1.0f : -1.0f;
+    float uv[3][2];
+    for (int at_pixel = 0; at_pixel < 3; ++at_pixel)
+      for (size_t k = 0; k < 2; ++k) {
+        const float px = at_pixel == 1 ? x + next : x, py = at_pixel == 2 ? y + next : y;
+        uv[at_pixel][k] = f_.div(at(planes[10 + k], px, py), at(divisor, px, py));
+      }
+    const auto change = [&](int pixel, int k) { return (static_cast<long double>(uv[pixel][k]) - static_cast<long double>(uv[0][k])) * static_cast<long double>(next); };
+    return {uv[0][0], uv[0][1], change(1, 0), change(1, 1), change(2, 0), change(2, 1)};
+  }
+
+  /// Offset, clamped, and in fixed point a neighbour of its value.
+  float stored_depth(const Plane& plane, const float z[3], float x, float y) {
+    const GeometryState& g = pipeline_.geometry;
+    float d = at(plane, x, y);
+    const double codes = g.depth_format == Format::d32f ? 0 : double(info(g.depth_format).largest_code(0));
+    if (g.polygon_offset_factor != 0 || g.polygon_offset_units != 0) {
+      const double gx = std::fabs(double(plane.gx)), gy = std::fabs(double(plane.gy)), larger = std::max(gx, gy);
+      const double m = larger + free_.slope_norm * (std::hypot(gx, gy) - larger);
+      const double deepest = double(std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])}));
+      const double r = codes > 0 ? free_.depth_unit / codes : std::ldexp(1.0, std::ilogb(deepest) - 23);
+      d = f_.add(d, f_.mad(float(m), g.polygon_offset_factor, float(r * double(g.polygon_offset_units))));
+    }
+    d = std::clamp(d, 0.0f, 1.0f);
+    return codes > 0 ? float(neighbour(double(d) * codes) / codes) : d;
+  }
+
+  double neighbour(double scaled) {
+    if (free_.any_neighbour) return (f_.random().next() & 1) != 0 ? std::floor(scaled) : std::ceil(scaled);
+    return std::nearbyint(scaled);
+  }
+
+  /// One channel, as its format may store it.
+  void store(Image& image, int x, int y, int channel, float v) {
+    const FormatInfo layout = info(image.format);
+    if (layout.number_class == NumberClass::unorm) {
+      double value = std::clamp(double(v), 0.0, 1.0);
+      if (layout.srgb_channel(channel)) value = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+      image.set_code(x, y, channel, uint32_t(neighbour(value * double(layout.largest_code(channel)))));
+      return;
+    }
+    uint32_t bits = 0;
+    if (layout.small_float()) {
+      const double size = std::min(std::fabs(double(v)), 65504.0);  // the largest; infinity is legal, too
+      const int exponent = size == 0 ? -14 : std::max(std::ilogb(size), -14);
+      const double units = std::ldexp(size, 10 - exponent);  // 10 bits of fraction; 2^10 and up but for denormals
+      const bool cuts = !free_.any_neighbour || (f_.random().next() & 1) != 0;
+      bits = uint32_t(cuts ? std::floor(units) : std::ceil(units)) + uint32_t(exponent + 14) * 1024;
+      if (std::signbit(v)) bits |= 0x8000;
+    } else {
+      std::memcpy(&bits, &v, sizeof bits);
+    }
+    image.set_code(x, y, channel, bits);
   }
 
   void light(int x, int y) {
@@ -262,18 +248,14 @@ class Drawing {
     float position[3], normal[3], albedo[3], color[4] = {0, 0, 0, 1};
     for (int k = 0; k < 3; ++k) position[k] = get(1, x, y, k), normal[k] = get(2, x, y, k), albedo[k] = f_.div(float(capture_.planes[3].image.texel(x, y)[k]), 255);
     loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, position, normal, albedo, color);
-    for (int k = 0; k < 4; ++k) {
-      if (pipeline_.target == Format::rgba8)
-        capture_.color.texel(x, y)[k] = code(color[k]);
-      else
-        std::memcpy(capture_.color.texel(x, y) + 4 * k, color + k, 4);
-    }
+    for (int k = 0; k < 4; ++k) store(capture_.color, x, y, k, color[k]);
   }
 
   const Scene& scene_;
   const Pipeline& pipeline_;
   const Liberties free_;
   LooseFloat f_;
+  const LooseTextures textures_;
   const Matrix4 projection_;
   Capture capture_;
 };

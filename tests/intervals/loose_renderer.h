@@ -1,8 +1,13 @@
 #pragma once
 // A renderer that takes every liberty OpenGL gives: rounding up or down at random, sums in any order, contraction or not,
 // divisions and roots off by the ulps GLSL allows, any subpixel grid, planes from snapped or unsnapped vertices, any fill
-// rule. Independent of the renderer and of the judge; small scenes only, nothing may cross the near or far plane.
+// rule, either neighbour in every store, textures of few weight bits and any legal level. Independent of the renderer and
+// of the judge; small scenes only, nothing may cross the near or far plane.
+#include <array>
+#include <vector>
+
 #include "oracle/capture.h"
+#include "oracle/texture_lookup.h"
 #include "scenes/pcg32.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
@@ -14,8 +19,13 @@ struct Liberties {
   int subpixel_bits = 8;       ///< 0: vertices are not snapped
   bool snapped_planes = false;
   bool turn_ties = false;      ///< samples on an edge belong to the other side
-  bool any_neighbour = false;  ///< unorm stores take either neighbour
+  bool any_neighbour = false;  ///< stores of unorm, half, sRGB and fixed-point depth take either neighbour
   bool reverse_lights = false;
+  int weight_bits = 0;         ///< of texture filters; 0: exact
+  bool decode_late = false;    ///< sRGB textures are filtered in 8 bits, then decoded
+  bool any_level = false;      ///< rho anywhere between OpenGL's limits, else the longer gradient
+  int depth_unit = 1;          ///< codes of fixed-point depth that a unit of polygon offset is
+  double slope_norm = 0;       ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
 };
 
 /// Arithmetic that errs as GLSL 4.60, 4.7.1 allows.
@@ -45,7 +55,21 @@ class LooseFloat {
 void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, bool reverse, const float position[3],
                  const float normal[3], const float albedo[3], float color[3]);
 
-/// The whole capture: depth, position, normal (rgba32f), albedo (rgba8), id.object and the target in the pipeline's format.
+/// Texels as a lookup may give them.
+class LooseTextures {
+ public:
+  LooseTextures(const Scene& scene, const Liberties& liberties);
+  /// u_dx, v_dx, u_dy, v_dy: change to the next pixel. Of a slot that is used.
+  std::array<float, 4> texel(LooseFloat& f, const TextureSlot& slot, const oracle::TexturePlace& place) const;
+
+ private:
+  const Scene& scene_;
+  const Liberties free_;
+  std::vector<Texture> encoded_;  ///< sRGB textures as if they were not
+};
+
+/// The whole capture: depth, position, normal, albedo (rgba8), id.object and the target; normal, depth and target in the
+/// pipeline's formats (targets: rgba8, srgb8_a8, rgba16f, rgba32f).
 oracle::Capture loose_frame(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed);
 
 }  // namespace trueshade::testing

@@ -1,7 +1,7 @@
 // Fifty-six wrong renderers: each must be rejected wherever it leaves a legal set.
 #include "oracle/intervals/mutants.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cstdio>
 #include <map>
 #include <set>

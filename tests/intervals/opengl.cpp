@@ -1,5 +1,5 @@
 // A real driver judged: GL_RULES rows 62 and 63. Skipped, saying why, where there is no such driver.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cstdio>
 #include <memory>
 

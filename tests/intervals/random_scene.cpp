@@ -1,14 +1,46 @@
 #include "tests/intervals/random_scene.h"
 
 #include "scenes/shapes.h"
+#include "scenes/texture_pattern.h"
 
 namespace trueshade::testing {
+
+namespace {
+
+/// Of every format, wrap and filter, on all meshes; the first material has none.
+void add_textures(Scene& scene, Pcg32& random) {
+  for (Mesh& mesh : scene.meshes)
+    for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+      mesh.uv[0].resize(mesh.vertex_count()), mesh.uv[1].resize(mesh.vertex_count());
+      mesh.uv[0][v] = mesh.position[0][v] + 0.37f * mesh.position[1][v];
+      mesh.uv[1][v] = mesh.position[2][v] - 0.21f * mesh.position[1][v];
+    }
+  for (int k = 1; k < 3; ++k) {
+    TexturePattern p;
+    p.pattern = Pattern(random.below(3));
+    p.width = 16 << random.below(2), p.height = 12 + int(random.below(30));
+    p.columns = p.rows = 4;
+    p.format = TextureFormat(random.below(4));
+    p.colors = {glm::vec4(random.between(0, 1), random.between(0, 1), random.between(0, 1), 1), glm::vec4(random.between(0, 1), 0.1f, 0.4f, 0.5f)};
+    scene.textures.push_back(texture_of(p));
+    build_mip_chain(scene.textures.back());
+    Material& m = scene.materials[size_t(k)];
+    m.color_map.texture = k - 1;
+    Sampler& s = m.color_map.sampler;
+    s.wrap = {Wrap(random.below(5)), Wrap(random.below(5))};
+    s.mag_filter = Filter(random.below(2)), s.min_filter = Filter(random.below(2)), s.mip_filter = MipFilter(random.below(3));
+    s.lod_bias = random.below(4) == 0 ? -0.75f : 0.0f;
+  }
+}
+
+}  // namespace
 
 Scene random_scene(Pcg32& random) {
   Scene scene;
   scene.spec = "random";
   scene.meshes = {cube_mesh(), sphere_mesh(2), plane_mesh(2)};
   for (int k = 0; k < 3; ++k) scene.materials.push_back({"", {random.between(0, 1), random.between(0, 1), random.between(0, 1), 1}});
+  if (random.below(2) == 0) add_textures(scene, random);
   const uint32_t objects = 2 + random.below(5);
   for (uint32_t i = 0; i < objects; ++i) {
     Instance instance{random.below(3), random.below(3), {}};
@@ -20,11 +52,14 @@ Scene random_scene(Pcg32& random) {
   const uint32_t lights = random.below(6);
   for (uint32_t i = 0; i < lights; ++i) {
     Light light;
-    light.type = random.below(5) == 0 ? LightType::directional : LightType::point;
+    constexpr LightType kinds[] = {LightType::directional, LightType::spot, LightType::spot, LightType::point, LightType::point, LightType::point};
+    light.type = kinds[random.below(6)];
     light.position = {random.between(-2, 2), random.between(-2, 2), random.between(-1, 4)};
     light.direction = {0.0f, -0.6f, -0.8f};
     light.color = {random.between(0, 0.6), random.between(0, 0.6), random.between(0, 0.6)};
     light.range = float(random.between(1, 6));
+    light.cone_rad = float(random.between(0.2, 1)), light.penumbra_rad = float(random.between(0.05, 0.5));
+    light.spot_exponent = float(random.below(20));
     light.attenuation = {1.0f, float(random.between(0, 1)), float(random.between(0, 1))};
     scene.lights.push_back(light);
   }
@@ -43,9 +78,22 @@ Pipeline random_pipeline(Pcg32& random) {
   p.light_model.shininess = shininess[random.below(5)];
   p.light_model.renormalize = random.below(2) == 0;
   p.light_model.specular_masked = random.below(2) == 0;
-  p.light_model.falloff = random.below(2) == 0 ? Falloff::linear_range : Falloff::quadratic;
-  p.light_model.order = random.below(2) == 0 ? TermOrder::factored : TermOrder::separate;
-  p.target = random.below(2) == 0 ? Format::rgba8 : Format::rgba32f;
+  constexpr Falloff falloffs[] = {Falloff::linear_range, Falloff::linear_range, Falloff::quadratic, Falloff::none, Falloff::linear,
+                                  Falloff::attenuation, Falloff::inverse_square};
+  constexpr TermOrder orders[] = {TermOrder::factored, TermOrder::separate, TermOrder::albedo_last};
+  constexpr Format targets[] = {Format::rgba8, Format::rgba32f, Format::rgba16f, Format::srgb8_a8};
+  constexpr Format depths[] = {Format::d32f, Format::d32f, Format::d24, Format::d16};
+  p.light_model.falloff = falloffs[random.below(7)];
+  p.light_model.order = orders[random.below(3)];
+  p.light_model.cone = Cone(random.below(5));
+  if (random.below(4) == 0) p.light_model.specular_source = SpecularSource::albedo;
+  p.target = targets[random.below(4)];
+  if (random.below(2) == 0) p.gbuffer.normal.format = Format::rgba16f;
+  p.geometry.depth_format = depths[random.below(4)];
+  if (random.below(4) == 0) {
+    p.geometry.polygon_offset_factor = float(random.between(-2, 2));
+    p.geometry.polygon_offset_units = float(random.between(-20, 20));
+  }
   return p;
 }
 

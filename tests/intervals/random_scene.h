@@ -6,10 +6,12 @@
 
 namespace trueshade::testing {
 
-/// A few boxes and balls before the camera, small triangles and large, with lights among them.
+/// A few boxes and balls before the camera, small triangles and large, with point, spot and directional lights among them;
+/// half of the scenes are textured.
 Scene random_scene(Pcg32& random);
 
-/// 32 x 24 pixels, any of the light models, target rgba8 or rgba32f.
+/// 32 x 24 pixels, any falloff, cone and order of terms; target in 8 bits, sRGB, half or float, normals in half or float,
+/// depth in 16, 24 or 32 bits, a quarter of them offset.
 Pipeline random_pipeline(Pcg32& random);
 
 }  // namespace trueshade::testing

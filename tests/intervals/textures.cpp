@@ -1,6 +1,6 @@
 // Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups do
 // not.
-#include <catch2/catch.hpp>
+#include "tests/catch.hpp"
 #include <cmath>
 #include <cstdio>
 #include <cstring>
