@@ -43,7 +43,8 @@ struct Surfaces {
     bound_by_extents(lights, scene.lights, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
     groups = make_light_groups(lights, 1);
     if (blends_lights(pipeline.strategy)) outlines = make_light_outlines(scene.lights, pipeline, meshes, view, 1);
-    const ClusterBins bins = bin_clusters(scene, prepared.clusters(), view, kTile, true, 1);
+    ClusterBins bins;
+    bin_clusters(scene, prepared.clusters(), view, kTile, true, 1, bins);
     const auto visible = std::make_unique<VisibilityTile>();
     VisibleVertices vertices;
     for (int i = 0; i < int(bins.first.size()) - 1; ++i) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bench/schedule.h"
 #include "cli/bench.h"
 #include "cli/json_text.h"
 #include "cli/version.h"
@@ -25,6 +26,24 @@ double per(double value, uint64_t count) { return count == 0 ? 0.0 : value / dou
 /// ns of one core per pixel-light computed, and million triangles submitted a second.
 double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e6, s.stats.evaluated_pixel_lights); }
 double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
+
+constexpr int kMoreCores[] = {2, 4, 8, 16, 32, 64};
+
+/// How much faster than one core the measured frame would be on `cores`, if what precedes the tiles gained nothing.
+double scheduled_speedup(const FrameStats& f, int cores) {
+  const double one = f.before_tiles_ms + scheduled_ms(f.tile_ms, 1);
+  return one / (f.before_tiles_ms + scheduled_ms(f.tile_ms, cores));
+}
+
+std::string schedule_text(const FrameStats& f) {
+  std::string text = "  before the tiles " + number(f.before_tiles_ms, "%.2f") + " ms, " +
+                     std::to_string(f.tile_ms.size()) + " tiles, the dearest " +
+                     number(*std::max_element(f.tile_ms.begin(), f.tile_ms.end()), "%.2f") +
+                     " ms; scheduled by these costs:";
+  for (const int cores : kMoreCores)
+    text += ' ' + std::to_string(cores) + " cores " + number(scheduled_speedup(f, cores), "%.1fx");
+  return text + '\n';
+}
 
 std::string time_row(const std::string& who, const Timing& t, const std::string& ratio) {
   char line[256];
@@ -86,7 +105,12 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   json.put("evaluated_pixel_lights", f.evaluated_pixel_lights).put("tile_pixel_lights", f.tile_pixel_lights);
   json.put("ns_per_pixel_light", ns_per_pixel_light(s)).put("million_triangles_per_s", million_triangles_per_s(s));
   json.put("floor_ms", floor_ms(s, bench)).put("share_of_floor", floor_ms(s, bench) / s.timing.median());
-  json.put("peak_mib", s.peak_mib);
+  json.put("peak_mib", s.peak_mib).put("before_tiles_ms", f.before_tiles_ms);
+  JsonArray tiles, speedups;
+  for (const double ms : f.tile_ms) tiles.add_raw(number(ms, "%.4f"));
+  for (const int cores : kMoreCores)
+    speedups.add_raw(JsonObject().put("cores", cores).put("speedup", scheduled_speedup(f, cores)).text());
+  json.put_raw("tile_ms", tiles.text()).put_raw("scheduled", speedups.text());
   return json.put_raw("peers", peers.text()).text();
 }
 
@@ -117,7 +141,9 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
           std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) + " pixels covered; " +
           std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
-          number(s.peak_mib, "%.0f") + " MiB at most\n";
+          number(s.peak_mib, "%.0f") + " MiB at most, " + number(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") +
+          " bytes a triangle, " + number(per(s.peak_mib * 1048576.0, f.pixels), "%.0f") + " a pixel\n";
+  text += schedule_text(f);
   for (const std::string& about : s.peers_about) text += "  " + about + "\n";
   return text;
 }

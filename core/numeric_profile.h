@@ -30,7 +30,8 @@ constexpr std::optional<NumericProfile> profile_from_name(std::string_view name)
 /// Whether a profile promises the bits of a colour target of that format. What it does not promise, it refuses.
 constexpr bool profile_has(NumericProfile profile, Format target) {
   if (profile == NumericProfile::ideal) return true;
-  constexpr Format kPromised[] = {Format::rgba8, Format::rgba16, Format::r11g11b10f, Format::rgba16f, Format::rgba32f};
+  constexpr Format kPromised[] = {Format::rgba8,      Format::rgb10_a2, Format::rgba16,
+                                  Format::r11g11b10f, Format::rgba16f,  Format::rgba32f};
   for (const Format format : kPromised)
     if (format == target) return true;
   return false;

@@ -167,16 +167,25 @@ float blended_value(const BlendTerm& term, size_t c, const Operands<float>& in, 
   }
 }
 
+/// llvmpipe's codes of 16 bits for those of 10 and 2, by repeating their bits; and back, not to the nearest.
+int widened(int code, int bits) { return bits == 10 ? code << 6 | code >> 4 : bits == 2 ? code * 0x5555 : code; }
+int narrowed(int code, int bits) {
+  return bits == 10 ? code >> 6 : bits == 2 ? ((code >> 2) * 3 + (1 << 13)) >> 14 : code;
+}
+
 Rgba blended_codes(const BlendState& state, Format format, const Rgba& source, const Rgba& stored) {
-  const int bits = unorm_bits(format, 0), largest = (1 << bits) - 1;
+  const int bits = format == Format::rgb10_a2 ? 16 : unorm_bits(format, 0), largest = (1 << bits) - 1;
   Operands<int> in{{}, {}, {}, largest};
   Rgba out;
   for (size_t c = 0; c < 4; ++c) {
     in.source[c] = code_of(source[c], largest);
-    in.destination[c] = int(stored[c]);
+    in.destination[c] = widened(int(stored[c]), unorm_bits(format, c));
     in.constant[c] = code_of(state.constant[c], largest);
   }
-  for (size_t c = 0; c < 4; ++c) out[c] = float(blended_code(c == 3 ? state.alpha : state.rgb, c, in, bits));
+  for (size_t c = 0; c < 4; ++c) {
+    const int code = state.enabled ? blended_code(c == 3 ? state.alpha : state.rgb, c, in, bits) : in.source[c];
+    out[c] = float(narrowed(code, unorm_bits(format, c)));
+  }
   return out;
 }
 
@@ -243,9 +252,10 @@ Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format forma
   const BlendState state = rewritten ? without_alpha(given) : given;
   const bool unorm = unorm_bits(format, 0) > 0;
   const bool codes = unorm && profile != NumericProfile::ideal;
-  Rgba out = !state.enabled ? source
-             : codes        ? blended_codes(state, format, source, stored)
-                            : blended_values(state, profile, format, source, stored);
+  const bool wide = codes && format == Format::rgb10_a2;  // stored by way of wider codes too
+  Rgba out = !state.enabled && !wide ? source
+             : codes                 ? blended_codes(state, format, source, stored)
+                                     : blended_values(state, profile, format, source, stored);
   for (size_t c = 0; c < 4; ++c) {
     const BlendTerm& term = c == 3 ? state.alpha : state.rgb;
     if (!state.mask[c] || (c == 3 && !has_alpha(format))) {
@@ -256,7 +266,7 @@ Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format forma
     const bool accumulates = unorm && !codes && state.enabled && term == kAccumulate && !is_srgb(format, c);
     if (accumulates)
       out[c] = std::fmin(float(largest), stored[c] + float(code_of(source[c], largest)));
-    else if (unorm && !(codes && state.enabled))
+    else if (unorm && !(codes && state.enabled) && !wide)
       out[c] = float(is_srgb(format, c) ? srgb_code_of(out[c]) : code_of(out[c], largest));
     else if (!unorm)
       out[c] = small_of(out[c], format, c, half_round);

@@ -13,6 +13,8 @@ struct ClusterBins {
   std::vector<ClusterDraw> draws;  ///< ascending by instance, then cluster
   std::vector<uint64_t> first;     ///< tiles_x * tiles_y + 1 offsets into `list`; tile (x, y) is y * tiles_x + x, y up
   std::vector<uint32_t> list;      ///< into `draws`, ascending in each tile
+  std::vector<std::vector<ClusterDraw>> chunk;  ///< scratch, kept from frame to frame like the rest
+  std::vector<uint64_t> next;                   ///< scratch
 
   std::span<const uint32_t> tile_list(int index) const {
     return {list.data() + first[size_t(index)], size_t(first[size_t(index) + 1] - first[size_t(index)])};
@@ -20,8 +22,8 @@ struct ClusterBins {
 };
 
 /// Conservative: a cluster is left out of a tile only if none of its fragments can fall there. Without `culling` every
-/// cluster is in every tile of the viewport.
-ClusterBins bin_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile, bool culling,
-                         int threads);
+/// cluster is in every tile of the viewport. `bins` may be those of any frame before: their memory is used again.
+void bin_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile, bool culling,
+                  int threads, ClusterBins& bins);
 
 }  // namespace trueshade

@@ -29,7 +29,10 @@ class Builder {
       ++current_.triangles;
     }
     finish();
+    for (size_t c = 0; c < 3; ++c) add_box(c, least_[c], greatest_[c]);
     for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
+    for (auto* ends : {&out_.boxes.center, &out_.boxes.half_size})
+      for (auto& stream : *ends) stream.resize(stream.size() + kBoxSlack);
     return std::move(out_);
   }
 
@@ -61,6 +64,12 @@ class Builder {
     return local_[vertex];
   }
 
+  void add_box(size_t axis, float low, float high) {
+    const float center = low * 0.5f + high * 0.5f, half = std::max(high - center, center - low);
+    out_.boxes.center[axis].push_back(center);
+    out_.boxes.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
+  }
+
   void finish() {
     if (current_.triangles == 0) return;
     while (out_.vertex.size() % 16 != 0) out_.vertex.push_back(out_.vertex.back());
@@ -73,15 +82,21 @@ class Builder {
         low = std::min(low, value);
         high = std::max(high, value);
       }
-      current_.center[c] = low * 0.5f + high * 0.5f;
-      const float half = std::max(high - current_.center[c], current_.center[c] - low);
-      current_.half_size[c] = half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min();
+      add_box(c, low, high);
+      least_[c] = std::min(least_[c], low);
+      greatest_[c] = std::max(greatest_[c], high);
     }
+    for (size_t c = 0; c < 4 && mesh_.has_color(); ++c)
+      for (size_t i = current_.first_vertex; i < out_.vertex.size(); ++i)
+        out_.color[c].push_back(mesh_.color[c][out_.vertex[i]]);
     out_.clusters.push_back(current_);
   }
 
   const Mesh& mesh_;
   ClusteredMesh out_;
+  static constexpr size_t kBoxSlack = 16;
+  static constexpr float kMost = std::numeric_limits<float>::max();
+  float least_[3] = {kMost, kMost, kMost}, greatest_[3] = {-kMost, -kMost, -kMost};
   Cluster current_{};
   uint32_t stamp_ = 0;
   std::vector<uint32_t> seen_in_;

@@ -13,17 +13,23 @@ inline constexpr size_t kCornerSlack = 64;  ///< zeros after the last triangle's
 
 /// A run of consecutive triangles of a mesh that share at most 64 vertices: the unit of culling and binning.
 struct Cluster {
-  uint32_t first_vertex;          ///< into ClusteredMesh's vertex streams; a multiple of 16
-  uint32_t first_triangle;        ///< of the mesh, in submission order; also into ClusteredMesh::corner
-  uint16_t vertices;              ///< 1..64; the streams go on with copies of the last vertex up to a multiple of 16
-  uint16_t triangles;             ///< 1..126
-  float center[3], half_size[3];  ///< object-space box; half sizes rounded up
+  uint32_t first_vertex;    ///< into ClusteredMesh's vertex streams; a multiple of 16
+  uint32_t first_triangle;  ///< of the mesh, in submission order; also into ClusteredMesh::corner
+  uint16_t vertices;        ///< 1..64; the streams go on with copies of the last vertex up to a multiple of 16
+  uint16_t triangles;       ///< 1..126
+};
+
+/// Object-space boxes, a lane each; vectors may read on past the last.
+struct ClusterBoxes {
+  std::array<std::vector<float>, 3> center, half_size;  ///< half sizes rounded up
 };
 
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
+  ClusterBoxes boxes;                          ///< of each cluster, then of the mesh
   std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
   std::array<std::vector<float>, 3> normal;    ///< object space, alike
+  std::array<std::vector<float>, 4> color;     ///< alike; empty where the mesh has none
   std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
   std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };

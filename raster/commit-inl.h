@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "raster/alpha-inl.h"
+#include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -23,7 +24,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using M64 = hn::Mask<D64>;
 
 /// Counts covered samples: for overdraw, and for tests of watertightness.
 struct CountCommit {
@@ -119,6 +119,7 @@ struct DepthCommit {
   float range_low, range_high;
   bool skip_hidden;  ///< use the blocks' largest depths
   DepthRule rule{};
+  bool fast = false;           ///< triangles may take the paths for usual ones (small_triangles, large_triangles)
   AlphaTest* alpha = nullptr;  ///< of the material drawn; null: every fragment counts
   uint64_t fragments = 0;
   uint32_t id = 0;
@@ -141,6 +142,14 @@ struct DepthCommit {
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
+  /// What the depth test compares, of any vector of floats.
+  template <class V>
+  HWY_INLINE V stored(V z) const {
+    if (rule.largest_code == 0.0f) return z;
+    const V largest = hn::Set(hn::DFromV<V>(), rule.largest_code);
+    return hn::Div(hn::Round(hn::Mul(z, largest)), largest);
+  }
+
   /// Depths of a vector of samples; NaN where not covered, which passes no comparison.
   HWY_INLINE V32 depths(M64 covered, V64 e1, V64 e2) const {
     const D64 d;
@@ -148,12 +157,7 @@ struct DepthCommit {
     const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
     const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
     const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    V32 z = hn::DemoteTo(D32(), hn::IfThenElse(covered, in_range, nan));
-    if (rule.largest_code != 0.0f) {
-      const V32 largest = hn::Set(D32(), rule.largest_code);
-      z = hn::Div(hn::Round(hn::Mul(z, largest)), largest);
-    }
-    return z;
+    return stored(hn::DemoteTo(D32(), hn::IfThenElse(covered, in_range, nan)));
   }
   float depth(double e1, double e2) const {
     const double plane = z0 + (e1 * g1 + e2 * g2);

@@ -9,8 +9,11 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "raster/careful.h"
 #include "raster/commit-inl.h"
+#include "raster/large_triangles-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -18,58 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Column and row of each lane's pixel in a block, for vectors that start at a multiple of their length.
-alignas(64) inline constexpr double kLaneColumn[8] = {0, 1, 2, 3, 0, 1, 2, 3}, kLaneRow[8] = {0, 0, 0, 0, 1, 1, 1, 1};
-
-/// Edge functions of a setup at vectors of pixels, as f64 rounded once; exact below 2^53.
-template <class T>
-struct EdgeVectors;
-
-template <>
-struct EdgeVectors<double> {
-  const TriangleSetup<double>& s;
-  V64 across[3];
-
-  explicit EdgeVectors(const TriangleSetup<double>& setup) : s(setup) {
-    const D64 d;
-    const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
-    for (int i = 0; i < 3; ++i)
-      across[i] = hn::Add(hn::Mul(column, hn::Set(d, s.sx[i])), hn::Mul(row, hn::Set(d, s.sy[i])));
-  }
-  HWY_INLINE V64 at(int i, double px, double py) const {
-    return hn::Add(hn::Set(D64(), s.c[i] + px * s.sx[i] + py * s.sy[i]), across[i]);
-  }
-};
-
-/// E = high * 2^32 + low with both parts exact, so that one addition rounds it once; and rounding keeps the sign and 1.
-template <>
-struct EdgeVectors<__int128> {
-  static_assert(2 * (kWideBits + 1) + 1 - 32 <= 53);
-  double c[3][2], sx[3][2], sy[3][2];  // high, low
-  V64 column, row;
-
-  explicit EdgeVectors(const TriangleSetup<__int128>& s)
-      : column(hn::LoadU(D64(), kLaneColumn)), row(hn::LoadU(D64(), kLaneRow)) {
-    for (int i = 0; i < 3; ++i) {
-      split(s.c[i], c[i]);
-      split(s.sx[i], sx[i]);
-      split(s.sy[i], sy[i]);
-    }
-  }
-  static void split(__int128 v, double out[2]) {
-    out[0] = double(int64_t(v >> 32));
-    out[1] = double(uint32_t(v));
-  }
-  HWY_INLINE V64 at(int i, double px, double py) const {
-    const D64 d;
-    V64 part[2];
-    for (int k = 0; k < 2; ++k)
-      part[k] = hn::Add(hn::Set(d, c[i][k] + px * sx[i][k] + py * sy[i][k]),
-                        hn::Add(hn::Mul(column, hn::Set(d, sx[i][k])), hn::Mul(row, hn::Set(d, sy[i][k]))));
-    return hn::Add(hn::Mul(part[0], hn::Set(d, 0x1p32)), part[1]);
-  }
-};
 
 /// Draws the 4x4 blocks under the triangle's box, a vector of pixels at a time.
 template <class T, class Commit>
@@ -122,6 +73,15 @@ HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& re
   }
 }
 
+/// The path for triangles over many samples, where the commit has one.
+template <class T, class Commit>
+HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
+  if constexpr (std::is_same_v<Commit, DepthCommit>) {
+    if (commit.fast && commit.alpha == nullptr && cover_large(s, rect, commit)) return;
+  }
+  cover_blocks(s, rect, commit);
+}
+
 /// Draws a triangle by the path its size asks for.
 template <class Commit>
 inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryState& state, bool upper_left,
@@ -131,10 +91,10 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
     small = small && std::abs(triangle.x[i]) < kVectorLimit && std::abs(triangle.y[i]) < kVectorLimit;
   if (small) {
     TriangleSetup<double> setup;
-    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
   } else {
     TriangleSetup<__int128> setup;
-    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover_blocks(setup, rect, commit);
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
   }
 }
 

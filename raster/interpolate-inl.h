@@ -64,8 +64,14 @@ struct Weights {
 };
 
 /// Smaller and larger of two, the first where equal: the same answer for -0 and 0 on every target, unlike Min and Max.
-HWY_INLINE V32 lesser(V32 a, V32 b) { return hn::IfThenElse(hn::Lt(b, a), b, a); }
-HWY_INLINE V32 greater(V32 a, V32 b) { return hn::IfThenElse(hn::Gt(b, a), b, a); }
+template <class V>
+HWY_INLINE V lesser(V a, V b) {
+  return hn::IfThenElse(hn::Lt(b, a), b, a);
+}
+template <class V>
+HWY_INLINE V greater(V a, V b) {
+  return hn::IfThenElse(hn::Gt(b, a), b, a);
+}
 
 HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 px, V64 py) {
   const D64 d;

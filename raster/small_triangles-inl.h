@@ -5,7 +5,8 @@
 // Corners are packed into 32 bits, y above x, both relative to the middle of the tile and below 2^14 in magnitude. So a
 // signed compare of two of them is the canonical order (y, x), a difference fits 16 bits, the difference of a corner
 // and a sample of the tile (at most 2^13 from its middle) is below 24,576, and with that every edge function and area,
-// a difference of two products, is below 2^31.
+// a difference of two products, is below 2^31. Corners further away are held to that; as this lies outside the tile,
+// boxes keep their samples, but the triangles that have such corners are not small.
 #if defined(TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
 #undef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
@@ -19,6 +20,7 @@
 #include <iterator>
 
 #include "raster/commit-inl.h"
+#include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
@@ -68,13 +70,14 @@ struct ClusterScratch {
   FragmentList fragments;
 };
 
-/// Where the corners fit, packs them; `middle` is that of the tile, in 1/256 pixel from its first sample.
+/// Packs the corners; `middle` is that of the tile, in 1/256 pixel from its first sample.
 HWY_INLINE void pack_corners(const WindowVertices& v, int count, int32_t middle, int32_t* packed) {
   const DT d;
-  const VT shift_x = hn::Set(d, kPackedLimit - middle), shift_y = hn::Set(d, middle);
+  const VT shift = hn::Set(d, middle), most = hn::Set(d, kPackedLimit - 1), least = hn::Set(d, 1 - kPackedLimit);
   for (int i = 0; i < count; i += int(hn::Lanes(d))) {
-    const VT x = hn::Add(hn::Load(d, v.x + i), shift_x), y = hn::Sub(hn::Load(d, v.y + i), shift_y);
-    hn::Store(hn::Or(hn::ShiftLeft<16>(y), x), d, packed + i);
+    const VT x = hn::Min(hn::Max(hn::Sub(hn::Load(d, v.x + i), shift), least), most);
+    const VT y = hn::Min(hn::Max(hn::Sub(hn::Load(d, v.y + i), shift), least), most);
+    hn::Store(hn::Or(hn::ShiftLeft<16>(y), hn::Add(x, hn::Set(d, kPackedLimit))), d, packed + i);
   }
 }
 
@@ -116,12 +119,22 @@ struct PackedLimits {
 
 HWY_INLINE void append(TriangleList& out, hn::Mask<DT> which, VT p0, VT p1, VT p2, VT word) {
   const DT d;
+  const uint32_t bits = lane_bits(d, which);
+  const FrontLanes front(d, bits);
   const int n = out.count;
-  hn::StoreU(hn::Compress(p0, which), d, out.corner[0] + n);
-  hn::StoreU(hn::Compress(p1, which), d, out.corner[1] + n);
-  hn::StoreU(hn::Compress(p2, which), d, out.corner[2] + n);
-  hn::StoreU(hn::Compress(word, which), d, out.word + n);
-  out.count = n + int(hn::CountTrue(d, which));
+  hn::StoreU(front(p0), d, out.corner[0] + n);
+  hn::StoreU(front(p1), d, out.corner[1] + n);
+  hn::StoreU(front(p2), d, out.corner[2] + n);
+  hn::StoreU(front(word), d, out.word + n);
+  out.count = n + std::popcount(bits);
+}
+
+/// Appends words; returns how many there are then.
+HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
+  const DT d;
+  const uint32_t bits = lane_bits(d, which);
+  hn::StoreU(FrontLanes(d, bits)(word), d, out + count);
+  return count + std::popcount(bits);
 }
 
 /// Sorts a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, at most 4x4, more.
@@ -135,6 +148,8 @@ HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh
            last_y = hn::Set(d, limit.last_y), round_up = hn::Set(d, 255);
   VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
   const VT next = hn::Set(d, int32_t(hn::Lanes(d)) << 24);
+  alignas(64) int32_t back[kMostCandidates];
+  int backs = 0;
   out.upto_2.count = out.upto_4.count = out.others = 0;
   for (int t = 0; t < cluster.triangles; t += int(hn::Lanes(d))) {
     const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t)), i1 = hn::PromoteTo(d, hn::LoadU(d8, corner[1] + t)),
@@ -143,24 +158,36 @@ HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh
     const VT x0 = lower_half(p0), x1 = lower_half(p1), x2 = lower_half(p2);
     // y above x: the order of whole words is that of y, so their least and most have its.
     const VT bottom = upper_half(least_of(p0, p1, p2)), top = upper_half(most_of(p0, p1, p2));
-    const VT first_x = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), low_x);
+    const VT left = least_of(x0, x1, x2), right = most_of(x0, x1, x2);
+    const VT first_x = hn::Max(hn::ShiftRight<8>(hn::Add(left, round_up)), low_x);
     const VT first_y = hn::Max(hn::ShiftRight<8>(hn::Add(bottom, round_up)), low_y);
-    const VT columns = hn::Sub(hn::Min(hn::ShiftRight<8>(most_of(x0, x1, x2)), last_x), first_x);
+    const VT columns = hn::Sub(hn::Min(hn::ShiftRight<8>(right), last_x), first_x);
     const VT rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), last_y), first_y);  // one less than their number
     const auto present = hn::FirstN(d, size_t(cluster.triangles - t));
     const auto sampled = hn::And(present, hn::Gt(hn::Or(columns, rows), hn::Set(d, -1)));
-    const auto upto_2 = hn::And(sampled, hn::Lt(hn::Or(columns, rows), hn::Set(d, 2)));  // both are 0 or 1
     const VT word = hn::Or(hn::Or(i0, hn::ShiftLeft<8>(i1)), hn::Or(hn::ShiftLeft<16>(i2), number));
     number = hn::Add(number, next);
+    if (hn::AllFalse(d, sampled)) continue;
+    // Held corners lie at the ends of the range.
+    const VT reach = hn::Max(hn::Max(right, hn::Sub(hn::Set(d, 2 * kPackedLimit), left)),
+                             hn::Add(hn::Max(top, hn::Neg(bottom)), hn::Set(d, kPackedLimit)));
+    const auto fits = hn::And(sampled, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
+    const VT most_steps = hn::Or(columns, rows);
+    const auto upto_2 = hn::And(fits, hn::Lt(most_steps, hn::Set(d, 2)));  // both are 0 or 1
     append(out.upto_2, upto_2, p0, p1, p2, word);
     const auto larger = hn::AndNot(upto_2, sampled);
     if (hn::AllFalse(d, larger)) continue;
-    const auto upto_4 = hn::And(larger, hn::Lt(hn::Or(columns, rows), hn::Set(d, 4)));
-    const auto other = hn::AndNot(upto_4, larger);
+    const auto upto_4 = hn::And(fits, hn::And(larger, hn::Lt(most_steps, hn::Set(d, 4))));
     append(out.upto_4, upto_4, p0, p1, p2, word);
-    hn::StoreU(hn::Compress(word, other), d, out.other + out.others);
-    out.others += int(hn::CountTrue(d, other));
+    // Of a closed mesh the counter-clockwise ones hide the others. Of held corners the sign is a guess, which will do.
+    const VT y0 = upper_half(p0), y1 = upper_half(p1), y2 = upper_half(p2);
+    const auto front = hn::Gt(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
+    const auto other = hn::AndNot(upto_4, larger);
+    out.others = append(out.other, out.others, hn::And(front, other), word);
+    backs = append(back, backs, hn::AndNot(front, other), word);
   }
+  std::copy_n(back, backs, out.other + out.others);
+  out.others += backs;
 }
 
 /// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
@@ -241,13 +268,15 @@ HWY_INLINE void cover_small(const TriangleList& in, int i, const GeometryState& 
     for (int x = 0; x < kSide; ++x) {
       auto covered = hn::And(in_rows, hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(d, -1)));
       if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
+      const uint32_t bits = lane_bits(d, covered);
+      const FrontLanes front(d, bits);
       const int n = out.count;
-      hn::StoreU(hn::Compress(hn::Add(f1, e1.not_owned), covered), d, out.e1 + n);
-      hn::StoreU(hn::Compress(hn::Add(f2, e2.not_owned), covered), d, out.e2 + n);
-      hn::StoreU(hn::Compress(size, covered), d, out.area + n);
-      hn::StoreU(hn::Compress(named, covered), d, out.word + n);
-      hn::StoreU(hn::Compress(hn::Add(at_x[x], at_y), covered), d, out.at + n);
-      out.count = n + int(hn::CountTrue(d, covered));
+      hn::StoreU(front(hn::Add(f1, e1.not_owned)), d, out.e1 + n);
+      hn::StoreU(front(hn::Add(f2, e2.not_owned)), d, out.e2 + n);
+      hn::StoreU(front(size), d, out.area + n);
+      hn::StoreU(front(named), d, out.word + n);
+      hn::StoreU(front(hn::Add(at_x[x], at_y)), d, out.at + n);
+      out.count = n + std::popcount(bits);
       f0 = hn::Sub(f0, e0.across);
       f1 = hn::Sub(f1, e1.across);
       f2 = hn::Sub(f2, e2.across);
@@ -284,12 +313,7 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
     const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
     const V64 in_range =
         hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
-    V32 depth = hn::DemoteTo(df, in_range);
-    if (commit.rule.largest_code != 0.0f) {
-      const V32 largest = hn::Set(df, commit.rule.largest_code);
-      depth = hn::Div(hn::Round(hn::Mul(depth, largest)), largest);
-    }
-    hn::Store(depth, df, in.z + i);
+    hn::Store(commit.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
   }
 }
 
@@ -332,9 +356,8 @@ HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z
   }
 }
 
-/// Draws those of a cluster's triangles whose box holds at most 4x4 samples, without polygon offset; the others are
-/// left in `work.found.other`. Its vertices are in `work`, none needs care and all are within kPackedLimit of the
-/// tile's middle.
+/// Draws those of a cluster's triangles whose box holds at most 4x4 samples; the others that may cover any are left in
+/// `work.found.other`. Its vertices are in `work`, and none needs care. Not under polygon offset.
 inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const GeometryState& state,
                                  bool upper_left, const TileRect& rect, uint32_t first_id, ClusterScratch& work,
                                  DepthCommit& commit) {

@@ -121,9 +121,27 @@ HWY_INLINE VF decoded(VF held, Format format, int c, NumericProfile profile) {
                                           : hn::Mul(held, hn::Set(d, 1.0f / largest));
 }
 
+/// Whether what is stored comes by way of wider codes: llvmpipe works on 16 bits where the format has 10 and 2.
+HWY_INLINE bool widens(NumericProfile profile, Format format) {
+  return profile != NumericProfile::ideal && format == Format::rgb10_a2;
+}
+/// Codes of channel c of rgb10_a2 from codes of 16 bits, not the nearest; and 16 bits that repeat them.
+HWY_INLINE VF narrowed_code(VF code, int c) {
+  const DF d;
+  if (c < 3) return hn::Floor(hn::Mul(code, hn::Set(d, 0x1p-6f)));
+  const VF thrice = hn::Mul(hn::Floor(hn::Mul(code, hn::Set(d, 0.25f))), hn::Set(d, 3.0f));
+  return hn::Floor(hn::Mul(hn::Add(thrice, hn::Set(d, 8192.0f)), hn::Set(d, 0x1p-14f)));
+}
+HWY_INLINE VF widened_code(VF code, int c) {
+  const DF d;
+  if (c == 3) return hn::Mul(code, hn::Set(d, 21845.0f));
+  return hn::Add(hn::Mul(code, hn::Set(d, 64.0f)), hn::Floor(hn::Mul(code, hn::Set(d, 0.0625f))));
+}
+
 /// What reading back gives after storing x in channel c of `format`.
 HWY_INLINE VF stored_value(VF x, Format format, int c, HalfRound mode, NumericProfile profile) {
-  return decoded(encoded(x, format, c, mode), format, c, profile);
+  const VF held = widens(profile, format) ? narrowed_code(unorm_code(x, 65535.0f), c) : encoded(x, format, c, mode);
+  return decoded(held, format, c, profile);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "raster/visibility.h"
+#include "raster/visible_triangles.h"
 #include "scenes/pipeline.h"
 
 namespace trueshade {
@@ -23,13 +24,8 @@ struct SurfaceTile {
   int covered_pixels;
 };
 
-/// A vertex with all that interpolation wants side by side: one cache line.
-struct alignas(64) VertexRecord {
-  int32_t x, y;
-  double u;
-  float attribute[kStreams];  ///< the streams in the order of kRecordStream
-};
-/// What most pixels want comes first, so that a prefix can be interpolated alone: position and normal, uv, albedo.
+/// Streams in the order of attribute quads: what most pixels want comes first, so that a prefix can be interpolated
+/// alone: position and normal, uv, albedo.
 inline constexpr int kRecordStream[kStreams] = {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9};
 inline constexpr int kRecordUv = 6;  ///< where uv begins
 
@@ -45,11 +41,10 @@ struct VisibleVertices {
   std::vector<int32_t> x, y;  ///< 1/256 pixel, relative to the tile's first sample
   std::vector<double> u;      ///< 1 / w
   std::vector<float> stream[kStreams];
-  std::vector<VertexRecord> record;  ///< the same again
-  int record_attributes;             ///< how many of a record's are wanted
-  std::vector<int32_t> slot_of;      ///< by position in the tile's list; -1: not seen
-  std::vector<SeenCluster> seen;     ///< by slot
-  std::vector<uint32_t> corner[3];   ///< by pixel: vertices of its triangle, in the order submitted
+  std::vector<int32_t> slot_of;     ///< by position in the tile's list; -1: not seen
+  std::vector<SeenCluster> seen;    ///< by slot
+  std::vector<uint32_t> corner[3];  ///< by pixel: vertices of its triangle, in the order submitted
+  VisibleTriangles triangles;       ///< instead of all that, where all attributes are smooth and nothing is textured
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'

@@ -4,24 +4,22 @@
 #define HWY_TARGET_INCLUDE "raster/visibility.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "raster/coverage-inl.h"
+#include "raster/hidden-inl.h"
+#include "raster/large_triangles-inl.h"
 #include "raster/small_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Box of a cluster's vertices, from the snapped coordinates; means something only if none needs care.
-struct WindowBox {
-  int32_t x0, y0, x1, y1;
-  double near;
-};
 
 // Streams go on with copies of the last vertex, so whole vectors may be read.
 WindowBox window_box(const WindowVertices& v, int count) {
@@ -82,39 +80,25 @@ int all_triangles(const Cluster& cluster, uint8_t* out) {
   return cluster.triangles;
 }
 
-// Whether every block under the box, in blocks of the tile and inclusive, is already nearer than `near`.
-HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, int x0, int y0, int x1, int y1, float near) {
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x)
-      if (!(near > tile.far[y * blocks + x])) return false;
-  return true;
-}
-
-// The same for a box in 1/256 pixel.
-HWY_INLINE bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box, float near) {
-  const int blocks = rect.size / kBlockSize;
-  return hidden_blocks(tile, blocks, std::clamp(box.x0 >> 10, 0, blocks - 1), std::clamp(box.y0 >> 10, 0, blocks - 1),
-                       std::clamp(box.x1 >> 10, 0, blocks - 1), std::clamp(box.y1 >> 10, 0, blocks - 1), near);
-}
-
-// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
-HWY_INLINE bool hidden_draw(const VisibilityTile& tile, const TileRect& rect, const ClusterDraw& draw,
-                            const WindowTransform& t) {
-  const int last = rect.size - 1;
-  return hidden_blocks(tile, rect.size / kBlockSize, std::clamp(draw.x0 - rect.x, 0, last) / kBlockSize,
-                       std::clamp(draw.y0 - rect.y, 0, last) / kBlockSize,
-                       std::clamp(draw.x1 - rect.x, 0, last) / kBlockSize,
-                       std::clamp(draw.y1 - rect.y, 0, last) / kBlockSize,
-                       t.depth.stored(std::min(std::max(draw.near_depth, t.depth_low), t.depth_high)));
-}
-
-// Whether the blocks under a triangle's box hide it: cheaper than setting it up.
-bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const WindowTriangle& w,
-                     const WindowTransform& t) {
-  const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
-                      int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
-                      std::min({w.z[0], w.z[1], w.z[2]})};
-  return hidden_box(tile, rect, box, t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high)));
+// Whether a triangle, clipped or not, lies wholly beyond one side of the tile: in clip space a half space through the
+// eye, seen from the near side of which all of its corners are outside. With slack for roundings and the snap.
+bool beside_tile(const ClipVertex v[3], const WindowTransform& t, const TileRect& rect) {
+  constexpr double kMargin = 2.0;  // pixels
+  const int low[2] = {rect.x, rect.y};
+  for (size_t axis = 0; axis < 2; ++axis) {
+    const double scale = double(t.scale[axis]) / 256.0, offset = double(t.offset[axis]) / 256.0;
+    for (const double side : {-1.0, 1.0}) {
+      const double edge = side < 0.0 ? low[axis] - kMargin : low[axis] + rect.size + kMargin;
+      bool outside = true;
+      for (int k = 0; k < 3; ++k) {
+        // Of w > 0: window coordinate minus edge, times w.
+        const double a = scale * double(v[k].c[axis]), b = (offset - edge) * double(v[k].c[3]);
+        outside = outside && side * (a + b) > (std::abs(a) + std::abs(b)) * 0x1p-20;
+      }
+      if (outside) return true;
+    }
+  }
+  return false;
 }
 
 // The alpha test of the cluster's material; null if it has none.
@@ -160,21 +144,18 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     const WindowBox box = window_box(v, cluster.vertices);
     const int size = rect.size * 256;
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
-    const float near = t.depth.stored(std::min(std::max(float(box.near), t.depth_low), t.depth_high));
-    if (cull && hidden_box(commit.tile, rect, box, near)) return;
-    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0), middle = rect.size * 128;
-    [[maybe_unused]] const int32_t farthest =
-        std::max({box.x1 - middle, middle - box.x0, box.y1 - middle, middle - box.y0});
-    bool drawn = false;
+    if (cull && hidden_box(commit.tile, rect, box, t)) return;
+    const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
+    bool sorted = false;
     if constexpr (std::is_same_v<Commit, DepthCommit>) {
-      if (commit.skip_hidden && masked == nullptr && !t.depth.offsets() && farthest < kPackedLimit) {
+      if (commit.fast && masked == nullptr && !t.depth.offsets()) {
         draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
         count = work.found.others;
         for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
-        drawn = true;
+        sorted = true;
       }
     }
-    if (!drawn)
+    if (!sorted)
       count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
@@ -189,6 +170,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (careful) {
       ClipVertex clip[3];
       clip_corners(in, position, triangle[i], clip);
+      if (beside_tile(clip, t, rect)) continue;
       draw_careful(clip, t, origin, in.state, rect, commit);
       continue;
     }
@@ -208,12 +190,12 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     if (setup.samples() <= 4)
       cover_samples(setup, rect, commit);
     else
-      cover_blocks(setup, rect, commit);
+      cover(setup, rect, commit);
   }
 }
 
-// Positions in the tile's list, nearest clusters first: by 256 steps of depth, which is order enough, since any order
-// gives the same image.
+// Positions in the tile's list, nearest clusters first and last those of unknown depth, large ones near the eye that
+// much of the rest hides: by 256 steps of depth, which is order enough, since any order gives the same image.
 void nearest_first(const TileDraws& in, std::span<uint32_t> order) {
   constexpr size_t kSteps = 256;
   float low = std::numeric_limits<float>::infinity(), high = -low;
@@ -225,12 +207,30 @@ void nearest_first(const TileDraws& in, std::span<uint32_t> order) {
   const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
   const auto step = [&](uint32_t i) {
     const float near = in.draws[in.list[i]].near_depth;
-    return near >= low ? 1 + std::min(size_t((near - low) * scale), kSteps - 2) : 0;
+    return near >= low ? std::min(size_t((near - low) * scale), kSteps - 2) : kSteps - 1;
   };
   uint32_t next[kSteps + 1] = {};
   for (uint32_t i = 0; i < order.size(); ++i) ++next[step(i) + 1];
   for (size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
   for (uint32_t i = 0; i < order.size(); ++i) order[next[step(i)]++] = i;
+}
+
+// Asks memory for what draw_cluster() reads of a cluster: soon, or the header through which that is found.
+HWY_INLINE void fetch_header(const TileDraws& in, uint32_t position) {
+  const ClusterDraw& draw = in.draws[in.list[position]];
+  hwy::Prefetch(&in.clusters.meshes[in.scene.instances[draw.instance].mesh].clusters[draw.cluster]);
+}
+HWY_INLINE void fetch_streams(const TileDraws& in, uint32_t position) {
+  constexpr size_t kLine = 64, kNear = size_t(1) << 16;  // vertices that caches hold between tiles
+  const ClusterDraw& draw = in.draws[in.list[position]];
+  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
+  if (mesh.vertex.size() < kNear) return;
+  const Cluster& cluster = mesh.clusters[draw.cluster];
+  for (const auto& stream : mesh.position)
+    for (size_t i = 0; i < cluster.vertices; i += kLine / sizeof(float))
+      hwy::Prefetch(stream.data() + cluster.first_vertex + i);
+  for (const auto& stream : mesh.corner)
+    for (size_t i = 0; i < cluster.triangles; i += kLine) hwy::Prefetch(stream.data() + cluster.first_triangle + i);
 }
 
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
@@ -244,13 +244,19 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
   DepthCommit commit{
       out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins, in.view.window.depth};
+  commit.fast = in.fast_paths && commit.skip_hidden;
   ClusterScratch work;
   if (!commit.skip_hidden) {
     for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, counts);
   } else {
     std::vector<uint32_t> order(in.list.size());
     nearest_first(in, order);
-    for (const uint32_t i : order) draw_cluster(in, rect, i, work, commit, counts);
+    constexpr size_t kHeaderAhead = 6, kStreamsAhead = 3;
+    for (size_t i = 0; i < order.size(); ++i) {
+      if (i + kHeaderAhead < order.size()) fetch_header(in, order[i + kHeaderAhead]);
+      if (i + kStreamsAhead < order.size()) fetch_streams(in, order[i + kStreamsAhead]);
+      draw_cluster(in, rect, order[i], work, commit, counts);
+    }
   }
   counts.fragments += commit.fragments;
 }

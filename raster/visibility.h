@@ -61,6 +61,7 @@ struct TileDraws {
   const GeometryState& state;
   std::span<const ClusterDraw> draws;
   std::span<const uint32_t> list;  ///< into `draws`, ascending: the order of submission
+  bool fast_paths = true;  ///< special paths for usual triangles; otherwise the general one for all. The same bits
 };
 
 /// Clip-space corners of a triangle of a cluster, as the vertex stage rounds them.

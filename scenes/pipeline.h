@@ -137,6 +137,7 @@ struct Execution {
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
   bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
+  bool fast_geometry = true;     ///< special paths for usual triangles and surfaces; otherwise the general ones for all
 };
 
 /// Throws Error(usage) naming the field and its range.

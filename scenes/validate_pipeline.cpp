@@ -113,7 +113,7 @@ void check_transparency(const Pipeline& p) {
     throw Error(ErrorKind::usage, "transparency.mode",
                 std::string(profile_name(p.profile)) + " does not promise the bits of blending into " +
                     std::string(info(p.gbuffer.albedo.format).name),
-                "use the profile ideal, or an albedo plane of rgba8, rgba16f or rgba32f");
+                "use the profile ideal, or an albedo plane of rgba8, rgb10_a2, rgba16f or rgba32f");
 }
 
 void check_post(const PostChain& p) {
@@ -152,7 +152,7 @@ void validate(const Pipeline& pipeline) {
     throw Error(ErrorKind::usage, "target",
                 std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +
                     std::string(info(pipeline.target).name),
-                "use the profile ideal, or a target it promises: rgba8, rgba16, r11g11b10f, rgba16f, rgba32f");
+                "use the profile ideal, or a target it promises: rgba8, rgb10_a2, rgba16, r11g11b10f, rgba16f, rgba32f");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

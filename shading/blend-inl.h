@@ -81,12 +81,14 @@ struct BlendPlan {
   bool codes;                     ///< blended in codes, as llvmpipe does
   std::array<bool, 4> written;    ///< by channel: the format has it, and the mask lets it through
   std::array<float, 4> constant;  ///< as equations read it: clamped for unorm, or in codes
+  bool wide = false;              ///< codes of 16 bits for those of 10 and 2
 
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
   /// Light upon light in fixed point: codes are added (DESIGN, settled 4); not where codes are no linear values.
   bool adds_codes(int c) const { return unorm() && !codes && !layout.srgb_channel(c) && group(c).term == kAccumulate; }
   float largest(int c) const { return float(layout.largest_code(c)); }
+  float blended_largest(int c) const { return wide ? 65535.0f : largest(c); }
 };
 
 inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) {
@@ -110,11 +112,12 @@ inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) 
     plan.alpha = plan.rgb;
   }
   plan.codes = plan.unorm() && target.profile != NumericProfile::ideal;
+  plan.wide = widens(target.profile, target.format);
   for (int c = 0; c < 4; ++c) {
     plan.written[size_t(c)] = plan.written[size_t(c)] && c < plan.layout.channels;
     const VF constant = hn::Set(DF(), state.constant[size_t(c)]);
     if (plan.codes)
-      plan.constant[size_t(c)] = hn::GetLane(unorm_code(constant, plan.largest(c)));
+      plan.constant[size_t(c)] = hn::GetLane(unorm_code(constant, plan.blended_largest(c)));
     else if (plan.unorm())
       plan.constant[size_t(c)] = hn::GetLane(clamped_unit(constant));
   }
@@ -208,18 +211,19 @@ HWY_INLINE VF blended_codes(const BlendPlan& plan, int c, const BlendInputs& in)
 
 /// What blending off, or a clear, leaves of x in channel c.
 HWY_INLINE VF encoded_alone(const BlendPlan& plan, VF x, int c) {
+  if (plan.wide) return narrowed_code(unorm_code(x, 65535.0f), c);
   const VF held = encoded(x, plan.target.format, c, plan.target.half_round);
   return plan.unorm() ? held : hn::IfThenElse(hn::Eq(held, held), held, one_nan());
 }
 
 HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF stored[4], BlendInputs& in) {
   const DF d;
-  in.one = hn::Set(d, plan.codes ? plan.largest(0) : 1.0f);
+  in.one = hn::Set(d, plan.codes ? plan.blended_largest(0) : 1.0f);
   for (int c = 0; c < 4; ++c) {
     in.constant[c] = hn::Set(d, plan.constant[size_t(c)]);
     if (plan.codes) {
-      in.source[c] = unorm_code(source[c], plan.largest(c));
-      in.destination[c] = stored[c];
+      in.source[c] = unorm_code(source[c], plan.blended_largest(c));
+      in.destination[c] = plan.wide ? widened_code(stored[c], c) : stored[c];
     } else {
       in.source[c] = plan.unorm() ? clamped_unit(source[c]) : source[c];
       in.destination[c] = decoded(stored[c], plan.target.format, c, NumericProfile::ideal);
@@ -242,7 +246,9 @@ inline void blend_vectors(const BlendPlan& plan, const VF source[4], VF stored[4
     for (int c = 0; c < 4; ++c) {
       if (plan.codes)
         out[c] = plan.layout.bits[0] == 8 ? blended_codes<8>(plan, c, in) : blended_codes<16>(plan, c, in);
-      else if (plan.adds_codes(c))
+      if (plan.wide) out[c] = narrowed_code(out[c], c);
+      if (plan.codes) continue;
+      if (plan.adds_codes(c))
         out[c] = lesser(hn::Add(stored[c], unorm_code(in.source[c], plan.largest(c))), hn::Set(d, plan.largest(c)));
       else
         out[c] = encoded_alone(plan, blended_values(plan, c, in), c);

@@ -54,6 +54,24 @@ TileScratch& thread_scratch() {
   return *scratch;
 }
 
+// Bins that a frame has for its time, kept for the thread's next one.
+struct BinsLoan {
+  std::unique_ptr<ClusterBins> bins;
+
+  BinsLoan() : bins(std::move(kept())) {
+    if (!bins) bins = std::make_unique<ClusterBins>();
+  }
+  ~BinsLoan() { kept() = std::move(bins); }
+  BinsLoan(const BinsLoan&) = delete;
+  BinsLoan& operator=(const BinsLoan&) = delete;
+
+ private:
+  static std::unique_ptr<ClusterBins>& kept() {
+    thread_local std::unique_ptr<ClusterBins> bins;
+    return bins;
+  }
+};
+
 struct TileCounts {
   RasterCounts raster;
   LightCounts light;
@@ -68,7 +86,7 @@ struct FrameWork {
   const Pipeline& pipeline;
   const Execution& execution;
   const View view;
-  const ClusterBins bins;
+  const ClusterBins& bins;
   const LightTable lights;
   const LightGroups groups;
   const LightMeshes meshes;
@@ -89,7 +107,7 @@ struct FrameWork {
             outlines,
             view,
             multipass ? kAddLight : pipeline.blend,
-            {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
+            target(),
             multipass || pipeline.light_volumes.base,
             multipass,
             execution.light_culling,
@@ -101,6 +119,22 @@ struct FrameWork {
     const WindowTransform& t = view.window;
     const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
     return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
+  }
+
+  BlendTarget target() const { return {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round}; }
+
+  // Draws are stored by way of wider codes, clears are not: llvmpipe's targets of 10 bits.
+  bool stores_wide() const { return pipeline.profile != NumericProfile::ideal && pipeline.target == Format::rgb10_a2; }
+
+  // The clear colour; where draws store wide, one that a draw would store as the nearest codes of it, halves upward.
+  void set_clear(float clear[4]) const {
+    for (int c = 0; c < 4; ++c) {
+      clear[c] = prepared.scene().clear[c];
+      if (!stores_wide()) continue;
+      const float unit = clear[c] > 1.0f ? 1.0f : clear[c] > 0.0f ? clear[c] : 0.0f;
+      const auto code = uint32_t(unit * float(info(pipeline.target).largest_code(c)) + 0.5f);
+      clear[c] = float(c == 3 ? code * 0x5555 : code << 6 | code >> 4) / 65535.0f;
+    }
   }
 
   // Scratch for the transparent surfaces; null where there are none.
@@ -115,7 +149,8 @@ struct FrameWork {
     const double start = now_ms();
     const Scene& scene = prepared.scene();
     const TileRect where = rect(tile);
-    const TileDraws all{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile)};
+    const TileDraws all{prepared.clusters(),    scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile),
+                        execution.fast_geometry};
     TransparentWork* const glass = transparent_work(s);
     const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
@@ -128,7 +163,8 @@ struct FrameWork {
       if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
     }
     const double middle = now_ms();
-    const float clear[4] = {scene.clear.r, scene.clear.g, scene.clear.b, scene.clear.a};
+    float clear[4];
+    set_clear(clear);
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
@@ -139,8 +175,12 @@ struct FrameWork {
                  execution.compiled_models, s.lights, s.color, counts.light);
     }
     bool stored = blends_lights(pipeline.strategy);
+    if (!stored && stores_wide()) {
+      encode_colors(target(), where.size * where.size, s.color);
+      stored = true;
+    }
     if (glass != nullptr && transparent.after_lights()) {
-      if (!stored) encode_colors(transparent.target(), where.size * where.size, s.color);
+      if (!stored) encode_colors(target(), where.size * where.size, s.color);
       transparent.blend_after_lights(all, where, execution, s.vertices, s.lights, *glass, s.color);
       stored = true;
     }
@@ -253,6 +293,10 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
   });
   add_up(counts, work.out.stats);
+  for (const int tile : order) {
+    const TileCounts& t = counts[size_t(tile)];
+    work.out.stats.tile_ms.push_back(t.geometry_ms + t.light_ms);
+  }
 }
 
 // Of forward-multipass every light is a draw of the scene, wherever it reaches.
@@ -282,8 +326,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
   View view = make_view(scene, pipeline);
-  ClusterBins bins =
-      bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads);
+  BinsLoan bins;
+  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
+               *bins.bins);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
   LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads);
@@ -294,7 +339,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   LightOutlines outlines;
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
-  draw_tiles({prepared, pipeline, execution, std::move(view), std::move(bins), std::move(lights), std::move(groups),
+  frame.stats.before_tiles_ms = now_ms() - start;
+  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(groups),
               std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
               TransparentPass(scene, pipeline), frame},
              progress);

@@ -46,6 +46,8 @@ struct FrameStats {
   uint64_t tile_pixel_lights = 0;                      ///< covered pixels times lights in the tile's list
   uint64_t evaluated_pixel_lights = 0;                 ///< lanes the light kernel computed a contribution for
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
+  double before_tiles_ms = 0;                          ///< wall time: view, bins, light tables
+  std::vector<double> tile_ms;                         ///< each tile's, in the order they are started
 };
 
 /// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular

@@ -53,7 +53,7 @@ void blend_albedo_simd(const BlendState& state, const BlendTarget& plane, const 
     for (int c = 0; c < 4; ++c) {
       from[c] = hn::Load(d, layer.plane[kAlbedo + c] + i);
       there[c] = hn::Load(d, surface.plane[kAlbedo + c] + i);
-      next[c] = encoded(there[c], plane.format, c, plane.half_round);  // what is stored: reading back loses nothing
+      next[c] = encoded(there[c], plane.format, c, plane.half_round);  // the code that was stored: it reads back so
     }
     blend_vectors(plan, from, next);
     for (int c = 0; c < plan.layout.channels; ++c) {

@@ -46,8 +46,6 @@ class TransparentPass {
   void blend_after_lights(const TileDraws& all, const TileRect& rect, const Execution& execution,
                           VisibleVertices& vertices, LightLists& lists, TransparentWork& work, ColorTile& stored) const;
 
-  const BlendTarget& target() const { return target_; }
-
  private:
   const Scene& scene_;
   TransparencyMode mode_;

@@ -3,6 +3,7 @@
 
 #include "bench/machine.h"
 #include "bench/peers.h"
+#include "bench/schedule.h"
 #include "core/error.h"
 #include "oracle/embree_peer.h"
 #include "oracle/embree_rays.h"
@@ -76,6 +77,15 @@ TEST_CASE("Embree the peer hits what Embree the judge hits, but for edges") {
   CHECK(expected > 131 * 97 / 2);
   CHECK(hits + 4 >= expected);
   CHECK(hits <= expected + 4);
+}
+
+TEST_CASE("Tasks scheduled on more cores take as long as the last core that is at work") {
+  const std::vector<double> ms{4, 3, 2, 2, 1};
+  CHECK(scheduled_ms(ms, 1) == 12.0);
+  CHECK(scheduled_ms(ms, 2) == 6.0);   // 4 and 2; 3, 2 and 1
+  CHECK(scheduled_ms(ms, 3) == 4.0);   // 4; 3 and 1; 2 and 2
+  CHECK(scheduled_ms(ms, 64) == 4.0);  // no less than the dearest
+  CHECK(scheduled_ms({}, 2) == 0.0);
 }
 
 }  // namespace trueshade

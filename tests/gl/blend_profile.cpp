@@ -2,6 +2,7 @@
 // blend_pixels(), bit for bit.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -211,7 +212,8 @@ size_t different_triples(const BlendTerm& term, int width, int height, int strid
   return count;
 }
 
-constexpr Format kTargets[] = {Format::rgba8, Format::rgba16, Format::r11g11b10f, Format::rgba16f, Format::rgba32f};
+constexpr Format kTargets[] = {Format::rgba8,      Format::rgb10_a2, Format::rgba16,
+                               Format::r11g11b10f, Format::rgba16f,  Format::rgba32f};
 
 }  // namespace
 
@@ -252,6 +254,26 @@ TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the p
     INFO(mode.name);
     CHECK(different_triples(mode.term, 4096, 4096, 1) == 0);
   }
+}
+
+TEST_CASE("llvmpipe clears targets of 8 and 10 bits to the nearest codes, whatever draws leave there") {
+  if (profiled_driver() == nullptr) return;
+  for (const Format format : {Format::rgba8, Format::rgb10_a2})
+    for (int i = 0; i < 500; ++i) {
+      const std::array<float, 4> color{float(i) / 499, float(i) / 777, 1 - float(i) / 600, float(i) / 499};
+      const GlTexture target = make_texture(format, 1, 1);
+      const std::array<GLuint, 1> colors{target};
+      const GlTarget framebuffer = make_target(colors, 0);
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.framebuffer);
+      glClearBufferfv(GL_COLOR, 0, color.data());
+      const Image image = read_texture(target, format, 0, 0, 1, 1);
+      for (size_t c = 0; c < 4; ++c) {
+        CAPTURE(info(format).name, i, c, color[c]);
+        const float product = color[c] * float(info(format).largest_code(int(c)));
+        const float nearest = format == Format::rgba8 ? std::nearbyint(product) : std::floor(product + 0.5f);
+        CHECK(image.code(0, 0, int(c)) == uint32_t(nearest));
+      }
+    }
 }
 
 TEST_CASE("llvmpipe reads 8-bit codes as the profile does") {

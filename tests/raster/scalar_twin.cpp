@@ -114,6 +114,27 @@ TEST_CASE("Random frames are the same on every SIMD target, tile size and thread
   }
 }
 
+TEST_CASE("Random frames are the same by the paths for usual triangles and surfaces and by the general ones") {
+  Random random(33);
+  for (int i = 0; i < 80; ++i) {
+    const Scene scene = random_scene(random);
+    Pipeline pipeline = random_pipeline(random);
+    GBufferState& planes = pipeline.gbuffer;
+    for (PlaneState* plane : {&planes.position, &planes.normal, &planes.albedo, &planes.uv})
+      plane->interpolation = Interpolation::smooth;
+    pipeline.geometry.depth_func = i % 3 == 0 ? DepthFunc::lequal : DepthFunc::less;
+    planes.position_from_depth = i % 5 == 0 && pipeline.geometry.depth_near != pipeline.geometry.depth_far;
+    if (i % 4 == 0) pipeline.width *= 3, pipeline.height *= 2;
+    Execution general;
+    general.fast_geometry = false;
+    const Planes expected = drawn(scene, pipeline, general);
+    for (const Execution& execution : executions()) {
+      INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
+      REQUIRE(drawn(scene, pipeline, execution) == expected);
+    }
+  }
+}
+
 TEST_CASE("Random frames do not depend on which vertex a triangle names first") {
   Random random(34);
   const std::vector<Execution> all = executions();

@@ -50,14 +50,15 @@ struct Way {
 };
 
 // A way from one number per choice; `choice` holds indices into the lists above.
-constexpr int kChoices = 8;
+constexpr int kChoices = 9;
 using Choice = std::array<int, kChoices>;
 
-Choice choice_counts(size_t targets) { return {5, 5, int(targets), 4, 2, 2, 2, 2}; }
+Choice choice_counts(size_t targets) { return {5, 5, int(targets), 4, 2, 2, 2, 2, 2}; }
 
 Way way(const Choice& c, const std::vector<std::string_view>& targets) {
   Way out;
   out.execution = {kThreads[c[0]], kTiles[c[1]], targets[size_t(c[2])], c[4] == 0, c[5] == 0, c[6] == 1, c[7] == 0};
+  out.execution.fast_geometry = c[8] == 0;
   out.host = kHosts[c[3]];
   return out;
 }
@@ -103,7 +104,8 @@ void check(const PreparedScene& scene, const GoldenFrame& golden, const Way& way
   INFO(golden.scene << " " << golden.preset << ": threads " << way.execution.threads << ", tile " << way.execution.tile
                     << ", " << way.execution.simd << ", light culling " << way.execution.light_culling
                     << ", geometry culling " << way.execution.geometry_culling << ", shuffled "
-                    << way.execution.shuffle_tiles << ", compiled models " << way.execution.compiled_models << ", host " << int(way.host));
+                    << way.execution.shuffle_tiles << ", compiled models " << way.execution.compiled_models
+                    << ", fast geometry " << way.execution.fast_geometry << ", host " << int(way.host));
   CHECK(image_hash(frame.color) == golden.hash);
 }
 
@@ -158,6 +160,7 @@ TEST_CASE("every built-in scene has one hash over the whole matrix", "[determini
               c[3] = (c[0] + c[1] + c[2]) % counts[3];
               c[6] = (c[1] + c[4]) % counts[6];
               c[7] = (c[1] + c[5]) % counts[7];
+              c[8] = (c[0] + c[1] + c[4]) % counts[8];
               check(prepared, golden, way(c, targets));
             }
   }

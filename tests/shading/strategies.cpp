@@ -137,6 +137,7 @@ TEST_CASE("Every strategy draws one image, whatever the culling, threads, tiles,
                                << info(target).name);
         CHECK(hash(prepared, p, {.light_culling = false}) == once);
         CHECK(hash(prepared, p, {.compiled_models = false}) == once);
+        CHECK(hash(prepared, p, {.fast_geometry = false}) == once);
         CHECK(hash(prepared, p, {.threads = 1, .tile = 8, .shuffle_tiles = true}) == once);
         CHECK(hash(prepared, p, {.threads = 3, .tile = 48, .geometry_culling = false}) == once);
         for (const std::string_view simd : {"scalar", "sse4", "avx2"})

@@ -1,0 +1,128 @@
+// What does each kernel of the geometry pass cost an item? One thread; the counter is the time of one item.
+//   bounds     a cluster of which bins are made
+//   reject     a triangle transformed and found to cover nothing: sub-pixel ones, mostly between samples
+//   small      a fragment of triangles of a few samples
+//   large      a 4x4 block of triangles over whole tiles
+//   resolve    a pixel that sees one large triangle, or one of its own
+// `general`: by the paths that the fast ones are held against.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "raster/cluster_bins.h"
+#include "raster/clusters.h"
+#include "raster/surfaces.h"
+#include "raster/view.h"
+#include "raster/visibility.h"
+#include "scenes/pipeline.h"
+#include "scenes/scene.h"
+
+using namespace trueshade;
+
+namespace {
+
+constexpr int kSize = 64;  // one tile
+
+// A square grid over the tile, tilted in depth, of `side` x `side` quads.
+Scene grid_scene(int side) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.instances.resize(1);
+  Mesh mesh;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x) {
+      const float position[3] = {2.0f * float(x) / float(side) - 1.0f, 2.0f * float(y) / float(side) - 1.0f,
+                                 0.25f * float(x + y) / float(side)};
+      for (size_t c = 0; c < 3; ++c) {
+        mesh.position[c].push_back(position[c]);
+        mesh.normal[c].push_back(c == 2 ? 1.0f : 0.0f);
+      }
+    }
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto corner = uint32_t(y * (side + 1) + x), above = corner + uint32_t(side) + 1;
+      for (const uint32_t index : {corner, corner + 1, above, corner + 1, above + 1, above})
+        mesh.indices.push_back(index);
+    }
+  scene.meshes.push_back(std::move(mesh));
+  scene.camera.clip_from_world = std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1};
+  return scene;
+}
+
+struct OneTile {
+  Scene scene;
+  ClusteredScene clusters;
+  Pipeline pipeline;
+  View view;
+  ClusterBins bins;
+  std::unique_ptr<VisibilityTile> visible = std::make_unique<VisibilityTile>();
+  std::unique_ptr<SurfaceTile> surface = std::make_unique<SurfaceTile>();
+  std::unique_ptr<VisibleVertices> work = std::make_unique<VisibleVertices>();
+  RasterCounts counts;
+
+  explicit OneTile(int side) : scene(grid_scene(side)), clusters(cluster_scene(scene)) {
+    pipeline.width = pipeline.height = kSize;
+    view = make_view(scene, pipeline);
+    bin();
+  }
+  void bin() { bin_clusters(scene, clusters, view, kSize, true, 1, bins); }
+  TileDraws draws(bool fast) const {
+    return {clusters, scene, view, pipeline.geometry, bins.draws, bins.tile_list(0), fast};
+  }
+  void draw(bool fast) { draw_visibility(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, true, *visible, counts); }
+  void resolve(bool fast) {
+    resolve_surfaces(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, pipeline.gbuffer, pipeline.light_model, *visible,
+                     false, *work, *surface);
+  }
+};
+
+template <class Run>
+void time(benchmark::State& state, double items, Run&& run) {
+  for (auto _ : state) run();
+  state.counters["item"] =
+      benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void bounds(benchmark::State& state) {
+  OneTile tile(1000);
+  time(state, double(tile.clusters.meshes[0].clusters.size()), [&] { tile.bin(); });
+}
+
+void reject(benchmark::State& state, bool fast) {
+  OneTile tile(600);  // 720,000 triangles for 4,096 samples
+  time(state, double(tile.scene.triangle_count()), [&] { tile.draw(fast); });
+}
+
+void small(benchmark::State& state, bool fast) {
+  OneTile tile(48);
+  time(state, kSize * kSize, [&] { tile.draw(fast); });
+}
+
+void large(benchmark::State& state, bool fast) {
+  OneTile tile(1);
+  time(state, kSize * kSize / kBlockPixels, [&] { tile.draw(fast); });
+}
+
+void resolve(benchmark::State& state, int side, bool fast) {
+  OneTile tile(side);
+  tile.draw(fast);
+  time(state, kSize * kSize, [&] { tile.resolve(fast); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::RegisterBenchmark("bounds, a cluster", bounds);
+  for (const bool fast : {true, false}) {
+    const std::string how = fast ? "" : " (general)";
+    benchmark::RegisterBenchmark(("reject, a triangle" + how).c_str(), [=](auto& s) { reject(s, fast); });
+    benchmark::RegisterBenchmark(("small, a fragment" + how).c_str(), [=](auto& s) { small(s, fast); });
+    benchmark::RegisterBenchmark(("large, a block" + how).c_str(), [=](auto& s) { large(s, fast); });
+    benchmark::RegisterBenchmark(("resolve large, a pixel" + how).c_str(), [=](auto& s) { resolve(s, 4, fast); });
+    benchmark::RegisterBenchmark(("resolve small, a pixel" + how).c_str(), [=](auto& s) { resolve(s, 64, fast); });
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

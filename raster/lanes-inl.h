@@ -1,0 +1,85 @@
+// Masks as bits, and halves as wholes: a vector of floats is as long as two of doubles, but where there is one lane.
+// Included once per SIMD target.
+#if defined(TRUESHADE_RASTER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_LANES_INL_H_
+#undef TRUESHADE_RASTER_LANES_INL_H_
+#else
+#define TRUESHADE_RASTER_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "raster/front_order.h"
+#include "raster/vertex_stage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DWF = hn::ScalableTag<float>;  // whole vectors
+using VWF = hn::Vec<DWF>;
+using M64 = hn::Mask<D64>;
+
+/// A bit for each lane of a mask.
+template <class D>
+HWY_INLINE uint32_t lane_bits(D d, hn::Mask<D> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  uint32_t bits;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+}
+
+/// Bits of [first, last] that fall into a vector of `lanes` starting at `from`, counted from there.
+HWY_INLINE uint32_t range_bits(int first, int last, int from, int lanes) {
+  const int low = std::max(first - from, 0), high = std::min(last - from, lanes - 1);
+  return low > high ? 0u : (2u << high) - (1u << low);
+}
+
+/// The mask of a vector's lanes from the lowest bits.
+template <class D>
+HWY_INLINE hn::Mask<D> lane_mask(D d, uint32_t bits) {
+  uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof(bits));
+  return hn::LoadMaskBits(d, bytes);
+}
+
+/// Moves some lanes of vectors to the front; what follows them means nothing. Where a table can do it, it does:
+/// Highway's Compress copies its own onto the stack for each vector under g++ 12.
+template <class D, bool kByMask = (hn::MaxLanes(D()) > 8)>
+class FrontLanes {
+ public:
+  HWY_INLINE FrontLanes(D d, uint32_t lanes) : mask_(lane_mask(d, lanes)) {}
+  HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::Compress(v, mask_); }
+
+ private:
+  hn::Mask<D> mask_;
+};
+template <class D>
+class FrontLanes<D, false> {
+  using I = hn::RebindToSigned<D>;
+
+ public:
+  HWY_INLINE FrontLanes(D d, uint32_t lanes)
+      : order_(hn::IndicesFromVec(d, hn::LoadU(I(), kFrontOrder[lanes].data()))) {}
+  HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::TableLookupLanes(v, order_); }
+
+ private:
+  decltype(hn::IndicesFromVec(D(), hn::Zero(I()))) order_;
+};
+
+/// Two vectors of floats as one; the lower where that is whole.
+template <class D>
+HWY_INLINE hn::Vec<D> joined(D d, V32 lower, [[maybe_unused]] V32 upper) {
+  if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(D32()))
+    return lower;
+  else
+    return Combine(d, upper, lower);  // by its argument's namespace: the one-lane target has none
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
