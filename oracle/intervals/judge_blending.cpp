@@ -52,6 +52,7 @@ struct PixelState {
   double same = 1;     ///< predicted probability that every light drew as nominal
   Texel nominal, all;  ///< by the nominal draws; by any
   bool split = false;  ///< whether the two may differ
+  bool open = false;   ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
 };
 
@@ -296,7 +297,13 @@ void BlendingJudge::unchanged(int x, int y, const Image* given, int light) {
 void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const {
   const Format format = color_.image->format;
   for (const DrawnFragment& f : fragments) {
-    if (f.output.undefined) p.pixel_class = PixelClass::undefined;
+    if (f.output.undefined) {
+      if (f.least > 0) p.pixel_class = PixelClass::undefined;
+      if (f.least == 0) {
+        p.open = true;
+        continue;
+      }
+    }
     const auto drawn = [&](Texel t, const std::array<Range, 4>& source, int times) {
       for (int i = 0; i < times; ++i) t = blended_texel(blend, format, profile_, source, t);
       return t;
@@ -326,11 +333,14 @@ void BlendingJudge::judge(int x, int y, const Image* given, int light, std::span
                           const BlendState& blend) {
   PixelState& p = pixels_[at(x, y)];
   if (given == nullptr) return carry(p, fragments, blend);
-  for (const DrawnFragment& f : fragments)
-    if (f.output.undefined) return keep(x, y, PixelClass::undefined, {}, light);
+  std::vector<DrawnFragment> known;  // a fragment that may be absent, and says nothing: only where nothing else fits
+  for (const DrawnFragment& f : fragments) {
+    if (f.output.undefined && f.least > 0) return keep(x, y, PixelClass::undefined, {}, light);
+    if (!f.output.undefined) known.push_back(f);
+  }
   const Texel from = light < 0 ? Texel{} : texel_of(before_, x, y);
   std::vector<Way> list;
-  ways(from, fragments, blend, list);
+  ways(from, known, blend, list);
   const PlaneView view(given);
   Match closest;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -342,6 +352,7 @@ void BlendingJudge::judge(int x, int y, const Image* given, int light, std::span
     }
     if (i == 0 || m.excess < closest.excess) closest = m;
   }
+  if (known.size() < fragments.size()) return keep(x, y, PixelClass::undefined, {}, light);
   closest.choices.clear();
   closest.stored_values = 0;
   keep(x, y, PixelClass::violation, closest, light);
@@ -363,6 +374,8 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
   } else if (Match other; p.split && judged(p.all, other)) {
     p.pixel_class = p.doubt;
     m = other;
+  } else if (p.open) {
+    p.pixel_class = PixelClass::undefined;
   } else {
     p.pixel_class = PixelClass::violation;
   }
