@@ -82,7 +82,7 @@ inline void apply_values(const MaterialValues& m, const LightModel& model, float
 }
 
 inline void fill_material_planes(const MaterialValues& m, const LightModel& model, int i, SurfaceTile& out) {
-  float albedo[4], specular[4], emission[3];
+  float albedo[4] = {}, specular[4] = {}, emission[3] = {};
   for (int c = 0; c < 4; ++c) albedo[c] = out.plane[kAlbedo + c][i], specular[c] = out.plane[kSpecular + c][i];
   apply_values(m, model, albedo, specular, emission);
   for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] = albedo[c];
@@ -156,7 +156,7 @@ struct MaterialTexel {
 
   void set(const TileDraws& in, const GBufferState& g, const LightModel& model, uint32_t index_plus_1) {
     const Material& m = in.scene.materials[index_plus_1 - 1];
-    float albedo[4], specular[4], emission[3];
+    float albedo[4] = {}, specular[4] = {}, emission[3] = {};
     for (int c = 0; c < 4; ++c) albedo[c] = 1.0f * m.base_color[c];
     if (fills_planes(model)) apply_values(material_values(m, model, false), model, albedo, specular, emission);
     material = index_plus_1;
