@@ -86,7 +86,9 @@ Pipeline random_pipeline(Pcg32& random) {
   p.light_model.falloff = falloffs[random.below(7)];
   p.light_model.order = orders[random.below(3)];
   p.light_model.cone = Cone(random.below(5));
-  if (random.below(4) == 0) p.light_model.specular_source = SpecularSource::albedo;
+  const bool of_albedo = random.below(4) == 0;
+  // The albedo can come last only where the highlight has its colour too.
+  if (of_albedo || p.light_model.order == TermOrder::albedo_last) p.light_model.specular_source = SpecularSource::albedo;
   p.target = targets[random.below(4)];
   if (random.below(2) == 0) p.gbuffer.normal.format = Format::rgba16f;
   p.geometry.depth_format = depths[random.below(4)];
