@@ -164,7 +164,7 @@ class Builder {
 
   /// From far to near as the camera looks, so that drawing in order is drawing back to front.
   void glazing() {
-    const auto tinted = [](int i) { return MaterialId(kTintedGlass + (i + kTints) % kTints); };
+    const auto tinted = [](int i) { return MaterialId(int(kTintedGlass) + (i + kTints) % kTints); };
     for (int i = 0; i < kBays; ++i) {
       const double z = (i + 0.5 - kBays / 2.0) * kBay;
       for (const double side : {-1.0, 1.0}) box(tinted(i + int(side)), {side * kRow, 2.0, z}, {0.03, 3.0, kBay - 1.5});

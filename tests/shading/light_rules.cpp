@@ -198,7 +198,7 @@ TEST_CASE("lights in the plane of a surface, and a last bit above and below it, 
         for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(position[k]);
         for (size_t k = 0; k < 3; ++k) mesh.normal[k].push_back(normal[k] * length);
       }
-      for (const uint32_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(4 * i + corner);
+      for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(4 * i + corner);
     }
     scene.meshes = {mesh};
     Pipeline pipeline = loop_pipeline("many-lights");

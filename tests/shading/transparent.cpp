@@ -244,7 +244,7 @@ TEST_CASE("What lies behind glass is lit in the mixed colour, and by nothing els
       }
     }
   CHECK(mixed > 3000);
-  for (const size_t plane : {1, 2, 3}) CHECK(frame.aovs[plane].image.texels == without.aovs[plane].image.texels);
+  for (const size_t plane : {1u, 2u, 3u}) CHECK(frame.aovs[plane].image.texels == without.aovs[plane].image.texels);
 }
 
 TEST_CASE("Without transparent materials no mode changes a frame; and `none` draws them as opaque ones") {
