@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "oracle/intervals/judge.h"
 #include "scenes/builtin.h"
@@ -15,9 +17,16 @@
 
 using namespace trueshade;
 using namespace trueshade::oracle;
-using trueshade::testing::MutantScore;
 
 namespace trueshade::testing {
+
+namespace {
+
+struct MutantScore {
+  int changed = 0, rejected = 0, by_last = 0;  ///< that differ from the right ones; rejected; by the last image alone
+  uint64_t pixels = 0;
+  std::set<std::string> scenes;                ///< that reject it
+};
 
 std::vector<Scene> blend_mutant_scenes() {
   std::vector<Scene> scenes = {builtin_scene("cornell"), builtin_scene("city,lights=6,objects=120"), builtin_scene("sphere,lights=5")};
@@ -27,6 +36,7 @@ std::vector<Scene> blend_mutant_scenes() {
   return scenes;
 }
 
+// Right and wrong steps under each profile.
 void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pipeline& preset, std::span<const Profile> profiles,
                       const Renderer& render, const StepRenderer& step, MutantScore& score) {
   Scene scene = original;
@@ -64,6 +74,25 @@ void print_scores(const std::map<std::string_view, MutantScore>& scores) {
   }
 }
 
+}  // namespace
+
+void try_blend_mutants(std::span<const Profile> profiles, const Renderer& render, const StepRenderer& step) {
+  std::map<std::string_view, MutantScore> scores;
+  for (const Scene& scene : blend_mutant_scenes())
+    for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::forward_multipass}) {
+      Pipeline pipeline;
+      pipeline.width = 64, pipeline.height = 48;
+      pipeline.strategy = strategy;
+      for (const BlendMutant& mutant : blend_mutants())
+        try_blend_mutant(mutant, scene, pipeline, profiles, render, step, scores[mutant.name]);
+    }
+  print_scores(scores);
+  for (const BlendMutant& mutant : blend_mutants()) {
+    INFO(mutant.name);
+    CHECK(scores[mutant.name].scenes.size() >= 2);
+  }
+}
+
 }  // namespace trueshade::testing
 
 TEST_CASE("Wrong ways of drawing lights one by one are rejected light by light") {
@@ -74,19 +103,6 @@ TEST_CASE("Wrong ways of drawing lights one by one are rejected light by light")
     profiles.push_back(*profile_named(name));
     profiles.back().subpixel_bits = 8;
   }
-  std::map<std::string_view, MutantScore> scores;
-  for (const Scene& scene : testing::blend_mutant_scenes())
-    for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::forward_multipass}) {
-      Pipeline pipeline;
-      pipeline.width = 64, pipeline.height = 48;
-      pipeline.strategy = strategy;
-      for (const BlendMutant& mutant : blend_mutants())
-        testing::try_blend_mutant(mutant, scene, pipeline, profiles, render, step, scores[mutant.name]);
-    }
-  testing::print_scores(scores);
-  for (const BlendMutant& mutant : blend_mutants()) {
-    INFO(mutant.name);
-    CHECK(scores[mutant.name].scenes.size() >= 2);
-  }
+  testing::try_blend_mutants(profiles, render, step);
   CHECK(blend_mutants().size() == 16);
 }
