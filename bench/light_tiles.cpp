@@ -29,6 +29,7 @@ struct Surfaces {
   Pipeline pipeline;
   View view;
   LightTable lights;
+  PlainLights plain;
   LightGroups groups;
   LightMeshes meshes;
   LightOutlines outlines;
@@ -41,6 +42,7 @@ struct Surfaces {
     view = make_view(scene, pipeline);
     lights = make_light_table(scene.lights, pipeline.light_model, scene.camera);
     bound_by_extents(lights, scene.lights, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
+    plain = make_plain_lights(lights, pipeline.light_model);
     groups = make_light_groups(lights, 1);
     if (blends_lights(pipeline.strategy)) outlines = make_light_outlines(scene.lights, pipeline, meshes, view, 1);
     ClusterBins bins;
@@ -95,8 +97,8 @@ void light(benchmark::State& state, const std::string& spec, const std::string& 
       if (blends)
         blend_tile(draws, *surface, nullptr, in.rect[i], kClear, blend, *color, counts);
       else
-        light_tile(*surface, kTile, in.lights, in.groups, in.pipeline.light_model, kClear, true, true, lists, *color,
-                   counts);
+        light_tile(*surface, kTile, in.lights, in.groups, in.pipeline.light_model, kClear,
+                   {true, true, &in.plain, in.pipeline.target}, lists, *color, counts);
       least[i] = std::min(least[i],
                           std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
     }

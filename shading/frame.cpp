@@ -88,6 +88,7 @@ struct FrameWork {
   const View view;
   const ClusterBins& bins;
   const LightTable lights;
+  const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
   const LightGroups groups;
   const LightMeshes meshes;
   const LightOutlines outlines;  ///< of strategies that blend
@@ -119,6 +120,12 @@ struct FrameWork {
     const WindowTransform& t = view.window;
     const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
     return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
+  }
+
+  // Sums that go into fixed point as they are.
+  LightShortcuts light_shortcuts() const {
+    const bool codes = info(pipeline.target).number_class == NumberClass::unorm && !stores_wide();
+    return {execution.light_culling, execution.compiled_models, codes ? &plain : nullptr, pipeline.target};
   }
 
   BlendTarget target() const { return {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round}; }
@@ -169,8 +176,8 @@ struct FrameWork {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
     } else {
-      light_tile(s.surface, where.size, lights, groups, pipeline.light_model, clear, execution.light_culling,
-                 execution.compiled_models, s.lights, s.color, counts.light);
+      light_tile(s.surface, where.size, lights, groups, pipeline.light_model, clear, light_shortcuts(), s.lights,
+                 s.color, counts.light);
     }
     bool stored = blends_lights(pipeline.strategy);
     if (!stored && stores_wide()) {
@@ -333,6 +340,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
   LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads);
   bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
+  PlainLights plain;
+  if (execution.settled_sums && !blends_lights(pipeline.strategy))
+    plain = make_plain_lights(lights, pipeline.light_model);
   LightGroups groups;
   if (execution.light_culling) groups = make_light_groups(lights, execution.threads);
   LightMeshes meshes(pipeline.light_volumes);
@@ -340,9 +350,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
   frame.stats.before_tiles_ms = now_ms() - start;
-  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(groups),
-              std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
-              TransparentPass(scene, pipeline), frame},
+  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
+              std::move(groups), std::move(meshes), std::move(outlines), need_uv,
+              LightPlanes(aovs, scene, pipeline.light_model), TransparentPass(scene, pipeline), frame},
              progress);
 
   FrameStats& stats = frame.stats;

@@ -198,17 +198,26 @@ HWY_INLINE MF faced_away(const float* const position[3], size_t i, const Region&
   return hn::Lt(bound, hn::Mul(size, hn::Set(d, -0x1p-20f)));
 }
 
-/// Calls found(first + k) for each bit k, ascending, as far as that is below `count`.
-template <class Found>
-HWY_INLINE void for_each_bit(MF mask, size_t first, size_t count, const Found& found) {
+/// A bit for each lane of a mask.
+HWY_INLINE uint64_t mask_bits(MF mask) {
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(DF(), mask, bytes);
   uint64_t bits = 0;
   std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+/// Calls found(first + k) for each bit k, ascending, as far as that is below `count`.
+template <class Found>
+HWY_INLINE void for_each_bit(uint64_t bits, size_t first, size_t count, const Found& found) {
   for (; bits != 0; bits &= bits - 1) {
     const size_t at = first + size_t(std::countr_zero(bits));
     if (at < count) found(at);
   }
+}
+template <class Found>
+HWY_INLINE void for_each_lane(MF mask, size_t first, size_t count, const Found& found) {
+  for_each_bit(mask_bits(mask), first, count, found);
 }
 
 /// Calls found(i) for the boxes of [first, end) that meet `box`.
@@ -223,7 +232,7 @@ HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t e
       const MF above = hn::Lt(hn::LoadU(d, boxes.high[c].data() + i), hn::Set(d, box.low[c]));
       meets = hn::AndNot(hn::Or(below, above), meets);
     }
-    for_each_bit(meets, i, end, found);
+    for_each_lane(meets, i, end, found);
   }
 }
 
@@ -243,7 +252,7 @@ inline void reaching_groups(const LightTable& lights, const LightGroups& groups,
       for (size_t i = group * kGroup; i < (group + 1) * kGroup; i += hn::Lanes(DF())) {
         MF reaches = within_reach(position, groups.cut2.data(), i, r.place);
         if (cull.facing && !hn::AllFalse(DF(), reaches)) reaches = hn::AndNot(faced_away(position, i, r), reaches);
-        for_each_bit(reaches, i, groups.light.size(), set);
+        for_each_lane(reaches, i, groups.light.size(), set);
       }
     });
   });
@@ -268,7 +277,7 @@ inline void reaching_lights(const LightTable& lights, const LightGroups& groups,
   const Box& box = tile.place;
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.size(); first += hn::Lanes(DF()))
-    for_each_bit(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
+    for_each_lane(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
       if (!lights.cones || !dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
     });
 }
@@ -303,7 +312,7 @@ inline void region_lights(const TileLights& lights, const Region& r, int blocks,
     MF reaches = hn::Eq(hn::Zero(d), hn::Zero(d));
     if (cull.distance) reaches = within_reach(position, lights.cut2.data(), first, r.place);
     if (cull.facing && !hn::AllFalse(d, reaches)) reaches = hn::AndNot(faced_away(position, first, r), reaches);
-    for_each_bit(reaches, first, lights.light.size(), add);
+    for_each_lane(reaches, first, lights.light.size(), add);
   }
 }
 
@@ -320,8 +329,8 @@ inline std::span<const ListedLight> block_lights(const SurfaceTile& surface, int
   const float* const position[3] = {region.position[0].data(), region.position[1].data(), region.position[2].data()};
   scratch.clear();
   for (size_t first = 0; first < region.light.size(); first += hn::Lanes(d))
-    for_each_bit(within_reach(position, region.cut2.data(), first, box), first, region.light.size(),
-                 [&](size_t i) { scratch.push_back(region.light[i]); });
+    for_each_lane(within_reach(position, region.cut2.data(), first, box), first, region.light.size(),
+                  [&](size_t i) { scratch.push_back(region.light[i]); });
   return scratch;
 }
 

@@ -10,6 +10,7 @@
 
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
+#include "shading/settled_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -23,7 +24,7 @@ struct TileWork {
   const LightGroups& groups;
   const LightModel& model;
   const float* clear;
-  bool culling;
+  const LightShortcuts& shortcuts;
   LightLists& work;
   ColorTile& out;
   LightCounts& counts;
@@ -59,7 +60,7 @@ void clear_tile(const TileWork& in) {
 // The lights of the tile into its lists.
 void list_tile_lights(const TileWork& in, const TileRegions& regions, RegionCull cull) {
   in.work.tile.clear();
-  if (in.culling) {
+  if (in.shortcuts.culling) {
     reaching_lights(in.lights, in.groups, regions, cull, in.work.bits, in.work.reaching);
     for (const uint32_t i : in.work.reaching) in.work.tile.add(in.lights, i);
   } else {
@@ -68,24 +69,119 @@ void list_tile_lights(const TileWork& in, const TileRegions& regions, RegionCull
   in.counts.tile_pairs += uint64_t(regions.pixels) * in.work.tile.light.size();
 }
 
+// Whether sums are worth bounding: most would be settled.
+template <class Shape>
+bool sums_by_bounds(const Shape&, const TileWork& in) {
+  if constexpr (Shape::compiled) {
+    if constexpr (is_plain(Shape::shape)) {
+      const PlainLights* plain = in.shortcuts.plain;
+      return in.shortcuts.culling && plain != nullptr && !plain->light.empty() &&
+             plain->relative * float(info(in.shortcuts.stored).largest_code(0)) <= 0.125f;
+    }
+  }
+  return false;
+}
+
+// Surfaces of some pixels side by side: `at` holds their places in the tile.
+void pack_pixels(const SurfaceTile& surface, std::span<const uint16_t> at, int room, SurfaceTile& packed) {
+  const auto count = int(at.size());
+  for (int k = 0; k < room; ++k) packed.covered[k] = k < count ? -1 : 0;
+  for (int plane = kPosition; plane < kAlbedo + 4; ++plane)
+    for (int k = 0; k < room; ++k) packed.plane[plane][k] = surface.plane[plane][at[size_t(std::min(k, count - 1))]];
+}
+
+void unpack_vector(VF values, std::span<const uint16_t> at, float* plane) {
+  alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)] = {};
+  hn::Store(values, DF(), lane);
+  for (size_t k = 0; k < at.size(); ++k) plane[at[k]] = lane[k];
+}
+
+// A vector of packed pixels by bounds; those that they leave open are noted.
+template <class Shape>
+void settle_vector(const TileWork& in, const LightTerms<Shape>& terms, int i, std::span<const uint16_t> at) {
+  const DF d;
+  const DI di;
+  const PlainLists& lists = in.work.plain;
+  const SurfaceTile& packed = *in.work.packed;
+  const PixelVector px = terms.load(packed, i);
+  PlainSum sum;
+  VF color[3];
+  add_plain_list<false, Shape>(px, *in.shortcuts.plain, lists.matte, sum);
+  add_plain_list<true, Shape>(px, *in.shortcuts.plain, lists.shiny, sum);
+  const MF settled = settled_colors(px, sum, in.shortcuts.plain->relative, lists.left_out, in.shortcuts.stored, color);
+  for_each_lane(hn::AndNot(settled, px.covered), 0, at.size(), [&](size_t k) { in.work.open.push_back(at[k]); });
+  in.counts.evaluated_pairs += (lists.matte.size() + lists.shiny.size()) * hn::Lanes(d);
+  for (int c = 0; c < 3; ++c) unpack_vector(color[c], at, in.out.plane[c]);
+  unpack_vector(terms.alpha(packed, i), at, in.out.plane[3]);
+  alignas(64) int32_t lights[HWY_MAX_BYTES / sizeof(int32_t)] = {};
+  hn::Store(sum.lights, di, lights);
+  for (size_t k = 0; k < at.size(); ++k) in.out.light_count[at[k]] = uint32_t(lights[k]);
+}
+
+// The pixels left open, by all lights in order.
+template <class Shape>
+void sum_open(const TileWork& in, const LightTerms<Shape>& terms) {
+  const size_t lanes = hn::Lanes(DF());
+  const std::span<const uint16_t> open = in.work.open;
+  for (size_t first = 0; first < open.size(); first += lanes) {
+    const std::span<const uint16_t> at = open.subspan(first, std::min(lanes, open.size() - first));
+    pack_pixels(in.surface, at, int(lanes), *in.work.packed);
+    const PixelVector px = terms.load(*in.work.packed, 0);
+    LightSum sum;
+    add_lights(terms, px, in.work.tile.light, VectorPlace(in.work.tile, in.tile / kBlockSize, 0), sum);
+    for (int c = 0; c < 3; ++c) unpack_vector(terms.finished(px, sum.color[c], c), at, in.out.plane[c]);
+    in.counts.evaluated_pairs += sum.evaluated * lanes;
+  }
+}
+
+// A tile by bounds where they settle a pixel's codes. Pixels come together by the way they face and by object, for
+// what is known of a light holds for all of a group.
+template <class Shape>
+void settle_tile(const TileWork& in, const LightTerms<Shape>& terms, const TileRegions& regions) {
+  constexpr float kShare = 0x1p-2f;  // of a code, that may be left out; most often it is a hundredth of that
+  const PlainLights& plain = *in.shortcuts.plain;
+  const float least = kShare / float(info(in.shortcuts.stored).largest_code(0)) / float(plain.light.size());
+  if (!in.work.packed) in.work.packed = std::make_unique<SurfaceTile>();
+  in.work.open.clear();
+  PixelGroups& groups = in.work.groups;
+  group_pixels(in.surface, regions, in.tile / kBlockSize, groups);
+  for (size_t g = 0; g + 1 < groups.first.size(); ++g) {
+    const std::span<const uint16_t> group(groups.pixel + groups.first[g], groups.pixel + groups.first[g + 1]);
+    pack_pixels(in.surface, group, kBlockPixels, *in.work.packed);
+    Region r{0, 0, 1, 1, 0, {}, {}};
+    bound_region(*in.work.packed, 1, true, r);
+    sort_lights(in.lights, plain, in.model, terms.form, RegionBalls(r, in.lights, in.model), least, in.work.plain);
+    for (size_t i = 0; i < group.size(); i += hn::Lanes(DF()))
+      settle_vector(in, terms, int(i), group.subspan(i, std::min(hn::Lanes(DF()), group.size() - i)));
+  }
+  sum_open(in, terms);
+}
+
 template <class Shape>
 void light_tile_of(const Shape& shape, const TileWork& in) {
   const int blocks = in.tile / kBlockSize;
+  const bool by_bounds = sums_by_bounds(shape, in);
   TileRegions regions;
-  const RegionCull cull{in.culling, in.culling && in.lights.cones, in.culling && !adds_unlit(shape.shape)};
-  find_regions(in.surface, blocks, cull.facing, regions);
+  const RegionCull cull{in.shortcuts.culling, in.shortcuts.culling && in.lights.cones,
+                        in.shortcuts.culling && !adds_unlit(shape.shape)};
+  find_regions(in.surface, blocks, cull.facing || by_bounds, regions);
   if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
   list_tile_lights(in, regions, cull);
 
   const LightTerms<Shape> terms(in.lights, in.model, shape);
-  for (int k = 0; k < regions.count; ++k) {
+  if constexpr (Shape::compiled) {
+    if constexpr (is_plain(Shape::shape)) {
+      if (by_bounds) settle_tile(in, terms, regions);
+    }
+  }
+  for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
     region_lights(in.work.tile, r, blocks, cull, in.work.region);
     for (int k = 0; k < r.wide * r.tall; ++k) {
       const int block = (r.by + k / r.wide) * blocks + r.bx + k % r.wide;
       const std::span<const ListedLight> list =
-          block_lights(in.surface, block, in.work.region, in.culling, in.work.block);
+          block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);
       for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
         light_vector(in, terms, list, i, in.counts);
     }
@@ -103,10 +199,10 @@ struct LightTileOf {
 };
 
 void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
-                     const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                     const LightModel& model, const float clear[4], const LightShortcuts& shortcuts, LightLists& work,
                      ColorTile& out, LightCounts& counts) {
-  const TileWork in{surface, tile, lights, groups, model, clear, culling, work, out, counts};
-  with_shape(model, compiled, LightTileOf{in});
+  const TileWork in{surface, tile, lights, groups, model, clear, shortcuts, work, out, counts};
+  with_shape(model, shortcuts.compiled, LightTileOf{in});
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
@@ -117,10 +213,10 @@ namespace trueshade {
 HWY_EXPORT(light_tile_simd);
 
 void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
-                const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                const LightModel& model, const float clear[4], const LightShortcuts& shortcuts, LightLists& work,
                 ColorTile& out, LightCounts& counts) {
   HWY_DYNAMIC_DISPATCH(light_tile_simd)
-  (surface, tile, lights, groups, model, clear, culling, compiled, work, out, counts);
+  (surface, tile, lights, groups, model, clear, shortcuts, work, out, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

@@ -1,11 +1,14 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/format.h"
 #include "raster/surfaces.h"
 #include "scenes/light_model.h"
 #include "shading/light_groups.h"
 #include "shading/light_table.h"
+#include "shading/plain_lights.h"
 #include "shading/tile_lights.h"
 
 namespace trueshade {
@@ -28,14 +31,24 @@ struct LightLists {
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
   std::vector<ListedLight> block;
+  PlainLists plain;
+  PixelGroups groups;
+  std::vector<uint16_t> open;           ///< pixels whose sums bounds have not settled
+  std::unique_ptr<SurfaceTile> packed;  ///< their surfaces, side by side
+};
+
+/// What a light pass may spare itself. None of it changes a bit of what is stored.
+struct LightShortcuts {
+  bool culling = true;   ///< leave out lights that are proved to add nothing, by tile, by 16x16 region and by vector
+  bool compiled = true;  ///< use the kernel compiled for the model's shape, where there is one (shading/light_shape.h)
+  const PlainLights* plain = nullptr;  ///< of the table: sums need only have the right codes in
+  Format stored = Format::rgba8;       ///< this fixed-point format. Null: they are wanted as they are
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha
-/// included. Pixels that are not covered get `clear`. `culling` leaves out lights that are proved to add nothing, by
-/// tile, by 16x16 region and by vector: never changes a bit. `compiled`: by the kernel compiled for the model's shape,
-/// where there is one (shading/light_shape.h); never changes a bit either. `groups`: of the table's lights.
+/// included. Pixels that are not covered get `clear`. `groups`: of the table's lights.
 void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
-                const LightModel& model, const float clear[4], bool culling, bool compiled, LightLists& work,
+                const LightModel& model, const float clear[4], const LightShortcuts& shortcuts, LightLists& work,
                 ColorTile& out, LightCounts& counts);
 
 }  // namespace trueshade

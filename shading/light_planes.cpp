@@ -28,7 +28,7 @@ void LightPlanes::draw(const SurfaceTile& surface, const TileRect& rect, bool cu
   constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   for (const Plane& plane : planes_) {
     LightCounts uncounted;
-    light_tile(surface, rect.size, plane.light, LightGroups{}, model_, kNothing, culling, compiled, work, color,
+    light_tile(surface, rect.size, plane.light, LightGroups{}, model_, kNothing, {culling, compiled}, work, color,
                uncounted);
     Image& image = planes[plane.index].image;
     for (int y = 0; y < std::min(rect.size, image.height - rect.y); ++y)
