@@ -82,14 +82,6 @@ void draw_over(GLuint program, const GlTexture& target, int width, int height, c
   check_gl("blending");
 }
 
-const GlContext* profiled_driver() {
-  const GlContext* context = driver(GlDriver::llvmpipe);
-  if (context == nullptr) return nullptr;
-  if (context->info().version.find("Mesa 22.3.") != std::string::npos) return context;
-  WARN("SKIPPED: the profile is that of Mesa 22.3, this is " << context->info().line());
-  return nullptr;
-}
-
 GlProgram fetching_program() {
   return make_program("fetch", fullscreen_vertex_text(330),
                       glsl_header(330, "what a texture holds") +
@@ -236,7 +228,7 @@ std::vector<Format> targets_of_8_bits() {
 }  // namespace
 
 TEST_CASE("llvmpipe blends random states, values and formats to the profile's bits") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   const GlProgram fetch = fetching_program();
   Random random(2203);
   for (int i = 0; i < 120; ++i)
@@ -246,7 +238,7 @@ TEST_CASE("llvmpipe blends random states, values and formats to the profile's bi
 }
 
 TEST_CASE("llvmpipe blends every factor with every factor under every equation to the profile's bits", "[long]") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   const GlProgram fetch = fetching_program();
   Random random(2204);
   for (size_t e = 0; e < kBlendEquations; ++e)
@@ -259,7 +251,7 @@ TEST_CASE("llvmpipe blends every factor with every factor under every equation t
 }
 
 TEST_CASE("Row 48: llvmpipe blends every 63rd triple of nine 8-bit modes to the profile's bits, plain and sRGB") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   for (const Format format : targets_of_8_bits())
     for (const NamedMode& mode : usual_modes()) {
       INFO(mode.name << ", " << info(format).name);
@@ -269,7 +261,7 @@ TEST_CASE("Row 48: llvmpipe blends every 63rd triple of nine 8-bit modes to the 
 
 TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the profile's bits, plain and sRGB",
           "[long]") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   for (const Format format : targets_of_8_bits())
     for (const NamedMode& mode : usual_modes()) {
       INFO(mode.name << ", " << info(format).name);
@@ -278,7 +270,7 @@ TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the p
 }
 
 TEST_CASE("llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile") {
-  if (profiled_driver() == nullptr || !estimates_as_amd()) return;
+  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
   constexpr int kWide = 4096;
   const GlProgram program =
       make_program("floats", fullscreen_vertex_text(330),
@@ -308,7 +300,7 @@ TEST_CASE("llvmpipe encodes every float from 0 to 1 as the sRGB code of the prof
 }
 
 TEST_CASE("llvmpipe clears every target to what the profile's draws leave of the clear colour's stand-in") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   Random random(2205);
   for (const Format format : targets())
     for (int i = 0; i < 2000; ++i) {
@@ -332,7 +324,7 @@ TEST_CASE("llvmpipe clears every target to what the profile's draws leave of the
 }
 
 TEST_CASE("llvmpipe clears sRGB codes upward where the profile says, one float below and one above") {
-  if (profiled_driver() == nullptr || !estimates_as_amd()) return;
+  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
   const GlTexture target = make_texture(Format::srgb8_a8, 1, 1);
   const std::array<GLuint, 1> colors{target};
   const GlTarget framebuffer = make_target(colors, 0);
@@ -347,7 +339,7 @@ TEST_CASE("llvmpipe clears sRGB codes upward where the profile says, one float b
 }
 
 TEST_CASE("llvmpipe reads 8-bit codes as the profile does") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   PixelPlanes codes(256), values(256);
   for (size_t k = 0; k < 256; ++k) codes.set(k, {float(k), float(255 - k), float(k), float(k)});
   const GlProgram fetch = fetching_program();
