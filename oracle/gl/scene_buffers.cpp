@@ -144,7 +144,9 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
     const bool directional = light.type == LightType::directional;
     const glm::vec3 place = directional ? -light.direction : light.position;
     const ConeNumbers cone = cone_numbers(light, model.cone);
-    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f : 2.0f;
+    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f
+                       : light.type == LightType::spot                           ? 2.5f
+                                                                                 : 2.0f;
     const glm::vec3 color = light.color * model.damping;
     const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
     add(place, type);

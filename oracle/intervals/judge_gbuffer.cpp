@@ -44,10 +44,6 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
-    for (const Material& m : scene.materials)
-      if (m.normal_map.used() || (m.specular_map.used() && reads_specular_plane(pipeline.light_model)))
-        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal or specular map cannot be judged yet",
-                    "validate the scene without it");
     candidates_ = find_candidates(projector_);
   }
 
@@ -96,8 +92,9 @@ class GBufferJudge {
       m.channel_is(depth_, "depth", 0, surface.depth(), held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)),
                    pixel, profile_);
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
-    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored) {
-      if (surface.textured())
+    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
+                                   bool looked_up) {
+      if (looked_up)
         m.lookup_is(view, name, k, range, stored, pixel, profile_);
       else
         m.channel_is(view, name, k, range, stored, pixel, profile_);
@@ -110,14 +107,20 @@ class GBufferJudge {
           if (stored != rest) m.note(p.name, k, {rest, rest, rest}, stored, 1);
           continue;
         }
+        if (p.first == kNormal) {
+          const Range n = surface.normal(k, p.interpolation);
+          judge_channel(p.view, p.name, k, p.view.unorm() ? halved_normal(n, profile_) : n, stored, surface.bumpy());
+          continue;
+        }
         if (p.first != kAlbedo) {
           m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel, profile_);
           continue;
         }
         const Range base = surface.base_color(k, p.interpolation);
         if (specular_ && k < 3)
-          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k));
-        judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored);
+          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k),
+                        surface.glossy());
+        judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
       }
     constant_planes(surface, x, y_top, pixel, m);
     return m;

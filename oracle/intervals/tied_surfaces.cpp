@@ -62,7 +62,7 @@ class TieFinder {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
-      off += std::fabs(values.attribute(kNormal + size_t(k), pipeline_.gbuffer.normal.interpolation).value -
+      off += std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value -
                        normal_.image->value(x, y_top, k));
     if (depth_) off += std::fabs(values.depth().value - held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
@@ -80,7 +80,7 @@ class TieFinder {
     ShadedSurface s;
     for (size_t k = 0; k < 3; ++k) {
       s.position[k] = bounded_of(values.attribute(kPosition + k, g.position.interpolation));
-      s.normal[k] = bounded_of(values.attribute(kNormal + k, g.normal.interpolation));
+      s.normal[k] = bounded_of(values.normal(int(k), g.normal.interpolation));
       const Range base = values.base_color(int(k), g.albedo.interpolation);
       s.albedo[k] = bounded_of(values.albedo(base));
       s.specular[k] = bounded_of(values.specular(base, int(k)));

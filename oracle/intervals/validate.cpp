@@ -110,8 +110,6 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
     throw Error(ErrorKind::usage, "transparency", "transparent surfaces are not judged yet", "a pipeline with transparency none");
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
-  if (info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm)
-    throw Error(ErrorKind::usage, "gbuffer.normal.format", "normals in fixed point are not judged yet", "a format of floats");
   Verdict v;
   v.scene = scene.spec, v.driver = capture.driver, v.profile = options.profile.name;
   const auto has = [&](std::string_view name) { return capture.plane(name) != nullptr; };

@@ -10,6 +10,7 @@
 #include "tests/intervals/blend_mutants.h"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
+#include "tests/intervals/surface_mutants.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -69,4 +70,11 @@ TEST_CASE("llvmpipe's own wrong blends are rejected light by light, under its pr
     };
   };
   testing::try_blend_mutants(profiles_of(*context), draw, step);
+}
+
+TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too") {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
+  testing::try_surface_mutants(profiles_of(*context), draw);
 }
