@@ -98,4 +98,20 @@ Range halved_normal(const Range& n, const Profile& profile) {
   return {r.value, r.low - more, r.high + more};
 }
 
+ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& g) {
+  const auto bounded = [](const Range& r) { return Bounded{r.value, std::max(r.high - r.value, r.value - r.low)}; };
+  ShadedSurface s;
+  for (size_t k = 0; k < 3; ++k) {
+    s.position[k] = bounded(values.attribute(kPosition + k, g.position.interpolation));
+    s.normal[k] = bounded(values.normal(int(k), g.normal.interpolation));
+    const Range base = values.base_color(int(k), g.albedo.interpolation);
+    s.albedo[k] = bounded(values.albedo(base));
+    s.specular[k] = bounded(values.specular(base, int(k)));
+    s.emission[k] = {double(values.material().emission[int(k)]), 0};
+  }
+  s.albedo[3] = bounded(values.base_color(3, g.albedo.interpolation));
+  s.shininess = values.shininess();
+  return s;
+}
+
 }  // namespace trueshade::oracle

@@ -6,6 +6,7 @@
 #include "oracle/intervals/bent_normal.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/map_range.h"
+#include "oracle/intervals/shading.h"
 
 namespace trueshade::oracle {
 
@@ -42,6 +43,9 @@ class SurfaceValues {
   std::optional<std::array<Range, 4>> texel_, gloss_;
   std::optional<std::array<Range, 3>> bent_;
 };
+
+/// A candidate's fragment as lights read it where no plane is between.
+ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
 
 /// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
 Range halved_normal(const Range& n, const Profile& profile);
