@@ -36,7 +36,7 @@ for scene in ${SCENES:-$(names Scenes)}; do
           for (i = 1; i <= n; ++i) printf " %d |", count[order[i]]
           printf " %s / %s | %s |\n", seen, predicted, seconds
         } else if (stage != "gbuffer") {
-          ++presets; sum_seen += seen; sum_predicted += predicted
+          if (stage != "transparency") ++presets; sum_seen += seen; sum_predicted += predicted
           for (i = 1; i <= n; ++i) sum[order[i]] += count[order[i]]
         }
         split("", count); stage = "" }
