@@ -168,8 +168,6 @@ struct FrameWork {
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
-      if (execution.count_as_gl)
-        counts.lit_geometry += count_lit_geometry(lit, s.surface, where, s.blend.counts, s.blend.lights);
     } else {
       light_tile(s.surface, where.size, lights, groups, pipeline.light_model, clear, execution.light_culling,
                  execution.compiled_models, s.lights, s.color, counts.light);
@@ -203,6 +201,8 @@ struct FrameWork {
     }
     counts.geometry_ms += middle - start;
     counts.light_ms += now_ms() - middle;
+    if (execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
+      counts.lit_geometry += count_lit_geometry(light_draws(), s.surface, where, s.blend.counts, s.blend.lights);
   }
 };
 
@@ -325,7 +325,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   for (const std::string& name : aovs)
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
-  View view = make_view(scene, pipeline);
+  View view = make_view(scene, pipeline, execution.threads);
   BinsLoan bins;
   bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
                *bins.bins);
