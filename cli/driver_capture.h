@@ -24,6 +24,7 @@ struct DriverFrame {
   uint64_t repeat_changes = 0, move_changes = 0;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
   oracle::LightSteps steps;        ///< of strategies that draw light by light; keeps the driver open
+  oracle::LightSteps objects;      ///< of surfaces transparent after the lights, object by object
 };
 
 /// Draws with the driver of that name; `scene` must outlive `steps` (`--driver`). Throws Error(no_gl_driver) where there is none, and always in a

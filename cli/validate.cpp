@@ -24,7 +24,8 @@ double timed(Job job) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v, oracle::LightSteps& steps) {
+void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v, oracle::LightSteps& steps,
+               oracle::LightSteps& objects) {
   DriverFrame frame = drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
@@ -33,6 +34,7 @@ void draw_here(const ValidationOptions& options, const Scene& scene, Validation&
   v.move_changes = frame.move_changes;
   v.notes = std::move(frame.notes);
   steps = std::move(frame.steps);
+  objects = std::move(frame.objects);
   // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
   if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
 }
@@ -67,16 +69,16 @@ bool judge_opengl(const ValidationOptions& options) {
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
-  oracle::LightSteps steps;
+  oracle::LightSteps steps, objects;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty())
-      draw_here(options, scene, v, steps);
+      draw_here(options, scene, v, steps, objects);
     else
       read_files(options, v);
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, steps});
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, steps, objects});
   });
   if (options.report) {
     const std::string page = validation_page(v);

@@ -36,7 +36,7 @@ for scene in ${SCENES:-$(names Scenes)}; do
           for (i = 1; i <= n; ++i) printf " %d |", count[order[i]]
           printf " %s / %s | %s |\n", seen, predicted, seconds
         } else if (stage != "gbuffer") {
-          ++presets; sum_seen += seen; sum_predicted += predicted
+          if (stage != "transparency") ++presets; sum_seen += seen; sum_predicted += predicted
           for (i = 1; i <= n; ++i) sum[order[i]] += count[order[i]]
         }
         split("", count); stage = "" }
@@ -44,7 +44,7 @@ for scene in ${SCENES:-$(names Scenes)}; do
       /^name / { flush(); name = substr($0, 6) }
       /^trueshade: error: / { print "| " name " | " substr($0, 19) " |" }
       /judged in/ { seconds = $(NF - 1) " s" }
-      /^(gbuffer|lighting|blending):/ { flush(); stage = substr($1, 1, length($1) - 1) }
+      /^(gbuffer|lighting|blending|transparency):/ { flush(); stage = substr($1, 1, length($1) - 1) }
       /^  [A-Z0-9-]+ +[0-9]+ +[0-9.]+ %$/ { count[$1] = $2 }
       /other surfaces or branches/ { seen = $5; predicted = $7 }
       END { flush()
