@@ -1,6 +1,9 @@
 #pragma once
 // Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
 // "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+#include <span>
+#include <vector>
+
 #include "oracle/capture.h"
 #include "oracle/intervals/profile.h"
 #include "oracle/intervals/verdict.h"
@@ -33,5 +36,9 @@ StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const 
 /// violation after one light is judged from what it then holds after the next.
 StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                             const LightSteps& steps);
+
+/// The same by each profile, the lights drawn once.
+std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline, std::span<const Profile> profiles,
+                                         const Capture& capture, const LightSteps& steps);
 
 }  // namespace trueshade::oracle
