@@ -1,6 +1,5 @@
 #include "oracle/intervals/light_lanes.h"
 
-#include <algorithm>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -422,9 +421,8 @@ void LightColumns::pad() {
 void LightColumns::take(const LightColumns& from, std::span<const uint32_t> places) {
   count = places.size();
   const auto taken = [&](const std::vector<double>& plane, std::vector<double>& out) {
-    out.resize(whole_vectors(count));
+    if (out.size() < whole_vectors(count)) out.resize(whole_vectors(count), 1.0);  // beyond count: any numbers
     for (size_t i = 0; i < count; ++i) out[i] = plane[places[i]];
-    std::fill(out.begin() + std::ptrdiff_t(count), out.end(), 1.0);
   };
   for (size_t k = 0; k < 3; ++k) taken(from.position[k], position[k]), taken(from.color[k], color[k]);
   taken(from.range, range), taken(from.k0, k0), taken(from.k1, k1), taken(from.k2, k2);
