@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/fp_env.h"
@@ -64,6 +65,41 @@ void find_seen(const Scene& scene, const ClusteredScene& clusters, const View& v
     bins.draws.insert(bins.draws.end(), bins.chunk[size_t(chunk)].begin(), bins.chunk[size_t(chunk)].end());
 }
 
+constexpr size_t kPieceDraws = 2048, kMostPieces = 16, kMostCounts = size_t(1) << 20;
+
+template <class Visit>
+void for_each_tile(const ClusterBins& bins, const ClusterDraw& draw, const Visit& visit) {
+  for (int y = draw.y0 / bins.tile; y <= draw.y1 / bins.tile; ++y)
+    for (int x = draw.x0 / bins.tile; x <= draw.x1 / bins.tile; ++x)
+      visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
+}
+
+// Lists the draws by tile, piece by piece: each counts its own, then puts them behind those of the pieces before it.
+void list_draws(int threads, ClusterBins& bins) {
+  const size_t tiles = bins.first.size() - 1, draws = bins.draws.size();
+  const size_t pieces =
+      std::clamp<size_t>(draws / kPieceDraws, 1, std::clamp<size_t>(kMostCounts / tiles, 1, kMostPieces));
+  const auto for_each_draw = [&](int piece, const auto& visit) {
+    const size_t from = draws * size_t(piece) / pieces, end = draws * (size_t(piece) + 1) / pieces;
+    uint64_t* const next = bins.next.data() + size_t(piece) * tiles;
+    for (size_t i = from; i < end; ++i)
+      for_each_tile(bins, bins.draws[i], [&](size_t tile) { visit(uint32_t(i), next[tile]); });
+  };
+  bins.next.assign(pieces * tiles, 0);
+  parallel_for(int(pieces), threads, [&](int piece) { for_each_draw(piece, [](uint32_t, uint64_t& n) { ++n; }); });
+  for (size_t tile = 0; tile < tiles; ++tile) {
+    uint64_t at = bins.first[tile];
+    for (size_t piece = 0; piece < pieces; ++piece) at += std::exchange(bins.next[piece * tiles + tile], at);
+    if (at - bins.first[tile] > kMaxTileClusters)
+      throw Error(ErrorKind::limit, "scene", "more than 16777214 clusters of 126 triangles touch one tile",
+                  "use smaller tiles or fewer triangles");
+    bins.first[tile + 1] = at;
+  }
+  bins.list.resize(bins.first.back());
+  parallel_for(int(pieces), threads,
+               [&](int piece) { for_each_draw(piece, [&](uint32_t i, uint64_t& at) { bins.list[at++] = i; }); });
+}
+
 }  // namespace
 
 void bin_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile, bool culling,
@@ -77,22 +113,7 @@ void bin_clusters(const Scene& scene, const ClusteredScene& clusters, const View
   const WindowTransform& t = view.window;
   if (t.x0 >= t.x1 || t.y0 >= t.y1) return;
   find_seen(scene, clusters, view, culling, threads, bins);
-
-  const auto for_each_tile = [&](const ClusterDraw& draw, auto&& visit) {
-    for (int y = draw.y0 / tile; y <= draw.y1 / tile; ++y)
-      for (int x = draw.x0 / tile; x <= draw.x1 / tile; ++x) visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
-  };
-  for (const ClusterDraw& draw : bins.draws) for_each_tile(draw, [&](size_t i) { ++bins.first[i + 1]; });
-  for (size_t i = 1; i < bins.first.size(); ++i) {
-    if (bins.first[i] > kMaxTileClusters)
-      throw Error(ErrorKind::limit, "scene", "more than 16777214 clusters of 126 triangles touch one tile",
-                  "use smaller tiles or fewer triangles");
-    bins.first[i] += bins.first[i - 1];
-  }
-  bins.list.resize(bins.first.back());
-  bins.next.assign(bins.first.begin(), bins.first.end() - 1);
-  for (uint32_t i = 0; i < bins.draws.size(); ++i)
-    for_each_tile(bins.draws[i], [&](size_t k) { bins.list[bins.next[k]++] = i; });
+  list_draws(threads, bins);
 }
 
 }  // namespace trueshade

@@ -104,8 +104,6 @@ HWY_EXPORT(count_mesh_simd);
 namespace {
 
 constexpr int kWindowOrigin[2] = {0, 0};
-constexpr int kChunk = 64;  // lights a task
-
 /// The outlines of a chunk of lights.
 struct Chunk {
   PlacedMesh placed;
@@ -149,11 +147,12 @@ LightOutlines make_light_outlines(std::span<const Light> lights, const Pipeline&
   out.layers.resize(lights.size());
   for (auto* side : {&out.x0, &out.y0, &out.x1, &out.y1}) side->resize(padded);
   out.first.resize(lights.size() + 1);
-  const int chunks = int((lights.size() + kChunk - 1) / kChunk);
+  const size_t task = std::clamp<size_t>(lights.size() / 16, 1, 64);  // lights of one
+  const int chunks = int((lights.size() + task - 1) / task);
   std::vector<Chunk> parts(static_cast<size_t>(chunks), {{}, {out.state, out.window}});
   parallel_for(chunks, threads, [&](int chunk) {
     Chunk& part = parts[size_t(chunk)];
-    for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), size_t(chunk + 1) * kChunk); ++i) {
+    for (size_t i = size_t(chunk) * task; i < std::min(lights.size(), size_t(chunk + 1) * task); ++i) {
       const LightExtent extent = drawn_extent(lights[i], pipeline.light_volumes);
       OutlineMaker::Outline r = part.maker.everywhere(OutlineKind::everywhere);
       if (is_mesh(extent)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/fp_env.h"
 #include "scenes/camera.h"
 
 namespace trueshade {
@@ -137,7 +138,7 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   return out;
 }
 
-View make_view(const Scene& scene, const Pipeline& pipeline) {
+View make_view(const Scene& scene, const Pipeline& pipeline, int threads) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
   View view{pipeline.width,
             pipeline.height,
@@ -147,9 +148,13 @@ View make_view(const Scene& scene, const Pipeline& pipeline) {
             inverse_rows(clip),
             rounded_rows(clip),
             scene_maps(scene, pipeline)};
-  view.instances.reserve(scene.instances.size());
-  for (const Instance& instance : scene.instances)
-    view.instances.push_back(instance_transform(clip, instance.world_from_object));
+  constexpr size_t kChunk = 256;
+  const size_t instances = scene.instances.size();
+  view.instances.resize(instances);
+  parallel_for(int((instances + kChunk - 1) / kChunk), threads, [&](int chunk) {
+    for (size_t i = size_t(chunk) * kChunk; i < std::min(instances, (size_t(chunk) + 1) * kChunk); ++i)
+      view.instances[i] = instance_transform(clip, scene.instances[i].world_from_object);
+  });
   return view;
 }
 

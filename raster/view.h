@@ -61,6 +61,6 @@ struct View {
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,
                                  NumericProfile profile = NumericProfile::ideal);
-View make_view(const Scene& scene, const Pipeline& pipeline);
+View make_view(const Scene& scene, const Pipeline& pipeline, int threads = 1);
 
 }  // namespace trueshade
