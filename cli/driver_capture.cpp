@@ -9,6 +9,7 @@
 
 #include "oracle/gl/context.h"
 #include "oracle/gl/renderer.h"
+#include "scenes/transparency.h"
 
 namespace trueshade {
 namespace {
@@ -83,6 +84,14 @@ oracle::LightSteps steps_of(const std::shared_ptr<Session>& session, const Pipel
   };
 }
 
+oracle::LightSteps objects_of(const std::shared_ptr<Session>& session, const Pipeline& pipeline) {
+  return [session, pipeline](const oracle::StepSink& sink) {
+    oracle::GlDraw draw;
+    draw.after_object = sink;
+    session->renderer.draw(pipeline, draw);
+  };
+}
+
 }  // namespace
 
 DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const Pipeline& pipeline) {
@@ -105,6 +114,7 @@ DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const P
   for (const oracle::GlPass& pass : timed_passes(renderer, pipeline, frame.passes, drawn.timed_frames))
     drawn.passes.push_back({pass.name, pass.ms});
   if (blends_lights(pipeline.strategy)) drawn.steps = steps_of(session, pipeline);
+  if (draws_transparent(scene, pipeline)) drawn.objects = objects_of(session, pipeline);
   return drawn;
 }
 

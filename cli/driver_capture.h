@@ -26,6 +26,7 @@ struct DriverFrame {
   std::function<uint64_t(const oracle::Capture& first)> repeat_changes, move_changes;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
   oracle::LightSteps steps;        ///< of strategies that draw light by light
+  oracle::LightSteps objects;      ///< of surfaces transparent after the lights, object by object
 };
 
 /// Draws with the driver of that name (`--driver`), which the functions of the result keep open; `scene` must outlive

@@ -74,7 +74,8 @@ bool judge_opengl(const ValidationOptions& options) {
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, drawn.steps});
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
+                                         {v.profile, !options.quick, drawn.steps, drawn.objects});
   });
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);

@@ -93,16 +93,16 @@ inline void place_used(const TileDraws& in, const ClusterDraw& draw, SampleOrigi
   const hn::RebindToUnsigned<D64> dl;
   WindowVertices window;
   const float(&m)[4][4] = in.view.instances[draw.instance].clip;
+  const PlainVertices plain(in.view.instances[draw.instance], in.view.window, origin);
   const auto bias = hn::Set(du, PlacedVertex::kBias);
   for (int i = 0; i < count; i += int(hn::Lanes(df))) {
     const V32 x = hn::Load(df, from.stream[0] + i), y = hn::Load(df, from.stream[1] + i),
               z = hn::Load(df, from.stream[2] + i);
-    const V32 cx = affine_row(m[0], x, y, z), cy = affine_row(m[1], x, y, z), cz = affine_row(m[2], x, y, z),
-              cw = affine_row(m[3], x, y, z);
     if (draw.plain)
-      place_plain_vertices(cx, cy, cz, cw, in.view.window, origin, size_t(i), window);
+      plain.place(x, y, z, size_t(i), window);
     else
-      place_vertices(cx, cy, cz, cw, in.view.window, origin, size_t(i), window);
+      place_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
+                     affine_row(m[3], x, y, z), in.view.window, origin, size_t(i), window);
     const auto wx = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.x) + i), bias);
     const auto wy = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.y) + i), bias);
     const auto key = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dl, wy)), hn::PromoteTo(dl, wx));

@@ -2,19 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace trueshade::oracle {
-
-bool worse(PixelClass a, PixelClass b) {
-  const auto rank = [](PixelClass c) {
-    constexpr PixelClass order[] = {PixelClass::exact,     PixelClass::store_2,  PixelClass::branch,
-                                    PixelClass::clip,      PixelClass::edge,     PixelClass::depth_tie,
-                                    PixelClass::undefined, PixelClass::violation};
-    return std::find(std::begin(order), std::end(order), c) - std::begin(order);
-  };
-  return rank(a) > rank(b);
-}
 
 std::vector<Way> ways_from(const Texel& from, std::span<const DrawnFragment> fragments, const BlendState& blend,
                            Format format, const Profile& profile) {

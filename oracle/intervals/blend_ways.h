@@ -23,9 +23,6 @@ struct Way {
   double value[4] = {};  ///< of the last fragment
 };
 
-/// A class a pixel keeps when another of its lights has a lesser one.
-bool worse(PixelClass a, PixelClass b);
-
 inline constexpr size_t kMostWays = 64;  // of drawing a pixel that are tried apart
 
 /// Every way from a known texel on, the nominal one first; more than kMostWays of them: the nominal one and the hull of

@@ -12,7 +12,9 @@
 #include "oracle/intervals/captured_surface.h"
 #include "oracle/intervals/light_cover.h"
 #include "oracle/intervals/tied_surfaces.h"
+#include "oracle/intervals/transparent_layers.h"
 #include "scenes/light_mesh.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
@@ -89,12 +91,19 @@ class BlendingJudge {
     if (alone || batch_.size() >= std::clamp<size_t>(most, 1, size_t(kMostLights))) judge_batch();
   }
 
+  /// Surfaces blended over what the lights may leave: of judge_blended().
+  void find_layers(const Capture& capture) {
+    if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)
+      layers_.emplace(scene_, pipeline_, profile_, capture);
+  }
+
   StageVerdict verdict(std::string_view stage, const Image* last) {
     if (!batch_.empty()) judge_batch();
     each_row([&](int y) {
       RowTally& row = rows_[size_t(y)];
       for (int x = 0; x < pipeline_.width; ++x) {
         PixelState& p = pixels_[at(x, y)];
+        if (layers_ && layers_->any(x, y)) cover(x, y);
         if (last != nullptr) judge_last(x, y, *last);
         row.classes.push_back(p.pixel_class);
         if (p.same >= 1) continue;
@@ -152,6 +161,7 @@ class BlendingJudge {
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
   void unchanged(int x, int y, size_t i);
   void judge_last(int x, int y, const Image& last);
+  void cover(int x, int y);
   bool fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const;
   void keep(int x, int y, PixelClass c, const Match& m, int light);
 
@@ -168,6 +178,7 @@ class BlendingJudge {
   const AddedCodes codes_;
   const bool keeps_dark_;  ///< a fragment that adds nothing leaves the texel as it is
   std::unique_ptr<TiedSurfaces> tied_;
+  std::optional<TransparentLayers> layers_;
   std::vector<uint8_t> covered_;
   std::vector<ShadedSurface> surfaces_;
   std::vector<PixelState> pixels_;
@@ -402,6 +413,18 @@ void BlendingJudge::judge(int x, int y, int light, const Image* before, const Im
   keep(x, y, PixelClass::violation, closest, light);
 }
 
+void BlendingJudge::cover(int x, int y) {
+  PixelState& p = pixels_[at(x, y)];
+  const TransparentPixel pixel = layers_->at(x, y);
+  if (pixel.layers.empty()) return;
+  CarriedTexel carried{p.nominal, p.split ? p.all : p.nominal, p.split, p.open, p.doubt};
+  layers_->carry(pixel, carried);
+  p.nominal = carried.nominal, p.all = carried.all, p.split = carried.split, p.open = carried.open;
+  p.doubt = carried.doubt;
+  for (const TransparentLayer& layer : pixel.layers)
+    if (!layer.certain) p.same *= 1 - double(layer.chance_other);
+}
+
 void BlendingJudge::judge_last(int x, int y, const Image& last) {
   PixelState& p = pixels_[at(x, y)];
   if (p.pixel_class == PixelClass::undefined) return;
@@ -467,6 +490,7 @@ StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const P
   BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture);
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
+  judge.find_layers(capture);
   return judge.verdict("lighting", &capture.color);
 }
 

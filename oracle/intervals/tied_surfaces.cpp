@@ -11,8 +11,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-Bounded bounded_of(const Range& r) { return {r.value, std::max(r.high - r.value, r.value - r.low)}; }
-
 class TieFinder {
  public:
   TieFinder(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
@@ -70,7 +68,7 @@ class TieFinder {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
-      off += std::fabs(values.attribute(kNormal + size_t(k), pipeline_.gbuffer.normal.interpolation).value -
+      off += std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value -
                        normal_.image->value(x, y_top, k));
     if (depth_) off += std::fabs(values.depth().value - held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
@@ -84,19 +82,7 @@ class TieFinder {
 
   ShadedSurface surface_of(const Candidate& c, double x, double y) const {
     const SurfaceValues values(projector_, c, x, y);
-    const GBufferState& g = pipeline_.gbuffer;
-    ShadedSurface s;
-    for (size_t k = 0; k < 3; ++k) {
-      s.position[k] = bounded_of(values.attribute(kPosition + k, g.position.interpolation));
-      s.normal[k] = bounded_of(values.attribute(kNormal + k, g.normal.interpolation));
-      const Range base = values.base_color(int(k), g.albedo.interpolation);
-      s.albedo[k] = bounded_of(values.albedo(base));
-      s.specular[k] = bounded_of(values.specular(base, int(k)));
-      s.emission[k] = {double(values.material().emission[int(k)]), 0};
-    }
-    s.albedo[3] = bounded_of(values.base_color(3, g.albedo.interpolation));
-    s.shininess = values.shininess();
-    return s;
+    return shaded_surface(values, pipeline_.gbuffer);
   }
 
   const Pipeline pipeline_;
