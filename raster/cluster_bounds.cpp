@@ -16,49 +16,82 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Interval arithmetic on clip coordinates, a lane a cluster: what a cluster's box can reach. A float row of four
-// products and three sums is off by less than 2^-21 of the sum of its terms' magnitudes.
+// Clip coordinates over a cluster's box, a lane a cluster. A float row of four products and three sums is off by less
+// than 2^-21 of the sum of its terms' magnitudes.
+struct ClipRow {
+  V64 middle, half[3];  ///< at the box's centre; from there to each pair of faces
+  V64 slack;            ///< twice what rounding of the vertex stage may move it by
+
+  HWY_INLINE ClipRow(const float row[4], const V64 center[3], const V64 half_size[3]) {
+    const D64 d;
+    middle = hn::Set(d, double(row[3]));
+    V64 magnitude = hn::Set(d, std::abs(double(row[3])));
+    for (int i = 0; i < 3; ++i) {
+      const V64 m = hn::Set(d, double(row[i])), from_center = hn::Mul(m, center[i]);
+      half[i] = hn::Mul(m, half_size[i]);
+      middle = hn::Add(middle, from_center);
+      magnitude = hn::Add(magnitude, hn::Add(hn::Abs(from_center), hn::Abs(half[i])));
+    }
+    slack = hn::Add(hn::Mul(magnitude, hn::Set(d, 0x1p-20)), hn::Set(d, 0x1p-120));
+  }
+};
+
 struct Intervals {
   V64 low, high;
 };
 
-HWY_INLINE Intervals row_intervals(const float row[4], const V64 center[3], const V64 half[3]) {
+// What w + sign * z can be, sign 0, 1 or -1: z and w of a perspective view are nearly the same.
+HWY_INLINE Intervals sum_interval(const ClipRow& w, const ClipRow& z, double sign) {
+  const V64 s = hn::Set(D64(), sign), middle = hn::Add(w.middle, hn::Mul(s, z.middle));
+  V64 reach = hn::Add(w.slack, z.slack);
+  for (int i = 0; i < 3; ++i) reach = hn::Add(reach, hn::Abs(hn::Add(w.half[i], hn::Mul(s, z.half[i]))));
+  return {hn::Sub(middle, reach), hn::Add(middle, reach)};
+}
+
+// x / w, y / w and z / w of a box in front of the eye. A quotient of two linear functions is monotone along every line
+// on which w > 0, so its ends are at corners. A vertex whose x and w are off by dx and dw has one that is off by less
+// than (dx + |x / w| dw) / w.
+HWY_INLINE void quotients(const ClipRow row[3], const ClipRow& w, V64 least_w, Intervals out[3]) {
   const D64 d;
-  V64 middle = hn::Set(d, double(row[3])), reach = hn::Zero(d), magnitude = hn::Set(d, std::abs(double(row[3])));
-  for (int i = 0; i < 3; ++i) {
-    const V64 m = hn::Set(d, double(row[i])), abs_m = hn::Set(d, std::abs(double(row[i])));
-    const V64 extent = hn::Mul(abs_m, half[i]);
-    middle = hn::Add(middle, hn::Mul(m, center[i]));
-    reach = hn::Add(reach, extent);
-    magnitude = hn::Add(magnitude, hn::Add(hn::Mul(abs_m, hn::Abs(center[i])), extent));
+  const V64 none = hn::Set(d, std::numeric_limits<double>::infinity());
+  for (int r = 0; r < 3; ++r) out[r] = {none, hn::Neg(none)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto at = [corner](const ClipRow& r) {
+      V64 value = r.middle;
+      for (int i = 0; i < 3; ++i) value = (corner >> i) & 1 ? hn::Add(value, r.half[i]) : hn::Sub(value, r.half[i]);
+      return value;
+    };
+    const V64 u = hn::Div(hn::Set(d, 1.0), at(w));
+    for (int r = 0; r < 3; ++r) {
+      const V64 q = hn::Mul(at(row[r]), u);
+      out[r] = {hn::Min(out[r].low, q), hn::Max(out[r].high, q)};
+    }
   }
-  const V64 slack = hn::Add(hn::Mul(magnitude, hn::Set(d, 0x1p-20)), hn::Set(d, 0x1p-120));
-  const V64 widest = hn::Add(reach, slack);
-  return {hn::Sub(middle, widest), hn::Add(middle, widest)};
+  const V64 u = hn::Div(hn::Set(d, 1.0), least_w);
+  for (int r = 0; r < 3; ++r) {
+    const V64 most = hn::Max(hn::Abs(out[r].low), hn::Abs(out[r].high));
+    const V64 slack = hn::Mul(hn::Add(row[r].slack, hn::Mul(most, w.slack)), u);
+    out[r] = {hn::Sub(out[r].low, slack), hn::Add(out[r].high, slack)};
+  }
 }
 
-HWY_INLINE Intervals quotients(const Intervals& a, const Intervals& w) {  // w.low > 0
-  const V64 zero = hn::Zero(D64());
-  return {hn::Div(a.low, hn::IfThenElse(hn::Lt(a.low, zero), w.low, w.high)),
-          hn::Div(a.high, hn::IfThenElse(hn::Lt(a.high, zero), w.high, w.low))};
-}
-
-// Pixels [first, last] that intervals of normalized device coordinates can cover, one more on either side. Returns the
-// lanes that have any.
+// Pixels [first, last] whose samples intervals of normalized device coordinates can reach, if any; snapping moves a
+// vertex by far less than the margin. Returns the lanes that have any.
 HWY_INLINE M64 pixel_spans(const Intervals& ndc, const WindowTransform& t, int axis, int low, int high, int32_t* first,
                            int32_t* last) {
   const D64 d;
   const I32 di;
+  constexpr double kMargin = 0.25;  // pixels
   const V64 scale = hn::Set(d, double(t.scale[axis]) / 256.0), offset = hn::Set(d, double(t.offset[axis]) / 256.0);
-  const V64 one = hn::Set(d, 1.0), least = hn::Set(d, double(low)), most = hn::Set(d, double(high - 1));
+  const V64 least = hn::Set(d, double(low)), most = hn::Set(d, double(high - 1));
   const V64 a = hn::Add(hn::Mul(ndc.low, scale), offset), b = hn::Add(hn::Mul(ndc.high, scale), offset);
-  const V64 from = hn::Sub(hn::Min(a, b), one), to = hn::Add(hn::Max(a, b), one);
-  const M64 touches = hn::And(hn::Ge(to, least), hn::Le(from, hn::Add(most, one)));
+  const V64 from = hn::Floor(hn::Add(hn::Min(a, b), hn::Set(d, 0.5 - kMargin)));
+  const V64 to = hn::Floor(hn::Add(hn::Max(a, b), hn::Set(d, kMargin - 0.5)));
   const auto x0 = hn::DemoteTo(di, hn::Min(hn::Max(from, least), most));
   const auto x1 = hn::DemoteTo(di, hn::Min(hn::Max(to, least), most));
   hn::Store(x0, di, first);
   hn::Store(x1, di, last);
-  return touches;
+  return hn::And(hn::Le(from, to), hn::And(hn::Ge(to, least), hn::Le(from, most)));
 }
 
 // Bounds of a vector of clusters.
@@ -77,29 +110,34 @@ struct Bounds {
       center[c] = hn::PromoteTo(d, hn::LoadU(df, boxes.center[c].data() + i));
       half[c] = hn::PromoteTo(d, hn::LoadU(df, boxes.half_size[c].data() + i));
     }
-    const Intervals x = row_intervals(instance.clip[0], center, half),
-                    y = row_intervals(instance.clip[1], center, half),
-                    z = row_intervals(instance.clip[2], center, half),
-                    w = row_intervals(instance.clip[3], center, half);
+    const ClipRow row[3] = {
+        {instance.clip[0], center, half}, {instance.clip[1], center, half}, {instance.clip[2], center, half}};
+    const ClipRow w_row(instance.clip[3], center, half);
+    const Intervals w = sum_interval(w_row, row[2], 0.0), before_far = sum_interval(w_row, row[2], -1.0);
+    const Intervals behind_near = t.zero_to_one ? sum_interval(row[2], w_row, 0.0) : sum_interval(w_row, row[2], 1.0);
     const V64 zero = hn::Zero(d);
-    const V64 nothing = hn::Add(hn::Add(difference(x), difference(y)), hn::Add(difference(z), difference(w)));
+    V64 nothing = difference(w);
+    for (const ClipRow& r : row) nothing = hn::Add(nothing, difference(sum_interval(r, w_row, 0.0)));
     const M64 finite = hn::Eq(nothing, zero);
     M64 gone = hn::Le(w.high, zero), clipped = hn::Le(w.low, zero);
     if (!t.depth_clamp) {
-      gone = hn::Or(gone, hn::Or(hn::Lt(z.high, t.zero_to_one ? zero : hn::Neg(w.high)), hn::Gt(z.low, w.high)));
-      clipped = hn::Or(clipped, hn::Lt(z.low, t.zero_to_one ? zero : hn::Neg(w.low)));
+      gone = hn::Or(gone, hn::Or(hn::Lt(behind_near.high, zero), hn::Lt(before_far.high, zero)));
+      clipped = hn::Or(clipped, hn::Lt(behind_near.low, zero));
     }
-    const Intervals nx = quotients(x, w), ny = quotients(y, w), depth = quotients(z, w);
-    const M64 across = pixel_spans(nx, t, 0, t.x0, t.x1, x0, x1), up = pixel_spans(ny, t, 1, t.y0, t.y1, y0, y1);
+    Intervals ndc[3];
+    quotients(row, w_row, w.low, ndc);
+    const M64 across = pixel_spans(ndc[0], t, 0, t.x0, t.x1, x0, x1),
+              up = pixel_spans(ndc[1], t, 1, t.y0, t.y1, y0, y1);
     const uint32_t somewhere = lane_bits(d, hn::Or(hn::Not(finite), hn::AndNot(gone, clipped)));
     const uint32_t here = lane_bits(d, hn::And(hn::And(finite, hn::Not(gone)), hn::And(across, up)));
     seen = somewhere | here;
     unknown = somewhere;
     const V64 scale = hn::Set(d, t.z_scale);
-    const V64 nearest = hn::Add(hn::Min(hn::Mul(depth.low, scale), hn::Mul(depth.high, scale)), hn::Set(d, t.z_offset));
-    const V64 slack = hn::Add(hn::Mul(hn::Abs(nearest), hn::Set(d, 0x1p-20)), hn::Set(d, 0x1p-24));
+    const V64 nearest =
+        hn::Add(hn::Min(hn::Mul(ndc[2].low, scale), hn::Mul(ndc[2].high, scale)), hn::Set(d, t.z_offset));
+    const V64 slack = hn::Add(hn::Mul(hn::Abs(nearest), hn::Set(d, 0x1p-22)), hn::Set(d, 0x1p-40));
     hn::Store(hn::DemoteTo(df, hn::Sub(nearest, slack)), df, near);
-    plain = lane_bits(d, without_care(nx, ny, z, w, t)) & ~somewhere;
+    plain = lane_bits(d, without_care(ndc, before_far, w, t)) & ~somewhere;
   }
 
  private:
@@ -109,14 +147,13 @@ struct Bounds {
   }
 
   // Boxes in front of the near plane that lie wholly where place_vertices() finds nothing that needs care.
-  static HWY_INLINE M64 without_care(const Intervals& nx, const Intervals& ny, const Intervals& z, const Intervals& w,
+  static HWY_INLINE M64 without_care(const Intervals ndc[2], const Intervals& before_far, const Intervals& w,
                                      const WindowTransform& t) {
     const D64 d;
     M64 in = hn::Ge(w.low, hn::Set(d, t.float_snap ? std::numeric_limits<double>::infinity() : 0x1p-100));
-    if (!t.depth_clamp) in = hn::And(in, hn::Le(z.high, w.low));
-    const Intervals* ndc[2] = {&nx, &ny};
+    if (!t.depth_clamp) in = hn::And(in, hn::Ge(before_far.low, hn::Zero(d)));
     for (int axis = 0; axis < 2; ++axis) {
-      const V64 far = hn::Max(hn::Abs(ndc[axis]->low), hn::Abs(ndc[axis]->high));
+      const V64 far = hn::Max(hn::Abs(ndc[axis].low), hn::Abs(ndc[axis].high));
       const V64 scale = hn::Set(d, std::abs(double(t.scale[axis]))),
                 offset = hn::Set(d, std::abs(double(t.offset[axis])));
       in = hn::And(in, hn::Lt(hn::Add(hn::Mul(far, scale), offset), hn::Set(d, double(kVectorLimit) / 2.0)));

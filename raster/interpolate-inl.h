@@ -63,14 +63,23 @@ struct Weights {
   V64 x[3], y[3], u[3];  ///< relative to the pixel, 1/256 pixel; 1 / w
 };
 
-/// Smaller and larger of two, the first where equal: the same answer for -0 and 0 on every target, unlike Min and Max.
+/// Smaller and larger of two, the first where equal or a NaN is among them: the same answer for -0 and 0 on every
+/// target. x86 has instructions of that very meaning, though it takes the second, behind Min and Max of more than a
+/// lane; elsewhere these make other choices.
+inline constexpr bool kMinTakesSecond = HWY_ARCH_X86 && hn::MaxLanes(D32()) > 1;
 template <class V>
 HWY_INLINE V lesser(V a, V b) {
-  return hn::IfThenElse(hn::Lt(b, a), b, a);
+  if constexpr (kMinTakesSecond)
+    return hn::Min(b, a);
+  else
+    return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
 template <class V>
 HWY_INLINE V greater(V a, V b) {
-  return hn::IfThenElse(hn::Gt(b, a), b, a);
+  if constexpr (kMinTakesSecond)
+    return hn::Max(b, a);
+  else
+    return hn::IfThenElse(hn::Gt(b, a), b, a);
 }
 
 HWY_INLINE Weights weights(const VisibleVertices& in, const VI32 corner[3], V64 px, V64 py) {

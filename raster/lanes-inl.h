@@ -72,12 +72,33 @@ class FrontLanes<D, false> {
 };
 
 /// Two vectors of floats as one; the lower where that is whole.
-template <class D>
-HWY_INLINE hn::Vec<D> joined(D d, V32 lower, [[maybe_unused]] V32 upper) {
-  if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(D32()))
+template <class D, class V>
+HWY_INLINE hn::Vec<D> joined(D d, V lower, [[maybe_unused]] V upper) {
+  if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(hn::DFromV<V>()))
     return lower;
   else
     return Combine(d, upper, lower);  // by its argument's namespace: the one-lane target has none
+}
+
+/// Pairs of 64-bit words at from[0], from[2], from[4] ...: a vector full.
+template <class D>
+HWY_INLINE hn::Vec<D> every_second_pair(D d, const uint64_t* const* from) {
+  if constexpr (hn::MaxLanes(D()) <= 2) {
+    return hn::LoadU(d, *from);
+  } else {
+    const hn::Half<D> half;
+    return Combine(d, every_second_pair(half, from + hn::MaxLanes(half)), every_second_pair(half, from));
+  }
+}
+/// Of the pairs at from[0], from[1] ... the first words and the second.
+template <class D>
+HWY_INLINE void load_pairs(D d, const uint64_t* const* from, hn::Vec<D>& first, hn::Vec<D>& second) {
+  if constexpr (hn::MaxLanes(D()) == 1) {
+    first = hn::LoadU(d, *from), second = hn::LoadU(d, *from + 1);
+  } else {
+    const hn::Vec<D> even = every_second_pair(d, from), odd = every_second_pair(d, from + 1);
+    first = InterleaveLower(d, even, odd), second = InterleaveUpper(d, even, odd);
+  }
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

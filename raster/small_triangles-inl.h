@@ -17,9 +17,10 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <iterator>
 
 #include "raster/commit-inl.h"
+#include "raster/fragment_list-inl.h"
+#include "raster/hidden-inl.h"
 #include "raster/lanes-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
@@ -34,30 +35,14 @@ using VT = hn::Vec<DT>;
 
 inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
 // Lists are written a whole vector at a time, and are a multiple of every vector long.
-inline constexpr size_t kMostCandidates = 144, kMostFragments = 1024;
+inline constexpr size_t kMostCandidates = 144;
 static_assert(kClusterTriangles + 16 <= kMostCandidates && 16 * 16 + 16 <= kMostFragments);
 
-/// A cluster's triangles that have a sample in their box and the tile.
-struct TriangleList {
-  alignas(64) int32_t corner[3][kMostCandidates];  ///< packed; of the small ones only
-  alignas(64) int32_t word[kMostCandidates];       ///< corners' vertices and triangle, a byte each
-  int count = 0;
-};
-
+/// A cluster's triangles that have a sample in their box and the tile: corners' vertices and triangle, a byte each.
 struct Candidates {
-  TriangleList upto_2, upto_4;                 ///< at most 2x2 and 4x4 samples
-  alignas(64) int32_t other[kMostCandidates];  ///< words, as above
-  int others = 0;
-};
-
-/// Fragments of a cluster's small triangles.
-struct FragmentList {
-  static constexpr size_t kMost = 4 * kMostCandidates;
-  alignas(64) int32_t e1[kMostFragments], e2[kMostFragments], area[kMostFragments], word[kMostFragments],
-      at[kMostFragments];
-  int count = 0;
-  alignas(64) double corner_z[3][kMostFragments];
-  alignas(64) float z[kMostFragments];
+  alignas(64) int32_t upto_2[kMostCandidates], more[kMostCandidates];  ///< those of at most 2x2 samples; the others
+  alignas(64) int32_t large[kMostCandidates];                          ///< of the others those of more than 4x4
+  int count_2 = 0, count_more = 0, count_large = 0;
 };
 
 /// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
@@ -98,6 +83,11 @@ HWY_INLINE VT corner_at(const int32_t* packed, VT index) {
   }
 }
 
+/// The same by the lowest byte of each lane.
+HWY_INLINE VT corner_of(const int32_t* packed, VT word) {
+  return corner_at(packed, hn::And(word, hn::Set(DT(), kClusterVertices - 1)));
+}
+
 HWY_INLINE VT lower_half(VT packed) { return hn::And(packed, hn::Set(DT(), 0xFFFF)); }
 HWY_INLINE VT upper_half(VT packed) { return hn::ShiftRight<16>(packed); }
 HWY_INLINE VT least_of(VT a, VT b, VT c) { return hn::Min(hn::Min(a, b), c); }
@@ -117,18 +107,6 @@ struct PackedLimits {
         last_y(rect.limit[3] - 1 + first_y) {}
 };
 
-HWY_INLINE void append(TriangleList& out, hn::Mask<DT> which, VT p0, VT p1, VT p2, VT word) {
-  const DT d;
-  const uint32_t bits = lane_bits(d, which);
-  const FrontLanes front(d, bits);
-  const int n = out.count;
-  hn::StoreU(front(p0), d, out.corner[0] + n);
-  hn::StoreU(front(p1), d, out.corner[1] + n);
-  hn::StoreU(front(p2), d, out.corner[2] + n);
-  hn::StoreU(front(word), d, out.word + n);
-  out.count = n + std::popcount(bits);
-}
-
 /// Appends words; returns how many there are then.
 HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
   const DT d;
@@ -137,57 +115,60 @@ HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
   return count + std::popcount(bits);
 }
 
-/// Sorts a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, at most 4x4, more.
-HWY_INLINE void find_candidates(const int32_t* packed, const ClusteredMesh& mesh, const Cluster& cluster,
+/// The samples of the tile in the boxes of a vector of triangles.
+struct SampleBoxes {
+  VT column, row;    ///< of the first
+  VT columns, rows;  ///< one less than there are; negative where there are none
+  VT left, right, bottom, top;
+
+  HWY_INLINE SampleBoxes(VT p0, VT p1, VT p2, const PackedLimits& limit) {
+    const DT d;
+    const VT x0 = lower_half(p0), x1 = lower_half(p1), x2 = lower_half(p2), round_up = hn::Set(d, 255);
+    left = least_of(x0, x1, x2), right = most_of(x0, x1, x2);
+    // y above x: the order of whole words is that of y, so their least and most have its.
+    bottom = upper_half(least_of(p0, p1, p2)), top = upper_half(most_of(p0, p1, p2));
+    column = hn::Max(hn::ShiftRight<8>(hn::Add(left, round_up)), hn::Set(d, limit.low_x));
+    row = hn::Max(hn::ShiftRight<8>(hn::Add(bottom, round_up)), hn::Set(d, limit.low_y));
+    columns = hn::Sub(hn::Min(hn::ShiftRight<8>(right), hn::Set(d, limit.last_x)), column);
+    rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), hn::Set(d, limit.last_y)), row);
+  }
+
+  /// Those of at most side x side samples, of triangles none of whose corners is held: held ones are at the ends of the
+  /// range.
+  HWY_INLINE hn::Mask<DT> upto(int side, bool any_held) const {
+    const DT d;
+    const auto few = hn::Lt(hn::Or(columns, rows), hn::Set(d, side));  // side is a power of two
+    if (!any_held) return few;
+    const VT reach = hn::Max(hn::Max(right, hn::Sub(hn::Set(d, 2 * kPackedLimit), left)),
+                             hn::Add(hn::Max(top, hn::Neg(bottom)), hn::Set(d, kPackedLimit)));
+    return hn::And(few, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
+  }
+};
+
+/// Lists a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, more.
+HWY_INLINE void find_candidates(const int32_t* packed, bool any_held, const ClusteredMesh& mesh, const Cluster& cluster,
                                 const PackedLimits& limit, Candidates& out) {
   const DT d;
   const hn::Rebind<uint8_t, DT> d8;
   const uint8_t* corner[3];
   for (size_t k = 0; k < 3; ++k) corner[k] = mesh.corner[k].data() + cluster.first_triangle;
-  const VT low_x = hn::Set(d, limit.low_x), low_y = hn::Set(d, limit.low_y), last_x = hn::Set(d, limit.last_x),
-           last_y = hn::Set(d, limit.last_y), round_up = hn::Set(d, 255);
   VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
   const VT next = hn::Set(d, int32_t(hn::Lanes(d)) << 24);
-  alignas(64) int32_t back[kMostCandidates];
-  int backs = 0;
-  out.upto_2.count = out.upto_4.count = out.others = 0;
+  int count_2 = 0, count_more = 0;
   for (int t = 0; t < cluster.triangles; t += int(hn::Lanes(d))) {
     const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t)), i1 = hn::PromoteTo(d, hn::LoadU(d8, corner[1] + t)),
              i2 = hn::PromoteTo(d, hn::LoadU(d8, corner[2] + t));
-    const VT p0 = corner_at(packed, i0), p1 = corner_at(packed, i1), p2 = corner_at(packed, i2);
-    const VT x0 = lower_half(p0), x1 = lower_half(p1), x2 = lower_half(p2);
-    // y above x: the order of whole words is that of y, so their least and most have its.
-    const VT bottom = upper_half(least_of(p0, p1, p2)), top = upper_half(most_of(p0, p1, p2));
-    const VT left = least_of(x0, x1, x2), right = most_of(x0, x1, x2);
-    const VT first_x = hn::Max(hn::ShiftRight<8>(hn::Add(left, round_up)), low_x);
-    const VT first_y = hn::Max(hn::ShiftRight<8>(hn::Add(bottom, round_up)), low_y);
-    const VT columns = hn::Sub(hn::Min(hn::ShiftRight<8>(right), last_x), first_x);
-    const VT rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), last_y), first_y);  // one less than their number
+    const SampleBoxes box(corner_at(packed, i0), corner_at(packed, i1), corner_at(packed, i2), limit);
     const auto present = hn::FirstN(d, size_t(cluster.triangles - t));
-    const auto sampled = hn::And(present, hn::Gt(hn::Or(columns, rows), hn::Set(d, -1)));
+    const auto sampled = hn::And(present, hn::Gt(hn::Or(box.columns, box.rows), hn::Set(d, -1)));
     const VT word = hn::Or(hn::Or(i0, hn::ShiftLeft<8>(i1)), hn::Or(hn::ShiftLeft<16>(i2), number));
     number = hn::Add(number, next);
-    if (hn::AllFalse(d, sampled)) continue;
-    // Held corners lie at the ends of the range.
-    const VT reach = hn::Max(hn::Max(right, hn::Sub(hn::Set(d, 2 * kPackedLimit), left)),
-                             hn::Add(hn::Max(top, hn::Neg(bottom)), hn::Set(d, kPackedLimit)));
-    const auto fits = hn::And(sampled, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
-    const VT most_steps = hn::Or(columns, rows);
-    const auto upto_2 = hn::And(fits, hn::Lt(most_steps, hn::Set(d, 2)));  // both are 0 or 1
-    append(out.upto_2, upto_2, p0, p1, p2, word);
-    const auto larger = hn::AndNot(upto_2, sampled);
-    if (hn::AllFalse(d, larger)) continue;
-    const auto upto_4 = hn::And(fits, hn::And(larger, hn::Lt(most_steps, hn::Set(d, 4))));
-    append(out.upto_4, upto_4, p0, p1, p2, word);
-    // Of a closed mesh the counter-clockwise ones hide the others. Of held corners the sign is a guess, which will do.
-    const VT y0 = upper_half(p0), y1 = upper_half(p1), y2 = upper_half(p2);
-    const auto front = hn::Gt(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
-    const auto other = hn::AndNot(upto_4, larger);
-    out.others = append(out.other, out.others, hn::And(front, other), word);
-    backs = append(back, backs, hn::AndNot(front, other), word);
+    const auto upto_2 = hn::And(sampled, box.upto(2, any_held));
+    count_2 = append(out.upto_2, count_2, upto_2, word);
+    count_more = append(out.more, count_more, hn::AndNot(upto_2, sampled), word);
   }
-  std::copy_n(back, backs, out.other + out.others);
-  out.others += backs;
+  out.count_2 = count_2;
+  out.count_more = count_more;
 }
 
 /// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
@@ -219,50 +200,67 @@ HWY_INLINE VT row_index(VT y, int size) {
                  hn::ShiftLeft<2>(hn::And(y, hn::Set(d, 3))));
 }
 
-/// Lists the covered samples of the vector of triangles at `i`, whose boxes hold at most kSide x kSide samples.
-template <int kSide>
-HWY_INLINE void cover_small(const TriangleList& in, int i, const GeometryState& state, bool upper_left,
-                            const TileRect& rect, const PackedLimits& limit, FragmentList& out) {
-  const DT d;
-  const VT round_up = hn::Set(d, 255), zero = hn::Zero(d);
-  const bool drop_positive = culled(state, !upper_left), drop_negative = culled(state, upper_left);
-  const VT p0 = hn::Load(d, in.corner[0] + i), p1 = hn::Load(d, in.corner[1] + i), p2 = hn::Load(d, in.corner[2] + i);
-  const VT word = hn::Load(d, in.word + i);
-  // Canonical order: smallest (y, x) first, the others as they follow.
-  const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
-  const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
-  const VT q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
-  const VT q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
-  const VT q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
-  const VT corners = hn::And(word, hn::Set(d, 0xFFFFFF));
-  const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
-  const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
-  const VT vertices =
-      hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
-  const VT named = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), word));
+/// A vector of triangles in canonical order: smallest (y, x) first, the others as they follow.
+struct OrderedTriangles {
+  VT q0, q1, q2;  ///< packed corners
+  VT word;        ///< as in Candidates
 
+  HWY_INLINE OrderedTriangles(VT p0, VT p1, VT p2, VT named) {
+    const DT d;
+    const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
+    const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
+    q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
+    q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
+    q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
+    const VT corners = hn::And(named, hn::Set(d, 0xFFFFFF));
+    const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
+    const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
+    const VT vertices =
+        hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
+    word = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), named));
+  }
+};
+
+/// What drawing a cluster's small triangles reads.
+struct SmallDraw {
+  const int32_t* packed;  ///< corners
+  bool any_held;
+  const GeometryState& state;
+  bool upper_left;
+  const TileRect& rect;
+  const PackedLimits limit;
+};
+
+/// Lists the covered samples of a vector of triangles whose boxes hold at most kSide x kSide samples; `which` of them.
+template <int kSide>
+HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangles, const SampleBoxes& box,
+                            hn::Mask<DT> which, FragmentList& out) {
+  const DT d;
+  const VT zero = hn::Zero(d), named = triangles.word;
+  const PackedLimits& limit = in.limit;
+  const bool drop_positive = culled(in.state, !in.upper_left), drop_negative = culled(in.state, in.upper_left);
+  const VT q0 = triangles.q0, q1 = triangles.q1, q2 = triangles.q2;
   const VT x0 = lower_half(q0), x1 = lower_half(q1), x2 = lower_half(q2);
   const VT y0 = upper_half(q0), y1 = upper_half(q1), y2 = upper_half(q2);
   const VT area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
   const VT sign = hn::BroadcastSignBit(area);
-  auto drawn = hn::And(hn::FirstN(d, size_t(in.count - i)), hn::Ne(area, zero));
+  auto drawn = hn::And(which, hn::Ne(area, zero));
   if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
   if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
 
-  const VT column = hn::Max(hn::ShiftRight<8>(hn::Add(least_of(x0, x1, x2), round_up)), hn::Set(d, limit.low_x));
-  const VT row = hn::Max(hn::ShiftRight<8>(hn::Add(y0, round_up)), hn::Set(d, limit.low_y));
+  const VT column = box.column, row = box.row;
   const VT sample_x = hn::ShiftLeft<8>(column), sample_y = hn::ShiftLeft<8>(row);
   SmallEdge e0, e1, e2;
-  e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, upper_left);
-  e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, upper_left);
-  e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, upper_left);
+  e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, in.upper_left);
+  e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, in.upper_left);
+  e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, in.upper_left);
   const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
   const VT size = hn::Sub(hn::Xor(area, sign), sign), past_x = hn::Set(d, limit.last_x + 1),
            past_y = hn::Set(d, limit.last_y + 1);
   VT at_x[kSide];
   for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
   for (int y = 0; y < kSide; ++y) {
-    const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), rect.size);
+    const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), in.rect.size);
     const auto in_rows = y == 0 ? drawn : hn::And(drawn, hn::Lt(hn::Add(row, hn::Set(d, y)), past_y));
     VT f0 = e0.first, f1 = e1.first, f2 = e2.first;
     for (int x = 0; x < kSide; ++x) {
@@ -287,87 +285,65 @@ HWY_INLINE void cover_small(const TriangleList& in, int i, const GeometryState& 
   }
 }
 
-/// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
-HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthCommit& commit) {
-  const D64 d;
-  const D32 df;
-  const I32 di;
-  double(&z)[3][kMostFragments] = in.corner_z;
-  const int padded = (in.count + int(hn::Lanes(d)) - 1) / int(hn::Lanes(d)) * int(hn::Lanes(d));
-  for (int i = 0; i < in.count; ++i) {
-    const uint32_t word = uint32_t(in.word[i]);
-    z[0][i] = vertex_z[word & 255];
-    z[1][i] = vertex_z[(word >> 8) & 255];
-    z[2][i] = vertex_z[(word >> 16) & 255];
-  }
-  for (int i = in.count; i < padded; ++i) z[0][i] = z[1][i] = z[2][i] = 0.0;
-  for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
-    const V64 z0 = hn::Load(d, z[0] + i), z1 = hn::Load(d, z[1] + i), z2 = hn::Load(d, z[2] + i);
-    const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
-    const V64 e1 = hn::PromoteTo(d, hn::Load(di, in.e1 + i)), e2 = hn::PromoteTo(d, hn::Load(di, in.e2 + i));
-    const V64 g1 = hn::Div(hn::Sub(z1, z0), size), g2 = hn::Div(hn::Sub(z2, z0), size);
-    const auto rising = hn::Lt(z1, z2);
-    const V64 low = hn::IfThenElse(rising, z1, z2), high = hn::IfThenElse(rising, z2, z1);
-    const V64 z_low = hn::IfThenElse(hn::Lt(z0, low), z0, low), z_high = hn::IfThenElse(hn::Gt(z0, high), z0, high);
-    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
-    const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
-    const V64 in_range =
-        hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
-    hn::Store(commit.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
-  }
-}
-
-/// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
-/// triangle.
-HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
-                                 DepthCommit& commit) {
-  commit.fragments += uint64_t(fragments.count);
-  fragment_depths(fragments, vertex_z, commit);
-  const float* z = fragments.z;
-  uint64_t changed[kMaxTilePixels / kBlockPixels / 64] = {};
-  const bool first_wins = commit.func == DepthFunc::less;
-  for (int i = 0; i < fragments.count; ++i) {  // no branch on what the depth test says: it is anyone's guess
-    const size_t at = size_t(fragments.at[i]);
-    const uint32_t id = first_id + ((uint32_t(fragments.word[i]) >> 24) << 1), there_id = commit.tile.id[at];
-    const float there = commit.tile.depth[at];
-    const bool wins_tie = (id < there_id) == first_wins;
-    const bool pass = bool(int(z[i] < there) | (int(z[i] == there) & int(wins_tie)));
-    const uint32_t mask = 0u - uint32_t(pass), there_bits = std::bit_cast<uint32_t>(there);
-    commit.tile.depth[at] = std::bit_cast<float>(there_bits ^ ((there_bits ^ std::bit_cast<uint32_t>(z[i])) & mask));
-    commit.tile.id[at] = there_id ^ ((there_id ^ id) & mask);
-    changed[at / (64 * kBlockPixels)] |= uint64_t(pass) << (at / kBlockPixels % 64);
-  }
-  for (size_t k = 0; k < std::size(changed); ++k)
-    for (uint64_t rest = changed[k]; rest != 0; rest &= rest - 1)
-      commit.finish_block(int(64 * k) + std::countr_zero(rest));
-  fragments.count = 0;
-}
-
-/// Draws a cluster's small triangles under LESS or LEQUAL.
-template <int kSide>
-HWY_INLINE void draw_small(const TriangleList& triangles, const double* vertex_z, const GeometryState& state,
-                           bool upper_left, const TileRect& rect, const PackedLimits& limit, uint32_t first_id,
-                           FragmentList& fragments, DepthCommit& commit) {
-  const int lanes = int(hn::Lanes(DT()));
-  for (int i = 0; i < triangles.count; i += lanes) {
-    if (fragments.count + (kSide * kSide + 1) * lanes > int(kMostFragments))
+/// Draws a cluster's triangles of at most 2x2 samples.
+HWY_INLINE void draw_upto_2(const SmallDraw& in, const Candidates& found, const double* vertex_z, uint32_t first_id,
+                            FragmentList& fragments, DepthCommit& commit) {
+  const DT d;
+  const int lanes = int(hn::Lanes(d));
+  for (int i = 0; i < found.count_2; i += lanes) {
+    if (fragments.count + (4 + 1) * lanes > int(kMostFragments))
       commit_fragments(fragments, vertex_z, first_id, commit);
-    cover_small<kSide>(triangles, i, state, upper_left, rect, limit, fragments);
+    const VT word = hn::Load(d, found.upto_2 + i);
+    const VT p0 = corner_of(in.packed, word), p1 = corner_of(in.packed, hn::ShiftRight<8>(word)),
+             p2 = corner_of(in.packed, hn::ShiftRight<16>(word));
+    cover_small<2>(in, OrderedTriangles(p0, p1, p2, word), SampleBoxes(p0, p1, p2, in.limit),
+                   hn::FirstN(d, size_t(found.count_2 - i)), fragments);
   }
+}
+
+/// Draws those of the others that have at most 4x4 samples, and lists the rest: counter-clockwise ones first, as in a
+/// closed mesh they hide the others. Of held corners the sign is a guess, which will do.
+HWY_INLINE void draw_upto_4(const SmallDraw& in, Candidates& found, const double* vertex_z, uint32_t first_id,
+                            FragmentList& fragments, DepthCommit& commit) {
+  const DT d;
+  const int lanes = int(hn::Lanes(d));
+  alignas(64) int32_t back[kMostCandidates];
+  int fronts = 0, backs = 0;
+  for (int i = 0; i < found.count_more; i += lanes) {
+    if (fragments.count + (16 + 1) * lanes > int(kMostFragments))
+      commit_fragments(fragments, vertex_z, first_id, commit);
+    const VT word = hn::Load(d, found.more + i);
+    const VT p0 = corner_of(in.packed, word), p1 = corner_of(in.packed, hn::ShiftRight<8>(word)),
+             p2 = corner_of(in.packed, hn::ShiftRight<16>(word));
+    const SampleBoxes box(p0, p1, p2, in.limit);
+    const auto here = hn::FirstN(d, size_t(found.count_more - i)), upto_4 = hn::And(here, box.upto(4, in.any_held));
+    if (!hn::AllFalse(d, upto_4)) cover_small<4>(in, OrderedTriangles(p0, p1, p2, word), box, upto_4, fragments);
+    const auto large = hn::AndNot(upto_4, here);
+    if (hn::AllFalse(d, large)) continue;
+    const VT x0 = lower_half(p0), y0 = upper_half(p0);
+    const auto front = hn::Gt(hn::Mul(hn::Sub(lower_half(p1), x0), hn::Sub(upper_half(p2), y0)),
+                              hn::Mul(hn::Sub(lower_half(p2), x0), hn::Sub(upper_half(p1), y0)));
+    fronts = append(found.large, fronts, hn::And(front, large), word);
+    backs = append(back, backs, hn::AndNot(front, large), word);
+  }
+  std::copy_n(back, backs, found.large + fronts);
+  found.count_large = fronts + backs;
 }
 
 /// Draws those of a cluster's triangles whose box holds at most 4x4 samples; the others that may cover any are left in
-/// `work.found.other`. Its vertices are in `work`, and none needs care. Not under polygon offset.
-inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const GeometryState& state,
-                                 bool upper_left, const TileRect& rect, uint32_t first_id, ClusterScratch& work,
-                                 DepthCommit& commit) {
-  const PackedLimits limit(rect);
+/// `work.found.large`. Its vertices are in `work`, and none needs care; `box` is theirs. Not under polygon offset.
+inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const WindowBox& box,
+                                 const GeometryState& state, bool upper_left, const TileRect& rect, uint32_t first_id,
+                                 ClusterScratch& work, DepthCommit& commit) {
+  const int32_t middle = rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
+  const bool any_held = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
+  const SmallDraw in{work.packed, any_held, state, upper_left, rect, PackedLimits(rect)};
   const double* z = work.vertices.z;
   FragmentList& fragments = work.fragments;
-  pack_corners(work.vertices, cluster.vertices, rect.size * 128, work.packed);
-  find_candidates(work.packed, mesh, cluster, limit, work.found);
-  draw_small<2>(work.found.upto_2, z, state, upper_left, rect, limit, first_id, fragments, commit);
-  draw_small<4>(work.found.upto_4, z, state, upper_left, rect, limit, first_id, fragments, commit);
+  pack_corners(work.vertices, cluster.vertices, middle, work.packed);
+  find_candidates(work.packed, any_held, mesh, cluster, in.limit, work.found);
+  draw_upto_2(in, work.found, z, first_id, fragments, commit);
+  draw_upto_4(in, work.found, z, first_id, fragments, commit);
   if (fragments.count != 0) commit_fragments(fragments, z, first_id, commit);
 }
 

@@ -249,7 +249,7 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   find_triangles(in, rect, visible, work.triangles, out);
   if (out.covered_pixels == 0) return;
   place_triangles(in, rect, wanted, work.triangles);
-  interpolate_blocks(in, rect, group, groups, wanted, work, out);
+  interpolate_blocks(in, rect, group, groups, wanted, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_interpolated(in, rect, planes, group, groups, out);
   if (colored)

@@ -139,26 +139,47 @@ HWY_INLINE bool place_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTrans
   return !hn::AllTrue(d, fits);
 }
 
-/// The same for vertices known to need no care (ClusterDraw::plain), snapped as the profile `ideal` says.
-HWY_INLINE void place_plain_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin,
-                                     size_t i, WindowVertices& out) {
-  const D64 d;
-  const I32 di;
-  const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), wz = hn::PromoteTo(d, cz), ww = hn::PromoteTo(d, cw);
-  const V64 u = hn::Div(hn::Set(d, 1.0), ww);
-  const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, double(t.scale[0])));
-  const V64 y = hn::Mul(hn::Mul(wy, u), hn::Set(d, double(t.scale[1])));
-  V64 x_fx = hn::Round(x), y_fx = hn::Round(y);
-  const V64 off = hn::Max(hn::Abs(hn::Sub(x, x_fx)), hn::Abs(hn::Sub(y, y_fx)));
-  if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Gt(off, hn::Set(d, 0.5 - 0x1p-14))))) {
-    x_fx = round_near_ties(x, x_fx, wx, ww, t.scale[0]);
-    y_fx = round_near_ties(y, y_fx, wy, ww, t.scale[1]);
+/// The same for vertices known to need no care (ClusterDraw::plain), snapped as the profile `ideal` says. Holds what an
+/// instance's vertices share: stores of theirs might change what is read through references, so it would be read anew.
+class PlainVertices {
+ public:
+  HWY_INLINE PlainVertices(const InstanceTransform& instance, const WindowTransform& t, SampleOrigin origin)
+      : snap_scale_{t.scale[0], t.scale[1]},
+        scale_{double(t.scale[0]), double(t.scale[1])},
+        offset_{double(t.offset[0] - origin.x), double(t.offset[1] - origin.y)},
+        z_scale_(t.z_scale),
+        z_offset_(t.z_offset) {
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) clip_[r][c] = instance.clip[r][c];
   }
-  hn::Store(hn::DemoteTo(di, hn::Add(x_fx, hn::Set(d, double(t.offset[0] - origin.x)))), di, out.x + i);
-  hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, double(t.offset[1] - origin.y)))), di, out.y + i);
-  hn::Store(u, d, out.u + i);
-  hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, t.z_scale)), hn::Set(d, t.z_offset)), d, out.z + i);
-}
+
+  /// Places one vector of object-space positions at out[i...].
+  HWY_INLINE void place(V32 px, V32 py, V32 pz, size_t i, WindowVertices& out) const {
+    const D64 d;
+    const I32 di;
+    const V64 wx = hn::PromoteTo(d, affine_row(clip_[0], px, py, pz)),
+              wy = hn::PromoteTo(d, affine_row(clip_[1], px, py, pz)),
+              wz = hn::PromoteTo(d, affine_row(clip_[2], px, py, pz)),
+              ww = hn::PromoteTo(d, affine_row(clip_[3], px, py, pz));
+    const V64 u = hn::Div(hn::Set(d, 1.0), ww);
+    const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, scale_[0])), y = hn::Mul(hn::Mul(wy, u), hn::Set(d, scale_[1]));
+    V64 x_fx = hn::Round(x), y_fx = hn::Round(y);
+    const V64 off = hn::Max(hn::Abs(hn::Sub(x, x_fx)), hn::Abs(hn::Sub(y, y_fx)));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Gt(off, hn::Set(d, 0.5 - 0x1p-14))))) {
+      x_fx = round_near_ties(x, x_fx, wx, ww, snap_scale_[0]);
+      y_fx = round_near_ties(y, y_fx, wy, ww, snap_scale_[1]);
+    }
+    hn::Store(hn::DemoteTo(di, hn::Add(x_fx, hn::Set(d, offset_[0]))), di, out.x + i);
+    hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, offset_[1]))), di, out.y + i);
+    hn::Store(u, d, out.u + i);
+    hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_)), d, out.z + i);
+  }
+
+ private:
+  float clip_[4][4];
+  int64_t snap_scale_[2];
+  double scale_[2], offset_[2], z_scale_, z_offset_;
+};
 
 /// Window positions of all vertices of a cluster. `plain`: none of them needs care, by its bounds.
 inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
@@ -167,17 +188,17 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
   out.any_needs_care = false;
   const float* position[3];
   for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
+  const auto at = [&](size_t axis, size_t i) { return hn::LoadU(df, position[axis] + i); };
+  if (plain) {
+    const PlainVertices vertices(instance, t, origin);
+    for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) vertices.place(at(0, i), at(1, i), at(2, i), i, out);
+    return;
+  }
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
-    const V32 x = hn::LoadU(df, position[0] + i), y = hn::LoadU(df, position[1] + i),
-              z = hn::LoadU(df, position[2] + i);
     V32 clip[4];
-    for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], x, y, z);
-    if (plain) {
-      place_plain_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
-    } else {
-      const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
-      out.any_needs_care = out.any_needs_care || care;
-    }
+    for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], at(0, i), at(1, i), at(2, i));
+    const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
+    out.any_needs_care = out.any_needs_care || care;
   }
 }
 

@@ -2,9 +2,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/visibility.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,9 +149,10 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
     bool sorted = false;
     if constexpr (std::is_same_v<Commit, DepthCommit>) {
       if (commit.fast && masked == nullptr && !t.depth.offsets()) {
-        draw_small_triangles(mesh, cluster, in.state, t.upper_left, rect, visible_id(position, 0, false), work, commit);
-        count = work.found.others;
-        for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.other[i]) >> 24);
+        draw_small_triangles(mesh, cluster, box, in.state, t.upper_left, rect, visible_id(position, 0, false), work,
+                             commit);
+        count = work.found.count_large;
+        for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.large[i]) >> 24);
         sorted = true;
       }
     }

@@ -2,60 +2,71 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/clusters.h"
 #include "raster/fixed_point.h"
 
 namespace trueshade {
 
 /// A vertex where interpolation wants it.
-struct PlacedVertex {
-  double x, y;  ///< window position relative to the tile's first sample, in 1/256 pixel
-  double u;     ///< 1 / w
-  double unused;
+struct alignas(16) PlacedVertex {
+  static constexpr uint32_t kBias = uint32_t(1) << 31;
+  /// Window position relative to the tile's first sample, in 1/256 pixel, plus kBias: y above, x below, so that they
+  /// compare in canonical order.
+  uint64_t key;
+  double u;  ///< 1 / w
+
+  double x() const { return double(int32_t(uint32_t(key) ^ kBias)); }
+  double y() const { return double(int32_t(uint32_t(key >> 32) ^ kBias)); }
 };
 
-/// Four attributes of a vertex side by side, in the order of kQuadStream (surfaces.h).
-struct alignas(16) AttributeQuad {
+/// What is interpolated of a vertex, in the order of kRecordStream (surfaces.h): what all pixels want, and its colour.
+struct alignas(32) VertexRecord {
+  static constexpr int kValues = 8;
+  float value[kValues];
+};
+struct alignas(16) VertexColor {
   float value[4];
 };
 
 /// A triangle that is seen in a tile.
 struct VisibleTriangle {
-  uint32_t id;
-  uint32_t vertex[3];         ///< into VisibleTriangles, canonical order; as submitted where it needs care
-  uint32_t object, material;  ///< index + 1
+  uint16_t vertex[3];  ///< into VisibleTriangles, canonical order; as submitted where it needs care
+  uint16_t careful;    ///< 1 or 0
 };
 
 /// A cluster of which a triangle is seen.
 struct VisibleCluster {
-  uint32_t position;         ///< in the tile's list
-  uint32_t first;            ///< of its vertices in VisibleTriangles
-  uint64_t used;             ///< a bit for each of its vertices that a visible triangle has
-  const uint8_t* corner[3];  ///< cluster-local vertex of each triangle's corner
-  uint32_t object, material;
+  uint32_t position;                   ///< in the tile's list
+  uint32_t object, material;           ///< index + 1
+  uint32_t first_vertex;               ///< of its vertices in VisibleTriangles
+  uint32_t first_triangle, triangles;  ///< in VisibleTriangles
+  uint64_t used;                       ///< a bit for each of its vertices that a visible triangle has
+  const uint8_t* corner[3];            ///< cluster-local vertex of each triangle's corner
 };
 
 /// The triangles that are seen in a tile and the vertices they have: scratch of resolve_surfaces(), kept between tiles.
+/// A triangle's place is its cluster's times kPlaces plus its own in that.
 struct VisibleTriangles {
-  VisibleTriangle triangle[kMaxTilePixels];
-  uint32_t cluster_of[kMaxTilePixels];  ///< of each triangle
-  uint32_t triangles = 0;
-  std::vector<VisibleCluster> cluster;
-  std::vector<PlacedVertex> placed;
-  std::vector<int64_t> key;  ///< of each vertex, y * 2^32 + x: the canonical order
-  std::vector<AttributeQuad> quad[3];
-  alignas(64) uint16_t of_pixel[kMaxTilePixels];  ///< where covered
+  static constexpr uint32_t kPlaces = 128;
+  static_assert(kPlaces >= kClusterTriangles);
 
+  std::vector<uint32_t> slot_of;  ///< cluster by position in the tile's list, plus 1; 0 where none, kNoSlot: not seen
+  std::vector<VisibleCluster> cluster;  ///< the first stands for nothing
+  uint32_t clusters;
+  std::vector<uint8_t> mark;    ///< by place: seen or not. All 0 between tiles
+  std::vector<uint16_t> index;  ///< by place: into `triangle`, where seen
+  VisibleTriangle triangle[kMaxTilePixels];
+  std::vector<PlacedVertex> placed;
+  std::vector<VertexRecord> record;
+  std::vector<VertexColor> color;
+  alignas(64) uint32_t place[kMaxTilePixels];  ///< of each pixel's triangle
+
+  static constexpr uint32_t kNoSlot = ~0u;
   enum Seen : uint8_t { one, some, many };  ///< triangles; many: more than pay to be told apart, none of them careful
   struct Block {
     uint16_t covered;  ///< a bit a pixel
     Seen seen;
   } block[kMaxTilePixels / kBlockPixels];
-
-  static constexpr uint32_t kRecent = 1024;
-  struct {
-    uint32_t id, triangle;
-  } recent[kRecent];              ///< triangles found, by a few bits of their ids; what is pushed out is listed again
-  std::vector<uint32_t> slot_of;  ///< cluster by position in the tile's list, plus 1; 0: not seen
 };
 
 }  // namespace trueshade

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "oracle/exact_coverage.h"
-#include "oracle/gl/blend_state.h"
+#include "oracle/gl/albedo_blend.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
@@ -120,8 +120,25 @@ class LightPass {
     BlendState blend = pipeline_.transparency.blend;
     if (stands_in_) blend.mask[3] = false;
     set_blend_state(blend);
-    buffers_.draw_instances(Surfaces::transparent);
+    if (draw_.after_object)
+      draw_over_one_by_one();
+    else
+      buffers_.draw_instances(Surfaces::transparent);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+
+  void draw_over_one_by_one() const {
+    constexpr size_t kMostSteps = 64;
+    std::vector<uint32_t> objects;
+    for (uint32_t i = 0; i < scene_.instances.size(); ++i)
+      if (scene_.materials[scene_.instances[i].material].transparent) objects.push_back(i);
+    const size_t stride = (objects.size() + kMostSteps - 1) / kMostSteps;
+    const GLuint framebuffer = (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer;
+    show(draw_.after_object, -1, framebuffer);
+    for (size_t k = 0; k < objects.size(); ++k) {
+      buffers_.draw_transparent(objects[k]);
+      if ((k + 1) % stride == 0 || k + 1 == objects.size()) show(draw_.after_object, int(objects[k]), framebuffer);
+    }
   }
 
   void clear(GLuint framebuffer) const {
@@ -131,10 +148,10 @@ class LightPass {
     glClearBufferfv(GL_COLOR, 0, color.data());
   }
 
-  void show(int light, GLuint framebuffer) const {
-    if (!draw_.after_light) return;
-    draw_.after_light(light, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width,
-                                          pipeline_.height));
+  void show(int light, GLuint framebuffer) const { show(draw_.after_light, light, framebuffer); }
+  void show(const StepSink& sink, int step, GLuint framebuffer) const {
+    if (!sink) return;
+    sink(step, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width, pipeline_.height));
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   }
 
@@ -252,20 +269,6 @@ class LightPass {
   bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
 
-/// Transparent surfaces by the geometry pass's program, into the colour plane alone.
-void blend_into_albedo(const Targets& t, const SceneBuffers& buffers, const BlendState& blend) {
-  glDepthMask(GL_FALSE);
-  set_blend_state(blend);
-  for (size_t i = 0; i < t.planes.size(); ++i) {
-    if (t.planes[i].name == "albedo") continue;
-    glDisablei(GL_BLEND, GLuint(i));
-    glColorMaski(GLuint(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  }
-  buffers.draw_instances(Surfaces::transparent);
-  set_blend_state({});
-  glDepthMask(GL_TRUE);
-}
-
 void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
   const auto read = [&](GLuint texture, Format format) {
     return read_texture(texture, format, draw.shift_x, draw.shift_y, pipeline.width, pipeline.height);
@@ -361,7 +364,8 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   const bool apart = draws_transparent(buffers_->scene(), pipeline);
   buffers_->draw_instances(apart ? Surfaces::opaque : Surfaces::all);
   if (apart && pipeline.transparency.mode == TransparencyMode::into_albedo)
-    blend_into_albedo(target, *buffers_, pipeline.transparency.blend);
+    blend_into_albedo(target.planes, pipeline.transparency.blend,
+                      [this] { buffers_->draw_instances(Surfaces::transparent); });
   timer.end("geometry");
   LightPass(target, program, *buffers_, pipeline, draw).run();
   timer.end("lights");

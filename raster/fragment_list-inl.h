@@ -1,0 +1,99 @@
+// Fragments of a cluster's small triangles, a lane a fragment: depths and their test, with the bits of commit-inl.h.
+// Included once per SIMD target. docs/arithmetic.md sections 5 and 6.
+#if defined(TRUESHADE_RASTER_FRAGMENT_LIST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_FRAGMENT_LIST_INL_H_
+#undef TRUESHADE_RASTER_FRAGMENT_LIST_INL_H_
+#else
+#define TRUESHADE_RASTER_FRAGMENT_LIST_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstring>
+
+#include "raster/commit-inl.h"
+#include "raster/vertex_stage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The list is written a whole vector at a time, and is a multiple of every vector long.
+inline constexpr size_t kMostFragments = 1024;
+
+/// Fragments of a cluster's small triangles.
+struct FragmentList {
+  alignas(64) int32_t e1[kMostFragments], e2[kMostFragments], area[kMostFragments], word[kMostFragments],
+      at[kMostFragments];
+  int count = 0;
+  alignas(64) double corner_z[3][kMostFragments];
+  alignas(64) float z[kMostFragments];
+};
+
+/// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
+HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthCommit& commit) {
+  const D64 d;
+  const D32 df;
+  const I32 di;
+  double(&z)[3][kMostFragments] = in.corner_z;
+  const int padded = (in.count + int(hn::Lanes(d)) - 1) / int(hn::Lanes(d)) * int(hn::Lanes(d));
+  for (int i = 0; i < in.count; ++i) {
+    const uint32_t word = uint32_t(in.word[i]);
+    z[0][i] = vertex_z[word & 255];
+    z[1][i] = vertex_z[(word >> 8) & 255];
+    z[2][i] = vertex_z[(word >> 16) & 255];
+  }
+  for (int i = in.count; i < padded; ++i) z[0][i] = z[1][i] = z[2][i] = 0.0;
+  for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
+    const V64 z0 = hn::Load(d, z[0] + i), z1 = hn::Load(d, z[1] + i), z2 = hn::Load(d, z[2] + i);
+    const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
+    const V64 e1 = hn::PromoteTo(d, hn::Load(di, in.e1 + i)), e2 = hn::PromoteTo(d, hn::Load(di, in.e2 + i));
+    const V64 g1 = hn::Div(hn::Sub(z1, z0), size), g2 = hn::Div(hn::Sub(z2, z0), size);
+    const auto rising = hn::Lt(z1, z2);
+    const V64 low = hn::IfThenElse(rising, z1, z2), high = hn::IfThenElse(rising, z2, z1);
+    const V64 z_low = hn::IfThenElse(hn::Lt(z0, low), z0, low), z_high = hn::IfThenElse(hn::Gt(z0, high), z0, high);
+    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
+    const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
+    const V64 in_range =
+        hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
+    hn::Store(commit.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
+  }
+}
+
+/// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
+/// triangle. No stored depth is negative, so those that are nearer have smaller bits; ids above or below them (turned
+/// over where the last wins a tie) settle ties: what is least is seen.
+HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
+                                 DepthCommit& commit) {
+  commit.fragments += uint64_t(fragments.count);
+  fragment_depths(fragments, vertex_z, commit);
+  const float* const z = fragments.z;
+  const int32_t *const place = fragments.at, *const word = fragments.word;
+  float* const depth = commit.tile.depth;
+  uint32_t* const seen = commit.tile.id;
+  const uint32_t turned = commit.func == DepthFunc::less ? 0u : ~0u;
+  constexpr size_t kBlocks = kMaxTilePixels / kBlockPixels;
+  alignas(64) uint8_t touched[kBlocks] = {};
+  const int count = fragments.count;
+  for (int i = 0; i < count; ++i) {  // no branch on what the depth test says: it is anyone's guess
+    const size_t at = size_t(place[i]);
+    const uint32_t id = first_id + ((uint32_t(word[i]) >> 24) << 1);
+    const uint64_t mine = uint64_t(std::bit_cast<uint32_t>(z[i])) << 32 | (id ^ turned);
+    const uint64_t there = uint64_t(std::bit_cast<uint32_t>(depth[at])) << 32 | (seen[at] ^ turned);
+    const uint64_t kept = mine < there ? mine : there;
+    depth[at] = std::bit_cast<float>(uint32_t(kept >> 32));
+    seen[at] = uint32_t(kept) ^ turned;
+    touched[at / kBlockPixels] = 1;
+  }
+  for (size_t k = 0; k < kBlocks; k += sizeof(uint64_t)) {
+    uint64_t some;
+    std::memcpy(&some, touched + k, sizeof(some));
+    for (; some != 0; some &= some - 1) commit.finish_block(int(k) + std::countr_zero(some) / 8);
+  }
+  fragments.count = 0;
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

@@ -1,0 +1,166 @@
+// Smooth attributes of pixels that each see another triangle: weights for a vector of pixels, then each pixel's
+// attributes side by side, by the same operations as interpolate-inl.h. Included once per SIMD target.
+// docs/arithmetic.md section 5.
+#if defined(TRUESHADE_RASTER_MIXED_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_MIXED_PIXELS_INL_H_
+#undef TRUESHADE_RASTER_MIXED_PIXELS_INL_H_
+#else
+#define TRUESHADE_RASTER_MIXED_PIXELS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "raster/run_triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Smooth barycentrics of vertices 1 and 2 at pixels, from the corners' positions relative to them and 1 / w.
+struct SmoothWeights {
+  V64 b1, b2;
+
+  HWY_INLINE void set(const V64 x[3], const V64 y[3], const V64 u[3]) {
+    const D64 d;
+    const V64 l0 = hn::Mul(hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1])), u[0]);
+    const V64 l1 = hn::Mul(hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2])), u[1]);
+    const V64 l2 = hn::Mul(hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0])), u[2]);
+    const V64 r = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(l0, l1), l2));
+    b1 = hn::Mul(l1, r);
+    b2 = hn::Mul(l2, r);
+  }
+};
+
+/// Pixels of a block that see different triangles.
+struct MixedPixels {
+  const uint64_t* placed[3][kBlockPixels];
+  const VisibleTriangle* triangle[kBlockPixels];  // of pixels that are not ours one that is
+  alignas(64) double b1[kBlockPixels], b2[kBlockPixels];
+
+  /// The pixels in `mine`; `alone`: the block's others are anyone's.
+  HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted, uint32_t mine,
+                              bool alone, SurfaceTile& out) {
+    const uint32_t* const place = in.place + block.at;
+    const uint16_t* const index = in.index.data();
+    const uint32_t any = place[std::countr_zero(mine)];
+    const PlacedVertex* const vertices = in.placed.data();
+    for (int i = 0; i < kBlockPixels; ++i) {
+      const VisibleTriangle& t = in.triangle[index[(mine >> i) & 1 ? place[i] : any]];
+      triangle[i] = &t;
+      for (int k = 0; k < 3; ++k) placed[k][i] = &vertices[t.vertex[k]].key;
+    }
+    for (int h = 0; h < kHalves; ++h) set_weights(block, h);
+    const VertexRecord* const records = in.record.data();
+    const VertexColor* const colors = in.color.data();
+    for (int row = 0; row < kBlockSize; ++row) {
+      const uint32_t ours = (mine >> row * kBlockSize) & 15;
+      if (ours == 0) continue;
+      const uint32_t stored = alone ? 15 : ours;
+      for (int g = 0; g < VertexRecord::kValues; g += kGroup)
+        set_row<kGroup>(records, row, g, 0, wanted.first, wanted.last, stored, block.at, out);
+      constexpr int kColor = std::min(kGroup, 4);
+      for (int g = 0; g < 4 && wanted.color; g += kColor)
+        set_row<kColor>(colors, row, g, VertexRecord::kValues, 0, kStreams, stored, block.at, out);
+    }
+  }
+
+ private:
+  static constexpr int kGroup = kHalf == 1 ? 1 : std::max(kHalf, 4);  // attributes side by side
+
+  HWY_INLINE void set_weights(const BlockPlace& block, int h) {
+    const D64 d;
+    const hn::RebindToUnsigned<D64> du;
+    V64 x[3], y[3], u[3];
+    const V64 column = block.column(h), row = block.row(h);
+    // A double 2^52 + n has the bits of n at its end.
+    const V64 zero = hn::Set(d, 0x1p52 + double(PlacedVertex::kBias)), pixel = hn::Set(d, 256.0);
+    const V64 sx = hn::Add(zero, hn::Mul(column, pixel)), sy = hn::Add(zero, hn::Mul(row, pixel));
+    const auto exponent = hn::Set(du, 0x4330000000000000u), low = hn::Set(du, 0xFFFFFFFFu);
+    for (int k = 0; k < 3; ++k) {
+      auto key = hn::Zero(du), inverse = key;
+      load_pairs(du, placed[k] + h * kHalf, key, inverse);
+      x[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key, low), exponent)), sx);
+      y[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key), exponent)), sy);
+      u[k] = hn::BitCast(d, inverse);
+    }
+    SmoothWeights w;
+    w.set(x, y, u);
+    hn::Store(w.b1, d, b1 + h * kHalf);
+    hn::Store(w.b2, d, b2 + h * kHalf);
+  }
+
+  /// kCount attributes of a row's pixels, from place `from` on in a vertex's record, `shift` more in kRecordStream.
+  template <int kCount, class Record>
+  HWY_INLINE void set_row(const Record* records, int row, int from, int shift, int first, int last, uint32_t stored,
+                          int at, SurfaceTile& out) const {
+    using D = hn::CappedTag<float, size_t(kCount)>;
+    const D d;
+    hn::Vec<D> v[kBlockSize];
+    for (int x = 0; x < kBlockSize; ++x) {
+      const int i = row * kBlockSize + x;
+      const uint16_t(&vertex)[3] = triangle[i]->vertex;
+      v[x] = values(d, records[vertex[0]].value + from, records[vertex[1]].value + from,
+                    records[vertex[2]].value + from, i);
+    }
+    if constexpr (kCount > 1) transpose(d, v);
+    const hn::CappedTag<float, kBlockSize> dq;
+    for (int k = 0; k < kCount; ++k) {
+      if (from + k < first || from + k >= last) continue;
+      float* const plane = out.plane[kRecordStream[shift + from + k]] + at + row * kBlockSize;
+      if constexpr (kCount == 1) {
+        for (int x = 0; x < kBlockSize; ++x)
+          if ((stored >> x) & 1) hn::Store(v[x], dq, plane + x);
+      } else {
+        const auto four = quarter_row(d, v[k % 4], k / 4);
+        if (stored == 15)
+          hn::Store(four, dq, plane);
+        else
+          hn::BlendedStore(four, lane_mask(dq, stored), dq, plane);
+      }
+    }
+  }
+
+  /// Attributes of pixel i side by side.
+  template <class D>
+  HWY_INLINE hn::Vec<D> values(D d, const float* at_0, const float* at_1, const float* at_2, int i) const {
+    const hn::CappedTag<double, hn::MaxLanes(D())> wide;
+    const hn::Rebind<float, decltype(wide)> df;
+    const auto w1 = hn::Set(wide, b1[i]), w2 = hn::Set(wide, b2[i]);
+    const auto part = [&](size_t k) {
+      const auto a0 = hn::PromoteTo(wide, hn::LoadU(df, at_0 + k)), a1 = hn::PromoteTo(wide, hn::LoadU(df, at_1 + k)),
+                 a2 = hn::PromoteTo(wide, hn::LoadU(df, at_2 + k));
+      return hn::DemoteTo(df, hn::Add(a0, hn::Add(hn::Mul(w1, hn::Sub(a1, a0)), hn::Mul(w2, hn::Sub(a2, a0)))));
+    };
+    const auto plane = joined(d, part(0), part(hn::MaxLanes(d) - hn::MaxLanes(wide)));
+    const auto a0 = hn::LoadU(d, at_0), a1 = hn::LoadU(d, at_1), a2 = hn::LoadU(d, at_2);
+    const auto low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
+    return lesser(greater(plane, low), high);
+  }
+
+  /// From four vectors of attributes to vectors of four pixels' attributes k and k + 4.
+  template <class D>
+  HWY_INLINE void transpose(D d, hn::Vec<D> v[4]) const {
+    const auto low_02 = InterleaveLower(d, v[0], v[2]), low_13 = InterleaveLower(d, v[1], v[3]);
+    const auto high_02 = InterleaveUpper(d, v[0], v[2]), high_13 = InterleaveUpper(d, v[1], v[3]);
+    v[0] = InterleaveLower(d, low_02, low_13);
+    v[1] = InterleaveUpper(d, low_02, low_13);
+    v[2] = InterleaveLower(d, high_02, high_13);
+    v[3] = InterleaveUpper(d, high_02, high_13);
+  }
+  template <class D>
+  HWY_INLINE auto quarter_row(D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
+    if constexpr (hn::MaxLanes(D()) == 4) {
+      return v;
+    } else {
+      const hn::Half<D> dh;
+      return half == 0 ? LowerHalf(dh, v) : UpperHalf(dh, v);
+    }
+  }
+};
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
