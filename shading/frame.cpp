@@ -122,7 +122,7 @@ struct FrameWork {
 
   // Sums that go into fixed point as they are.
   LightShortcuts light_shortcuts() const {
-    const bool codes = info(pipeline.target).number_class == NumberClass::unorm && !stores_wide();
+    const bool codes = info(pipeline.target).number_class == NumberClass::unorm && !draws_unlike_clears(target());
     return {execution.light_culling, execution.compiled_models, codes ? &plain : nullptr, pipeline.target};
   }
 
@@ -310,15 +310,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
   frame.stats.before_tiles_ms = now_ms() - start;
-<<<<<<< HEAD
   draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
               std::move(groups), std::move(meshes), std::move(outlines), need_uv,
-              LightPlanes(aovs, scene, pipeline.light_model), TransparentPass(scene, pipeline), frame},
-=======
-  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(groups),
-              std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
-              TransparentPass(scene, pipeline, execution), frame},
->>>>>>> main
+              LightPlanes(aovs, scene, pipeline.light_model), TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

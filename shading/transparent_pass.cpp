@@ -66,13 +66,8 @@ void TransparentPass::blend_after_lights(const TileDraws& all, const TileRect& r
   LightCounts uncounted;
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
     resolve_surfaces(draws, rect, planes_, model_, work.layer, false, vertices, work.surface);
-<<<<<<< HEAD
-    light_tile(work.surface, rect.size, lights_, LightGroups{}, model_, kNothing,
+    light_tile(work.surface, rect.size, lights_, groups_, model_, kNothing,
                {execution.light_culling, execution.compiled_models}, lists, work.color, uncounted);
-=======
-    light_tile(work.surface, rect.size, lights_, groups_, model_, kNothing, execution.light_culling,
-               execution.compiled_models, lists, work.color, uncounted);
->>>>>>> main
     blend_layer(blend_, target_, work.surface, work.color, rect.size * rect.size, stored);
   }
 }
