@@ -1,6 +1,9 @@
 #pragma once
 // Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
 // "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+#include <span>
+#include <vector>
+
 #include "oracle/capture.h"
 #include "oracle/intervals/profile.h"
 #include "oracle/intervals/verdict.h"
@@ -36,6 +39,10 @@ StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const 
 /// violation after one light is judged from what it then holds after the next.
 StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                             const LightSteps& steps);
+
+/// The same by each profile, the lights drawn once.
+std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline, std::span<const Profile> profiles,
+                                         const Capture& capture, const LightSteps& steps);
 
 /// Surfaces blended over the target after the lights: the target after each against what the driver's *own* target before
 /// it may become. `objects`: the target before the first of them (-1), then after transparent instances in order, not

@@ -28,6 +28,7 @@ class TieFinder {
     const bool covered = object_ ? object_.stored(x, y_top, 0) != 0
                                  : depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y_top, 0));
     std::vector<TiedSurface> list;
+    if (all.empty() || (covered && all.size() == 1)) return list;
     const Candidate* seen = covered ? visible(all, x, y_top) : nullptr;
     if (covered && seen == nullptr) return list;  // shows what it cannot: the G-buffer's fault
     const double clear = clear_key(pipeline_.geometry);
@@ -44,11 +45,18 @@ class TieFinder {
  private:
   /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen.
   const Candidate* visible(std::span<const Candidate> all, int x, int y_top) const {
+    const double object = object_ ? object_.stored(x, y_top, 0) : 0;
+    const double primitive = primitive_ ? primitive_.stored(x, y_top, 0) : 0;
+    const auto named = [&](const Candidate& c) {
+      return (!object_ || object == c.instance + 1.0) && (!primitive_ || primitive == c.triangle + 1.0);
+    };
+    const auto first = std::find_if(all.begin(), all.end(), named);
+    if (first == all.end()) return nullptr;
+    if (std::none_of(first + 1, all.end(), named)) return &*first;
     const Candidate* best = nullptr;
     double least = HUGE_VAL;
     for (const Candidate& c : all) {
-      if (object_ && object_.stored(x, y_top, 0) != c.instance + 1.0) continue;
-      if (primitive_ && primitive_.stored(x, y_top, 0) != c.triangle + 1.0) continue;
+      if (!named(c)) continue;
       const double off = difference(c, x, y_top);
       if (best == nullptr || off < least) best = &c, least = off;
     }
