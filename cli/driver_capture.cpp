@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "oracle/gl/context.h"
 #include "oracle/gl/renderer.h"
+#include "scenes/transparency.h"
 
 namespace trueshade {
 namespace {
@@ -71,12 +73,21 @@ struct Session {
   Session(std::string_view driver, const Scene& scene) : context(driver_named(driver)), renderer(context, scene) {}
   oracle::GlContext context;
   oracle::GlRenderer renderer;
+  std::optional<oracle::Capture> stepped;  ///< the frame whose lights were watched
 };
 
 oracle::LightSteps steps_of(const std::shared_ptr<Session>& session, const Pipeline& pipeline) {
   return [session, pipeline](const oracle::StepSink& sink) {
     oracle::GlDraw draw;
     draw.after_light = sink;
+    session->stepped = session->renderer.draw(pipeline, draw).capture;
+  };
+}
+
+oracle::LightSteps objects_of(const std::shared_ptr<Session>& session, const Pipeline& pipeline) {
+  return [session, pipeline](const oracle::StepSink& sink) {
+    oracle::GlDraw draw;
+    draw.after_object = sink;
     session->renderer.draw(pipeline, draw);
   };
 }
@@ -92,11 +103,18 @@ DriverFrame drawn_by_driver(std::string_view driver, const Scene& scene, const P
   drawn.capture = std::move(frame.capture);
   drawn.subpixel_bits = context.info().subpixel_bits;
   drawn.notes = std::move(frame.notes);
-  drawn.repeat_changes = changed_pixels(drawn.capture, renderer.draw(pipeline).capture);
-  drawn.move_changes = changed_pixels(drawn.capture, renderer.draw(pipeline, moved()).capture);
+  // A target that is read between its lights may become another (softpipe's does): then it is no repeated frame.
+  drawn.repeat_changes = [session, pipeline](const oracle::Capture& first) {
+    const bool known = session->stepped && changed_pixels(first, *session->stepped) == 0;
+    return known ? 0 : changed_pixels(first, session->renderer.draw(pipeline).capture);
+  };
+  drawn.move_changes = [session, pipeline](const oracle::Capture& first) {
+    return changed_pixels(first, session->renderer.draw(pipeline, moved()).capture);
+  };
   for (const oracle::GlPass& pass : timed_passes(renderer, pipeline, frame.passes, drawn.timed_frames))
     drawn.passes.push_back({pass.name, pass.ms});
   if (blends_lights(pipeline.strategy)) drawn.steps = steps_of(session, pipeline);
+  if (draws_transparent(scene, pipeline)) drawn.objects = objects_of(session, pipeline);
   return drawn;
 }
 

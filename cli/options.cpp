@@ -255,7 +255,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
       "--subpixel-bits", texts.subpixel_bits,
       "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   command->add_option("--save", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
-  command->add_flag("--quick", options.quick, "Do not look for the tightest profile that explains the image");
+  command->add_flag("--quick", options.quick, "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
   command->add_flag("--json", options.json, "Print all of it as one JSON document");
   command->add_option("-o,--output", options.report, "Report to write, .html");
   command->footer(

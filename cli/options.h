@@ -71,7 +71,7 @@ struct ValidationOptions : PipelineOptions {
   std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
   std::vector<std::string> saved;        ///< .png, .exr: what was drawn here
   std::optional<std::string> report;     ///< .html
-  bool quick = false;                    ///< do not look for the tightest profile
+  bool quick = false;                    ///< neither the tightest profile nor the moved frame
   bool json = false;
 };
 

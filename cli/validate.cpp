@@ -24,17 +24,15 @@ double timed(Job job) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void draw_here(const ValidationOptions& options, const Scene& scene, Validation& v, oracle::LightSteps& steps) {
+DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
   DriverFrame frame = drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
   v.timed_frames = frame.timed_frames;
-  v.repeat_changes = frame.repeat_changes;
-  v.move_changes = frame.move_changes;
   v.notes = std::move(frame.notes);
-  steps = std::move(frame.steps);
   // A lower bound of the driver's grid (GL 4.6, table 23.53): finer ones lie inside it.
   if (!options.subpixel_bits) v.profile.subpixel_bits = std::max(v.profile.subpixel_bits, frame.subpixel_bits);
+  return frame;
 }
 
 /// A capture that `--gbuffer` takes, but for the planes that no file holds.
@@ -67,17 +65,20 @@ bool judge_opengl(const ValidationOptions& options) {
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
-  oracle::LightSteps steps;
+  DriverFrame drawn;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty())
-      draw_here(options, scene, v, steps);
+      drawn = draw_here(options, scene, v);
     else
       read_files(options, v);
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, steps});
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
+                                         {v.profile, !options.quick, drawn.steps, drawn.objects});
   });
+  if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
+  if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);
   if (options.report) {
     const std::string page = validation_page(v);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});

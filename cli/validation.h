@@ -19,7 +19,7 @@ struct Validation {
   oracle::Verdict verdict;
   std::vector<DriverFrame::Pass> passes;                 ///< empty for a capture from files
   int timed_frames = 0;                                  ///< whose median the passes are
-  std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing for a capture from files
+  std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing where not drawn
   std::vector<std::string> notes;                        ///< what a reader must know before the figures
   double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
 };

@@ -90,9 +90,9 @@ std::string tightest_line(const oracle::Inference& inferred) {
 bool passes(const Validation& v) { return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0; }
 
 std::string invariance_line(const Validation& v) {
-  if (!v.repeat_changes || !v.move_changes) return {};
-  return "drawn again " + std::to_string(*v.repeat_changes) + " pixels change; moved by (64, 32) " +
-         std::to_string(*v.move_changes) + " do";
+  if (!v.repeat_changes) return {};
+  const std::string again = "drawn again " + std::to_string(*v.repeat_changes) + " pixels change";
+  return v.move_changes ? again + "; moved by (64, 32) " + std::to_string(*v.move_changes) + " do" : again;
 }
 
 std::string conclusion(const Validation& validation) {
@@ -141,7 +141,8 @@ std::string validation_json(const Validation& v) {
       .put_raw("passes", passes.text())
       .put("timed_frames", v.timed_frames)
       .put_raw("notes", notes.text());
-  if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes).put("move_changes", *v.move_changes);
+  if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
+  if (v.move_changes) json.put("move_changes", *v.move_changes);
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));
   return json.text() + '\n';
 }

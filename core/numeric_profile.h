@@ -5,15 +5,13 @@
 #include <optional>
 #include <string_view>
 
-#include "core/format.h"
-
 namespace trueshade {
 
 /// Whose bits a frame has where OpenGL leaves a choice (GL_RULES section 0).
 ///   ideal:              our own choices: exact snapping, nearest stores, blending in float32. docs/arithmetic.md
-///   mesa_llvmpipe_22_3: that driver's, on a CPU with FMA, for stores and fetches, blending, and snapping and filling
-///   of
-///                       triangles wholly inside the viewport. docs/arithmetic.md section 11 says what is not promised
+///   mesa_llvmpipe_22_3: that driver's, on a CPU with FMA (sRGB targets: of AMD), for stores and fetches, blending, and
+///                       snapping and filling of triangles wholly inside the viewport. docs/arithmetic.md section 11
+///                       says what is not promised
 enum class NumericProfile : uint8_t { ideal, mesa_llvmpipe_22_3 };
 
 /// As on the command line and in JSON, in the order of the values.
@@ -25,16 +23,6 @@ constexpr std::optional<NumericProfile> profile_from_name(std::string_view name)
   for (size_t i = 0; i < std::size(kProfileNames); ++i)
     if (kProfileNames[i] == name) return NumericProfile(i);
   return std::nullopt;
-}
-
-/// Whether a profile promises the bits of a colour target of that format. What it does not promise, it refuses.
-constexpr bool profile_has(NumericProfile profile, Format target) {
-  if (profile == NumericProfile::ideal) return true;
-  constexpr Format kPromised[] = {Format::rgba8,      Format::rgb10_a2, Format::rgba16,
-                                  Format::r11g11b10f, Format::rgba16f,  Format::rgba32f};
-  for (const Format format : kPromised)
-    if (format == target) return true;
-  return false;
 }
 
 }  // namespace trueshade

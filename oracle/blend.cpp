@@ -1,5 +1,9 @@
 #include "oracle/blend.h"
 
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +44,29 @@ int srgb_code_of(float linear) {
 float linear_of_srgb(int code) {
   const long double x = code / 255.0L;
   return float(x <= 0.04045L ? x / 12.92L : std::pow((x + 0.055L) / 1.055L, 2.4L));
+}
+
+/// llvmpipe's both ways (Mesa 22.3, lp_bld_format_srgb.c), by the instruction that it has the CPU execute.
+float estimated_rsqrt(float x) {
+#if defined(__x86_64__)
+  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss(x)));
+#else
+  return 1.0f / std::sqrt(x);
+#endif
+}
+int llvmpipe_srgb_code_of(float linear) {
+  const float x = linear > 1.0f ? 1.0f : linear > 0.0f ? linear : 0.0f;
+  if (x <= 0.0031308f) return int(std::nearbyint(x * (12.92f * 255.0f)));
+  const float root = x * estimated_rsqrt(x), power = estimated_rsqrt(estimated_rsqrt(root * x));  // x^(1/2), x^(3/8)
+  const auto a = float(0.675f * 1.0622 * 255.0f), b = float(0.325f * 1.0622 * 255.0f);
+  return int(std::nearbyint(a * power + std::fma(b, root, -0.0620f * 255.0f)));
+}
+float llvmpipe_linear_of_srgb(int code) {
+  const auto x = float(code);
+  if (code <= 15) return x * (1.0f / (12.6f * 255.0f));
+  const float even = std::fma(x * x, 0.6935f / (255.0f * 255.0f), 0.0023f),
+              odd = std::fma(x * x, 0.3012f / (255.0f * 255.0f * 255.0f), 0.0030f / 255.0f);
+  return std::fma(odd, x, even);
 }
 
 float unit(float x) { return x >= 1.0f ? 1.0f : x > 0.0f ? x : 0.0f; }
@@ -196,7 +223,10 @@ Rgba blended_values(const BlendState& state, NumericProfile profile, Format form
     in.source[c] = unit(source[c]);
     in.destination[c] = stored[c] / float((1 << unorm_bits(format, c)) - 1);
     in.constant[c] = unit(state.constant[c]);
-    if (is_srgb(format, c)) in.destination[c] = linear_of_srgb(int(stored[c]));
+    if (profile != NumericProfile::ideal) in.destination[c] = stored[c] * (1.0f / 255.0f);  // sRGB, the only one here
+    if (is_srgb(format, c))
+      in.destination[c] =
+          profile == NumericProfile::ideal ? linear_of_srgb(int(stored[c])) : llvmpipe_linear_of_srgb(int(stored[c]));
   }
   if (!has_alpha(format)) in.destination[3] = 1.0f;
   const auto zero_source = [](const BlendTerm& t) { return takes_factors(t) && t.src == BlendFactor::zero; };
@@ -251,7 +281,8 @@ Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format forma
   const bool rewritten = profile != NumericProfile::ideal && !has_alpha(format);
   const BlendState state = rewritten ? without_alpha(given) : given;
   const bool unorm = unorm_bits(format, 0) > 0;
-  const bool codes = unorm && profile != NumericProfile::ideal;
+  const bool codes = unorm && format != Format::srgb8_a8 && profile != NumericProfile::ideal;
+  const auto srgb_code = profile == NumericProfile::ideal ? srgb_code_of : llvmpipe_srgb_code_of;
   const bool wide = codes && format == Format::rgb10_a2;  // stored by way of wider codes too
   Rgba out = !state.enabled && !wide ? source
              : codes                 ? blended_codes(state, format, source, stored)
@@ -263,15 +294,24 @@ Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format forma
       continue;
     }
     const int largest = (1 << unorm_bits(format, c)) - 1;
-    const bool accumulates = unorm && !codes && state.enabled && term == kAccumulate && !is_srgb(format, c);
+    const bool accumulates =
+        unorm && profile == NumericProfile::ideal && state.enabled && term == kAccumulate && !is_srgb(format, c);
     if (accumulates)
       out[c] = std::fmin(float(largest), stored[c] + float(code_of(source[c], largest)));
     else if (unorm && !(codes && state.enabled) && !wide)
-      out[c] = float(is_srgb(format, c) ? srgb_code_of(out[c]) : code_of(out[c], largest));
+      out[c] = float(is_srgb(format, c) ? srgb_code(out[c]) : code_of(out[c], largest));
     else if (!unorm)
       out[c] = small_of(out[c], format, c, half_round);
   }
   return out;
+}
+
+bool estimates_as_amd() {
+#if defined(__x86_64__)
+  return __builtin_cpu_is("amd");
+#else
+  return false;
+#endif
 }
 
 }  // namespace trueshade::oracle

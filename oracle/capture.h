@@ -28,7 +28,8 @@ struct Capture {
 /// draw before the lights left it (forward-multipass without lights: as its one draw left it).
 using StepSink = std::function<void(int light, const Image& target)>;
 
-/// Draws the lights of a capture again and shows the target after each, in order.
+/// Draws the lights of a capture again and shows the target after each, in order. The same of surfaces transparent after
+/// the lights, by instance.
 using LightSteps = std::function<void(const StepSink&)>;
 
 }  // namespace trueshade::oracle

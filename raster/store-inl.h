@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "core/format.h"
+#include "core/llvmpipe_srgb.h"
 #include "core/numeric_profile.h"
 #include "core/srgb.h"
 
@@ -42,6 +43,18 @@ HWY_INLINE VF srgb8_code(VF x) {
     code = hn::Add(code, hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(x, start)), hn::Set(di, step)));
   }
   return hn::ConvertTo(d, code);
+}
+
+/// llvmpipe's code of a linear value: the one after the last step at or below it. NaN gives 0.
+HWY_INLINE VF llvmpipe_srgb8_code(VF x) {
+  const DF d;
+  const DI di;
+  auto step = hn::Zero(di);
+  for (int size = int(LlvmpipeSrgb::kSize) / 2; size > 0; size /= 2) {
+    const VF start = hn::GatherIndex(d, kLlvmpipeSrgb.start.data(), hn::Add(step, hn::Set(di, size - 1)));
+    step = hn::Add(step, hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(x, start)), hn::Set(di, size)));
+  }
+  return hn::ConvertTo(d, hn::GatherIndex(di, kLlvmpipeSrgb.code.data(), step));
 }
 
 /// Quiet, as every NaN is stored.
@@ -110,12 +123,13 @@ HWY_INLINE VF encoded(VF x, Format format, int c, HalfRound mode) {
 }
 
 /// The float that a shader reads from what channel c holds: for codes the nearest to k / largest, or llvmpipe's
-/// k * RN(1 / largest), which differs in 126 of 256 codes.
+/// k * RN(1 / largest), which differs in 126 of 256 codes, and its own decoding of sRGB.
 HWY_INLINE VF decoded(VF held, Format format, int c, NumericProfile profile) {
   const FormatInfo layout = info(format);
   if (layout.number_class != NumberClass::unorm) return held;
   const DF d;
-  if (layout.srgb_channel(c)) return hn::GatherIndex(d, kLinearOfSrgb8.data(), hn::ConvertTo(DI(), held));
+  const float* const linear = profile == NumericProfile::ideal ? kLinearOfSrgb8.data() : kLlvmpipeLinearOfSrgb8.data();
+  if (layout.srgb_channel(c)) return hn::GatherIndex(d, linear, hn::ConvertTo(DI(), held));
   const auto largest = float(layout.largest_code(c));
   return profile == NumericProfile::ideal ? hn::Div(held, hn::Set(d, largest))
                                           : hn::Mul(held, hn::Set(d, 1.0f / largest));

@@ -109,11 +109,6 @@ void check_transparency(const Pipeline& p) {
     throw Error(ErrorKind::usage, "transparency.mode",
                 "into-albedo blends into the G-buffer, which " + std::string(name_of(p.strategy)) + " has not",
                 "after-lights, or a deferred strategy");
-  if (!profile_has(p.profile, p.gbuffer.albedo.format))
-    throw Error(ErrorKind::usage, "transparency.mode",
-                std::string(profile_name(p.profile)) + " does not promise the bits of blending into " +
-                    std::string(info(p.gbuffer.albedo.format).name),
-                "use the profile ideal, or an albedo plane of rgba8, rgb10_a2, rgba16f or rgba32f");
 }
 
 void check_post(const PostChain& p) {
@@ -148,11 +143,6 @@ void validate(const Pipeline& pipeline) {
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
   check_post(pipeline.post);
   require_enumerator(pipeline.view, ImageView::overdraw, "view");
-  if (!profile_has(pipeline.profile, pipeline.target))
-    throw Error(ErrorKind::usage, "target",
-                std::string(profile_name(pipeline.profile)) + " does not promise the bits of " +
-                    std::string(info(pipeline.target).name),
-                "use the profile ideal, or a target it promises: rgba8, rgb10_a2, rgba16, r11g11b10f, rgba16f, rgba32f");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
 }

@@ -26,6 +26,15 @@ DAMPING = {
     "redsdk": (0.08, 1, 0.09),
 }
 GAP = 2
+STRIP = 11  # pixels: a line of text
+# Columns of 5x7 glyphs, the top pixel in the lowest bit.
+GLYPHS = {
+    "a": "2054545478", "b": "7f48444438", "c": "3844444420", "d": "384444487f", "e": "3854545418", "f": "087e090102",
+    "g": "0c5252523e", "h": "7f08040478", "i": "00447d4000", "j": "2040443d00", "k": "7f10284400", "l": "00417f4000",
+    "m": "7c04180478", "n": "7c08040478", "o": "3844444438", "p": "7c14141408", "q": "081414187c", "r": "7c08040408",
+    "s": "4854545420", "t": "043f444020", "u": "3c4040207c", "v": "1c2040201c", "w": "3c4030403c", "x": "4428102844",
+    "y": "0c5050503c", "z": "4464544c44", "-": "0808080808", "1": "00427f4000", "6": "3c4a494930",
+}
 MOST_BYTES = 60000
 
 
@@ -109,11 +118,23 @@ def png_bytes(rows, most_colors):
             chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
 
 
-def write_sheet(path, grid):
-    """Rows of pictures, as many colours as the size allows."""
+def text_strip(texts):
+    """A line of text over each column, on white."""
+    rows = [[(255, 255, 255)] * (len(texts) * (SIZE[0] + GAP) - GAP) for _ in range(STRIP)]
+    for column, text in enumerate(texts):
+        for place, letter in enumerate(text):
+            for dx, bits in enumerate(bytes.fromhex(GLYPHS.get(letter, "0000000000"))):
+                for dy in range(8):
+                    if bits >> dy & 1:
+                        rows[2 + dy][column * (SIZE[0] + GAP) + 1 + 6 * place + dx] = (40, 40, 40)
+    return rows
+
+
+def write_sheet(path, grid, driver):
+    """Rows of a name and its pictures, as many colours as the size allows."""
     rows = []
-    for pictures in grid:
-        rows += [[(255, 255, 255)] * (len(pictures) * (SIZE[0] + GAP) - GAP)] * GAP if rows else []
+    for name, pictures in grid:
+        rows += text_strip([f"{name} - trueshade", driver, "16 x the difference"])
         for y in range(SIZE[1]):
             row = []
             for picture in pictures:
@@ -124,7 +145,7 @@ def write_sheet(path, grid):
         if len(data) <= MOST_BYTES:
             break
     open(path, "wb").write(data)
-    print(f"{path}: {len(data)} bytes, {most} colours", flush=True)
+    print(f"{path}: {len(data)} bytes, {most} colours", file=sys.stderr, flush=True)
 
 
 class Drawer:
@@ -141,7 +162,7 @@ class Drawer:
         subprocess.run([self.command, "render"] + options + ["-o", ours], check=True, stdout=subprocess.DEVNULL)
         judged = subprocess.run([self.command, "validate"] + options +
                                 ["--driver", self.driver, "--quick", "--save", theirs],
-                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         if not os.path.exists(theirs):
             sys.exit(judged.stderr)
         a, b = read_png(ours), read_png(theirs)
@@ -179,7 +200,9 @@ def main():
         sheets.update({f"strategies_{s}": [(s, t, ["--strategy", t]) for t in strategies] for s in SCENES})
         for name, rows in sheets.items():
             if not given.only or name in given.only:
-                write_sheet(os.path.join(given.folder, name + ".png"), [drawer.row(*row) for row in rows])
+                told = 1 if name.startswith("strategies_") else 0
+                write_sheet(os.path.join(given.folder, name + ".png"),
+                            [(row[told], drawer.row(*row)) for row in rows], given.driver)
 
 
 if __name__ == "__main__":

@@ -1,57 +1,46 @@
 #!/bin/bash
-# The tables of docs/validation.md as Markdown: every scene under every preset and strategy on a driver.
-# Usage: validation_table.sh COMMAND DRIVER SIZE [OPTION...]   options go to `trueshade validate`
-#   SCENES, PRESETS, STRATEGIES: lists of what to judge, all that `trueshade list` names unless set
-#   SUMMED=1: a row a scene and strategy, the target's pixels summed over the presets
-# Ends with status 1 where a pixel is in no legal set, or something was refused (a row says what).
+# The tables of docs/validation.md as Markdown, from the lines that validation_rows wrote (tests/intervals/validation_rows.cpp
+# says how to make them): a table a driver and profile, a row a scene, size and strategy, pixels summed over the presets.
+# Usage: validation_table.sh FILE...
+#   lit: the least share of a preset's pixels with a surface that are EXACT or STORE-2
+#   seen / predicted: EDGE + DEPTH-TIE + CLIP + BRANCH pixels and how many are expected at most; in brackets the largest
+#   quotient of a preset
+# Ends with status 1 where a pixel is in no legal set.
 set -euo pipefail
-command=$1 driver=$2 size=$3
-shift 3
-
-# names HEADING: the entries of that section of `trueshade list`.
-names() { "$command" list | awk -v heading="$1" '/^[^ ]/ {on = index($0, heading) == 1} /^  / && on {print $1}'; }
-
-classes='EXACT STORE-2 EDGE DEPTH-TIE CLIP BRANCH TEX UNDEFINED VIOLATION'
-status=0
-columns=$(sed 's/ / | /g' <<<"$classes")
-if [[ -n ${SUMMED:-} ]]; then
-  echo "| scene, strategy | presets | $columns | seen / predicted |"
-  echo '|---|---|---|---|---|---|---|---|---|---|---|---|'
-else
-  echo "| scene, preset, strategy | stage | $columns | seen / predicted | judged |"
-  echo '|---|---|---|---|---|---|---|---|---|---|---|---|---|'
-fi
-for scene in ${SCENES:-$(names Scenes)}; do
-  for strategy in ${STRATEGIES:-$(names Strategies)}; do
-    texts=
-    for preset in ${PRESETS:-$(names Presets)}; do
-      text=$("$command" validate "builtin:${scene#builtin:}" --preset "$preset" --strategy "$strategy" --driver "$driver" \
-        --size "$size" --quick "$@" 2>&1) || status=1
-      texts+="name ${scene#builtin:}, $preset, $strategy"$'\n'"$text"$'\n'
-    done
-    awk -v summed="${SUMMED:-}" -v sum_name="${scene#builtin:}, $strategy" -v classes="$classes" '
-      function flush(  i) { if (stage == "") return
-        if (!summed) {
-          printf "| %s | %s |", name, stage
-          for (i = 1; i <= n; ++i) printf " %d |", count[order[i]]
-          printf " %s / %s | %s |\n", seen, predicted, seconds
-        } else if (stage != "gbuffer") {
-          ++presets; sum_seen += seen; sum_predicted += predicted
-          for (i = 1; i <= n; ++i) sum[order[i]] += count[order[i]]
-        }
-        split("", count); stage = "" }
-      BEGIN { n = split(classes, order, " ") }
-      /^name / { flush(); name = substr($0, 6) }
-      /^trueshade: error: / { print "| " name " | " substr($0, 19) " |" }
-      /judged in/ { seconds = $(NF - 1) " s" }
-      /^(gbuffer|lighting|blending):/ { flush(); stage = substr($1, 1, length($1) - 1) }
-      /^  [A-Z0-9-]+ +[0-9]+ +[0-9.]+ %$/ { count[$1] = $2 }
-      /other surfaces or branches/ { seen = $5; predicted = $7 }
-      END { flush()
-        if (summed) {
-          printf "| %s | %d |", sum_name, presets
-          for (i = 1; i <= n; ++i) printf " %d |", sum[order[i]]
-          printf " %d / %.1f |\n", sum_seen, sum_predicted } }' <<<"$texts"
-  done
-done
-exit "$status"
+awk -F'\t' '
+  function row(key,  i, line) {
+    line = "| " label[key] " | " presets[key] " |"
+    for (i = 1; i <= 9; ++i) line = line " " sum[key, i] + 0 " |"
+    return line sprintf(" %.3f %% | %d / %.1f (%.2f) |", least[key], seen[key], predicted[key], largest[key])
+  }
+  # A frame may have been begun twice: the last line counts.
+  { for (i = 1; i <= 7; ++i) id = i == 1 ? $i : id FS $i
+    if (!(id in line_of)) ids[++count] = id
+    line_of[id] = $0 }
+  END {
+    for (c = 1; c <= count; ++c) {
+      $0 = line_of[ids[c]]
+      title = $5 ", " $4; geometry = $7 == "gbuffer"
+      key = title FS $1 FS $6 FS (geometry ? "" : $2) FS $7
+      if (!(key in presets)) {
+        label[key] = $1 " " $6 ", " (geometry ? "G-buffer" : $2 ($7 == "lighting" && ($2 ~ /volumes|multipass/) ? ", last image" : ""))
+        if (!(title in rows)) titles[++tables] = title
+        order[title, ++rows[title]] = key; least[key] = 100
+      }
+      ++presets[key]
+      for (i = 1; i <= 9; ++i) sum[key, i] += $(8 + i)
+      others = $11 + $12 + $13 + $14 + $15 + $16 + $17
+      if ($8 > 0 && 100 * ($8 - others) / $8 < least[key]) least[key] = 100 * ($8 - others) / $8
+      seen[key] += $18; predicted[key] += $19
+      quotient = $18 == 0 ? 0 : $19 == 0 ? 999 : $18 / $19
+      if (quotient > largest[key]) largest[key] = quotient
+      violations += $17
+    }
+    for (t = 1; t <= tables; ++t) {
+      print "\n**" titles[t] "**\n"
+      print "| scene, strategy | frames | EXACT | STORE-2 | EDGE | DEPTH-TIE | CLIP | BRANCH | TEX | UNDEFINED | VIOLATION | lit | seen / predicted |"
+      print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+      for (i = 1; i <= rows[titles[t]]; ++i) print row(order[titles[t], i])
+    }
+    exit violations > 0
+  }' "$@"

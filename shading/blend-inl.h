@@ -86,7 +86,10 @@ struct BlendPlan {
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
   /// Light upon light in fixed point: codes are added (DESIGN, settled 4); not where codes are no linear values.
-  bool adds_codes(int c) const { return unorm() && !codes && !layout.srgb_channel(c) && group(c).term == kAccumulate; }
+  bool adds_codes(int c) const {
+    return unorm() && target.profile == NumericProfile::ideal && !layout.srgb_channel(c) &&
+           group(c).term == kAccumulate;
+  }
   float largest(int c) const { return float(layout.largest_code(c)); }
   float blended_largest(int c) const { return wide ? 65535.0f : largest(c); }
 };
@@ -111,7 +114,7 @@ inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) 
     }
     plan.alpha = plan.rgb;
   }
-  plan.codes = plan.unorm() && target.profile != NumericProfile::ideal;
+  plan.codes = plan.unorm() && !plan.layout.srgb && target.profile != NumericProfile::ideal;
   plan.wide = widens(target.profile, target.format);
   for (int c = 0; c < 4; ++c) {
     plan.written[size_t(c)] = plan.written[size_t(c)] && c < plan.layout.channels;
@@ -212,6 +215,7 @@ HWY_INLINE VF blended_codes(const BlendPlan& plan, int c, const BlendInputs& in)
 /// What blending off, or a clear, leaves of x in channel c.
 HWY_INLINE VF encoded_alone(const BlendPlan& plan, VF x, int c) {
   if (plan.wide) return narrowed_code(unorm_code(x, 65535.0f), c);
+  if (plan.layout.srgb_channel(c) && plan.target.profile != NumericProfile::ideal) return llvmpipe_srgb8_code(x);
   const VF held = encoded(x, plan.target.format, c, plan.target.half_round);
   return plan.unorm() ? held : hn::IfThenElse(hn::Eq(held, held), held, one_nan());
 }
@@ -226,7 +230,7 @@ HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF s
       in.destination[c] = plan.wide ? widened_code(stored[c], c) : stored[c];
     } else {
       in.source[c] = plan.unorm() ? clamped_unit(source[c]) : source[c];
-      in.destination[c] = decoded(stored[c], plan.target.format, c, NumericProfile::ideal);
+      in.destination[c] = decoded(stored[c], plan.target.format, c, plan.target.profile);
     }
   }
   if (plan.layout.channels < 4) in.destination[3] = in.one;  // a missing alpha is 1
@@ -234,7 +238,8 @@ HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF s
 }
 
 /// Blends a vector of fragments into the pixels `stored` holds, in their stored form: blend_pixels() in registers.
-/// Fixed point: `ideal` blends values and rounds once, except that light upon light adds codes; llvmpipe blends codes.
+/// Fixed point: `ideal` blends values and rounds once, except that light upon light adds codes; llvmpipe blends codes,
+/// but those of sRGB.
 inline void blend_vectors(const BlendPlan& plan, const VF source[4], VF stored[4]) {
   const DF d;
   VF out[4];

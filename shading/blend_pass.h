@@ -1,20 +1,12 @@
 #pragma once
-#include <memory>
 #include <vector>
 
 #include "raster/surfaces.h"
 #include "shading/light_draws.h"
 #include "shading/light_pass.h"
+#include "shading/tied_fragments.h"
 
 namespace trueshade {
-
-/// Pixels of a tile that several fragments share, at the stored depth (or that one has at the clear depth): drawn by
-/// every light but the first.
-struct TiedFragments {
-  std::vector<int32_t> tied;                         ///< by pixel: -1 or 0; empty where the tile has none
-  std::vector<std::unique_ptr<SurfaceTile>> layers;  ///< in order of submission; a pixel has a surface in some of them
-  size_t used = 0;                                   ///< of `layers`
-};
 
 /// Scratch of the tile at work.
 struct BlendWork {

@@ -10,13 +10,13 @@
 #include "core/fp_env.h"
 #include "raster/cluster_bins.h"
 #include "raster/clusters.h"
-#include "raster/fragment_layers.h"
 #include "raster/overdraw.h"
 #include "raster/simd_target.h"
 #include "raster/surfaces.h"
 #include "raster/view.h"
 #include "raster/visibility.h"
 #include "shading/blend_pass.h"
+#include "shading/clear_color.h"
 #include "shading/draw_frame.h"
 #include "shading/gl_counts.h"
 #include "shading/light_groups.h"
@@ -44,8 +44,6 @@ struct TileScratch {
   LightLists lights;
   BlendWork blend;
   TiedFragments tied;
-  std::vector<DepthFragment> fragments;
-  VisibilityTile layer;
   std::unique_ptr<TransparentWork> transparent;  // of scenes that need it
 };
 
@@ -123,27 +121,11 @@ struct FrameWork {
 
   BlendTarget target() const { return {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round}; }
 
-  // Draws are stored by way of wider codes, clears are not: llvmpipe's targets of 10 bits.
-  bool stores_wide() const { return pipeline.profile != NumericProfile::ideal && pipeline.target == Format::rgb10_a2; }
-
-  // The clear colour; where draws store wide, one that a draw would store as the nearest codes of it, halves upward.
-  void set_clear(float clear[4]) const {
-    for (int c = 0; c < 4; ++c) {
-      clear[c] = prepared.scene().clear[c];
-      if (!stores_wide()) continue;
-      const float unit = clear[c] > 1.0f ? 1.0f : clear[c] > 0.0f ? clear[c] : 0.0f;
-      const auto code = uint32_t(unit * float(info(pipeline.target).largest_code(c)) + 0.5f);
-      clear[c] = float(c == 3 ? code * 0x5555 : code << 6 | code >> 4) / 65535.0f;
-    }
-  }
-
   // Scratch for the transparent surfaces; null where there are none.
   TransparentWork* transparent_work(TileScratch& s) const {
     if (transparent.active() && s.transparent == nullptr) s.transparent = std::make_unique<TransparentWork>();
     return transparent.active() ? s.transparent.get() : nullptr;
   }
-
-  bool resolve_tied(const TileDraws& draws, const TileRect& where, const GBufferState& planes, TileScratch& s) const;
 
   void draw(int tile, TileScratch& s, TileCounts& counts) const {
     const double start = now_ms();
@@ -156,15 +138,17 @@ struct FrameWork {
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
     const GBufferState planes = surface_planes(pipeline);
     resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
-    const bool tied = pipeline.strategy == Strategy::forward_multipass && resolve_tied(draws, where, planes, s);
+    const bool tied = pipeline.strategy == Strategy::forward_multipass &&
+                      resolve_tied(draws, where, planes, pipeline.light_model, need_uv, execution.geometry_culling,
+                                   s.visible, s.vertices, s.tied);
     counts.covered += uint64_t(s.surface.covered_pixels);
     if (glass != nullptr) {
       counts.transparent += transparent.find_fragments(all, where, execution.geometry_culling, s.visible, *glass);
       if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
     }
     const double middle = now_ms();
-    float clear[4];
-    set_clear(clear);
+    const glm::vec4 clear_color = drawn_clear(scene.clear, target());
+    const float* const clear = &clear_color[0];
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
       blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
@@ -173,7 +157,7 @@ struct FrameWork {
                  execution.compiled_models, s.lights, s.color, counts.light);
     }
     bool stored = blends_lights(pipeline.strategy);
-    if (!stored && stores_wide()) {
+    if (!stored && draws_unlike_clears(target())) {
       encode_colors(target(), where.size * where.size, s.color);
       stored = true;
     }
@@ -205,30 +189,6 @@ struct FrameWork {
       counts.lit_geometry += count_lit_geometry(light_draws(), s.surface, where, s.blend.counts, s.blend.lights);
   }
 };
-
-// Surfaces of fragments that share a pixel's depth, a layer for each place in the order of submission; false if there
-// are none.
-bool FrameWork::resolve_tied(const TileDraws& draws, const TileRect& where, const GBufferState& planes,
-                             TileScratch& s) const {
-  constexpr size_t kMostLayers = 256;
-  fragments_at_equal_depth(draws, where, execution.geometry_culling, s.visible, s.fragments);
-  s.tied.used = 0;
-  s.tied.tied.clear();
-  if (s.fragments.empty()) return false;
-  s.tied.tied.assign(kMaxTilePixels, 0);
-  for (const DepthFragment& f : s.fragments) s.tied.tied[size_t(f.at)] = -1;
-  std::copy(std::begin(s.visible.depth), std::end(s.visible.depth), s.layer.depth);
-  FragmentLayers layers(s.fragments);
-  for (size_t layer = 0;; ++layer) {
-    if (!layers.next(s.layer)) return true;
-    if (layer == kMostLayers)
-      throw Error(ErrorKind::limit, "strategy", "more than 256 fragments share one pixel's depth",
-                  "draw coincident surfaces once, or with another strategy");
-    if (s.tied.layers.size() == layer) s.tied.layers.push_back(std::make_unique<SurfaceTile>());
-    resolve_surfaces(draws, where, planes, pipeline.light_model, s.layer, need_uv, s.vertices, *s.tied.layers[layer]);
-    s.tied.used = layer + 1;
-  }
-}
 
 // Tiles in the order they are started: dearest first, so that no thread is left alone with a dear one at the end.
 std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution) {
@@ -342,7 +302,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   frame.stats.before_tiles_ms = now_ms() - start;
   draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(groups),
               std::move(meshes), std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline.light_model),
-              TransparentPass(scene, pipeline), frame},
+              TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

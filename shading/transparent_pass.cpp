@@ -18,7 +18,7 @@ TileDraws with_list(const TileDraws& draws, std::span<const uint32_t> list) {
 
 }  // namespace
 
-TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline)
+TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, const Execution& execution)
     : scene_(scene),
       mode_(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none),
       blend_(pipeline.transparency.blend),
@@ -28,8 +28,9 @@ TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline)
               pipeline.gbuffer.half_round} {
   model_.alpha_from_albedo = true;
   if (!after_lights()) return;
-  lights_ = make_light_table(scene.lights, model_, scene.camera);
+  lights_ = make_light_table(scene.lights, model_, scene.camera, execution.threads);
   bound_by_extents(lights_, scene.lights, pipeline.light_volumes, false);
+  if (execution.light_culling) groups_ = make_light_groups(lights_, execution.threads);
 }
 
 TileDraws TransparentPass::opaque_draws(const TileDraws& all, TransparentWork& work) const {
@@ -65,7 +66,7 @@ void TransparentPass::blend_after_lights(const TileDraws& all, const TileRect& r
   LightCounts uncounted;
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
     resolve_surfaces(draws, rect, planes_, model_, work.layer, false, vertices, work.surface);
-    light_tile(work.surface, rect.size, lights_, LightGroups{}, model_, kNothing, execution.light_culling,
+    light_tile(work.surface, rect.size, lights_, groups_, model_, kNothing, execution.light_culling,
                execution.compiled_models, lists, work.color, uncounted);
     blend_layer(blend_, target_, work.surface, work.color, rect.size * rect.size, stored);
   }

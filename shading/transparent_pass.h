@@ -6,6 +6,7 @@
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/blend.h"
+#include "shading/light_groups.h"
 #include "shading/light_pass.h"
 #include "shading/light_table.h"
 
@@ -25,7 +26,7 @@ struct TransparentWork {
 /// with tiles, threads, SIMD target or culling. Borrows the scene, not the pipeline.
 class TransparentPass {
  public:
-  TransparentPass(const Scene& scene, const Pipeline& pipeline);
+  TransparentPass(const Scene& scene, const Pipeline& pipeline, const Execution& execution);
 
   bool active() const { return mode_ != TransparencyMode::none; }  ///< false where the scene has none
   bool into_albedo() const { return mode_ == TransparencyMode::into_albedo; }
@@ -54,6 +55,7 @@ class TransparentPass {
   LightModel model_;     ///< with the albedo's alpha
   BlendTarget target_;   ///< or the albedo plane
   LightTable lights_;    ///< bounded by their analytic extents; of after_lights
+  LightGroups groups_;   ///< none without culling
 };
 
 }  // namespace trueshade

@@ -39,7 +39,7 @@ void main() {
 
 std::string lights_text(const Pipeline& p, const GlslOptions& options, const std::string& buffer) {
   return "layout(location = 0) out vec4 target;\n\n" + light_function_text(p.light_model, options) +
-         (limits_range(p) ? "\n" + extent_text(p.light_model, buffer) : "") + "\nvoid main() {\n";
+         (limits_range(p).any() ? "\n" + extent_text(p, buffer) : "") + "\nvoid main() {\n";
 }
 
 std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options, GlDesign design) {
@@ -52,7 +52,7 @@ std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options
   text += lights_text(p, options, design == GlDesign::tiled ? "records" : "lights") + read_surface_text(p, options);
   if (design == GlDesign::tiled) text += light_loop_text(p, "records", "range.x", "range.y");
   if (design == GlDesign::deferred_volumes)
-    text += (limits_range(p) ? "  if (!in_extent(P, light)) discard;\n" : "") +
+    text += (limits_range(p).any() ? "  if (!in_extent(P, light)) discard;\n" : "") +
             target_text(model, lit_call_text(model, "lights", "light"));
   if (design == GlDesign::deferred_loop) text += light_loop_text(p, "lights", "0", "light_count");
   return text + "}\n";

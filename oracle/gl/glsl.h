@@ -55,7 +55,7 @@ struct GlslShaders {
   bool operator==(const GlslShaders&) const = default;
 };
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
-/// Of these the light pass, by the pipeline's strategy. Error(usage) for extents that one shader cannot tell apart.
+/// Of these the light pass, by the pipeline's strategy.
 void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders);
 /// The pipeline as OpenGL draws it: with the planes that surfaces really have.
 inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
@@ -67,7 +67,7 @@ inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
 /// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
 /// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers
 /// (cos(outer) and the edge where it is fully lit; exponent: cos(outer), exponent; squared_penumbra: scale, offset);
-/// with an ambient share (ambient, 0). Types: 0 ambient, 1 directional, 2 point, or a spot that lights all around, 3
+/// with an ambient share (ambient, 0). Types: 0 ambient, 1 directional, 2 point, 2.5 a spot that lights all around, 3
 /// spot.
 struct LightLayout {
   explicit LightLayout(const LightModel& model);
@@ -109,10 +109,14 @@ std::string lit_call_text(const LightModel& model, const std::string& buffer, co
 
 /// Whether a falloff is 0 from the range on, so that nothing else has to end there.
 bool ends_at_range(Falloff falloff);
-/// Whether the shader has to leave out what lies beyond a light's range. Error(usage) as set_light_shaders().
-bool limits_range(const Pipeline& pipeline);
-/// `bool in_extent(vec3 P, int light)`, for pipelines of limits_range().
-std::string extent_text(const LightModel& model, const std::string& buffer);
+/// Of which lights the shader has to leave out what lies beyond their range.
+struct RangeLimits {
+  bool point = false, spot = false;
+  bool any() const { return point || spot; }
+};
+RangeLimits limits_range(const Pipeline& pipeline);
+/// `bool in_extent(vec3 P, int light)`, where limits_range() says that any is.
+std::string extent_text(const Pipeline& pipeline, const std::string& buffer);
 /// The call where the light reaches P, else 0.
 std::string bounded_call_text(const Pipeline& pipeline, const std::string& buffer, const std::string& light);
 /// Statements that sum lights [first, end) of `buffer` and write the target.

@@ -1,5 +1,4 @@
 // The light passes of the strategies as GLSL: what is drawn over the scene again, or as the geometry of lights.
-#include "core/error.h"
 #include "oracle/gl/glsl.h"
 
 namespace trueshade::oracle {
@@ -8,7 +7,7 @@ namespace {
 
 std::string lights_text(const Pipeline& p, const GlslOptions& options) {
   return "layout(location = 0) out vec4 target;\n\n" + light_function_text(p.light_model, options) +
-         (limits_range(p) ? "\n" + extent_text(p.light_model, "lights") : "") + "\nvoid main() {\n";
+         (limits_range(p).any() ? "\n" + extent_text(p, "lights") : "") + "\nvoid main() {\n";
 }
 
 std::string loop_text(const Pipeline& p) { return light_loop_text(p, "lights", "0", "light_count") + "}\n"; }
@@ -55,7 +54,7 @@ std::string volume_fragment_text(const Pipeline& p, const GlslOptions& options) 
   std::string text = glsl_header(options.version, "one light over the G-buffer, blended into the target");
   text += surface_uniforms_text(p, options) + "uniform samplerBuffer lights;\nuniform int light;  // the draw's\n";
   text += lights_text(p, options) + read_surface_text(p, options);
-  if (limits_range(p)) text += "  if (!in_extent(P, light)) discard;\n";
+  if (limits_range(p).any()) text += "  if (!in_extent(P, light)) discard;\n";
   return text + target_text(p.light_model, lit_call_text(p.light_model, "lights", "light")) + "}\n";
 }
 
@@ -79,28 +78,27 @@ std::string deferred_loop_text(const Pipeline& p, const GlslOptions& options) {
 
 bool ends_at_range(Falloff falloff) { return falloff == Falloff::linear_range || falloff == Falloff::inverse_square; }
 
-bool limits_range(const Pipeline& p) {
+RangeLimits limits_range(const Pipeline& p) {
   const auto limited = [&](LightExtent extent) {
     return extent != LightExtent::unbounded &&
            !(p.strategy == Strategy::deferred_volumes && extent >= LightExtent::box);
   };
-  if (ends_at_range(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return false;
-  if (limited(p.light_volumes.point) != limited(p.light_volumes.spot))
-    throw Error(ErrorKind::usage, "light_volumes", "OpenGL draws point and spot lights bounded in one way only",
-                "give point and spot lights the same extent");
-  return limited(p.light_volumes.point);
+  if (ends_at_range(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return {};
+  return {limited(p.light_volumes.point), limited(p.light_volumes.spot)};
 }
 
-std::string extent_text(const LightModel& model, const std::string& buffer) {
-  const std::string n = std::to_string(LightLayout(model).texels());
+std::string extent_text(const Pipeline& p, const std::string& buffer) {
+  const RangeLimits limits = limits_range(p);
+  const std::string n = std::to_string(LightLayout(p.light_model).texels());
+  const char* free = !limits.point ? "place.w < 2.5" : !limits.spot ? "place.w != 2.0" : "place.w < 2.0";
   return "bool in_extent(vec3 P, int light) {\n  vec4 place = texelFetch(" + buffer + ", " + n +
-         " * light);\n  return place.w < 2.0 || distance(place.xyz, P) < texelFetch(" + buffer + ", " + n +
+         " * light);\n  return " + free + " || distance(place.xyz, P) < texelFetch(" + buffer + ", " + n +
          " * light + 1).w;\n}\n";
 }
 
 std::string bounded_call_text(const Pipeline& p, const std::string& buffer, const std::string& light) {
   const std::string call = lit_call_text(p.light_model, buffer, light);
-  return limits_range(p) ? "in_extent(P, " + light + ") ? " + call + " : vec3(0.0)" : call;
+  return limits_range(p).any() ? "in_extent(P, " + light + ") ? " + call + " : vec3(0.0)" : call;
 }
 
 std::string light_loop_text(const Pipeline& p, const std::string& buffer, const std::string& first,

@@ -76,10 +76,12 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
   }
   std::vector<std::vector<uint32_t>> out(surfaces.size());
   const bool faces_alone = lights_faces_alone(pipeline.light_model);
-  const bool ends = ends_at_range(pipeline.light_model.falloff) || limits_range(pipeline);
+  const RangeLimits limits = limits_range(pipeline);
+  const bool ends = ends_at_range(pipeline.light_model.falloff);
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const bool bounded = ends && light.type >= LightType::point;
+    const bool bounded = (light.type == LightType::point && (ends || limits.point)) ||
+                         (light.type == LightType::spot && (ends || limits.spot));
     const double radius = bounded ? double(light.range) * 1.001 : HUGE_VAL;  // more than all roundings here together
     const Range x = columns.touched(light.position, radius), y = rows.touched(light.position, radius);
     for (int row = y.begin; row < y.end; ++row)

@@ -120,8 +120,25 @@ class LightPass {
     BlendState blend = pipeline_.transparency.blend;
     if (stands_in_) blend.mask[3] = false;
     set_blend_state(blend);
-    buffers_.draw_instances(Surfaces::transparent);
+    if (draw_.after_object)
+      draw_over_one_by_one();
+    else
+      buffers_.draw_instances(Surfaces::transparent);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+
+  void draw_over_one_by_one() const {
+    constexpr size_t kMostSteps = 64;
+    std::vector<uint32_t> objects;
+    for (uint32_t i = 0; i < scene_.instances.size(); ++i)
+      if (scene_.materials[scene_.instances[i].material].transparent) objects.push_back(i);
+    const size_t stride = (objects.size() + kMostSteps - 1) / kMostSteps;
+    const GLuint framebuffer = (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer;
+    show(draw_.after_object, -1, framebuffer);
+    for (size_t k = 0; k < objects.size(); ++k) {
+      buffers_.draw_transparent(objects[k]);
+      if ((k + 1) % stride == 0 || k + 1 == objects.size()) show(draw_.after_object, int(objects[k]), framebuffer);
+    }
   }
 
   void clear(GLuint framebuffer) const {
@@ -131,10 +148,10 @@ class LightPass {
     glClearBufferfv(GL_COLOR, 0, color.data());
   }
 
-  void show(int light, GLuint framebuffer) const {
-    if (!draw_.after_light) return;
-    draw_.after_light(light, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width,
-                                          pipeline_.height));
+  void show(int light, GLuint framebuffer) const { show(draw_.after_light, light, framebuffer); }
+  void show(const StepSink& sink, int step, GLuint framebuffer) const {
+    if (!sink) return;
+    sink(step, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width, pipeline_.height));
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   }
 

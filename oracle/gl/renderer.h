@@ -19,6 +19,8 @@ struct GlDraw {
   const GlslShaders* shaders = nullptr;  ///< instead of shaders_of(pipeline, shader_options)
   GlslOptions shader_options;            ///< of `shaders`
   StepSink after_light;                  ///< of strategies that draw light by light: shown the target after each
+  StepSink after_object;  ///< of surfaces transparent after the lights: shown the target before them (-1), and after
+                          ///< each, by instance; of more than 64 after some of them, the last among these
 };
 
 struct GlPass {

@@ -144,7 +144,9 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
     const bool directional = light.type == LightType::directional;
     const glm::vec3 place = directional ? -light.direction : light.position;
     const ConeNumbers cone = cone_numbers(light, model.cone);
-    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f : 2.0f;
+    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f
+                       : light.type == LightType::spot                           ? 2.5f
+                                                                                 : 2.0f;
     const glm::vec3 color = light.color * model.damping;
     const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
     add(place, type);
@@ -221,24 +223,39 @@ bool SceneBuffers::has_transparent() const {
   return std::any_of(runs_.begin(), runs_.end(), [](const InstanceRun& r) { return r.transparent; });
 }
 
-void SceneBuffers::draw_instances(Surfaces which) const {
-  constexpr int kTangentUnit = 11;
+namespace {
+
+GLuint program_in_use() {
   GLint program = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  return GLuint(program);
+}
+
+}  // namespace
+
+void SceneBuffers::draw_run(const InstanceRun& run, GLuint program) const {
+  constexpr int kTangentUnit = 11;
+  const MeshBuffers& mesh = meshes_[run.mesh];
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
-  for (const InstanceRun& run : runs_) {
-    if (which != Surfaces::all && run.transparent != (which == Surfaces::transparent)) continue;
-    const MeshBuffers& mesh = meshes_[run.mesh];
-    if (maps_.used()) maps_.bind(GLuint(program), run.material);
-    if (maps_.normal())
-      bind_texture(GLuint(program), "tangents", kTangentUnit, GL_TEXTURE_BUFFER, mesh.tangents.texture);
-    glBindVertexArray(mesh.array);
-    glBindBuffer(GL_ARRAY_BUFFER, instances_);
-    point_at_instances(run.first);
-    glDrawElementsInstanced(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr, GLsizei(run.count));
-  }
+  if (maps_.used()) maps_.bind(program, run.material);
+  if (maps_.normal()) bind_texture(program, "tangents", kTangentUnit, GL_TEXTURE_BUFFER, mesh.tangents.texture);
+  glBindVertexArray(mesh.array);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  point_at_instances(run.first);
+  glDrawElementsInstanced(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr, GLsizei(run.count));
+}
+
+void SceneBuffers::draw_instances(Surfaces which) const {
+  const GLuint program = program_in_use();
+  for (const InstanceRun& run : runs_)
+    if (which == Surfaces::all || run.transparent == (which == Surfaces::transparent)) draw_run(run, program);
+}
+
+void SceneBuffers::draw_transparent(uint32_t instance) const {
+  const Instance& i = scene_->instances[instance];
+  draw_run({i.mesh, i.material, instance, 1, true}, program_in_use());
 }
 
 void SceneBuffers::draw_each_instance(GLuint program) const {

@@ -46,7 +46,9 @@ class SceneBuffers {
   /// Every triangle of those surfaces, in submission order, by the program in use; one of GlslOptions::maps where
   /// maps() are used; texture units 11 (frames of normal maps) and 13 to 15.
   void draw_instances(Surfaces which = Surfaces::all) const;
-  /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
+  /// One transparent instance of them.
+  void draw_transparent(uint32_t instance) const;
+  /// All of them with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
   void draw_each_instance(GLuint program) const;
   const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
@@ -63,6 +65,7 @@ class SceneBuffers {
     GLsizei index_count = 0;
   };
   MeshBuffers upload(const Mesh& mesh, int rotation) const;
+  void draw_run(const InstanceRun& run, GLuint program) const;
 
   const Scene* scene_;
   MapTextures maps_;

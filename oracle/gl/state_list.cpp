@@ -152,7 +152,7 @@ std::string uniforms(const Pipeline& pipeline) {
 std::string light_layout(const LightModel& model) {
   std::vector<std::string> texels{
       "x, y, z: position (directional: minus the direction it travels); "
-      "w: 0 ambient, 1 directional, 2 point or spot",
+      "w: 0 ambient, 1 directional, 2 point, 2.5 spot without a cone, 3 spot",
       "r, g, b: linear colour times intensity; a: range"};
   const LightLayout layout(model);
   if (layout.attenuation) texels.push_back("k0, k1, k2, 0: attenuation");

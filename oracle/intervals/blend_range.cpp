@@ -280,6 +280,7 @@ Texel middles(const Texel& stored) {
 Profile float_once(const Profile& profile) {
   Profile p = profile;
   p.blend = BlendRule::float_once;
+  p.exact_planes = true;  // an sRGB code stands for its own value
   return p;
 }
 

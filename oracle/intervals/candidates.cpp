@@ -4,6 +4,7 @@
 
 #include "core/fp_env.h"
 #include "oracle/intervals/map_range.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
@@ -19,6 +20,16 @@ struct Entry {
 
 struct Work {
   uint32_t instance, first, last;
+};
+
+/// What a search is for.
+struct Search {
+  bool transparent = false;   ///< surfaces drawn apart, none of which hides another; else all the others
+  bool apart = false;         ///< whether there are any that are drawn apart
+  bool wants(const Projector& p, uint32_t instance) const {
+    const Scene& scene = p.scene();
+    return !apart || scene.materials[scene.instances[instance].material].transparent == transparent;
+  }
 };
 
 void key_range(const GeometryState& state, const Range& z, double order, Candidate& c) {
@@ -38,7 +49,6 @@ void key_range(const GeometryState& state, const Range& z, double order, Candida
     case DepthFunc::notequal:
     case DepthFunc::never:
       c.low = c.middle = c.high = 0;
-      c.certain = false;
       return;
   }
 }
@@ -114,9 +124,11 @@ void scan(const Projector& projector, const Work& work, double order, const std:
   }
 }
 
-std::vector<Work> work_of(const Scene& scene) {
+std::vector<Work> work_of(const Projector& projector, const Search& search) {
+  const Scene& scene = projector.scene();
   std::vector<Work> work;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    if (!search.wants(projector, i)) continue;
     const auto count = uint32_t(scene.meshes[scene.instances[i].mesh].triangle_count());
     for (uint32_t t = 0; t < count; t += kChunk) work.push_back({i, t, std::min(count, t + kChunk)});
   }
@@ -140,29 +152,37 @@ double clear_key(const GeometryState& state) {
   }
 }
 
-CandidateMap find_candidates(const Projector& projector, int threads) {
-  const size_t pixels = size_t(projector.width()) * size_t(projector.height());
+namespace {
+
+/// `bound`: of each pixel, what is in front of all that is looked for.
+CandidateMap found(const Projector& projector, const Search& search, std::vector<double> bound, int threads) {
+  const size_t pixels = bound.size();
   const GeometryState& state = projector.pipeline().geometry;
   const double clear = clear_key(state);
   const bool equal_passes = state.depth_func == DepthFunc::lequal || state.depth_func == DepthFunc::gequal;
-  std::vector<double> bound(pixels, clear);
-  const std::vector<Work> work = work_of(projector.scene());
+  const bool ordered = state.depth_func != DepthFunc::equal && state.depth_func != DepthFunc::notequal &&
+                       state.depth_func != DepthFunc::never;
+  const std::vector<Work> work = work_of(projector, search);
   std::vector<Entry> entries;
   double order = 0;
   for (size_t from = 0; from < work.size(); from += kBatch) {
     const size_t count = std::min(kBatch, work.size() - from);
-    std::vector<std::vector<Entry>> found(count);
+    std::vector<std::vector<Entry>> lists(count);
     std::vector<double> starts(count);
     for (size_t k = 0; k < count; ++k) starts[k] = order, order += work[from + k].last - work[from + k].first;
     // Nothing writes `bound` meanwhile, and it only falls: what it drops here the merge would drop as well.
     parallel_for(int(count), threads,
-                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], bound, found[size_t(k)]); });
-    for (const std::vector<Entry>& list : found)
+                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], bound, lists[size_t(k)]); });
+    for (const std::vector<Entry>& list : lists)
       for (Entry e : list) {
         double& limit = bound[e.pixel];
-        if (e.candidate.low > limit || (e.candidate.low == clear && !equal_passes)) continue;
-        if (e.candidate.high > clear || (e.candidate.high == clear && !equal_passes)) e.candidate.certain = false;
-        if (e.candidate.certain) limit = std::min(limit, e.candidate.high);
+        if (e.candidate.low > limit) continue;
+        if (!search.transparent) {
+          if (e.candidate.low == clear && !equal_passes) continue;
+          if (e.candidate.high > clear || (e.candidate.high == clear && !equal_passes)) e.candidate.certain = false;
+          e.candidate.certain = e.candidate.certain && ordered;
+          if (e.candidate.certain) limit = std::min(limit, e.candidate.high);
+        }
         entries.push_back(e);
       }
   }
@@ -177,6 +197,19 @@ CandidateMap find_candidates(const Projector& projector, int threads) {
   for (const Entry& e : entries)
     if (kept(e)) map.list[next[e.pixel]++] = e.candidate;
   return map;
+}
+
+}  // namespace
+
+CandidateMap find_candidates(const Projector& projector, int threads) {
+  const std::vector<double> clear(size_t(projector.width()) * size_t(projector.height()),
+                                  clear_key(projector.pipeline().geometry));
+  const Search search{false, draws_transparent(projector.scene(), projector.pipeline())};
+  return found(projector, search, clear, threads);
+}
+
+CandidateMap find_transparent(const Projector& projector, std::vector<double> front, int threads) {
+  return found(projector, {true, true}, std::move(front), threads);
 }
 
 }  // namespace trueshade::oracle

@@ -32,7 +32,11 @@ struct CandidateMap {
 /// drawn; EQUAL, NOTEQUAL: all alike, so that whatever was drawn is a candidate; NEVER: nothing passes.
 double clear_key(const GeometryState& state);
 
-/// All candidates, with every core. Memory: 56 bytes each, a few per covered pixel.
+/// All candidates of surfaces that hide one another, with every core. Memory: 56 bytes each, a few per covered pixel.
 CandidateMap find_candidates(const Projector& projector, int threads = 0);
+
+/// All fragments of transparent surfaces but those sure to lie behind `front`, the key of what is in front of each pixel
+/// (row 0 the bottom row). None hides another; `certain` is of coverage and the alpha test alone.
+CandidateMap find_transparent(const Projector& projector, std::vector<double> front, int threads = 0);
 
 }  // namespace trueshade::oracle

@@ -56,7 +56,8 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
   ShadedSurface s;
   for (int k = 0; k < 3; ++k) {
     if (position_) s.position[size_t(k)] = {position_.stored(x, y, k), 0};
-    s.normal[size_t(k)] = fetched(normal_, x, y, k);
+    s.normal[size_t(k)] = normal_.unorm() ? doubled_normal(fetched(normal_, x, y, k), profile_.arithmetic)
+                                          : fetched(normal_, x, y, k);
   }
   for (int k = 0; k < 4; ++k) s.albedo[size_t(k)] = k < albedo_.channels ? fetched(albedo_, x, y, k) : Bounded{1, 0};
   for (int k = 0; k < 3; ++k) {
@@ -118,6 +119,10 @@ Bounded3 CapturedSurface::position_from_depth(int x, int y) const {
     }
   const Bounded one_over_w = quotient(a, {1, 0}, h[3]);
   return {product(a, h[0], one_over_w), product(a, h[1], one_over_w), product(a, h[2], one_over_w)};
+}
+
+Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic) {
+  return difference(arithmetic, {2 * fetched.value, 2 * fetched.error}, {1, 0});
 }
 
 Range output_range(const LightModel& model, const Bounded& value) {

@@ -37,7 +37,7 @@ class Inquiry {
  private:
   uint64_t against(const Profile& profile, bool lighting, const char* knob, const std::string& value) {
     uint64_t violations = judge_gbuffer(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
-    if (lighting && lit_)
+    if (violations == 0 && lighting && lit_)  // the costlier of the two
       violations += judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
     result_.tried.push_back({knob, value, violations});
     return violations;

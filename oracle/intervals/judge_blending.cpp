@@ -8,43 +8,20 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
-#include "oracle/intervals/blend_range.h"
+#include "oracle/intervals/blend_ways.h"
 #include "oracle/intervals/captured_surface.h"
 #include "oracle/intervals/light_cover.h"
-#include "oracle/intervals/light_output.h"
 #include "oracle/intervals/tied_surfaces.h"
+#include "oracle/intervals/transparent_layers.h"
 #include "scenes/light_mesh.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
 namespace {
 
-constexpr size_t kMostWays = 64;  // of drawing a pixel that are tried apart
-
-/// One fragment of a light's draw at a pixel, as often as it may be there.
-struct DrawnFragment {
-  LightOutput output;
-  int least = 1, most = 1, nominal = 1;
-  PixelClass doubt = PixelClass::edge;  ///< of another number of them than the nominal one
-};
-
-/// How a pixel got from one texel to the next: how often each fragment was there, and which way a comparison went.
-struct Way {
-  PixelClass pixel_class = PixelClass::exact;
-  Texel texel;
-  double value[4] = {};  ///< of the last fragment
-};
-
-/// A class a pixel keeps when another of its lights has a lesser one.
-bool worse(PixelClass a, PixelClass b) {
-  const auto rank = [](PixelClass c) {
-    constexpr PixelClass order[] = {PixelClass::exact,     PixelClass::store_2,  PixelClass::branch,
-                                    PixelClass::clip,      PixelClass::edge,     PixelClass::depth_tie,
-                                    PixelClass::undefined, PixelClass::violation};
-    return std::find(std::begin(order), std::end(order), c) - std::begin(order);
-  };
-  return rank(a) > rank(b);
-}
+constexpr size_t kBatchBytes = size_t(160) << 20;  // of targets that wait to be judged together
+constexpr int kMostLights = 64;                    // that do
 
 /// What a pixel was found to be so far; under judge_blended() also what it may hold.
 struct PixelState {
@@ -68,7 +45,9 @@ class BlendingJudge {
         outputs_(scene, pipeline, profile),
         meshes_(pipeline.light_volumes),
         multipass_(pipeline.strategy == Strategy::forward_multipass),
-        blend_(multipass_ ? kAddLight : pipeline.blend) {
+        blend_(multipass_ ? kAddLight : pipeline.blend),
+        codes_(color_.image->format, blend_),
+        keeps_dark_(!color_.layout.srgb && blend_.enabled && blend_.rgb == kAccumulate && (!blend_.mask[3] || color_.channels < 4)) {
     const size_t pixels = size_t(pipeline.width) * size_t(pipeline.height);
     covered_.resize(pixels);
     surfaces_.resize(pixels);
@@ -86,7 +65,8 @@ class BlendingJudge {
 
   /// The target before the first light. `given`: what it was seen to be; null: not seen.
   void start(const Image* given) {
-    before_ = given != nullptr ? *given : Image{};
+    seen_ = given != nullptr;
+    if (seen_) before_ = *given;
     const bool drawn = multipass_ ? scene_.lights.empty() : pipeline_.light_volumes.base;
     each_row([&](int y) {
       for (int x = 0; x < pipeline_.width; ++x) {
@@ -96,44 +76,34 @@ class BlendingJudge {
           out.nominal[k] = {c, c, c};
         }
         if (drawn && covered_[at(x, y)] != 0) out = outputs_.start(surfaces_[at(x, y)]);
-        judge(x, y, given, -1, {DrawnFragment{out, 1, 1, 1, PixelClass::exact}}, BlendState{});
+        const DrawnFragment only{out, 1, 1, 1, PixelClass::exact};
+        judge(x, y, -1, nullptr, given, {&only, 1}, BlendState{});
       }
     });
   }
 
+  /// The next light. Many are judged together, so that what a pixel's lights share is computed once.
   void light(int index, const Image* given) {
-    const Light& light = scene_.lights[size_t(index)];
-    outputs_.set_light(light);
-    const LightExtent extent = multipass_ ? LightExtent::unbounded : drawn_extent(light, pipeline_.light_volumes);
-    std::optional<LightOutline> outline;
-    if (is_mesh(extent)) outline.emplace(scene_, pipeline_, profile_, drawn_at_, light, meshes_[extent]);
-    each_row([&](int y) {
-      std::vector<FragmentCount> counts(size_t(pipeline_.width), FragmentCount{1, 1, 1});
-      if (outline) outline->count_row(pipeline_.height - 1 - y, counts);
-      for (int x = 0; x < pipeline_.width; ++x) {
-        if (covered_[at(x, y)] == 0 && !(multipass_ && index > 0)) {
-          unchanged(x, y, given, index);
-          continue;
-        }
-        const FragmentCount& count = counts[size_t(x)];
-        if (count.most == 0) {
-          unchanged(x, y, given, index);
-          continue;
-        }
-        if (count.least < count.most) may_be_other(x, y, index, count);
-        const bool first = multipass_ && index == 0;
-        if (multipass_ && index == 1) may_tie(x, y);
-        judge(x, y, given, index, fragments(x, y, index, count, extent), first ? BlendState{} : blend_);
-      }
-    });
-    if (given != nullptr) before_ = *given;
+    if (batch_.empty()) first_ = index;
+    batch_.push_back(given != nullptr ? *given : Image{});
+    const bool alone = multipass_ && index == 0;  // the one that is stored, with what the sum starts from
+    const size_t most = seen_ ? kBatchBytes / std::max<size_t>(1, before_.texels.size()) : size_t(kMostLights);
+    if (alone || batch_.size() >= std::clamp<size_t>(most, 1, size_t(kMostLights))) judge_batch();
+  }
+
+  /// Surfaces blended over what the lights may leave: of judge_blended().
+  void find_layers(const Capture& capture) {
+    if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)
+      layers_.emplace(scene_, pipeline_, profile_, capture);
   }
 
   StageVerdict verdict(std::string_view stage, const Image* last) {
+    if (!batch_.empty()) judge_batch();
     each_row([&](int y) {
       RowTally& row = rows_[size_t(y)];
       for (int x = 0; x < pipeline_.width; ++x) {
         PixelState& p = pixels_[at(x, y)];
+        if (layers_ && layers_->any(x, y)) cover(x, y);
         if (last != nullptr) judge_last(x, y, *last);
         row.classes.push_back(p.pixel_class);
         if (p.same >= 1) continue;
@@ -145,11 +115,27 @@ class BlendingJudge {
   }
 
  private:
+  /// What one row needs, light by light of the batch.
+  struct RowWork {
+    std::vector<std::vector<FragmentCount>> counts;  ///< of lights with a mesh
+    std::vector<uint8_t> drawn, changed;             ///< whether any pixel of the row is
+    std::vector<uint32_t> lights;                    ///< of the pixel at hand: those that may draw there
+    std::vector<LitApart> lit;                       ///< by its surfaces: tied ones, then the visible one
+    std::vector<DrawnFragment> fragments;
+  };
+
   template <class Job>
   void each_row(const Job& job) {
     parallel_for(pipeline_.height, 0, [&](int y) { job(y); });
   }
   size_t at(int x, int y) const { return size_t(y) * size_t(pipeline_.width) + size_t(x); }
+  const Image& before(size_t i) const { return i == 0 ? before_ : batch_[i - 1]; }
+  FragmentCount count_at(const RowWork& work, size_t i, int x) const {
+    return work.counts[i].empty() ? FragmentCount{1, 1, 1} : work.counts[i][size_t(x)];
+  }
+  std::span<const TiedSurface> tied_at(int x, int y) const {
+    return tied_ != nullptr && first_ > 0 ? tied_->at(x, y) : std::span<const TiedSurface>{};
+  }
 
   void may_be_other(int x, int y, int light, const FragmentCount& count) {
     pixels_[at(x, y)].same *= 1 - double(count.chance_other);
@@ -165,18 +151,17 @@ class BlendingJudge {
     }
   }
 
-  std::vector<DrawnFragment> fragments(int x, int y, int light, const FragmentCount& count, LightExtent extent);
-  void ways(const Texel& from, std::span<const DrawnFragment> fragments, const BlendState& blend,
-            std::vector<Way>& out) const;
-  void judge(int x, int y, const Image* given, int light, std::span<const DrawnFragment> fragments,
-             const BlendState& blend);
-  void judge(int x, int y, const Image* given, int light, const std::vector<DrawnFragment>& list,
-             const BlendState& blend) {
-    judge(x, y, given, light, std::span<const DrawnFragment>(list), blend);
-  }
+  void judge_batch();
+  void judge_row(int y, RowWork& work);
+  void judge_pixel(int x, int y, RowWork& work);
+  bool settled(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const;
+  void fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const;
+  void judge(int x, int y, int light, const Image* before, const Image* given,
+             std::span<const DrawnFragment> fragments, const BlendState& blend);
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
-  void unchanged(int x, int y, const Image* given, int light);
+  void unchanged(int x, int y, size_t i);
   void judge_last(int x, int y, const Image& last);
+  void cover(int x, int y);
   bool fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const;
   void keep(int x, int y, PixelClass c, const Match& m, int light);
 
@@ -190,12 +175,20 @@ class BlendingJudge {
   const LightMeshes meshes_;
   const bool multipass_;
   const BlendState blend_;
+  const AddedCodes codes_;
+  const bool keeps_dark_;  ///< a fragment that adds nothing leaves the texel as it is
   std::unique_ptr<TiedSurfaces> tied_;
+  std::optional<TransparentLayers> layers_;
   std::vector<uint8_t> covered_;
   std::vector<ShadedSurface> surfaces_;
   std::vector<PixelState> pixels_;
   std::vector<RowTally> rows_;
-  Image before_;
+  bool seen_ = false;         ///< targets are handed over
+  Image before_;              ///< the first of the batch
+  std::vector<Image> batch_;  ///< the target after light first_ and those that follow; empty images where not seen
+  int first_ = 0;
+  std::vector<LightExtent> extents_;
+  std::vector<std::unique_ptr<LightOutline>> outlines_;
 };
 
 Texel texel_of(const Image& image, int x, int y) {
@@ -205,67 +198,126 @@ Texel texel_of(const Image& image, int x, int y) {
   return t;
 }
 
-std::vector<DrawnFragment> BlendingJudge::fragments(int x, int y, int light, const FragmentCount& count,
-                                                    LightExtent extent) {
-  std::vector<DrawnFragment> list;
-  const auto visible = [&] {
-    const ShadedSurface& surface = surfaces_[at(x, y)];
-    DrawnFragment f{multipass_ && light == 0 ? outputs_.first(surface) : outputs_.term(surface), count.least,
-                    count.most, count.nominal, count.cut ? PixelClass::clip : PixelClass::edge};
-    if (extent == LightExtent::range) {
-      const LightOutputs::InRange in = outputs_.in_range(surface);
-      f.least = in.surely, f.most = in.perhaps, f.nominal = in.nominally, f.doubt = PixelClass::branch;
-    }
-    list.push_back(f);
-  };
-  const std::span<const TiedSurface> tied =
-      tied_ != nullptr && light > 0 ? tied_->at(x, y) : std::span<const TiedSurface>{};
-  const auto add_tied = [&](bool before) {
-    for (const TiedSurface& t : tied)
-      if (t.before == before)
-        list.push_back({outputs_.term(t.surface), t.certain ? 1 : 0, 1, t.certain ? 1 : 0, PixelClass::depth_tie});
-  };
-  add_tied(true);
-  if (covered_[at(x, y)] != 0) visible();
-  add_tied(false);
-  return list;
+/// Whether rows hold the same bits.
+bool same_row(const Image& a, const Image& b, int y) {
+  return std::memcmp(a.texel(0, y), b.texel(0, y), a.row_bytes()) == 0;
 }
 
-/// Every way from a known texel on, the nominal one first; more than kMostWays of them: the nominal one and the hull of
-/// all.
-void BlendingJudge::ways(const Texel& from, std::span<const DrawnFragment> fragments, const BlendState& blend,
-                         std::vector<Way>& out) const {
-  out.clear();
-  size_t count = 1;
-  for (const DrawnFragment& f : fragments) count *= size_t(f.most - f.least + 1) * (f.output.either_way ? 2 : 1);
-  std::vector<Way> list{Way{PixelClass::exact, from, {}}}, next;
-  const Format format = color_.image->format;
-  for (const DrawnFragment& f : fragments) {
-    next.clear();
-    for (const Way& way : list)
-      for (int turn = 0; turn <= f.most - f.least; ++turn) {
-        const int times = turn == 0 ? f.nominal : f.least + turn - (f.least + turn <= f.nominal ? 1 : 0);
-        for (int branch = 0; branch < (f.output.either_way ? 2 : 1); ++branch) {
-          Way w = way;
-          if (times != f.nominal && worse(f.doubt, w.pixel_class)) w.pixel_class = f.doubt;
-          if (branch == 1 && worse(PixelClass::branch, w.pixel_class)) w.pixel_class = PixelClass::branch;
-          const std::array<Range, 4>& source = branch == 1 ? f.output.other : f.output.nominal;
-          for (int i = 0; i < times; ++i) w.texel = blended_texel(blend, format, profile_, source, w.texel);
-          for (size_t k = 0; k < 4 && times > 0; ++k) w.value[k] = source[k].value;
-          next.push_back(w);
-          if (times == 0) break;
-        }
-      }
-    if (count > kMostWays && next.size() > 2) {
-      for (size_t i = 2; i < next.size(); ++i) {
-        for (size_t k = 0; k < 4; ++k) next[1].texel[k] = hull(next[1].texel[k], next[i].texel[k]);
-        if (worse(next[i].pixel_class, next[1].pixel_class)) next[1].pixel_class = next[i].pixel_class;
-      }
-      next.resize(2);
+void BlendingJudge::judge_batch() {
+  const size_t count = batch_.size();
+  const std::span<const Light> lights = std::span(scene_.lights).subspan(size_t(first_), count);
+  outputs_.set_lights(lights);
+  extents_.assign(count, LightExtent::unbounded);
+  outlines_.clear();
+  outlines_.resize(count);
+  if (!multipass_)
+    parallel_for(int(count), 0, [&](int k) {
+      const Light& light = lights[size_t(k)];
+      const LightExtent extent = extents_[size_t(k)] = drawn_extent(light, pipeline_.light_volumes);
+      if (is_mesh(extent))
+        outlines_[size_t(k)] =
+            std::make_unique<LightOutline>(scene_, pipeline_, profile_, drawn_at_, light, meshes_[extent]);
+    });
+  each_row([&](int y) {
+    RowWork work;
+    judge_row(y, work);
+  });
+  if (seen_) before_ = std::move(batch_.back());
+  batch_.clear();
+}
+
+void BlendingJudge::judge_row(int y, RowWork& work) {
+  const size_t count = batch_.size();
+  work.counts.resize(count), work.drawn.assign(count, 1), work.changed.assign(count, 0);
+  bool any = false;
+  for (size_t i = 0; i < count; ++i) {
+    if (outlines_[i]) {
+      work.counts[i].resize(size_t(pipeline_.width));
+      outlines_[i]->count_row(pipeline_.height - 1 - y, work.counts[i]);
+      work.drawn[i] = std::any_of(work.counts[i].begin(), work.counts[i].end(), [](const FragmentCount& c) { return c.most > 0; });
     }
-    std::swap(list, next);
+    if (seen_) work.changed[i] = !same_row(before(i), batch_[i], y);
+    any = any || work.drawn[i] != 0 || work.changed[i] != 0;
   }
-  out = std::move(list);
+  for (int x = 0; x < pipeline_.width && any; ++x) judge_pixel(x, y, work);
+}
+
+void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const bool covered = covered_[at(x, y)] != 0, shown = covered || !tied.empty();
+  work.lights.clear();
+  for (size_t i = 0; i < batch_.size(); ++i) {
+    if (shown && work.drawn[i] != 0 && count_at(work, i, x).most > 0)
+      work.lights.push_back(uint32_t(i));
+    else if (work.changed[i] != 0)
+      unchanged(x, y, i);
+  }
+  if (multipass_ && first_ == 1) may_tie(x, y);
+  if (work.lights.empty()) return;
+  work.lit.resize(std::max(work.lit.size(), tied.size() + 1));
+  const bool stored = multipass_ && first_ == 0;
+  for (size_t t = 0; t < tied.size(); ++t) outputs_.terms(tied[t].surface, work.lights, work.lit[t]);
+  if (covered && !stored) outputs_.terms(surfaces_[at(x, y)], work.lights, work.lit[tied.size()]);
+  for (size_t j = 0; j < work.lights.size(); ++j) {
+    const size_t i = work.lights[j];
+    const FragmentCount count = count_at(work, i, x);
+    const int light = first_ + int(i);
+    if (count.least < count.most) may_be_other(x, y, light, count);
+    if (!stored && settled(x, y, i, j, count, work)) {
+      if (color_.quantised()) rows_[size_t(y)].stored_values += uint64_t(color_.channels);
+      continue;
+    }
+    fragments(x, y, i, j, count, work);
+    judge(x, y, light, seen_ ? &before(i) : nullptr, seen_ ? &batch_[i] : nullptr, work.fragments,
+          stored ? BlendState{} : blend_);
+  }
+}
+
+/// Whether the light's draw is EXACT and has nothing to tell: no fragment adds anything and nothing changed, or the only
+/// one there is added its nominal codes.
+bool BlendingJudge::settled(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const {
+  if (!seen_ || !keeps_dark_) return false;
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const bool covered = covered_[at(x, y)] != 0;
+  const uint8_t *old = before(i).texel(x, y), *now = batch_[i].texel(x, y);
+  const auto dark = [&](const LitApart& lit) {
+    const Bounded3& c = lit.color[j];
+    return lit.plain[j] != 0 && std::all_of(c.begin(), c.end(), [](const Bounded& b) {
+             return b.value == 0 && b.error <= kSmallestFloat;
+           });
+  };
+  bool all_dark = !covered || dark(work.lit[tied.size()]);
+  for (size_t t = 0; t < tied.size() && all_dark; ++t) all_dark = dark(work.lit[t]);
+  if (all_dark) return std::memcmp(old, now, size_t(color_.layout.bytes_per_texel())) == 0;
+  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1 || work.lit[0].plain[j] == 0) return false;
+  if (!codes_.plain(work.lit[0].color[j], old, now)) return false;
+  return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], uint32_t(i)).surely;
+}
+
+void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const {
+  work.fragments.clear();
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const auto output = [&](const ShadedSurface& surface, const LitApart& lit) {
+    return lit.plain[j] != 0 ? outputs_.plain(surface, lit.color[j]) : outputs_.term(surface, uint32_t(i));
+  };
+  const auto add_tied = [&](bool before) {
+    for (size_t t = 0; t < tied.size(); ++t)
+      if (const int sure = tied[t].certain ? 1 : 0; tied[t].before == before)
+        work.fragments.push_back({output(tied[t].surface, work.lit[t]), sure, 1, sure, PixelClass::depth_tie});
+  };
+  add_tied(true);
+  if (covered_[at(x, y)] != 0) {
+    const ShadedSurface& surface = surfaces_[at(x, y)];
+    const bool stored = multipass_ && first_ == 0;
+    DrawnFragment f{stored ? outputs_.first(surface) : output(surface, work.lit[tied.size()]), count.least, count.most,
+                    count.nominal, count.cut ? PixelClass::clip : PixelClass::edge};
+    if (extents_[i] == LightExtent::range) {
+      const LightOutputs::InRange in = outputs_.in_range(surface, uint32_t(i));
+      f.least = in.surely, f.most = in.perhaps, f.nominal = in.nominally, f.doubt = PixelClass::branch;
+    }
+    work.fragments.push_back(f);
+  }
+  add_tied(false);
 }
 
 bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const {
@@ -280,17 +332,21 @@ bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Ma
 void BlendingJudge::keep(int x, int y, PixelClass c, const Match& m, int light) {
   PixelState& p = pixels_[at(x, y)];
   if (worse(c, p.pixel_class)) p.pixel_class = c;
-  rows_[size_t(y)].record(x, y, c, m, light < 0 ? "before the first light" : "light " + std::to_string(light));
+  const bool told = c != PixelClass::exact && c != PixelClass::store_2;
+  rows_[size_t(y)].record(x, y, c, m,
+                          !told       ? std::string()
+                          : light < 0 ? std::string("before the first light")
+                                      : "light " + std::to_string(light));
 }
 
-void BlendingJudge::unchanged(int x, int y, const Image* given, int light) {
-  if (given == nullptr) return;
-  const size_t bytes = size_t(color_.layout.bytes_per_texel());
-  if (std::memcmp(given->texel(x, y), before_.texel(x, y), bytes) == 0) return;
+/// A light that draws nothing at the pixel.
+void BlendingJudge::unchanged(int x, int y, size_t i) {
+  const Image &old = before(i), &now = batch_[i];
+  if (std::memcmp(now.texel(x, y), old.texel(x, y), size_t(color_.layout.bytes_per_texel())) == 0) return;
   Way way;
-  way.texel = texel_of(before_, x, y);
+  way.texel = texel_of(old, x, y);
   Match m;
-  if (!fits(way, PlaneView(given), x, y, m)) keep(x, y, PixelClass::violation, m, light);
+  if (!fits(way, PlaneView(&now), x, y, m)) keep(x, y, PixelClass::violation, m, first_ + int(i));
 }
 
 /// What the pixel may hold after the fragments, from what it may hold before them.
@@ -329,8 +385,8 @@ void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragment
   }
 }
 
-void BlendingJudge::judge(int x, int y, const Image* given, int light, std::span<const DrawnFragment> fragments,
-                          const BlendState& blend) {
+void BlendingJudge::judge(int x, int y, int light, const Image* before, const Image* given,
+                          std::span<const DrawnFragment> fragments, const BlendState& blend) {
   PixelState& p = pixels_[at(x, y)];
   if (given == nullptr) return carry(p, fragments, blend);
   std::vector<DrawnFragment> known;  // a fragment that may be absent, and says nothing: only where nothing else fits
@@ -338,9 +394,8 @@ void BlendingJudge::judge(int x, int y, const Image* given, int light, std::span
     if (f.output.undefined && f.least > 0) return keep(x, y, PixelClass::undefined, {}, light);
     if (!f.output.undefined) known.push_back(f);
   }
-  const Texel from = light < 0 ? Texel{} : texel_of(before_, x, y);
-  std::vector<Way> list;
-  ways(from, known, blend, list);
+  const std::vector<Way> list = ways_from(before != nullptr ? texel_of(*before, x, y) : Texel{}, known, blend,
+                                          color_.image->format, profile_);
   const PlaneView view(given);
   Match closest;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -356,6 +411,18 @@ void BlendingJudge::judge(int x, int y, const Image* given, int light, std::span
   closest.choices.clear();
   closest.stored_values = 0;
   keep(x, y, PixelClass::violation, closest, light);
+}
+
+void BlendingJudge::cover(int x, int y) {
+  PixelState& p = pixels_[at(x, y)];
+  const TransparentPixel pixel = layers_->at(x, y);
+  if (pixel.layers.empty()) return;
+  CarriedTexel carried{p.nominal, p.split ? p.all : p.nominal, p.split, p.open, p.doubt};
+  layers_->carry(pixel, carried);
+  p.nominal = carried.nominal, p.all = carried.all, p.split = carried.split, p.open = carried.open;
+  p.doubt = carried.doubt;
+  for (const TransparentLayer& layer : pixel.layers)
+    if (!layer.certain) p.same *= 1 - double(layer.chance_other);
 }
 
 void BlendingJudge::judge_last(int x, int y, const Image& last) {
@@ -387,23 +454,35 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
 
 StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const LightSteps& steps) {
-  BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture);
+  return std::move(judge_blending(scene, pipeline, std::span(&profile, 1), capture, steps).front());
+}
+
+std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline,
+                                         std::span<const Profile> profiles, const Capture& capture,
+                                         const LightSteps& steps) {
+  std::vector<std::unique_ptr<BlendingJudge>> judges;
+  for (const Profile& profile : profiles)
+    judges.push_back(std::make_unique<BlendingJudge>(scene, pipeline, resolved(profile, pipeline), capture));
   int expected = -1;
   steps([&](int light, const Image& target) {
     if (light != expected || target.width != pipeline.width || target.height != pipeline.height ||
         target.format != capture.color.format)
       throw Error(ErrorKind::bad_input, "target after light " + std::to_string(light), "is not the one that comes next",
                   "hand over -1 and then each light, in the capture's size and format");
-    if (light < 0)
-      judge.start(&target);
-    else
-      judge.light(light, &target);
+    for (const auto& judge : judges) {
+      if (light < 0)
+        judge->start(&target);
+      else
+        judge->light(light, &target);
+    }
     ++expected;
   });
   if (expected != int(scene.lights.size()))
     throw Error(ErrorKind::bad_input, "capture", "ends after " + std::to_string(expected) + " lights",
                 "hand over the target after each light");
-  return judge.verdict("blending", nullptr);
+  std::vector<StageVerdict> verdicts;
+  for (const auto& judge : judges) verdicts.push_back(judge->verdict("blending", nullptr));
+  return verdicts;
 }
 
 StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
@@ -411,6 +490,7 @@ StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const P
   BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture);
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
+  judge.find_layers(capture);
   return judge.verdict("lighting", &capture.color);
 }
 

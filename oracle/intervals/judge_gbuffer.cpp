@@ -5,9 +5,11 @@
 #include "core/fp_env.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/judge.h"
+#include "oracle/intervals/judge_transparency.h"
 #include "oracle/intervals/patch.h"
 #include "oracle/intervals/surface_values.h"
 #include "oracle/intervals/tally.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
@@ -44,11 +46,10 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
-    for (const Material& m : scene.materials)
-      if (m.normal_map.used() || (m.specular_map.used() && reads_specular_plane(pipeline.light_model)))
-        throw Error(ErrorKind::bad_input, "material " + m.name, "its normal or specular map cannot be judged yet",
-                    "validate the scene without it");
     candidates_ = find_candidates(projector_);
+    if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
+        capture.plane("albedo") != nullptr)
+      layers_.emplace(scene, pipeline, profile, capture);
   }
 
   void judge_row(int y_top, RowTally& row) const {
@@ -74,8 +75,35 @@ class GBufferJudge {
     if (depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0))) return false;
     for (const AttributePlane& p : planes_)
       for (int c = 0; c < p.view.channels; ++c)
-        if (p.view.stored(x, y, c) != 0) return false;
+        if (p.view.stored(x, y, c) != 0 && !(p.first == kAlbedo && is_layered(p.view, x, y))) return false;
     return true;
+  }
+
+  /// Whether an albedo without a surface is what transparent surfaces may have left on the clear value.
+  bool is_layered(const PlaneView& view, int x, int y) const {
+    if (!layers_ || !layers_->any(x, y)) return false;
+    return judge_ways(layers_->ways(layers_->at(x, y), Texel{}), view, "albedo", x, y, profile_).pixel_class !=
+           PixelClass::violation;
+  }
+
+  /// The albedo of a surface under transparent ones.
+  void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Match& m) const {
+    Texel stored;
+    for (int k = 0; k < plane.view.channels; ++k) {
+      const Range base = surface.base_color(k, plane.interpolation);
+      stored[size_t(k)] =
+          legal_texel(k < 3 ? surface.albedo(base) : base, plane.view.image->format, k, profile_);
+    }
+    const TransparentPixel pixel = layers_->at(x, y_top);
+    std::vector<LayeredTexel> ways{LayeredTexel{PixelClass::exact, stored, {}, false, false}};
+    if (!pixel.layers.empty()) ways = layers_->ways(pixel, stored);
+    for (LayeredTexel& way : ways) way.looked_up = way.looked_up || surface.textured();
+    const LayeredVerdict v = judge_ways(ways, plane.view, "albedo", x, y_top, profile_);
+    if (v.pixel_class == PixelClass::violation)
+      return m.note("albedo", v.match.channel, v.match.legal_value, v.match.given, 1);
+    m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
+    m.worst_error = std::max(m.worst_error, v.match.worst_error);
+    if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
   }
 
   Match match(const Candidate& c, int x, int y_top, bool& bounded) const {
@@ -96,18 +124,26 @@ class GBufferJudge {
       m.channel_is(depth_, "depth", 0, surface.depth(), held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)),
                    pixel, profile_);
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
-    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored) {
-      if (surface.textured())
+    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
+                                   bool looked_up) {
+      if (looked_up)
         m.lookup_is(view, name, k, range, stored, pixel, profile_);
       else
         m.channel_is(view, name, k, range, stored, pixel, profile_);
     };
-    for (const AttributePlane& p : planes_)
+    const bool layered = layers_ && layers_->any(x, y_top);
+    for (const AttributePlane& p : planes_) {
+      if (layered && p.first == kAlbedo) judge_layered(p, surface, x, y_top, m);
       for (int k = 0; k < p.view.channels; ++k) {
         const double stored = p.view.stored(x, y_top, k);
         if (k >= p.count) {
           const double rest = p.view.constant(p.rest[k - 2], k);
           if (stored != rest) m.note(p.name, k, {rest, rest, rest}, stored, 1);
+          continue;
+        }
+        if (p.first == kNormal) {
+          const Range n = surface.normal(k, p.interpolation);
+          judge_channel(p.view, p.name, k, p.view.unorm() ? halved_normal(n, profile_) : n, stored, surface.bumpy());
           continue;
         }
         if (p.first != kAlbedo) {
@@ -116,9 +152,12 @@ class GBufferJudge {
         }
         const Range base = surface.base_color(k, p.interpolation);
         if (specular_ && k < 3)
-          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k));
-        judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored);
+          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k),
+                        surface.glossy());
+        if (!layered)
+          judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
       }
+    }
     constant_planes(surface, x, y_top, pixel, m);
     return m;
   }
@@ -147,6 +186,7 @@ class GBufferJudge {
   PlaneView depth_, object_, material_, specular_, emission_;
   std::vector<AttributePlane> planes_;
   CandidateMap candidates_;
+  std::optional<TransparentLayers> layers_;  ///< blended into the albedo
 };
 
 std::string name_of(const Candidate* c) {
@@ -197,6 +237,7 @@ std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Can
 PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
   if (seen == nominal) {
     if (!bounded) return PixelClass::undefined;
+    if (m.layered != PixelClass::exact) return m.layered;
     return m.tex ? PixelClass::tex : m.second ? PixelClass::store_2 : PixelClass::exact;
   }
   if ((seen != nullptr && seen->masked) || (nominal != nullptr && nominal->masked)) return PixelClass::tex;

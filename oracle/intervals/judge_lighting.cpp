@@ -6,7 +6,9 @@
 #include "oracle/intervals/captured_surface.h"
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/judge_blending.h"
+#include "oracle/intervals/judge_transparency.h"
 #include "oracle/scalar_renderer.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
@@ -25,7 +27,10 @@ class LightingJudge {
         count_(plane_of(capture, pipeline, "light.count")),
         lights_(scene, pipeline.light_model,
                 view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
-                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {}
+                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
+    if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
+      layers_.emplace(scene, pipeline, profile, capture);
+  }
 
   void judge_row(int y, RowTally& row) const {
     for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y, row);
@@ -35,6 +40,8 @@ class LightingJudge {
   bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
   void judge_pixel(int x, int y, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
+  void judge_layered(int x, int y, RowTally& row) const;
+  bool count_is(const LitRange& lit, int x, int y, Match& m) const;
 
   const Scene& scene_;
   const Pipeline pipeline_;
@@ -42,7 +49,54 @@ class LightingJudge {
   const CapturedSurface surface_;
   const PlaneView color_, count_;
   const LightBounds lights_;
+  std::optional<TransparentLayers> layers_;
 };
+
+bool LightingJudge::count_is(const LitRange& lit, int x, int y, Match& m) const {
+  const double lights = count_ ? count_.stored(x, y, 0) : 0;
+  if (count_ && (lights < lit.lights_low || lights > lit.lights_high))
+    m.note("light.count", 0, {double(lit.lights_low), double(lit.lights_low), double(lit.lights_high)}, lights, 1);
+  return m.legal;
+}
+
+/// From what the lights may have left: nominally, and over all branches.
+void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
+  const bool covered = surface_.covered(x, y);
+  Match counted;
+  CarriedTexel at;
+  bool branches = false;
+  for (size_t k = 0; k < 4; ++k) {
+    const double c = double(scene_.clear[int(k)]);
+    at.nominal[k] = at.all[k] = legal_texel({c, c, c}, color_.image->format, int(k), profile_);
+  }
+  if (covered) {
+    ++row.covered;
+    const ShadedSurface surface = surface_.at(x, y);
+    const LitRange lit = lights_.at(surface);
+    if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+    count_is(lit, x, y, counted);
+    branches = !lit.branches.empty();
+    for (size_t k = 0; k < 3; ++k) {
+      Bounded any = lit.color[k];
+      for (const OtherBranch& b : lit.branches) any.error += std::fabs(b.change[k]);
+      const auto texel = [&](const Bounded& c) {
+        return legal_texel(output_range(pipeline_.light_model, c), color_.image->format, int(k), profile_);
+      };
+      at.nominal[k] = texel(lit.color[k]), at.all[k] = texel(any);
+    }
+    at.nominal[3] = at.all[3] = legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)),
+                                            color_.image->format, 3, profile_);
+  }
+  const TransparentPixel pixel = layers_->at(x, y);
+  may_have_other_layers(pixel, row);
+  LayeredVerdict v = judge_ways(layers_->ways(pixel, at.nominal), color_, "color", x, y, profile_);
+  if (v.pixel_class == PixelClass::violation && branches) {
+    v = judge_ways(layers_->ways(pixel, at.all), color_, "color", x, y, profile_);
+    if (worse(PixelClass::branch, v.pixel_class)) v.pixel_class = PixelClass::branch;
+  }
+  if (!counted.legal) v = {PixelClass::violation, counted};
+  row.take(x, y, v.pixel_class, v.match, std::to_string(pixel.layers.size()) + " transparent fragments");
+}
 
 bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const {
   const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
@@ -69,6 +123,7 @@ void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
 }
 
 void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
+  if (layers_ && layers_->any(x, y)) return judge_layered(x, y, row);
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface surface = surface_.at(x, y);
@@ -81,9 +136,7 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
       m.channel_is(color_, "color", 3, output_range(pipeline_.light_model, surface_.alpha(surface)),
                    color_.stored(x, y, 3), uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), profile_);
     }
-    const double lights = count_ ? count_.stored(x, y, 0) : 0;
-    if (count_ && (lights < lit.lights_low || lights > lit.lights_high))
-      m.note("light.count", 0, {double(lit.lights_low), double(lit.lights_low), double(lit.lights_high)}, lights, 1);
+    count_is(lit, x, y, m);
   };
   fits(lit, {}, x, y, nominal);
   others(nominal);

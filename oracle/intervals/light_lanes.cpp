@@ -1,5 +1,7 @@
 #include "oracle/intervals/light_lanes.h"
 
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "oracle/intervals/light_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -230,11 +232,13 @@ struct Sums {
 };
 
 /// (diffuse N.L + specular power) colour strength: two roundings for the sum, in px.error; one for colour times strength,
-/// one more where the colour was damped, one for the product. Written apart, the terms have three more each.
+/// one more where the colour was damped, one for the product. Written apart, the terms have three more each. Where an
+/// ambient share of nothing is added to what the colour multiplies, that is one more.
 HWY_INLINE void add_terms(const LightColumns& lights, size_t i, const Pixel& px, Both cosine, Both shine, Both strength,
-                          double v, M taken, Sums& sums) {
+                          double roundings, double v, M taken, Sums& sums) {
   const D d;
-  const V most = plus(hn::Abs(strength.value), strength.error), last = plus(strength.error, times(most, 3.0 * v * (1 + 4 * v)));
+  const V most = plus(hn::Abs(strength.value), strength.error);
+  const V last = plus(strength.error, times(most, roundings * v * (1 + 8 * v)));
   const V cosine_size = hn::Abs(cosine.value);
   for (int k = 0; k < 3; ++k) {
     const V color = hn::LoadU(d, &lights.color[k][i]);
@@ -320,7 +324,8 @@ HWY_INLINE void judge_vector(const LightColumns& lights, size_t i, const LaneMod
     Both shine{zero, zero};
     if (m.model.specular != Specular::none) shine = specular_at(m, px, lane, shininess, left);
     const Both cosine = m.model.diffuse == Diffuse::clamped ? positive(lane.n_l) : lane.n_l;
-    add_terms(lights, i, px, cosine, shine, strength, v, hn::And(taken, hn::Not(left)), sums);
+    const double roundings = m.model.order == TermOrder::with_ambient ? 4 : 3;
+    add_terms(lights, i, px, cosine, shine, strength, roundings, v, hn::And(taken, hn::Not(left)), sums);
   }
   left = hn::And(left, taken);
   const M judged = hn::And(inside, hn::Not(left));
@@ -348,6 +353,22 @@ void judge_lanes_simd(const LightColumns& lights, const LaneModel& model, const 
   }
 }
 
+void judge_lanes_apart_simd(const LightColumns& lights, const LaneModel& model, const LanePixel& in, LaneTerms& out) {
+  const D d;
+  const Pixel px = pixel_of(in, model);
+  LaneSums counts;
+  for (size_t i = 0; i < lights.count; i += hn::Lanes(d)) {
+    Sums sums;
+    for (int k = 0; k < 3; ++k) sums.value[k] = sums.error[k] = sums.magnitude[k] = hn::Zero(d);
+    judge_vector(lights, i, model, px, in.shininess, hn::FirstN(d, lights.count - i), sums, counts);
+    for (int k = 0; k < 3; ++k) {
+      hn::StoreU(sums.value[k], d, &out.value[k][i]);
+      hn::StoreU(sums.error[k], d, &out.error[k][i]);
+    }
+  }
+  out.left = std::move(counts.left);
+}
+
 }  // namespace trueshade::oracle::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -355,10 +376,13 @@ HWY_AFTER_NAMESPACE();
 namespace trueshade::oracle {
 
 HWY_EXPORT(judge_lanes_simd);
+HWY_EXPORT(judge_lanes_apart_simd);
 
 namespace {
 
 constexpr size_t kWidestVector = 64;  // doubles: more than any target has
+
+size_t whole_vectors(size_t count) { return (count + kWidestVector - 1) / kWidestVector * kWidestVector; }
 
 ErrorChain chain_at(const Arithmetic& a, double k) {
   const double v = a.roundoff * (1 + 0x1p-16), i = a.inverse_sqrt * (1 + 0x1p-16), q = a.square_root * (1 + 0x1p-16);
@@ -390,9 +414,20 @@ void LightColumns::add(const glm::vec3& at, const glm::vec3& rgb, float damping,
 }
 
 void LightColumns::pad() {
-  const size_t size = (count + kWidestVector - 1) / kWidestVector * kWidestVector;
   for (std::vector<double>* plane : {&position[0], &position[1], &position[2], &color[0], &color[1], &color[2], &range, &k0, &k1, &k2})
-    plane->resize(size, 1.0);
+    plane->resize(whole_vectors(count), 1.0);
+}
+
+void LightColumns::take(const LightColumns& from, std::span<const uint32_t> places) {
+  count = places.size();
+  const auto taken = [&](const std::vector<double>& plane, std::vector<double>& out) {
+    if (out.size() < whole_vectors(count)) out.resize(whole_vectors(count), 1.0);  // beyond count: any numbers
+    for (size_t i = 0; i < count; ++i) out[i] = plane[places[i]];
+  };
+  for (size_t k = 0; k < 3; ++k) taken(from.position[k], position[k]), taken(from.color[k], color[k]);
+  taken(from.range, range), taken(from.k0, k0), taken(from.k1, k1), taken(from.k2, k2);
+  index.resize(count);
+  for (size_t i = 0; i < count; ++i) index[i] = from.index[places[i]];
 }
 
 LaneModel::LaneModel(const LightModel& light_model, const Arithmetic& a, bool ends, bool unlit)
@@ -404,12 +439,17 @@ LaneModel::LaneModel(const LightModel& light_model, const Arithmetic& a, bool en
   constant = 4 * a.roundoff * (1 + 0x1p-16);  // k0: in two sums, and twice in the larger partial sums
 }
 
-bool lanes_suit(const LightModel& model) {
-  return model.specular != Specular::phong && model.order != TermOrder::with_ambient;
-}
+bool lanes_suit(const LightModel& model) { return model.specular != Specular::phong; }
 
 void judge_lanes(const LightColumns& lights, const LaneModel& model, const LanePixel& pixel, LaneSums& sums) {
   HWY_DYNAMIC_DISPATCH(judge_lanes_simd)(lights, model, pixel, sums);
+}
+
+void judge_lanes_apart(const LightColumns& lights, const LaneModel& model, const LanePixel& pixel, LaneTerms& terms) {
+  for (size_t k = 0; k < 3; ++k)
+    for (std::vector<double>* plane : {&terms.value[k], &terms.error[k]})
+      if (plane->size() < lights.range.size()) plane->resize(lights.range.size());
+  HWY_DYNAMIC_DISPATCH(judge_lanes_apart_simd)(lights, model, pixel, terms);
 }
 
 }  // namespace trueshade::oracle

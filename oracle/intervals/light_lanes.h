@@ -16,6 +16,7 @@
 // Flushing to zero adds 2^-126 a step. Where d2 >= 2^-80 that is below 2^-40 of a relative error, which a roundoff taken
 // 1 + 2^-16 times as large covers; elsewhere kFlushed is added.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "oracle/intervals/bounded.h"
@@ -32,6 +33,7 @@ struct LightColumns {
   /// damping: what the model multiplies every colour by.
   void add(const glm::vec3& position, const glm::vec3& color, float damping, float range, const glm::vec3& attenuation, uint32_t index);
   void pad();  ///< after the last light
+  void take(const LightColumns& from, std::span<const uint32_t> places);  ///< these lights alone, padded
 };
 
 /// Relative errors of the chain above, for one k.
@@ -52,7 +54,7 @@ struct LaneModel {
   LaneModel(const LightModel& model, const Arithmetic& arithmetic, bool extents, bool adds_unlit);
 };
 
-/// Whether lights of the model can be judged in lanes at all: no Phong, no ambient share.
+/// Whether lights of the model can be judged in lanes at all: no Phong. Lights with an ambient share cannot.
 bool lanes_suit(const LightModel& model);
 
 /// One pixel. Diffuse and specular: what N.L and the power are multiplied by; 1 where the albedo multiplies the sum.
@@ -70,5 +72,12 @@ struct LaneSums {
 /// Sums the lights' terms, their errors and the terms' magnitudes. Errors are at least those of LightBounds::one_by_one, and
 /// less than 1.1 of them.
 void judge_lanes(const LightColumns& lights, const LaneModel& model, const LanePixel& pixel, LaneSums& sums);
+
+/// The same of each light apart, at its place in the columns: zeros where it is dark, or left.
+struct LaneTerms {
+  std::vector<double> value[3], error[3];
+  std::vector<uint32_t> left;
+};
+void judge_lanes_apart(const LightColumns& lights, const LaneModel& model, const LanePixel& pixel, LaneTerms& terms);
 
 }  // namespace trueshade::oracle

@@ -21,10 +21,10 @@ Range attribute_range(const Projector& projector, const Piece& piece, const Surf
 
 }  // namespace
 
-std::optional<std::array<Range, 4>> color_texel(const Projector& projector, const Material& material,
-                                                const Piece& piece, const SurfacePoint& point,
-                                                const TriangleValues& values, double x, double y) {
-  if (!material.color_map.used()) return std::nullopt;
+std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
+                                              const SurfacePoint& point, const TriangleValues& values, double x,
+                                              double y) {
+  if (!slot.used()) return std::nullopt;
   const Interpolation how = projector.pipeline().gbuffer.uv.interpolation;
   std::array<std::array<double, 3>, 2> uv{};
   Range at[2];
@@ -33,9 +33,8 @@ std::optional<std::array<Range, 4>> color_texel(const Projector& projector, cons
     piece_values(piece, values, kUv + k, uv[k], error);
     at[k] = attribute_range(projector, piece, point, values, kUv + k, how);
   }
-  const Texture& texture = projector.scene().textures[size_t(material.color_map.texture)];
-  return texel_range(texture, material.color_map.sampler, texture_sample(piece, uv, how, at[0], at[1], x, y),
-                     projector.profile());
+  const Texture& texture = projector.scene().textures[size_t(slot.texture)];
+  return texel_range(texture, slot.sampler, texture_sample(piece, uv, how, at[0], at[1], x, y), projector.profile());
 }
 
 Range product(const Range& a, const Range& b, const Profile& profile) {
@@ -51,7 +50,7 @@ AlphaVerdict alpha_verdict(const Projector& projector, const Material& material,
                            const SurfacePoint& point, const TriangleValues& values, double x, double y) {
   const Interpolation how = projector.pipeline().gbuffer.albedo.interpolation;
   Range alpha = attribute_range(projector, piece, point, values, kAlbedo + 3, how);
-  if (const auto texel = color_texel(projector, material, piece, point, values, x, y))
+  if (const auto texel = map_texel(projector, material.color_map, piece, point, values, x, y))
     alpha = product(alpha, (*texel)[3], projector.profile());
   const double base = double(material.base_color.a), cutoff = double(material.alpha_cutoff);
   alpha = product(alpha, {base, base, base}, projector.profile());

@@ -6,10 +6,10 @@
 
 namespace trueshade::oracle {
 
-/// Texel of a material's colour map; nothing if it has none.
-std::optional<std::array<Range, 4>> color_texel(const Projector& projector, const Material& material,
-                                                const Piece& piece, const SurfacePoint& point,
-                                                const TriangleValues& values, double x, double y);
+/// Texel of a material's map; nothing where the slot is empty.
+std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
+                                              const SurfacePoint& point, const TriangleValues& values, double x,
+                                              double y);
 
 /// a * b for ranges, with the arithmetic's rounding.
 Range product(const Range& a, const Range& b, const Profile& profile);

@@ -157,7 +157,10 @@ class LightSum {
 
   /// Beyond the range by more than any rounding: nine roundings separate the computed distance from the real one.
   bool far_away(const Bounded3& offset, const Light& light) const {
-    if (model_.falloff != Falloff::linear_range && model_.falloff != Falloff::inverse_square) return false;
+    const LightExtent extent = light.type == LightType::spot ? volumes_.spot : volumes_.point;
+    if (model_.falloff != Falloff::linear_range && model_.falloff != Falloff::inverse_square &&
+        extent == LightExtent::unbounded)
+      return false;
     double d2 = 0, error = 0;
     for (const Bounded& c : offset) d2 += c.value * c.value, error = std::max(error, c.error);
     const double reach = (double(light.range) + 2 * error) * (1 + 16 * a_.square_root);
@@ -362,7 +365,13 @@ struct Total {
   LitRange finished(const ShadedSurface& surface, const LightModel& model, const Arithmetic& a) {
     if (added > 1)
       for (size_t k = 0; k < 3; ++k) lit.color[k].error += (added - 1) * a.roundoff * magnitude[k];
-    if (model.order != TermOrder::albedo_last) return std::move(lit);
+    scale(surface, model, a);
+    return std::move(lit);
+  }
+
+  /// The albedo that multiplies the sum, where the model has it so.
+  void scale(const ShadedSurface& surface, const LightModel& model, const Arithmetic& a) {
+    if (model.order != TermOrder::albedo_last) return;
     for (size_t k = 0; k < 3; ++k) {  // whichever branches were taken, the sum is at most `magnitude`
       const Bounded& albedo = surface.albedo[k];
       const double error = albedo.error * magnitude[k] +
@@ -371,7 +380,6 @@ struct Total {
       lit.color[k] = {lit.color[k].value * albedo.value, inherited + error + kSmallestFloat};
       for (OtherBranch& other : lit.branches) other.change[k] *= albedo.value;
     }
-    return std::move(lit);
   }
 };
 
@@ -379,7 +387,8 @@ struct Total {
 bool for_lanes(const Light& light, const LightModel& model, const LightVolumes& volumes) {
   const bool point = light.type == LightType::point ||
                      (light.type == LightType::spot && model.cone == Cone::none && volumes.spot == volumes.point);
-  return point && lanes_suit(model) && light.attenuation.x >= 0 && light.attenuation.y >= 0 && light.attenuation.z >= 0;
+  const bool share = model.order == TermOrder::with_ambient && light.ambient != glm::vec3(0.0f);
+  return point && !share && lanes_suit(model) && light.attenuation.x >= 0 && light.attenuation.y >= 0 && light.attenuation.z >= 0;
 }
 
 }  // namespace
@@ -390,7 +399,9 @@ LightBounds::LightBounds(const Scene& scene, const LightModel& model, const std:
       lanes_(model, arithmetic, volumes.point != LightExtent::unbounded, adds_unlit(model)) {
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    if (for_lanes(light, model, volumes))
+    const bool in_lanes = for_lanes(light, model, volumes);
+    place_.push_back(in_lanes ? int64_t(columns_.count) : -1);
+    if (in_lanes)
       columns_.add(light.position, light.color, model.damping, light.range, light.attenuation, i);
     else
       others_.push_back(i);
@@ -421,6 +432,53 @@ LitRange LightBounds::one_by_one(const ShadedSurface& surface) const {
   total.start(term);
   for (const Light& light : scene_.lights) total.add(light, term(light));
   return total.finished(surface, model_, arithmetic_);
+}
+
+LitRange LightBounds::alone(const ShadedSurface& surface, uint32_t light) const {
+  const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
+  return alone(surface, term, light);
+}
+
+template <class Term>
+LitRange LightBounds::alone(const ShadedSurface& surface, const Term& term, uint32_t light) const {
+  Total total;
+  total.lit.undefined = term.undefined();
+  total.add(scene_.lights[light], term(scene_.lights[light]));
+  return total.finished(surface, model_, arithmetic_);
+}
+
+void LightBounds::apart(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const {
+  const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
+  lit.color.resize(lights.size());
+  lit.plain.assign(lights.size(), term.undefined() ? 0 : 1);
+  if (term.undefined()) return;
+  const auto by_itself = [&](size_t i) {
+    const LitRange one = alone(surface, term, lights[i]);
+    lit.color[i] = one.color;
+    lit.plain[i] = one.undefined || !one.branches.empty() ? 0 : 1;
+  };
+  LanePixel pixel;
+  const bool in_lanes = columns_.count > 0 && term.for_lanes(pixel);
+  lit.in_columns.clear(), lit.places.clear();
+  for (uint32_t i = 0; i < lights.size(); ++i)
+    if (in_lanes && place_[lights[i]] >= 0)
+      lit.in_columns.push_back(i), lit.places.push_back(uint32_t(place_[lights[i]]));
+    else
+      by_itself(i);
+  if (lit.in_columns.empty()) return;
+  const bool all = lit.places.size() == columns_.count;
+  if (!all) lit.columns.take(columns_, lit.places);
+  judge_lanes_apart(all ? columns_ : lit.columns, lanes_, pixel, lit.terms);
+  Total one;
+  for (size_t j = 0; j < lit.in_columns.size(); ++j) {
+    for (size_t k = 0; k < 3; ++k) {
+      const double value = lit.terms.value[k][j], error = lit.terms.error[k][j];
+      one.lit.color[k] = {value, error}, one.magnitude[k] = std::fabs(value) + error;
+    }
+    one.scale(surface, model_, arithmetic_);
+    lit.color[lit.in_columns[j]] = one.lit.color;
+  }
+  for (const uint32_t j : lit.terms.left) by_itself(lit.in_columns[j]);
 }
 
 LitRange lit_range(const ShadedSurface& surface, const Scene& scene, const LightModel& model,

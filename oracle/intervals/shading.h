@@ -1,6 +1,7 @@
 #pragma once
 // The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of GL_RULES section 6 on what legal
 // float arithmetic makes of the sum.
+#include <span>
 #include <vector>
 
 #include "oracle/intervals/bounded.h"
@@ -31,6 +32,16 @@ struct LitRange {
   int lights_low = 0, lights_high = 0;  ///< lights in range and facing: light.count may be any number between
 };
 
+/// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
+struct LitApart {
+  std::vector<std::array<Bounded, 3>> color;
+  std::vector<uint8_t> plain;  ///< 0: a comparison may go either way, or the value is undefined: LightBounds::alone() tells
+
+  LightColumns columns;        // what lanes work on
+  LaneTerms terms;
+  std::vector<uint32_t> in_columns, places;
+};
+
 /// The lights of a scene under a model, ready for any surface. Borrows the scene, which must outlive it.
 /// Lights in any order: sum of the errors, and (N - 1) v sum |c_i| for the N - 1 additions.
 /// A cone whose cosine may lie on either side of its edge counts as either branch. Not clamped to [0, 1].
@@ -49,7 +60,17 @@ class LightBounds {
   /// no smaller, and less than 1.1 times as large.
   LitRange one_by_one(const ShadedSurface& surface) const;
 
+  /// One light of the scene alone: without what a sum starts from.
+  LitRange alone(const ShadedSurface& surface, uint32_t light) const;
+
+  /// Each of these lights alone, ascending; in lanes where at() would have it so: no smaller bounds, and less than
+  /// 1.2 times as large.
+  void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const;
+
  private:
+  template <class Term>
+  LitRange alone(const ShadedSurface& surface, const Term& term, uint32_t light) const;
+
   const Scene& scene_;
   LightModel model_;
   std::array<double, 3> view_axis_;
@@ -58,6 +79,7 @@ class LightBounds {
   LightVolumes volumes_;
   LightColumns columns_;
   std::vector<uint32_t> others_;  ///< lights that are not in the columns
+  std::vector<int64_t> place_;    ///< of each light in the columns, -1 of others
   LaneModel lanes_;
 };
 

@@ -3,8 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/intervals/bent_normal.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/map_range.h"
+#include "oracle/intervals/shading.h"
 
 namespace trueshade::oracle {
 
@@ -14,11 +16,15 @@ class SurfaceValues {
   SurfaceValues(const Projector& projector, const Candidate& candidate, double x, double y);
 
   bool bounded() const { return point_->bounded(); }
-  bool textured() const { return texel_.has_value(); }  ///< channels of the colour come from a lookup
+  // Which channels come from a lookup: the colour's, the specular colour's, the normal's.
+  bool textured() const { return texel_.has_value(); }
+  bool glossy() const { return maps_metals(model_) ? textured() : gloss_.has_value(); }
+  bool bumpy() const { return bent_.has_value(); }
   const Material& material() const { return *material_; }
 
   Range depth() const;                                               ///< as the depth buffer may hold it
   Range attribute(size_t index, Interpolation interpolation) const;  ///< a ValueIndex plus a component
+  Range normal(int k, Interpolation interpolation) const;            ///< bent, where there is a map
   Range base_color(int k, Interpolation interpolation) const;        ///< vertex colour times texel times base colour
   Range albedo(const Range& base) const;                             ///< of the base colour: less what is metal
   Range specular(const Range& base, int k) const;
@@ -34,7 +40,14 @@ class SurfaceValues {
   const Piece* piece_;
   std::optional<SurfacePoint> point_;
   TriangleValues values_;
-  std::optional<std::array<Range, 4>> texel_;
+  std::optional<std::array<Range, 4>> texel_, gloss_;
+  std::optional<std::array<Range, 3>> bent_;
 };
+
+/// A candidate's fragment as lights read it where no plane is between.
+ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
+
+/// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
+Range halved_normal(const Range& n, const Profile& profile);
 
 }  // namespace trueshade::oracle

@@ -37,6 +37,16 @@ std::string_view text(PixelClass c) {
   return names[size_t(c)];
 }
 
+bool worse(PixelClass a, PixelClass b) {
+  const auto rank = [](PixelClass c) {
+    constexpr PixelClass order[] = {PixelClass::exact,     PixelClass::store_2,   PixelClass::tex,
+                                    PixelClass::branch,    PixelClass::clip,      PixelClass::edge,
+                                    PixelClass::depth_tie, PixelClass::undefined, PixelClass::violation};
+    return std::find(std::begin(order), std::end(order), c) - std::begin(order);
+  };
+  return rank(a) > rank(b);
+}
+
 PlaneView::PlaneView(const Image* i) : image(i) {
   if (i == nullptr) return;
   layout = info(i->format);

@@ -45,6 +45,7 @@ struct Match {
   double given = 0;
   std::vector<StoreChoice> choices;
   uint64_t stored_values = 0;
+  PixelClass layered = PixelClass::exact;  ///< of transparent fragments, another number than the nominal one
 
   /// Judges one channel.
   void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,

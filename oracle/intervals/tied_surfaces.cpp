@@ -11,8 +11,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-Bounded bounded_of(const Range& r) { return {r.value, std::max(r.high - r.value, r.value - r.low)}; }
-
 class TieFinder {
  public:
   TieFinder(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
@@ -30,6 +28,7 @@ class TieFinder {
     const bool covered = object_ ? object_.stored(x, y_top, 0) != 0
                                  : depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y_top, 0));
     std::vector<TiedSurface> list;
+    if (all.empty() || (covered && all.size() == 1)) return list;
     const Candidate* seen = covered ? visible(all, x, y_top) : nullptr;
     if (covered && seen == nullptr) return list;  // shows what it cannot: the G-buffer's fault
     const double clear = clear_key(pipeline_.geometry);
@@ -46,11 +45,18 @@ class TieFinder {
  private:
   /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen.
   const Candidate* visible(std::span<const Candidate> all, int x, int y_top) const {
+    const double object = object_ ? object_.stored(x, y_top, 0) : 0;
+    const double primitive = primitive_ ? primitive_.stored(x, y_top, 0) : 0;
+    const auto named = [&](const Candidate& c) {
+      return (!object_ || object == c.instance + 1.0) && (!primitive_ || primitive == c.triangle + 1.0);
+    };
+    const auto first = std::find_if(all.begin(), all.end(), named);
+    if (first == all.end()) return nullptr;
+    if (std::none_of(first + 1, all.end(), named)) return &*first;
     const Candidate* best = nullptr;
     double least = HUGE_VAL;
     for (const Candidate& c : all) {
-      if (object_ && object_.stored(x, y_top, 0) != c.instance + 1.0) continue;
-      if (primitive_ && primitive_.stored(x, y_top, 0) != c.triangle + 1.0) continue;
+      if (!named(c)) continue;
       const double off = difference(c, x, y_top);
       if (best == nullptr || off < least) best = &c, least = off;
     }
@@ -62,7 +68,7 @@ class TieFinder {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
-      off += std::fabs(values.attribute(kNormal + size_t(k), pipeline_.gbuffer.normal.interpolation).value -
+      off += std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value -
                        normal_.image->value(x, y_top, k));
     if (depth_) off += std::fabs(values.depth().value - held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
@@ -76,19 +82,7 @@ class TieFinder {
 
   ShadedSurface surface_of(const Candidate& c, double x, double y) const {
     const SurfaceValues values(projector_, c, x, y);
-    const GBufferState& g = pipeline_.gbuffer;
-    ShadedSurface s;
-    for (size_t k = 0; k < 3; ++k) {
-      s.position[k] = bounded_of(values.attribute(kPosition + k, g.position.interpolation));
-      s.normal[k] = bounded_of(values.attribute(kNormal + k, g.normal.interpolation));
-      const Range base = values.base_color(int(k), g.albedo.interpolation);
-      s.albedo[k] = bounded_of(values.albedo(base));
-      s.specular[k] = bounded_of(values.specular(base, int(k)));
-      s.emission[k] = {double(values.material().emission[int(k)]), 0};
-    }
-    s.albedo[3] = bounded_of(values.base_color(3, g.albedo.interpolation));
-    s.shininess = values.shininess();
-    return s;
+    return shaded_surface(values, pipeline_.gbuffer);
   }
 
   const Pipeline pipeline_;

@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "oracle/intervals/transparent_layers.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::oracle {
 
@@ -90,6 +92,24 @@ void judge_target(const Scene& scene, const Pipeline& pipeline, const Capture& c
   if (!same) stages.push_back(judge_lighting(scene, pipeline, options.profile, capture));
 }
 
+/// The target before transparent surfaces, and then each of them; both together where drawing them again gave another.
+void judge_layers(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options,
+                  std::vector<StageVerdict>& stages) {
+  Capture lit = capture;
+  bool same = true;
+  const LightSteps watched = [&](const StepSink& sink) {
+    options.objects([&](int instance, const Image& target) {
+      if (instance < 0) lit.color = target;
+      same = target.texels == capture.color.texels;
+      sink(instance, target);
+    });
+  };
+  StageVerdict layers = judge_transparency(scene, pipeline, options.profile, capture, watched);
+  judge_target(without_transparent(scene), pipeline, lit, options, stages);
+  stages.push_back(std::move(layers));
+  if (!same) stages.push_back(judge_lighting(scene, pipeline, options.profile, capture));
+}
+
 }  // namespace
 
 uint64_t Verdict::violations() const {
@@ -106,18 +126,20 @@ bool Verdict::suspicious() const {
 }
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture, const ValidateOptions& options) {
-  if (draws_transparent(scene, asked))
-    throw Error(ErrorKind::usage, "transparency", "transparent surfaces are not judged yet", "a pipeline with transparency none");
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
-  if (info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm)
-    throw Error(ErrorKind::usage, "gbuffer.normal.format", "normals in fixed point are not judged yet", "a format of floats");
   Verdict v;
   v.scene = scene.spec, v.driver = capture.driver, v.profile = options.profile.name;
   const auto has = [&](std::string_view name) { return capture.plane(name) != nullptr; };
   const bool geometry = has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") || has("id.material");
   if (geometry) v.stages.push_back(judge_gbuffer(scene, pipeline, options.profile, capture));
-  if (capture.color.width > 0) judge_target(scene, pipeline, capture, options, v.stages);
+  const bool layers = draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights;
+  if (capture.color.width > 0) {
+    if (layers && options.objects)
+      judge_layers(scene, pipeline, capture, options, v.stages);
+    else
+      judge_target(scene, pipeline, capture, options, v.stages);
+  }
   if (v.stages.empty()) throw Error(ErrorKind::bad_input, "capture", "has no planes", "capture the target or a G-buffer plane");
   for (const StageVerdict& s : v.stages) v.aggregates.push_back(aggregate_tests(s));
   if (options.infer && geometry) v.inferred = infer_profile(scene, pipeline, capture);

@@ -14,12 +14,13 @@ struct ValidateOptions {
   Profile profile;     ///< what is promised; by default what OpenGL promises with 4 subpixel bits
   bool infer = false;  ///< also find the tightest profile: some fifteen judgements more
   LightSteps steps{};  ///< of strategies that draw light by light: to judge each light by itself
+  LightSteps objects{};  ///< of surfaces transparent after the lights: to judge each by itself
 };
 
 struct Verdict {
   std::string scene, driver;
   std::string profile;
-  std::vector<StageVerdict> stages;         ///< those the capture has planes for: gbuffer; lighting or blending
+  std::vector<StageVerdict> stages;         ///< those the capture has planes for: gbuffer; lighting or blending; transparency
   std::vector<std::vector<AggregateTest>> aggregates;  ///< a list a stage
   std::optional<Inference> inferred;
 

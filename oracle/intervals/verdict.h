@@ -23,6 +23,9 @@ enum class PixelClass : uint8_t {
 inline constexpr size_t kPixelClasses = 9;
 std::string_view text(PixelClass c);
 
+/// A class a pixel keeps when another of its draws has a lesser one.
+bool worse(PixelClass a, PixelClass b);
+
 /// A pixel worth looking at: what was legal, and what was given. Violations first, farthest outside first.
 struct WorstPixel {
   int x = 0, y = 0;

@@ -6,14 +6,18 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "core/half.h"
+#include "core/llvmpipe_srgb.h"
 #include "core/small_float.h"
+#include "oracle/blend.h"
 #include "oracle/gl/blend_state.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/glsl.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/read_back.h"
+#include "shading/clear_color.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 #include "tests/shading/blend_pixels.h"
@@ -61,27 +65,21 @@ float held(const Image& image, size_t i, size_t c) {
 
 bool same(float a, float b) { return (a != a && b != b) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
-/// Draws over the whole of `target` with a fragment shader.
-void draw_over(GLuint program, const GlTexture& target, int width, int height, const BlendState& state) {
+/// Draws over the whole of `target` with a fragment shader. `encode`: sRGB targets; otherwise their codes are drawn.
+void draw_over(GLuint program, const GlTexture& target, int width, int height, const BlendState& state,
+               bool encode = true) {
   const std::array<GLuint, 1> colors{target};
   const GlTarget framebuffer = make_target(colors, 0);
   REQUIRE(framebuffer.complete);
   const GlVertexArray none = make_vertex_array();
   set_image_state(width, height);
+  if (!encode) glDisable(GL_FRAMEBUFFER_SRGB);
   set_blend_state(state);
   glUseProgram(program);
   glBindVertexArray(none);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   set_blend_state({});
   check_gl("blending");
-}
-
-const GlContext* profiled_driver() {
-  const GlContext* context = driver(GlDriver::llvmpipe);
-  if (context == nullptr) return nullptr;
-  if (context->info().version.find("Mesa 22.3.") != std::string::npos) return context;
-  WARN("SKIPPED: the profile is that of Mesa 22.3, this is " << context->info().line());
-  return nullptr;
 }
 
 GlProgram fetching_program() {
@@ -180,18 +178,19 @@ GlProgram triple_program(const std::string& what) {
           what + ";\n}\n");
 }
 
-/// Triples that OpenGL blends otherwise, of all 2^24 / stride.
-size_t different_triples(const BlendTerm& term, int width, int height, int stride) {
+/// Triples that OpenGL blends otherwise, of all 2^24 / stride. The destination is codes, of sRGB too.
+size_t different_triples(Format format, const BlendTerm& term, int width, int height, int stride) {
   const GlProgram source_program = triple_program("vec4(s, s, s, a)"),
                   before_program = triple_program("vec4(d, d, d, s)");
-  const GlTexture target = make_texture(Format::rgba8, width, height);
+  const GlTexture target = make_texture(format, width, height);
   for (const GlProgram* program : {&before_program, &source_program}) {
     glUseProgram(*program);
     set_uniform(*program, "width", width);
     set_uniform(*program, "stride", stride);
-    draw_over(*program, target, width, height, program == &before_program ? BlendState{} : blending(term));
+    const bool before = program == &before_program;
+    draw_over(*program, target, width, height, before ? BlendState{} : blending(term), !before);
   }
-  const Image image = read_texture(target, Format::rgba8, 0, 0, width, height);
+  const Image image = read_texture(target, format, 0, 0, width, height);
   PixelPlanes source(static_cast<size_t>(width)), stored(static_cast<size_t>(width));
   size_t count = 0;
   for (int y = 0; y < height; ++y) {
@@ -201,7 +200,7 @@ size_t different_triples(const BlendTerm& term, int width, int height, int strid
       source.set(size_t(x), {s / 255.0f, s / 255.0f, s / 255.0f, a});
       stored.set(size_t(x), {d, d, d, s});
     }
-    blend(blending(term), {Format::rgba8, kMesa, HalfRound::toward_zero}, source, stored);
+    blend(blending(term), {format, kMesa, HalfRound::toward_zero}, source, stored);
     for (int x = 0; x < width; ++x) {
       bool equal = true;
       for (size_t c = 0; c < 4; ++c)
@@ -212,81 +211,146 @@ size_t different_triples(const BlendTerm& term, int width, int height, int strid
   return count;
 }
 
-constexpr Format kTargets[] = {Format::rgba8,      Format::rgb10_a2, Format::rgba16,
-                               Format::r11g11b10f, Format::rgba16f,  Format::rgba32f};
+Rgba grey(float x) { return {x, x, x, x}; }
+
+/// Every target whose bits this CPU has the driver draw: sRGB codes are made of the CPU's estimates.
+std::vector<Format> targets() {
+  std::vector<Format> all(std::begin(kTargetFormats), std::end(kTargetFormats));
+  if (!estimates_as_amd()) std::erase(all, Format::srgb8_a8);
+  return all;
+}
+std::vector<Format> targets_of_8_bits() {
+  std::vector<Format> all = targets();
+  std::erase_if(all, [](Format format) { return info(format).bits[0] != 8; });
+  return all;
+}
 
 }  // namespace
 
 TEST_CASE("llvmpipe blends random states, values and formats to the profile's bits") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   const GlProgram fetch = fetching_program();
   Random random(2203);
   for (int i = 0; i < 120; ++i)
-    for (const Format format : kTargets)
+    for (const Format format : targets())
       CHECK(different(fetch, random_state(random, random_term(random)), format, random) == 0);
-  for (const Format format : kTargets) CHECK(different(fetch, {}, format, random) == 0);
+  for (const Format format : targets()) CHECK(different(fetch, {}, format, random) == 0);
 }
 
 TEST_CASE("llvmpipe blends every factor with every factor under every equation to the profile's bits", "[long]") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   const GlProgram fetch = fetching_program();
   Random random(2204);
   for (size_t e = 0; e < kBlendEquations; ++e)
     for (size_t s = 0; s < kBlendFactors; ++s)
       for (size_t d = 0; d < kBlendFactors; ++d)
-        for (const Format format : kTargets) {
+        for (const Format format : targets()) {
           const BlendTerm term{BlendEquation(e), BlendFactor(s), BlendFactor(d)};
           CHECK(different(fetch, random_state(random, term), format, random) == 0);
         }
 }
 
-TEST_CASE("Row 48: llvmpipe blends every 63rd triple of nine 8-bit modes to the profile's bits") {
-  if (profiled_driver() == nullptr) return;
-  for (const NamedMode& mode : usual_modes()) {
-    INFO(mode.name);
-    CHECK(different_triples(mode.term, 512, 512, 63) == 0);  // odd: a power of two would leave codes out
-  }
+TEST_CASE("Row 48: llvmpipe blends every 63rd triple of nine 8-bit modes to the profile's bits, plain and sRGB") {
+  if (opened_mesa_22_3() == nullptr) return;
+  for (const Format format : targets_of_8_bits())
+    for (const NamedMode& mode : usual_modes()) {
+      INFO(mode.name << ", " << info(format).name);
+      CHECK(different_triples(format, mode.term, 512, 512, 63) == 0);  // odd: a power of two would leave codes out
+    }
 }
 
-TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the profile's bits", "[long]") {
-  if (profiled_driver() == nullptr) return;
-  for (const NamedMode& mode : usual_modes()) {
-    INFO(mode.name);
-    CHECK(different_triples(mode.term, 4096, 4096, 1) == 0);
-  }
+TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the profile's bits, plain and sRGB",
+          "[long]") {
+  if (opened_mesa_22_3() == nullptr) return;
+  for (const Format format : targets_of_8_bits())
+    for (const NamedMode& mode : usual_modes()) {
+      INFO(mode.name << ", " << info(format).name);
+      CHECK(different_triples(format, mode.term, 4096, 4096, 1) == 0);
+    }
 }
 
-TEST_CASE("llvmpipe clears targets of 8 and 10 bits to the nearest codes, whatever draws leave there") {
-  if (profiled_driver() == nullptr) return;
-  for (const Format format : {Format::rgba8, Format::rgb10_a2})
-    for (int i = 0; i < 500; ++i) {
-      const std::array<float, 4> color{float(i) / 499, float(i) / 777, 1 - float(i) / 600, float(i) / 499};
+TEST_CASE("llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile") {
+  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
+  constexpr int kWide = 4096;
+  const GlProgram program =
+      make_program("floats", fullscreen_vertex_text(330),
+                   glsl_header(330, "numbered floats") +
+                       "uniform int first;\nlayout(location = 0) out vec4 color;\n"
+                       "void main() {\n  int bits = (int(gl_FragCoord.y) << 12) + "
+                       "int(gl_FragCoord.x);\n  color = vec4(intBitsToFloat(first + bits));\n}\n");
+  const GlTexture target = make_texture(Format::srgb8_a8, kWide, kWide);
+  PixelPlanes source(kWide), stored(kWide);
+  size_t different = 0;
+  // Below 2^-13 every code is 0: 12.92 * 255 * 2^-13 < 1/2. Draws of 2^24 floats; the last begins at 1.
+  for (int first = 0x39000000; first <= 0x3F800000; first += kWide * kWide) {
+    const int rows = first == 0x3F000000 + kWide * kWide ? 1 : kWide;
+    glUseProgram(program);
+    set_uniform(program, "first", first);
+    draw_over(program, target, kWide, rows, {});
+    const Image image = read_texture(target, Format::srgb8_a8, 0, 0, kWide, rows);
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < kWide; ++x) source.set(size_t(x), grey(std::bit_cast<float>(first + (y << 12) + x)));
+      blend({}, {Format::srgb8_a8, kMesa, HalfRound::toward_zero}, source, stored);
+      const uint8_t* texel = image.texel(0, rows - 1 - y);
+      for (size_t x = 0; x < kWide; ++x)
+        for (size_t c = 0; c < 4; ++c) different += float(texel[4 * x + c]) == stored.plane[c][x] ? 0 : 1;
+    }
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("llvmpipe clears every target to what the profile's draws leave of the clear colour's stand-in") {
+  if (opened_mesa_22_3() == nullptr) return;
+  Random random(2205);
+  for (const Format format : targets())
+    for (int i = 0; i < 2000; ++i) {
+      glm::vec4 color;
+      for (int c = 0; c < 4; ++c) color[c] = i < 500 ? float(i) / (499 + 100 * float(c)) : any_value(random, false);
       const GlTexture target = make_texture(format, 1, 1);
       const std::array<GLuint, 1> colors{target};
       const GlTarget framebuffer = make_target(colors, 0);
+      set_image_state(1, 1);
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.framebuffer);
-      glClearBufferfv(GL_COLOR, 0, color.data());
+      glClearBufferfv(GL_COLOR, 0, &color[0]);
       const Image image = read_texture(target, format, 0, 0, 1, 1);
-      for (size_t c = 0; c < 4; ++c) {
-        CAPTURE(info(format).name, i, c, color[c]);
-        const float product = color[c] * float(info(format).largest_code(int(c)));
-        const float nearest = format == Format::rgba8 ? std::nearbyint(product) : std::floor(product + 0.5f);
-        CHECK(image.code(0, 0, int(c)) == uint32_t(nearest));
+      const BlendTarget ours{format, kMesa, HalfRound::toward_zero};
+      const glm::vec4 drawn = drawn_clear(color, ours);
+      const Rgba stored = blend({}, ours, {drawn[0], drawn[1], drawn[2], drawn[3]}, Rgba{});
+      for (size_t c = 0; c < size_t(info(format).channels); ++c) {
+        CAPTURE(info(format).name, i, c, color[int(c)], stored[c], held(image, 0, c));
+        CHECK(same(held(image, 0, c), stored[c]));
       }
     }
 }
 
+TEST_CASE("llvmpipe clears sRGB codes upward where the profile says, one float below and one above") {
+  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
+  const GlTexture target = make_texture(Format::srgb8_a8, 1, 1);
+  const std::array<GLuint, 1> colors{target};
+  const GlTarget framebuffer = make_target(colors, 0);
+  set_image_state(1, 1);
+  for (uint32_t k = 0; k < 255; ++k)
+    for (const uint32_t bits : {(kLlvmpipeClearStarts[k] << 12) - 1, kLlvmpipeClearStarts[k] << 12}) {
+      const float x = std::bit_cast<float>(bits);
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.framebuffer);
+      glClearBufferfv(GL_COLOR, 0, grey(x).data());
+      CHECK(read_texture(target, Format::srgb8_a8, 0, 0, 1, 1).code(0, 0, 0) == (bits % 2 == 0 ? k + 1 : k));
+    }
+}
+
 TEST_CASE("llvmpipe reads 8-bit codes as the profile does") {
-  if (profiled_driver() == nullptr) return;
+  if (opened_mesa_22_3() == nullptr) return;
   PixelPlanes codes(256), values(256);
   for (size_t k = 0; k < 256; ++k) codes.set(k, {float(k), float(255 - k), float(k), float(k)});
   const GlProgram fetch = fetching_program();
-  const GlTexture from = texture_of(Format::rgba8, 16, 16, codes), target = make_texture(Format::rgba32f, 16, 16);
-  glUseProgram(fetch);
-  bind_texture(fetch, "source", 0, GL_TEXTURE_2D, from);
-  draw_over(fetch, target, 16, 16, {});
-  const Image image = read_texture(target, Format::rgba32f, 0, 0, 16, 16);
-  fetch_pixels({Format::rgba8, kMesa, HalfRound::toward_zero}, codes.read().data(), values.write().data(), 256);
-  for (size_t k = 0; k < 256; ++k)
-    for (size_t c = 0; c < 4; ++c) CHECK(same(held(image, k, c), values.plane[c][k]));
+  for (const Format format : {Format::rgba8, Format::srgb8_a8}) {
+    const GlTexture from = texture_of(format, 16, 16, codes), target = make_texture(Format::rgba32f, 16, 16);
+    glUseProgram(fetch);
+    bind_texture(fetch, "source", 0, GL_TEXTURE_2D, from);
+    draw_over(fetch, target, 16, 16, {});
+    const Image image = read_texture(target, Format::rgba32f, 0, 0, 16, 16);
+    fetch_pixels({format, kMesa, HalfRound::toward_zero}, codes.read().data(), values.write().data(), 256);
+    for (size_t k = 0; k < 256; ++k)
+      for (size_t c = 0; c < 4; ++c) CHECK(same(held(image, k, c), values.plane[c][k]));
+  }
 }

@@ -11,7 +11,7 @@ using namespace trueshade::testing;
 using oracle::GlDriver;
 
 TEST_CASE("llvmpipe opens without a window and says what it is") {
-  const oracle::GlContext* context = driver(GlDriver::llvmpipe);
+  const oracle::GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   CHECK(context->info().renderer.find("llvmpipe") != std::string::npos);
   CHECK(context->info().major == 4);
@@ -20,7 +20,7 @@ TEST_CASE("llvmpipe opens without a window and says what it is") {
 }
 
 TEST_CASE("softpipe opens in a process of its own and draws with OpenGL 3.3") {
-  const oracle::GlContext* context = driver(GlDriver::softpipe);
+  const oracle::GlContext* context = opened(GlDriver::softpipe);
   if (context == nullptr) return;
   CHECK(context->info().renderer.find("softpipe") != std::string::npos);
   const Planes planes = drawn_by_gl(*context, window_scene({{{{10, 10}, {200, 10}, {10, 200}}}}), window_pipeline());

@@ -32,7 +32,7 @@ int pixels_over(const Image& a, const Image& b, double codes) {
 /// are edges, and light terms that round to the next code: of textured surfaces, whose 8-bit texels differ by parts of
 /// a code, each of the lights may, so that blending them walks sqrt(lights) codes away.
 void check_designs(const Scene& scene, const Preset& preset) {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Pipeline pipeline = preset.pipeline;
   pipeline.width = 150;  // no multiple of a tile

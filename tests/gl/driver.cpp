@@ -1,26 +1,12 @@
 #include "tests/gl/driver.h"
 
 #include <cstring>
-#include <map>
-#include <memory>
 
-#include "core/error.h"
 #include "tests/catch.hpp"
 
 namespace trueshade::testing {
 
 using namespace trueshade::oracle;
-
-const GlContext* driver(GlDriver which) {
-  static std::map<GlDriver, std::unique_ptr<GlContext>> opened;
-  if (const auto found = opened.find(which); found != opened.end()) return found->second.get();
-  try {
-    return (opened[which] = std::make_unique<GlContext>(which)).get();
-  } catch (const Error& error) {
-    WARN("SKIPPED: " << error.what());
-    return nullptr;
-  }
-}
 
 namespace {
 

@@ -1,12 +1,9 @@
 #pragma once
-#include "oracle/gl/context.h"
 #include "oracle/gl/renderer.h"
+#include "tests/gl/opened_driver.h"
 #include "tests/raster/window_scene.h"
 
 namespace trueshade::testing {
-
-/// A driver of this machine, opened once; null where there is none, and then the test has said SKIPPED and why.
-const oracle::GlContext* driver(oracle::GlDriver which);
 
 /// A frame's planes as window_scene.h has them, row 0 at the bottom.
 Planes planes_of_capture(const oracle::Capture& capture);

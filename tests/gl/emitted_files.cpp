@@ -26,7 +26,7 @@ std::string contents(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as the judge's own") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "trueshade_emitted_glsl";
   Scene scene = builtin_scene("city,objects=200,lights=20");
@@ -68,7 +68,7 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
 
 TEST_CASE(
     "Shaders written with --maps draw the same bytes as the judge's own where materials have maps of every kind") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "trueshade_emitted_maps";
   Scene scene = builtin_scene("lecture,lights=6");
@@ -131,7 +131,7 @@ TEST_CASE("Passes of a post chain, written by trueshade glsl --pipeline, are the
 }
 
 TEST_CASE("Wrong GLSL is an error that names the shader and the driver's reason") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   GlslShaders broken = shaders_of(window_pipeline(), {});
   broken.light_frag += "oops";

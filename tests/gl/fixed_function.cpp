@@ -83,7 +83,7 @@ bool explained(const LitRange& lit, const std::array<float, 4>& color) {
 }  // namespace
 
 TEST_CASE("OpenGL's own lighting of points lies in what the fixed-function model allows", "[gl]") {
-  const GlContext* context = testing::driver(GlDriver::any);
+  const GlContext* context = testing::opened(GlDriver::any);
   if (context == nullptr) return;
   const LightModel model = preset_pipeline("gl-fixed")->light_model;
   Random random(52);
@@ -111,7 +111,7 @@ TEST_CASE("OpenGL's own lighting of points lies in what the fixed-function model
 }
 
 TEST_CASE("Row 53: real glLight gives no specular term where N.L is 0", "[gl]") {
-  const GlContext* context = testing::driver(GlDriver::any);
+  const GlContext* context = testing::opened(GlDriver::any);
   if (context == nullptr) return;
   LitPoint p;
   p.position = {0, 0, -3}, p.normal = {0, 0, 1}, p.albedo = {0, 0, 0, 1};

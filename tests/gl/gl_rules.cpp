@@ -24,7 +24,7 @@ const Corners kUpper = {{{10.5, 10.5}, {20.5, 20.5}, {10.5, 20.5}}};
 }  // namespace
 
 TEST_CASE("Rows 1 and 2: llvmpipe puts vertices where the viewport says and snaps ties to even") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Pipeline pipeline = window_pipeline();
   pipeline.width = 640;
@@ -40,7 +40,7 @@ TEST_CASE("Rows 1 and 2: llvmpipe puts vertices where the viewport says and snap
 }
 
 TEST_CASE("Rows 4 to 9: llvmpipe covers left and lowest edges, shared edges once, mirrored under upper_left") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   CHECK(count(*context, {kLower}) == 55);
   CHECK(count(*context, {kUpper}) == 45);
@@ -61,7 +61,7 @@ TEST_CASE("Rows 4 to 9: llvmpipe covers left and lowest edges, shared edges once
 }
 
 TEST_CASE("Rows 11 and 12: llvmpipe drops empty triangles and takes the facing of the snapped one") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   CHECK(count(*context, {{{{10, 10}, {20, 20}, {30, 30}}}}) == 0);
   CHECK(count(*context, {{{{10, 10}, {10.001, 10}, {10, 10.001}}}}) == 0);
@@ -77,7 +77,7 @@ TEST_CASE("Rows 11 and 12: llvmpipe drops empty triangles and takes the facing o
 }
 
 TEST_CASE("Rows 14, 15 and 21: llvmpipe clips at near and far, planes included") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Planes planes =
       drawn_by_gl(*context, window_scene({{{{0, 0, -2}, {256, 0, -2}, {128, 256, 2}}}}), window_pipeline());
@@ -100,7 +100,7 @@ TEST_CASE("Rows 14, 15 and 21: llvmpipe clips at near and far, planes included")
 }
 
 TEST_CASE("Rows 20, 24 and 27: llvmpipe's depths, ties and clamps are those of the pipeline's state") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Planes plane =
       drawn_by_gl(*context, window_scene({{{{0, 0, -1}, {256, 0, 1}, {0, 256, -1}}}}), window_pipeline());
@@ -121,7 +121,7 @@ TEST_CASE("Rows 20, 24 and 27: llvmpipe's depths, ties and clamps are those of t
 }
 
 TEST_CASE("Rows 22, 25 and 26: llvmpipe stores the nearest codes, and offsets by two of them or by 2^(e - 23)") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Pipeline pipeline = window_pipeline();
   pipeline.geometry.depth_clamp = true;
@@ -158,7 +158,7 @@ TEST_CASE("Rows 22, 25 and 26: llvmpipe stores the nearest codes, and offsets by
 }
 
 TEST_CASE("Rows 28 and 29: llvmpipe interpolates with and without perspective, and flat from the provoking vertex") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene =
       window_scene({{{{.5, .5, 0, 1, {0, 5}}, {8.5, .5, 0, 3, {1, 6}}, {.5, 8.5, 0, 1, {0, 7}}}}}, Projection::w_is_z);
@@ -177,7 +177,7 @@ TEST_CASE("Rows 28 and 29: llvmpipe interpolates with and without perspective, a
 }
 
 TEST_CASE("Row 34: half planes come back as stored, truncated") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const float value = 1 + 1.5f * 0x1p-11f;
   Corners corners = {{{0, 0}, {256, 0}, {0, 256}}};
@@ -197,7 +197,7 @@ TEST_CASE("Row 34: half planes come back as stored, truncated") {
 }
 
 TEST_CASE("A picture that is moved, or whose triangles are turned, covers the same pixels on llvmpipe") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = window_scene({kLower, {{{30.3, 40.1}, {200.7, 60.2}, {90.9, 220.4}}}});
   const Planes plain = drawn_by_gl(*context, scene, window_pipeline());

@@ -211,7 +211,7 @@ Pipeline glossy_pipeline() {
 }  // namespace
 
 TEST_CASE("llvmpipe bends normals and multiplies gloss as the formulas say, within the roundings of the shader") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"lecture", "city,objects=200", "rabbits,objects=4"}) {
     const Scene scene = bumpy(name);
@@ -234,7 +234,7 @@ TEST_CASE("llvmpipe bends normals and multiplies gloss as the formulas say, with
 }
 
 TEST_CASE("Triangles that start with another vertex are bent alike") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = bumpy("city,objects=200");
   const Pipeline pipeline = glossy_pipeline();
@@ -248,7 +248,7 @@ TEST_CASE("Triangles that start with another vertex are bent alike") {
 }
 
 TEST_CASE("Pictures with normal and specular maps are ours in every strategy, under models that read them or do not") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::string aovs[] = {"id.object"};
   for (const char* name : {"lecture,lights=6", "city,objects=200,lights=40"}) {

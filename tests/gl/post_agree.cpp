@@ -110,7 +110,7 @@ PostChain reinhard(float white) {
 }  // namespace
 
 TEST_CASE("Supersampling and the edge filter on llvmpipe are ours, bit for bit") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : kScenes)
     for (const int samples : {1, 2, 3})
@@ -133,7 +133,7 @@ TEST_CASE("Supersampling and the edge filter on llvmpipe are ours, bit for bit")
 }
 
 TEST_CASE("Bloom on llvmpipe is ours within the roundings of its float sums") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : kScenes)
     for (const int radius : {1, 8, 14}) {
@@ -155,7 +155,7 @@ TEST_CASE("Bloom on llvmpipe is ours within the roundings of its float sums") {
 }
 
 TEST_CASE("Reinhard's operator and sRGB codes on llvmpipe are ours within GLSL's log2, exp2 and pow") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : kScenes)
     for (const float white : {0.0f, 2.0f})
@@ -181,7 +181,7 @@ TEST_CASE("Reinhard's operator and sRGB codes on llvmpipe are ours within GLSL's
 }
 
 TEST_CASE("A whole chain into codes: each is one that the bound allows") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : kScenes) {
     PostChain post = reinhard(4.0f);
@@ -215,7 +215,7 @@ TEST_CASE("A whole chain into codes: each is one that the bound allows") {
 }
 
 TEST_CASE("Light markers on llvmpipe are where ours are, but for their edges and depth's ties") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"circle", "city,lights=100"}) {
     PostChain post;
@@ -251,7 +251,7 @@ TEST_CASE("Light markers on llvmpipe are where ours are, but for their edges and
 }
 
 TEST_CASE("Constant damping scales every light's colour on llvmpipe as in ours") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     const Scene scene = builtin_scene(name);

@@ -1,13 +1,13 @@
 // Every built-in scene under every preset on a real driver, against render_frame(). A first, coarse judgement: the
 // strict one is that of oracle/intervals. Values differ where OpenGL leaves latitude, so edges may go either way.
 #include <algorithm>
-#include <cmath>
 
 #include "oracle/scalar_renderer.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
+#include "tests/gl/codes_apart.h"
 #include "tests/gl/driver.h"
 
 using namespace trueshade;
@@ -43,10 +43,7 @@ Agreement compared(const Capture& gl, const Frame& ours) {
         ++a.other_object;
         a.unexplained += near_edge(our_ids, x, y, seen) ? 0 : 1;
       }
-      double worst = 0;
-      for (int k = 0; k < 4; ++k)
-        worst = std::max(worst, std::fabs(gl.color.value(x, y, k) - ours.color.value(x, y, k)));
-      a.far_codes += worst > 1.5 / 255 ? 1 : 0;
+      a.far_codes += codes_apart(gl.color, ours.color, x, y, 4) > 1.5 ? 1 : 0;
     }
   return a;
 }
@@ -54,7 +51,7 @@ Agreement compared(const Capture& gl, const Frame& ours) {
 }  // namespace
 
 TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a code") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const BuiltinInfo& builtin : builtin_scenes()) {
     const Scene scene = builtin_scene(builtin.name);
@@ -81,7 +78,7 @@ TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a c
 }
 
 TEST_CASE("Float targets, upper_left, zero_to_one, a position from depth and normals of 10 bits agree too") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = builtin_scene("cornell");
   const PreparedScene prepared(scene);
@@ -108,7 +105,7 @@ TEST_CASE("Float targets, upper_left, zero_to_one, a position from depth and nor
 }
 
 TEST_CASE("id.primitive is the triangle's number within its instance, plus 1") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = builtin_scene("city,objects=60");
   Pipeline pipeline = *preset_pipeline(presets().front().name);
@@ -134,7 +131,7 @@ TEST_CASE("id.primitive is the triangle's number within its instance, plus 1") {
 }
 
 TEST_CASE("The target after each light adds up to the whole") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = builtin_scene("cornell");
   Pipeline pipeline = *preset_pipeline(presets().front().name);

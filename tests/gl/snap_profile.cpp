@@ -117,12 +117,7 @@ Differences compare(Kind kind, const Window& window, int triangles, uint64_t see
 const char* const kNames[kKinds] = {"any", "small", "through pixel centres", "slivers", "in perspective"};
 
 void check_kinds(int triangles, uint64_t seed) {
-  const GlContext* context = driver(GlDriver::llvmpipe);
-  if (context == nullptr) return;
-  if (context->info().version.find("Mesa 22.3.") == std::string::npos) {
-    WARN("SKIPPED: the profile is that of Mesa 22.3, this is " << context->info().line());
-    return;
-  }
+  if (opened_mesa_22_3() == nullptr) return;
   for (const Window& window : {Window{256, 256}, Window{801, 603}})
     for (int kind = 0; kind < kKinds; ++kind) {
       const Differences found = compare(Kind(kind), window, triangles, seed + uint64_t(kind));

@@ -50,7 +50,7 @@ double step_at(Format format, int channel, double value) {
 }  // namespace
 
 TEST_CASE("Sums on llvmpipe are legal in every target format, srgb8_a8 encoded and rgb16f without an alpha") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     Scene scene = builtin_scene(name);
@@ -67,7 +67,7 @@ TEST_CASE("Sums on llvmpipe are legal in every target format, srgb8_a8 encoded a
 }
 
 TEST_CASE("A target of three halves that a driver cannot render to is drawn as four, whose alpha blending reads as 1") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Scene scene = builtin_scene("city,objects=200,lights=20");
   scene.clear = {0.25f, 0.5f, 0.75f, 0.25f};
@@ -102,7 +102,7 @@ TEST_CASE("A target of three halves that a driver cannot render to is drawn as f
 }
 
 TEST_CASE("Lights blended into every target format on llvmpipe come out as ours, within a step of the format a light") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::string aovs[] = {"id.object", "light.count"};
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
@@ -144,7 +144,7 @@ TEST_CASE("Lights blended into every target format on llvmpipe come out as ours,
 }
 
 TEST_CASE("Planes of ten bits and of halves on llvmpipe are legal, and so is the light upon them") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     const Scene scene = builtin_scene(name);
@@ -166,7 +166,7 @@ TEST_CASE("Planes of ten bits and of halves on llvmpipe are legal, and so is the
 }
 
 TEST_CASE("Normals of ten bits on llvmpipe are one of the two codes next to the driver's own normals in floats") {
-  const GlContext* context = driver(GlDriver::llvmpipe);
+  const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"cornell", "rabbits,objects=3"}) {
     const Scene scene = builtin_scene(name);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "oracle/blend.h"
-#include "oracle/intervals/blend_range.h"
+#include "oracle/intervals/blend_ways.h"
 #include "oracle/intervals/light_cover.h"
 #include "oracle/matrices.h"
 #include "scenes/pcg32.h"
@@ -135,6 +135,73 @@ std::vector<uint16_t> exact_counts(const Scene& scene, const Pipeline& pipeline,
 }
 
 }  // namespace
+
+TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rules, with no other code in sight") {
+  Pcg32 random(31);
+  int plain = 0, close = 0;
+  for (const char* name : {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"})
+    for (const Format format : {Format::rgba8, Format::rgba16}) {
+      const Profile profile = *profile_named(name);
+      const AddedCodes codes(format, kAddLight);
+      REQUIRE(codes.suit());
+      const int largest = int(info(format).largest_code(0));
+      Image before(1, 1, format), after(1, 1, format);
+      for (int i = 0; i < 20000; ++i) {
+        DrawnFragment fragment;
+        Bounded3 color;
+        Texel from;
+        for (int k = 0; k < 4; ++k) {
+          const auto old = random.below(uint32_t(largest) + 1);
+          before.set_code(0, 0, k, old), from[size_t(k)] = known_texel(double(old));
+          // Near a threshold between two codes, by less and by more than the error.
+          const double at = k == 3 ? 1 : (double(random.below(uint32_t(largest))) + random.between(-0.2, 1.2)) / largest;
+          const double error = std::ldexp(random.between(0, 1), -int(8 + random.below(24))) / largest;
+          if (k < 3) color[size_t(k)] = {at, error};
+          fragment.output.nominal[size_t(k)] = range_of({at, k < 3 ? error : 0});
+          const int moved = k == 3 ? 0 : int(std::lround(at * largest)) + (random.below(8) == 0 ? 1 : 0);
+          after.set_code(0, 0, k, uint32_t(std::clamp(int(old) + moved, 0, largest)));
+        }
+        if (random.below(50) == 0) after.set_code(0, 0, 3, after.code(0, 0, 3) ^ 1);
+        if (!codes.plain(color, before.texel(0, 0), after.texel(0, 0))) continue;
+        ++plain;
+        const std::vector<Way> ways = ways_from(from, {&fragment, 1}, kAddLight, format, profile);
+        REQUIRE(ways.size() == 1);
+        for (int k = 0; k < 4; ++k) {
+          const LegalTexel& t = ways[0].texel[size_t(k)];
+          CAPTURE(name, info(format).name, i, k, t.low, t.high, t.second_chance);
+          CHECK(t.nominal == double(after.code(0, 0, k)));
+          CHECK(t.contains(t.nominal));
+          CHECK(t.second_chance == 0);
+          if (t.low < t.high) ++close;
+        }
+      }
+    }
+  CHECK(plain > 50000);
+  CHECK(close > 1000);
+  for (const Format f : {Format::srgb8_a8, Format::rgb10_a2, Format::rgba16f, Format::rgba32f}) CHECK_FALSE(AddedCodes(f, kAddLight).suit());
+  BlendState screen = kAddLight;
+  screen.rgb.src = BlendFactor::one_minus_dst_color;
+  CHECK_FALSE(AddedCodes(Format::rgba8, screen).suit());
+}
+
+TEST_CASE("A fragment that adds nothing leaves every texel as it is, in every format and profile") {
+  Pcg32 random(5);
+  for (const char* name : {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"})
+    for (const Format format : kTargetFormats)
+      for (int i = 0; i < 200; ++i) {
+        const Texel from = known(random_texel(random, format));
+        DrawnFragment dark;
+        for (Range& r : dark.output.nominal) r = {0, 0, 0};
+        const std::vector<Way> ways = ways_from(from, {&dark, 1}, kAddLight, format, *profile_named(name));
+        REQUIRE(ways.size() == 1);
+        for (size_t k = 0; k < size_t(info(format).channels); ++k) {
+          CAPTURE(name, info(format).name, i, k, from[k].nominal, ways[0].texel[k].nominal);
+          CHECK(ways[0].texel[k].nominal == from[k].nominal);
+          // An sRGB code is decoded with an error, and may come back as its neighbour.
+          if (!info(format).srgb) CHECK(ways[0].texel[k].second_chance == 0);
+        }
+      }
+}
 
 TEST_CASE("How often a light's geometry is drawn at a pixel: exact integers are the nominal count, and few are in doubt") {
   Scene scene;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "oracle/capture.h"
+#include "scenes/transparency.h"
 #include "shading/frame.h"
 
 namespace trueshade::testing {
@@ -32,13 +33,37 @@ inline Pipeline with_surface_planes(Pipeline pipeline) {
 /// Our own target after each light: a frame of the first so many lights. The scene is borrowed.
 inline oracle::LightSteps steps_of(const Scene& scene, const Pipeline& pipeline) {
   return [&scene, pipeline](const oracle::StepSink& sink) {
-    Scene part = scene;
+    Scene part = scene;  // without what is transparent
+    const auto nothing = uint32_t(part.meshes.size());
+    part.meshes.emplace_back();
+    if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
+      for (Instance& i : part.instances)
+        if (scene.materials[i.material].transparent) i.mesh = nothing;
+    const std::vector<Instance> drawn = part.instances;
     for (int last = -1; last < int(scene.lights.size()); ++last) {
       part.lights.assign(scene.lights.begin(), scene.lights.begin() + last + 1);
       // The first draw of forward-multipass is a light's, unless there is none.
       const bool cleared = last < 0 && pipeline.strategy == Strategy::forward_multipass && !scene.lights.empty();
-      part.instances = cleared ? std::vector<Instance>{} : scene.instances;
+      part.instances = cleared ? std::vector<Instance>{} : drawn;
       sink(last, render_frame(part, pipeline).color);
+    }
+  };
+}
+
+/// Our own target before transparent surfaces, and after each: frames without those that follow. The scene is borrowed.
+inline oracle::LightSteps objects_of(const Scene& scene, const Pipeline& pipeline) {
+  return [&scene, pipeline](const oracle::StepSink& sink) {
+    Scene part = scene;
+    const auto nothing = uint32_t(part.meshes.size());
+    part.meshes.emplace_back();
+    const auto glass = [&](size_t i) { return scene.materials[scene.instances[i].material].transparent; };
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+      if (glass(i)) part.instances[i].mesh = nothing;
+    sink(-1, render_frame(part, pipeline).color);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+      if (!glass(i)) continue;
+      part.instances[i] = scene.instances[i];
+      sink(int(i), render_frame(part, pipeline).color);
     }
   };
 }

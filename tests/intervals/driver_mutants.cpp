@@ -10,6 +10,8 @@
 #include "tests/intervals/blend_mutants.h"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
+#include "tests/intervals/glass_mutants.h"
+#include "tests/intervals/surface_mutants.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -21,6 +23,17 @@ std::vector<Profile> profiles_of(const GlContext& context) {
   profiles[0].subpixel_bits = context.info().subpixel_bits;
   if (context.info().line().find("Mesa 22.3") != std::string::npos) profiles.push_back(*profile_named("mesa-llvmpipe-22.3"));
   return profiles;
+}
+
+/// The frame drawn again, watched.
+StepRenderer steps_by(const GlContext& context, StepSink GlDraw::*watcher) {
+  return [&context, watcher](const Scene& s, const Pipeline& p) -> LightSteps {
+    return [&s, p, &context, watcher](const StepSink& sink) {
+      GlDraw watched;
+      watched.*watcher = sink;
+      GlRenderer(context, s).draw(p, watched);
+    };
+  };
 }
 
 }  // namespace
@@ -61,12 +74,20 @@ TEST_CASE("llvmpipe's own wrong blends are rejected light by light, under its pr
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
-  const StepRenderer step = [&](const Scene& s, const Pipeline& p) -> LightSteps {
-    return [&s, p, context](const StepSink& sink) {
-      GlDraw watched;
-      watched.after_light = sink;
-      GlRenderer(*context, s).draw(p, watched);
-    };
-  };
-  testing::try_blend_mutants(profiles_of(*context), draw, step);
+  testing::try_blend_mutants(profiles_of(*context), draw, steps_by(*context, &GlDraw::after_light));
+}
+
+TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too") {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
+  testing::try_surface_mutants(profiles_of(*context), draw);
+}
+
+TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too") {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
+  testing::try_glass_mutants(profiles_of(*context), {draw, steps_by(*context, &GlDraw::after_light),
+                                                     steps_by(*context, &GlDraw::after_object)});
 }

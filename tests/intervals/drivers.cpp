@@ -4,17 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <memory>
 #include <unistd.h>
-
-#include "core/error.h"
 
 namespace trueshade::testing {
 
 using oracle::Capture;
-using oracle::GlContext;
-using oracle::GlDriver;
 
 namespace {
 
@@ -46,18 +40,6 @@ Image read_image(std::istream& in) {
 }
 
 }  // namespace
-
-const GlContext* opened(GlDriver which) {
-  static std::map<GlDriver, std::unique_ptr<GlContext>> contexts;
-  if (const auto found = contexts.find(which); found != contexts.end()) return found->second.get();
-  try {
-    return (contexts[which] = std::make_unique<GlContext>(which)).get();
-  } catch (const Error& error) {
-    contexts.erase(which);
-    WARN("SKIPPED: " << error.what());
-    return nullptr;
-  }
-}
 
 bool is_elsewhere() { return std::getenv(kHandOver) != nullptr; }
 

@@ -5,12 +5,9 @@
 #include <string>
 
 #include "oracle/capture.h"
-#include "oracle/gl/context.h"
+#include "tests/gl/opened_driver.h"
 
 namespace trueshade::testing {
-
-/// A driver of this machine, opened once; null where there is none, and then the test has said SKIPPED and why.
-const oracle::GlContext* opened(oracle::GlDriver which);
 
 /// What the hidden test case `drawer` of this program drew in a process of its own and handed over by
 /// hand_over(). Nothing where it had no driver; then the test has said SKIPPED and why.

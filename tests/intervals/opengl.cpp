@@ -1,17 +1,17 @@
 // A real driver judged: GL_RULES rows 62 and 63. Skipped, saying why, where there is no such driver.
 #include "tests/catch.hpp"
 #include <cstdio>
-#include <memory>
 
-#include "core/error.h"
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/validate.h"
 #include "scenes/builtin.h"
 #include "scenes/pcg32.h"
 #include "scenes/presets.h"
+#include "tests/gl/opened_driver.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
+using testing::opened;
 
 namespace {
 
@@ -50,13 +50,8 @@ void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& sc
 }  // namespace
 
 TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by its profile and by any GPU's") {
-  std::unique_ptr<GlContext> context;
-  try {
-    context = std::make_unique<GlContext>(GlDriver::llvmpipe);
-  } catch (const Error& error) {
-    WARN("SKIPPED: " << error.what());
-    return;
-  }
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
   for (const char* spec : {"city,lights=20,objects=300", "cornell", "lecture"}) {
     const Scene scene = builtin_scene(spec);
     GlRenderer renderer(*context, scene);
@@ -72,13 +67,8 @@ TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by 
 }
 
 TEST_CASE("llvmpipe's blends into every target format are explained, whatever the equation and the factors") {
-  std::unique_ptr<GlContext> context;
-  try {
-    context = std::make_unique<GlContext>(GlDriver::llvmpipe);
-  } catch (const Error& error) {
-    WARN("SKIPPED: " << error.what());
-    return;
-  }
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
   const bool known = context->info().line().find("Mesa 22.3") != std::string::npos;
   const Scene scene = builtin_scene("cornell");
   GlRenderer renderer(*context, scene);
@@ -125,13 +115,8 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
 }
 
 TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred") {
-  std::unique_ptr<GlContext> context;
-  try {
-    context = std::make_unique<GlContext>(GlDriver::llvmpipe);
-  } catch (const Error& error) {
-    WARN("SKIPPED: " << error.what());
-    return;
-  }
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
   const std::string driver = context->info().line();
   const bool known = driver.find("llvmpipe") != std::string::npos && driver.find("Mesa 22.3") != std::string::npos;
   for (const char* name : {"city", "sphere", "cornell", "circle"}) {

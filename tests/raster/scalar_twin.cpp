@@ -4,7 +4,7 @@
 
 #include "oracle/scalar_renderer.h"
 #include "tests/catch.hpp"
-#include "tests/raster/random_frame.h"
+#include "tests/raster/drawn_alike.h"
 #include "tests/raster/window_scene.h"
 
 using namespace trueshade;
@@ -98,19 +98,9 @@ TEST_CASE("Random frames equal the scalar renderer's: surfaces exactly, values w
 TEST_CASE("Random frames are the same on every SIMD target, tile size and thread count, with and without culling") {
   Random random(32);
   for (int i = 0; i < 60; ++i) {
+    INFO("frame " << i);
     const Scene scene = random_scene(random);
-    const Pipeline pipeline = random_pipeline(random);
-    Execution plain;
-    plain.simd = "scalar";
-    plain.geometry_culling = false;
-    const Planes expected = drawn(scene, pipeline, plain);
-    for (Execution execution : executions())
-      for (const bool culling : {false, true}) {
-        execution.geometry_culling = culling;
-        execution.shuffle_tiles = culling;
-        INFO("frame " << i << ", " << named(execution) << ", culling " << culling << ", " << pipeline_json(pipeline));
-        REQUIRE(drawn(scene, pipeline, execution) == expected);
-      }
+    check_executions_alike(scene, random_pipeline(random));
   }
 }
 
@@ -139,19 +129,10 @@ TEST_CASE("Random frames do not depend on which vertex a triangle names first") 
   Random random(34);
   const std::vector<Execution> all = executions();
   for (int i = 0; i < 60; ++i) {
-    Scene scene = random_scene(random);
-    Pipeline pipeline = random_pipeline(random);
-    GBufferState& g = pipeline.gbuffer;
-    for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})  // flat means another vertex then
-      if (plane->interpolation == Interpolation::flat) plane->interpolation = Interpolation::smooth;
-    const Execution& execution = all[size_t(i) % all.size()];
-    const Planes expected = drawn(scene, pipeline, execution);
-    for (Mesh& mesh : scene.meshes)
-      for (size_t t = 0; t < mesh.indices.size(); t += 3)
-        std::rotate(mesh.indices.begin() + int64_t(t), mesh.indices.begin() + int64_t(t + 1 + random() % 2),
-                    mesh.indices.begin() + int64_t(t + 3));
-    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
-    REQUIRE(drawn(scene, pipeline, execution) == expected);
+    INFO("frame " << i);
+    const Scene scene = random_scene(random);
+    const Pipeline pipeline = without_flat(random_pipeline(random));
+    check_turned_alike(random, scene, pipeline, all[size_t(i) % all.size()]);
   }
 }
 
@@ -159,27 +140,8 @@ TEST_CASE("Random frames move with their viewport by (64, 32) pixels and keep ev
   Random random(33);
   const std::vector<Execution> all = executions();
   for (int i = 0; i < 60; ++i) {
+    INFO("frame " << i);
     const Scene scene = random_scene(random);
-    Pipeline here = random_pipeline(random);
-    const Viewport viewport = here.geometry.viewport;
-    if (viewport.width == 0) here.geometry.viewport = {0, 0, here.width, here.height};
-    Pipeline there = here;
-    there.width += 64;
-    there.height += 32;
-    there.geometry.viewport.x += 64;
-    there.geometry.viewport.y += 32;
-    const Execution& execution = all[size_t(i) % all.size()];
-    const Planes a = drawn(scene, here, execution), b = drawn(scene, there, execution);
-    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(here));
-    for (int y = 0; y < a.height; ++y)
-      for (int x = 0; x < a.width; ++x) {
-        const size_t p = a.index(x, y), q = b.index(x + 64, y + 32);
-        REQUIRE(a.object[p] == b.object[q]);
-        REQUIRE(a.depth[p] == b.depth[q]);
-        REQUIRE(a.position[p] == b.position[q]);
-        REQUIRE(a.normal[p] == b.normal[q]);
-        REQUIRE(a.albedo[p] == b.albedo[q]);
-        REQUIRE(a.uv[p] == b.uv[q]);
-      }
+    check_moved_alike(scene, random_pipeline(random), all[size_t(i) % all.size()]);
   }
 }

@@ -4,7 +4,7 @@
 
 #include "oracle/textured_surface.h"
 #include "tests/catch.hpp"
-#include "tests/raster/random_frame.h"
+#include "tests/raster/drawn_alike.h"
 #include "tests/raster/window_scene.h"
 
 using namespace trueshade;
@@ -80,19 +80,9 @@ TEST_CASE("Textured frames show what the scalar renderer shows: masked surfaces,
 TEST_CASE("Textured frames are the same on every SIMD target, tile size and thread count, with and without culling") {
   Random random(42);
   for (int i = 0; i < 40; ++i) {
+    INFO("frame " << i);
     const Scene scene = textured_scene(random);
-    const Pipeline pipeline = random_pipeline(random);
-    Execution plain;
-    plain.simd = "scalar";
-    plain.geometry_culling = false;
-    const Planes expected = drawn(scene, pipeline, plain);
-    for (Execution execution : executions())
-      for (const bool culling : {false, true}) {
-        execution.geometry_culling = culling;
-        execution.shuffle_tiles = culling;
-        INFO("frame " << i << ", " << named(execution) << ", culling " << culling << ", " << pipeline_json(pipeline));
-        REQUIRE(drawn(scene, pipeline, execution) == expected);
-      }
+    check_executions_alike(scene, random_pipeline(random));
   }
 }
 
@@ -100,32 +90,13 @@ TEST_CASE("Textured frames do not depend on which vertex a triangle names first,
   Random random(43);
   const std::vector<Execution> all = executions();
   for (int i = 0; i < 40; ++i) {
-    Scene scene = textured_scene(random);
-    Pipeline pipeline = random_pipeline(random);
-    GBufferState& g = pipeline.gbuffer;
-    for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv})  // flat means another vertex then
-      if (plane->interpolation == Interpolation::flat) plane->interpolation = Interpolation::smooth;
-    if (g.uv.interpolation != Interpolation::smooth) g.uv.interpolation = Interpolation::smooth;
-    if (pipeline.geometry.viewport.width == 0) pipeline.geometry.viewport = {0, 0, pipeline.width, pipeline.height};
+    INFO("frame " << i);
+    const Scene scene = textured_scene(random);
+    Pipeline pipeline = without_flat(random_pipeline(random));
+    pipeline.gbuffer.uv.interpolation = Interpolation::smooth;
     const Execution& execution = all[size_t(i) % all.size()];
-    const Planes expected = drawn(scene, pipeline, execution);
-    INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
-    Pipeline there = pipeline;
-    there.width += 64, there.height += 32;
-    there.geometry.viewport.x += 64, there.geometry.viewport.y += 32;
-    const Planes moved = drawn(scene, there, execution);
-    for (int y = 0; y < expected.height; ++y)
-      for (int x = 0; x < expected.width; ++x) {
-        const size_t p = expected.index(x, y), q = moved.index(x + 64, y + 32);
-        REQUIRE(expected.object[p] == moved.object[q]);
-        REQUIRE(expected.albedo[p] == moved.albedo[q]);
-        REQUIRE(expected.normal[p] == moved.normal[q]);
-      }
-    for (Mesh& mesh : scene.meshes)
-      for (size_t t = 0; t < mesh.indices.size(); t += 3)
-        std::rotate(mesh.indices.begin() + int64_t(t), mesh.indices.begin() + int64_t(t + 1 + random() % 2),
-                    mesh.indices.begin() + int64_t(t + 3));
-    REQUIRE(drawn(scene, pipeline, execution) == expected);
+    check_moved_alike(scene, pipeline, execution);
+    check_turned_alike(random, scene, pipeline, execution);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "scenes/scene.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
+#include "tests/shading/square_mesh.h"
 
 using namespace trueshade;
 
@@ -75,16 +76,7 @@ TEST_CASE("Supersampling is the box average of the larger render", "[post]") {
 
 TEST_CASE("A pixel half covered by a white square comes out as exactly one half", "[post]") {
   Scene scene;
-  Mesh square;
-  const float corner[4][2] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
-  for (const auto& c : corner) {
-    square.position[0].push_back(c[0]);
-    square.position[1].push_back(c[1]);
-    square.position[2].push_back(0.0f);
-    for (size_t k = 0; k < 3; ++k) square.normal[k].push_back(k == 2 ? 1.0f : 0.0f);
-  }
-  square.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {square};
+  scene.meshes = {testing::square_mesh()};
   scene.materials.resize(1);
   scene.instances.resize(1);
   Light ambient;

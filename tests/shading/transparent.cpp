@@ -171,9 +171,7 @@ Pipeline some_pipeline(Random& random, TransparencyMode mode) {
     b.constant = {0.5f, 0.25f, 1.5f, 0.75f};
     b.mask[random() % 4] = false;
   }
-  if (random() % 4 == 0 && profile_has(NumericProfile::mesa_llvmpipe_22_3, p.target) &&
-      (mode == kAfterLights || profile_has(NumericProfile::mesa_llvmpipe_22_3, p.gbuffer.albedo.format)))
-    p.profile = NumericProfile::mesa_llvmpipe_22_3;
+  if (random() % 4 == 0) p.profile = NumericProfile::mesa_llvmpipe_22_3;
   return p;
 }
 

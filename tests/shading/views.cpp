@@ -10,6 +10,7 @@
 #include "shading/frame.h"
 #include "shading/heat_map.h"
 #include "tests/catch.hpp"
+#include "tests/shading/square_mesh.h"
 
 using namespace trueshade;
 
@@ -39,18 +40,7 @@ std::array<int, 3> rgb(const Image& image, int x, int y) {
 /// centre, in half heights, is below 1/4 and 1/3.
 Scene two_squares() {
   Scene scene;
-  Mesh square;
-  const float corner[4][2] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
-  for (const auto& c : corner) {
-    square.position[0].push_back(c[0]);
-    square.position[1].push_back(c[1]);
-    square.position[2].push_back(0.0f);
-    square.normal[0].push_back(0.0f);
-    square.normal[1].push_back(0.0f);
-    square.normal[2].push_back(1.0f);
-  }
-  square.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {square};
+  scene.meshes = {testing::square_mesh()};
   scene.materials.resize(2);
   scene.materials[0].base_color = {1.0f, 0.0f, 0.0f, 1.0f};
   scene.materials[1].base_color = {0.0f, 1.0f, 0.0f, 1.0f};
