@@ -74,8 +74,7 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
   for (size_t c = 0; c < 3; ++c) {
     std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices,
                 work.stream[size_t(kPosition) + c].data() + at);
-    std::copy_n(&clusters.normal[c][cluster.first_vertex], cluster.vertices,
-                work.stream[size_t(kNormal) + c].data() + at);
+    copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
   }
   for (size_t c = 0; c < 4; ++c)
     copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
