@@ -56,6 +56,10 @@ class GlPeers final : public Peers {
     const int changed = pixels_culling_changes(renderer_, pipeline);
     culled_ = changed <= pipeline.width * pipeline.height / kPixelsPerChange;
     for (const GlDesign design : oracle::kGlDesigns) {
+      if (draws_transparent(scene, pipeline) && !draws_glass(design, pipeline.transparency.mode)) {
+        without_glass_ = true;
+        continue;
+      }
       Pipeline p = pipeline;
       if (culled_ && is_fast(design)) p.geometry.cull_face = CullFace::back;
       peers_.push_back(std::make_unique<Work>(renderer_, p, design));
@@ -80,7 +84,8 @@ class GlPeers final : public Peers {
 
   std::string about() const override {
     return context_.info().line() +
-           (culled_ ? "; its fast designs cull back faces" : "; both faces drawn, as the pictures differ without");
+           (culled_ ? "; its fast designs cull back faces" : "; both faces drawn, as the pictures differ without") +
+           (without_glass_ ? "; no forward design, which has no colour plane to blend glass into" : "");
   }
 
  private:
@@ -88,7 +93,7 @@ class GlPeers final : public Peers {
   oracle::GlRenderer renderer_;
   Pipeline pipeline_;
   std::vector<std::unique_ptr<Work>> peers_;
-  bool culled_ = false;
+  bool culled_ = false, without_glass_ = false;
 };
 
 }  // namespace

@@ -75,12 +75,13 @@ class OwnFrames {
 std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const Scene& scene,
                                              const Pipeline& pipeline) {
   std::vector<std::unique_ptr<Peers>> peers;
-  if (!options.against.empty() && draws_transparent(scene, pipeline))
-    throw Error(ErrorKind::usage, "--against", "no peer draws transparent surfaces",
-                "a scene without, or a pipeline with transparency none");
-  for (const std::string& name : options.against)
+  for (const std::string& name : options.against) {
+    if (name != "gl" && draws_transparent(scene, pipeline))
+      throw Error(ErrorKind::usage, "--against", name + " does not see through transparent surfaces",
+                  "gl, a scene without, or a pipeline with transparency none");
     peers.push_back(name == "gl" ? gl_peers(scene, pipeline)
                                  : embree_peers(scene, pipeline, options.execution.threads));
+  }
   return peers;
 }
 

@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 
+#include "cli/option_values.h"
 #include "cli/version.h"
 #include "core/error.h"
 #include "oracle/intervals/profile.h"
@@ -13,117 +13,6 @@
 
 namespace trueshade {
 namespace {
-
-constexpr int kMaxSide = 65536;
-
-Error usage(const std::string& where, const std::string& reason, const std::string& remedy) {
-  return {ErrorKind::usage, where, reason, remedy};
-}
-
-template <typename Names>
-std::string joined(const Names& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : " ") + std::string(name);
-  return text;
-}
-
-/// A decimal integer that is the whole of `text`; nothing where it is not one or beyond 64 bits.
-std::optional<int64_t> integer(std::string_view text) {
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-int integer_in(const std::string& option, const std::string& text, int least, int most) {
-  const std::optional<int64_t> value = integer(text);
-  if (!value || *value < least || *value > most)
-    throw usage(option,
-                "'" + text + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-                "give one");
-  return int(*value);
-}
-
-Size size_from_text(const std::string& text) {
-  const size_t cross = text.find('x');
-  const auto width = integer(std::string_view(text).substr(0, cross));
-  const auto height = integer(cross == std::string::npos ? "" : std::string_view(text).substr(cross + 1));
-  if (!width || !height || *width < 1 || *height < 1)
-    throw usage("--size", "'" + text + "' is not a size", "give WIDTHxHEIGHT in pixels, like 800x600");
-  if (*width > kMaxSide || *height > kMaxSide)
-    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "render in parts");
-  return {int(*width), int(*height)};
-}
-
-double time_from_text(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value >= -kLatestTime && value <= kLatestTime))
-    throw usage("--time", "'" + text + "' is no number of seconds within 1e6", "give one, like 1.5");
-  return value;
-}
-
-FrameRange frames_from_text(const std::string& text) {
-  constexpr int64_t kMostFrames = 1000000;
-  const size_t dash = text.find('-');
-  const auto first = integer(std::string_view(text).substr(0, dash));
-  const auto last = dash == std::string::npos ? first : integer(std::string_view(text).substr(dash + 1));
-  if (!first || !last || *first < 0 || *last < *first || *last >= kMostFrames)
-    throw usage("--frames", "'" + text + "' is no range of frames below 1000000", "give FIRST-LAST, like 0-47");
-  return {int(*first), int(*last)};
-}
-
-NumericProfile profile_from_text(const std::string& text) {
-  const std::optional<NumericProfile> profile = profile_from_name(text);
-  if (!profile) throw usage("--profile", "there is no profile '" + text + "'", "one of: " + joined(kProfileNames));
-  return *profile;
-}
-
-ImageView view_from_text(const std::string& text) {
-  const std::optional<ImageView> view = view_from_name(text);
-  if (!view) throw usage("--view", "there is no view '" + text + "'", "one of: " + joined(kViewNames));
-  return *view;
-}
-
-std::vector<std::string_view> target_names() {
-  std::vector<std::string_view> names;
-  for (const Format format : kTargetFormats) names.push_back(info(format).name);
-  return names;
-}
-
-Format target_from_text(const std::string& text) {
-  const std::optional<Format> format = format_from_name(text);
-  if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
-    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(target_names()));
-  return *format;
-}
-
-Strategy strategy_from_text(const std::string& text) {
-  const auto name = std::find(std::begin(kStrategyNames), std::end(kStrategyNames), text);
-  if (name == std::end(kStrategyNames))
-    throw usage("--strategy", "there is no strategy '" + text + "'", "one of: " + joined(kStrategyNames));
-  return Strategy(name - std::begin(kStrategyNames));
-}
-
-std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
-
-/// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
-std::vector<std::string> aovs_from_text(const std::string& list) {
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    const std::string name = list.substr(begin, end - begin);
-    if (!is_aov_name(name))
-      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      throw usage("--aov", "plane '" + name + "' is named twice", "name it once");
-    names.push_back(name);
-    begin = end + 1;
-  }
-  const auto named = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
-  if (named("depth") && !named("Z")) names.emplace_back("Z");
-  return names;
-}
 
 void check_outputs(const RenderOptions& options) {
   bool exr = false;
@@ -182,17 +71,6 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   render->add_flag("--stats", options.stats, "Print counts and times");
   render->add_flag("--json", options.json, "Print all of it as one JSON document");
   return render;
-}
-
-void check_preset(const std::optional<std::string>& preset) {
-  if (preset && !preset_pipeline(*preset))
-    throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");
-}
-
-void check_simd(const std::string& name) {
-  const std::vector<std::string_view> simd = simd_targets();
-  if (name != "best" && std::find(simd.begin(), simd.end(), name) == simd.end())
-    throw usage("--simd", "this machine has no '" + name + "'", "one of: best " + joined(simd));
 }
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
@@ -309,18 +187,6 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   bench->add_option("--json", options.json_file, "JSON document to write");
   bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");
   return bench;
-}
-
-std::vector<std::string> peers_from_text(const std::string& list) {
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    names.push_back(list.substr(begin, end - begin));
-    if (names.back() != "gl" && names.back() != "embree")
-      throw usage("--against", "there is no peer '" + names.back() + "'", "gl, embree or gl,embree");
-    begin = end + 1;
-  }
-  return names;
 }
 
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {

@@ -4,16 +4,12 @@
 #include <utility>
 
 #include "oracle/exact_coverage.h"
+#include "oracle/vectors.h"
 
 namespace trueshade::oracle {
 
 namespace {
 
-using Real = long double;
-using Vector = std::array<Real, 3>;
-
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 template <typename Number>
 std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

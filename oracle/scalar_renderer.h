@@ -73,24 +73,6 @@ long double depth_at(const DrawnTriangle& triangle, int x, int y);
 /// gl_FragCoord.w: 1 / w interpolated in the window.
 long double fragment_w(const DrawnTriangle& triangle, int x, int y);
 
-struct Surface {
-  std::array<double, 3> position{}, normal{}, albedo{};
-  std::array<double, 3> specular{}, emission{};  ///< where the model reads them
-  double shininess = 0;
-};
-
-/// Sum of the lights as real numbers: docs/arithmetic.md section 8 without its roundings.
-struct LitSum {
-  std::array<double, 3> color{};
-  std::array<double, 3> magnitude{};  ///< what roundings of the terms are relative to: their sizes before cancellation
-  double nearest_threshold = 1;       ///< the least distance of an N.L from 0, or a hard cone's cosine from its edge
-};
-
-///   view_axis: of the camera, where the model's viewer is infinite
-LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& model,
-               const std::array<double, 3>& view_axis = {0, 0, 1});
-std::array<double, 3> lit_color(const Surface& surface, const Scene& scene, const LightModel& model);
-
 /// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
                            uint32_t vertex);

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "oracle/exact_coverage.h"
-#include "oracle/gl/blend_state.h"
+#include "oracle/gl/albedo_blend.h"
 #include "oracle/gl/designs_glsl.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/light_tiles.h"
@@ -44,14 +44,14 @@ struct GlPeer::Work {
   const GlslOptions options;
   const std::vector<GlslPlane> planes;  ///< of the G-buffer; none in forward designs
   Viewport viewport{};
-  GlProgram geometry, lighting, base, depth_only;
+  GlProgram geometry, lighting, base, depth_only, over;  ///< over: of transparent surfaces after the lights
   std::vector<GlTexture> textures;
   GlTexture depth, color;
   GlTarget geometry_target, light_target, forward_target;
   GlVertexArray none;
   VolumeBatches volumes;  ///< of deferred_volumes
   GlTexelBuffer tile_ranges, tile_records;
-  std::vector<float> depths;  ///< read back, row 0 at the bottom
+  std::vector<float> depths;      ///< read back, row 0 at the bottom
   std::vector<uint16_t> normals;  ///< and RGBA halves
 
   Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size);
@@ -59,7 +59,10 @@ struct GlPeer::Work {
   GlFrame draw(bool read_back);
 
  private:
-  void draw_scene(GLuint program);
+  bool glass() { return draws_transparent(scene(), pipeline); }
+  Surfaces solid() { return glass() ? Surfaces::opaque : Surfaces::all; }
+  void draw_surfaces(GLuint program, Surfaces which);
+  void draw_scene(GLuint program) { draw_surfaces(program, solid()); }
   void draw_gbuffer();
   void draw_depth();
   void read_normals();
@@ -69,6 +72,7 @@ struct GlPeer::Work {
   void light_deferred();
   void draw_volumes();
   void draw_multipass();
+  void draw_over();
 };
 
 namespace {
@@ -89,7 +93,9 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
     : renderer(r),
       pipeline(design_pipeline(p, d)),
       design(d),
-      tile(tile_size > 0 ? tile_size : d == GlDesign::forward_plus ? 16 : 32),
+      tile(tile_size > 0                 ? tile_size
+           : d == GlDesign::forward_plus ? 16
+                                         : 32),
       options(lean_options(r)),
       planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
   renderer.context().make_current();
@@ -99,6 +105,8 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   lighting = make_program(name_of(design), text.vert, text.frag);
   const GlslShaders judge = shaders_of(pipeline, options);
   if (!is_forward(design)) geometry = make_program("geometry", judge.geometry_vert, judge.geometry_frag);
+  if (glass() && !judge.transparent_frag.empty())
+    over = make_program("transparent", judge.transparent_vert, judge.transparent_frag);
   if (design == GlDesign::forward_plus)
     depth_only = make_program("depth", judge.geometry_vert, empty_fragment_text(options.version));
   if (design == GlDesign::deferred_volumes) {
@@ -124,16 +132,16 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   renderer.buffers().upload_instances(pipeline);
 }
 
-void GlPeer::Work::draw_scene(GLuint program) {
+void GlPeer::Work::draw_surfaces(GLuint program, Surfaces which) {
   glUseProgram(program);
   constexpr int kMaterialUnit = 12;  // those below belong to planes and lights, those above to maps
   if (reads_materials(pipeline.light_model))
     bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER,
                  renderer.buffers().material_texels(pipeline.light_model));
   if (options.instance_uniforms)
-    renderer.buffers().draw_each_instance(program);
+    renderer.buffers().draw_each_instance(program, which);
   else
-    renderer.buffers().draw_instances();
+    renderer.buffers().draw_instances(which);
 }
 
 void GlPeer::Work::draw_gbuffer() {
@@ -150,6 +158,8 @@ void GlPeer::Work::draw_gbuffer() {
   glClearBufferfv(GL_DEPTH, 0, &pipeline.geometry.clear_depth);
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
   draw_scene(geometry);
+  if (glass() && pipeline.transparency.mode == TransparencyMode::into_albedo)
+    blend_into_albedo(planes, pipeline.transparency.blend, [this] { draw_surfaces(geometry, Surfaces::transparent); });
 }
 
 void GlPeer::Work::draw_depth() {
@@ -263,6 +273,20 @@ void GlPeer::Work::draw_multipass() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
+/// Transparent surfaces after the lights, in every design lit by all of them: tiles' lists end at what lies behind.
+void GlPeer::Work::draw_over() {
+  glBindFramebuffer(GL_FRAMEBUFFER, forward_target.framebuffer);
+  set_geometry_state(pipeline.geometry, viewport, 0, 0);
+  glUseProgram(over);
+  const int unit = bind_surface(over, planes, textures, depth, scene(), pipeline, 0, 0);
+  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline.light_model));
+  set_uniform(over, "light_count", int(scene().lights.size()));
+  glDepthMask(GL_FALSE);
+  set_blend_state(pipeline.transparency.blend);
+  draw_surfaces(over, Surfaces::transparent);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 GlFrame GlPeer::Work::draw(bool read_back) {
   renderer.context().make_current();
   GlFrame frame;
@@ -290,6 +314,10 @@ GlFrame GlPeer::Work::draw(bool read_back) {
   } else {
     light_deferred();
     timer.end("lights");
+  }
+  if (glass() && pipeline.transparency.mode == TransparencyMode::after_lights) {
+    draw_over();
+    timer.end("transparent");
   }
   if (read_back) frame.capture.color = read_texture(color, pipeline.target, 0, 0, pipeline.width, pipeline.height);
   check_gl(name_of(design));

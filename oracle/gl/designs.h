@@ -40,6 +40,11 @@ constexpr Strategy strategy_of(GlDesign design) {
   return Strategy::forward_multipass;
 }
 
+/// Whether a design can draw a pipeline's transparent surfaces: into-albedo wants a G-buffer.
+constexpr bool draws_glass(GlDesign design, TransparencyMode mode) {
+  return mode != TransparencyMode::into_albedo || !is_forward(strategy_of(design));
+}
+
 /// The pipeline whose picture a design draws, for render_frame() too. tiled has a thin G-buffer; deferred_volumes draws
 /// lights of no given extent, whose falloff ends at their range, as boxes of which front faces are culled.
 Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "oracle/exact_coverage.h"
-#include "oracle/gl/blend_state.h"
+#include "oracle/gl/albedo_blend.h"
 #include "oracle/gl/geometry_state.h"
 #include "oracle/gl/objects.h"
 #include "oracle/gl/pass_timer.h"
@@ -269,20 +269,6 @@ class LightPass {
   bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
 
-/// Transparent surfaces by the geometry pass's program, into the colour plane alone.
-void blend_into_albedo(const Targets& t, const SceneBuffers& buffers, const BlendState& blend) {
-  glDepthMask(GL_FALSE);
-  set_blend_state(blend);
-  for (size_t i = 0; i < t.planes.size(); ++i) {
-    if (t.planes[i].name == "albedo") continue;
-    glDisablei(GL_BLEND, GLuint(i));
-    glColorMaski(GLuint(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  }
-  buffers.draw_instances(Surfaces::transparent);
-  set_blend_state({});
-  glDepthMask(GL_TRUE);
-}
-
 void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Capture& out) {
   const auto read = [&](GLuint texture, Format format) {
     return read_texture(texture, format, draw.shift_x, draw.shift_y, pipeline.width, pipeline.height);
@@ -378,7 +364,8 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
   const bool apart = draws_transparent(buffers_->scene(), pipeline);
   buffers_->draw_instances(apart ? Surfaces::opaque : Surfaces::all);
   if (apart && pipeline.transparency.mode == TransparencyMode::into_albedo)
-    blend_into_albedo(target, *buffers_, pipeline.transparency.blend);
+    blend_into_albedo(target.planes, pipeline.transparency.blend,
+                      [this] { buffers_->draw_instances(Surfaces::transparent); });
   timer.end("geometry");
   LightPass(target, program, *buffers_, pipeline, draw).run();
   timer.end("lights");

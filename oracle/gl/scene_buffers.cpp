@@ -144,9 +144,11 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
     const bool directional = light.type == LightType::directional;
     const glm::vec3 place = directional ? -light.direction : light.position;
     const ConeNumbers cone = cone_numbers(light, model.cone);
-    const float type = light.type == LightType::ambient ? 0.0f : directional ? 1.0f : cone.narrow ? 3.0f
-                       : light.type == LightType::spot                           ? 2.5f
-                                                                                 : 2.0f;
+    const float type = light.type == LightType::ambient ? 0.0f
+                       : directional                    ? 1.0f
+                       : cone.narrow                    ? 3.0f
+                       : light.type == LightType::spot  ? 2.5f
+                                                        : 2.0f;
     const glm::vec3 color = light.color * model.damping;
     const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
     add(place, type);
@@ -258,14 +260,17 @@ void SceneBuffers::draw_transparent(uint32_t instance) const {
   draw_run({i.mesh, i.material, instance, 1, true}, program_in_use());
 }
 
-void SceneBuffers::draw_each_instance(GLuint program) const {
+void SceneBuffers::draw_each_instance(GLuint program, Surfaces which) const {
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
   const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };
   const GLint clip = place("clip_from_object"), world = place("world_from_object");
   const GLint normal = place("normal_from_object"), base = place("base"), ids = place("instance_ids");
   for (uint32_t i = 0; i < records_.size(); ++i) {
-    const MeshBuffers& mesh = meshes_[scene_->instances[i].mesh];
+    const Instance& instance = scene_->instances[i];
+    const bool transparent = scene_->materials[instance.material].transparent;
+    if (which != Surfaces::all && transparent != (which == Surfaces::transparent)) continue;
+    const MeshBuffers& mesh = meshes_[instance.mesh];
     glBindVertexArray(mesh.array);
     const float* values = records_[i].values.data();
     glUniform4fv(clip, 4, values);

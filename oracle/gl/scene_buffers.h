@@ -48,8 +48,8 @@ class SceneBuffers {
   void draw_instances(Surfaces which = Surfaces::all) const;
   /// One transparent instance of them.
   void draw_transparent(uint32_t instance) const;
-  /// All of them with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
-  void draw_each_instance(GLuint program) const;
+  /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
+  void draw_each_instance(GLuint program, Surfaces which = Surfaces::all) const;
   const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   /// Light records in the model's LightLayout; made again when the model changes.

@@ -30,7 +30,8 @@ int pixels_over(const Image& a, const Image& b, double codes) {
 
 /// Each design against ours drawn the same way: rounded light by light or once, ended by the same extents. What is left
 /// are edges, and light terms that round to the next code: of textured surfaces, whose 8-bit texels differ by parts of
-/// a code, each of the lights may, so that blending them walks sqrt(lights) codes away.
+/// a code, and of colours that glass was blended into, each of the lights may, so that blending them walks sqrt(lights)
+/// codes away.
 void check_designs(const Scene& scene, const Preset& preset) {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
@@ -40,12 +41,16 @@ void check_designs(const Scene& scene, const Preset& preset) {
   const PreparedScene prepared(scene);
   GlRenderer renderer(*context, scene);
   for (const GlDesign design : kGlDesigns) {
+    if (!draws_glass(design, pipeline.transparency.mode)) continue;
     const Image ours = render_frame(prepared, design_pipeline(pipeline, design)).color;
     for (const int tile : {16, 32}) {
       GlPeer peer(renderer, pipeline, design, tile);
       const Image theirs = peer.draw(true).capture.color;
-      INFO(scene.spec << ", " << preset.name << ", " << name_of(design) << ", tile " << tile);
-      const bool walks = !scene.textures.empty() && blends_lights(strategy_of(design));
+      INFO(scene.spec << ", " << preset.name << ", " << name_of(design) << ", tile " << tile << ", glass "
+                      << kTransparencyNames[size_t(pipeline.transparency.mode)]);
+      const bool other_codes = !scene.textures.empty() || (draws_transparent(scene, pipeline) &&
+                                                           pipeline.transparency.mode == TransparencyMode::into_albedo);
+      const bool walks = other_codes && blends_lights(strategy_of(design));
       CHECK(pixels_over(theirs, ours, walks ? 2 + std::sqrt(double(scene.lights.size())) : 2) <= 16500 / 200);
       CHECK(peer.draw(true).capture.color.texels == theirs.texels);  // a second frame starts from nothing
       if (tile == 16 && !is_binned(design)) break;
@@ -89,4 +94,17 @@ TEST_CASE("Every OpenGL design draws our picture under Lambert's law alone") {
   lambert.pipeline.light_model.specular = Specular::none;  // drops the term where GLSL is emitted
   lambert.pipeline.light_model.specular_color = glm::vec3(0.0f);
   check_designs(builtin_scene("city,objects=300,lights=50"), lambert);
+}
+
+TEST_CASE("Every OpenGL design draws glass after the lights, and the deferred ones in the colour plane") {
+  Scene scene = builtin_scene("city,objects=200,lights=20");
+  for (size_t i = 0; i < scene.materials.size(); i += 3) {
+    scene.materials[i].base_color.a = 0.4f;
+    scene.materials[i].transparent = true;
+  }
+  for (const TransparencyMode mode : {TransparencyMode::after_lights, TransparencyMode::into_albedo})
+    for (Preset preset : presets()) {
+      preset.pipeline.transparency.mode = mode;
+      check_designs(scene, preset);
+    }
 }

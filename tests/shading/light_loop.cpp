@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "oracle/scalar_renderer.h"
+#include "oracle/scalar_light.h"
 #include "scenes/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "oracle/scalar_renderer.h"
+#include "oracle/scalar_light.h"
 #include "scenes/presets.h"
 #include "shading/light_shape.h"
 #include "tests/catch.hpp"

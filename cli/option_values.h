@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "core/error.h"
+
+namespace trueshade {
+
+/// Values of options from their texts. Each throws Error(usage) naming the option and what it takes; a size over 65,536
+/// pixels a side is Error(limit).
+int integer_in(const std::string& option, const std::string& text, int least, int most);
+Size size_from_text(const std::string& text);
+double time_from_text(const std::string& text);
+FrameRange frames_from_text(const std::string& text);
+NumericProfile profile_from_text(const std::string& text);
+ImageView view_from_text(const std::string& text);
+Format target_from_text(const std::string& text);
+Strategy strategy_from_text(const std::string& text);
+/// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
+std::vector<std::string> aovs_from_text(const std::string& list);
+std::vector<std::string> peers_from_text(const std::string& list);
+
+void check_preset(const std::optional<std::string>& preset);
+void check_simd(const std::string& name);
+
+Error usage(const std::string& where, const std::string& reason, const std::string& remedy);
+
+std::vector<std::string_view> target_names();
+std::string plane_names();
+
+/// Names as a message lists them.
+template <typename Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : " ") + std::string(name);
+  return text;
+}
+
+}  // namespace trueshade
