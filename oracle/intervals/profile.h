@@ -57,7 +57,9 @@ struct Profile {
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
-  double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
+  /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25 ulp at
+  /// most (GL_RULES section 3).
+  double fetch_error = 2.5 * 0x1p-23;
   Sampling sampling;
   Arithmetic arithmetic;
 };
