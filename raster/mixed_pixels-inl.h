@@ -176,7 +176,7 @@ struct MixedPixels {
     v[3] = InterleaveUpper(d, high_02, high_13);
   }
   template <class D>
-  HWY_INLINE auto quarter_row(D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
+  HWY_INLINE auto quarter_row([[maybe_unused]] D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
     if constexpr (hn::MaxLanes(D()) == 4) {
       return v;
     } else {
