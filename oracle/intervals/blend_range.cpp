@@ -289,6 +289,16 @@ Profile float_once(const Profile& profile) {
   return p;
 }
 
+Texel blended_in_16_bits(const BlendState& state, const Profile& profile, const std::array<Range, 4>& source,
+                         const Texel& stored) {
+  Texel wide, out = stored;
+  for (size_t k = 0; k < 4; ++k) wide[k] = widened(stored[k], int(k));
+  wide = blended_texel(state, Format::rgba16, profile, source, wide);
+  for (size_t k = 0; k < 4; ++k)
+    if (state.mask[k]) out[k] = narrowed(wide[k], int(k));
+  return out;
+}
+
 }  // namespace
 
 LegalTexel known_texel(double stored) {
@@ -305,6 +315,7 @@ LegalTexel hull(const LegalTexel& a, const LegalTexel& b) {
 
 Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                     const Texel& stored) {
+  if (state.enabled && computes_in_16_bits(format, profile)) return blended_in_16_bits(state, profile, source, stored);
   const FormatInfo layout = info(format);
   Texel out = stored;
   if (!state.enabled) {

@@ -23,7 +23,7 @@ enum class HalfStore : uint8_t { toward_zero, nearest, either };
 enum class BlendRule : uint8_t {
   any_precision,  ///< no less than the target's (GL 4.6 core, 17.3.6): anything from its codes to real numbers, fused or not
   float_once,     ///< docs/arithmetic.md section 10: codes added for ONE, ONE; else float32, rounded once
-  mesa_codes,     ///< section 11: products of codes for rgba8 and rgba16, float32 for floats; else any_precision
+  mesa_codes,     ///< section 11: products of codes, rgb10_a2's in 16 bits; float32 for floats and sRGB
 };
 
 /// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
