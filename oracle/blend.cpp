@@ -5,6 +5,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -306,12 +307,11 @@ Rgba blended_pixel(const BlendState& given, NumericProfile profile, Format forma
   return out;
 }
 
-bool estimates_as_amd() {
-#if defined(__x86_64__)
-  return __builtin_cpu_is("amd");
-#else
-  return false;
-#endif
+bool estimates_as_recorded() {
+  uint64_t hash = 0xCBF29CE484222325ull;  // FNV-1a over two octaves, in steps of what the estimate depends on
+  for (uint32_t bits = 0x3F800000u; bits < 0x40800000u; bits += 1u << 11)
+    hash = (hash ^ std::bit_cast<uint32_t>(estimated_rsqrt(std::bit_cast<float>(bits)))) * 0x100000001B3ull;
+  return hash == 0xCD282395EE5F4325ull;
 }
 
 }  // namespace trueshade::oracle

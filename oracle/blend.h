@@ -14,7 +14,8 @@ using Rgba = std::array<float, 4>;
 Rgba blended_pixel(const BlendState& state, NumericProfile profile, Format format, HalfRound half_round, const Rgba& source,
                    const Rgba& stored);
 
-/// Whether this CPU estimates 1/sqrt as AMD's do, which sRGB codes of llvmpipe are made of: the oracle asks the CPU.
-bool estimates_as_amd();
+/// Whether this CPU estimates 1/sqrt as the AMD EPYC did that the profile's sRGB codes were recorded on: the oracle asks
+/// the CPU, as llvmpipe does.
+bool estimates_as_recorded();
 
 }  // namespace trueshade::oracle

@@ -47,9 +47,12 @@ inline bool all_smooth(const StreamGroup* group, int groups) {
 struct CarefulSurface {
   uint32_t id;
   TriangleSetup<__int128> setup;
+  EdgeVectors<__int128> edges;
   double u[3], area;  // canonical order
-  double attribute[kStreams][3];
+  double attribute[kStreams][3], low[kStreams], high[kStreams];
   float provoking[kStreams];
+
+  CarefulSurface(uint32_t of, const TriangleSetup<__int128>& s) : id(of), setup(s), edges(s) {}
 };
 
 // `value`: of each stream at the triangle's corners, as submitted.
@@ -64,10 +67,10 @@ inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, cons
   const CarefulPieces fan = careful_pieces(clip, t, origin.x, origin.y);
   for (int i = 0; i < fan.count; ++i) {
     const CarefulPieces::Piece& piece = fan.piece[i];
-    CarefulSurface surface;
-    surface.id = id;
-    if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, surface.setup))
+    TriangleSetup<__int128> setup;
+    if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, setup))
       continue;
+    CarefulSurface surface(id, setup);
     surface.area = double(surface.setup.edge(0, 0, 0) + surface.setup.edge(1, 0, 0) + surface.setup.edge(2, 0, 0));
     int order[3];
     canonical_order(piece.triangle, order);
@@ -78,6 +81,9 @@ inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, cons
         surface.provoking[c] = v[in.state.provoking == Provoking::last ? 2 : 0];
         for (int k = 0; k < 3; ++k)
           surface.attribute[c][k] = corner_attribute(fan.polygon, piece.corner[order[k]], clip, t, v[0], v[1], v[2]);
+        const double* const a = surface.attribute[c];
+        surface.low[c] = std::min({a[0], a[1], a[2]});
+        surface.high[c] = std::max({a[0], a[1], a[2]});
       }
     }
     out.push_back(surface);
@@ -96,7 +102,7 @@ inline void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned
       const double* a = s.attribute[c];
       const V64 plane = affine(group[g].plane.interpolation == Interpolation::smooth ? w.smooth : w.linear,
                                hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]));
-      const V64 low = hn::Set(d, std::min({a[0], a[1], a[2]})), high = hn::Set(d, std::max({a[0], a[1], a[2]}));
+      const V64 low = hn::Set(d, s.low[c]), high = hn::Set(d, s.high[c]);
       const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
       V64 value = hn::IfThenElse(hn::Gt(above, high), high, above);
       if (group[g].plane.interpolation == Interpolation::flat) value = hn::Set(d, double(s.provoking[c]));

@@ -14,6 +14,7 @@ namespace {
 class Builder {
  public:
   explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
+    out_.surface_lines = mesh.has_color() ? 7 : 3;
     const size_t triangles = mesh.triangle_count();
     for (auto& stream : out_.corner) stream.reserve(triangles);
     out_.vertex.reserve(mesh.vertex_count() + mesh.vertex_count() / 2);
@@ -70,6 +71,12 @@ class Builder {
     out_.boxes.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
   }
 
+  void add_line(const std::vector<float>& from, size_t first) {
+    VertexLine line{};
+    for (size_t k = 0; k < 16 && !from.empty(); ++k) line.value[k] = from[out_.vertex[first + k]];
+    out_.surface.push_back(line);
+  }
+
   void finish() {
     if (current_.triangles == 0) return;
     while (out_.vertex.size() % 16 != 0) out_.vertex.push_back(out_.vertex.back());
@@ -78,7 +85,6 @@ class Builder {
       for (size_t i = current_.first_vertex; i < out_.vertex.size(); ++i) {
         const float value = mesh_.position[c][out_.vertex[i]];
         out_.position[c].push_back(value);
-        out_.normal[c].push_back(mesh_.normal[c].empty() ? 0.0f : mesh_.normal[c][out_.vertex[i]]);
         low = std::min(low, value);
         high = std::max(high, value);
       }
@@ -86,9 +92,10 @@ class Builder {
       least_[c] = std::min(least_[c], low);
       greatest_[c] = std::max(greatest_[c], high);
     }
-    for (size_t c = 0; c < 4 && mesh_.has_color(); ++c)
-      for (size_t i = current_.first_vertex; i < out_.vertex.size(); ++i)
-        out_.color[c].push_back(mesh_.color[c][out_.vertex[i]]);
+    for (size_t i = current_.first_vertex; i < out_.vertex.size(); i += 16) {
+      for (size_t c = 0; c < 3; ++c) add_line(mesh_.normal[c], i);
+      for (size_t c = 0; c < 4 && mesh_.has_color(); ++c) add_line(mesh_.color[c], i);
+    }
     out_.clusters.push_back(current_);
   }
 

@@ -24,15 +24,27 @@ struct ClusterBoxes {
   std::array<std::vector<float>, 3> center, half_size;  ///< half sizes rounded up
 };
 
+/// One number of 16 vertices.
+struct alignas(64) VertexLine {
+  float value[16];
+};
+
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
   ClusterBoxes boxes;                          ///< of each cluster, then of the mesh
   std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
-  std::array<std::vector<float>, 3> normal;    ///< object space, alike
-  std::array<std::vector<float>, 4> color;     ///< alike; empty where the mesh has none
+  /// Of each 16 vertices `surface_lines` lines side by side: normal x, y, z in object space and, where the mesh has
+  /// colours, r, g, b, a. What is read of a cluster lies in one place, not at one place of seven streams.
+  std::vector<VertexLine> surface;
+  int surface_lines;
   std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
   std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };
+
+/// Where the lines of the 16 vertices from `vertex` on begin.
+inline const VertexLine* surface_of(const ClusteredMesh& mesh, size_t vertex) {
+  return mesh.surface.data() + vertex / 16 * size_t(mesh.surface_lines);
+}
 
 struct ClusteredScene {
   std::vector<ClusteredMesh> meshes;  ///< one per Scene::meshes

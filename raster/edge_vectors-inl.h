@@ -47,10 +47,8 @@ template <>
 struct EdgeVectors<__int128> {
   static_assert(2 * (kWideBits + 1) + 1 - 32 <= 53);
   double c[3][2], sx[3][2], sy[3][2];  // high, low
-  V64 column, row;
 
-  explicit EdgeVectors(const TriangleSetup<__int128>& s)
-      : column(hn::LoadU(D64(), kLaneColumn)), row(hn::LoadU(D64(), kLaneRow)) {
+  explicit EdgeVectors(const TriangleSetup<__int128>& s) {
     for (int i = 0; i < 3; ++i) {
       split(s.c[i], c[i]);
       split(s.sx[i], sx[i]);
@@ -63,6 +61,7 @@ struct EdgeVectors<__int128> {
   }
   HWY_INLINE V64 at(int i, double px, double py) const {
     const D64 d;
+    const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
     V64 part[2];
     for (int k = 0; k < 2; ++k)
       part[k] = hn::Add(hn::Set(d, c[i][k] + px * sx[i][k] + py * sy[i][k]),

@@ -19,8 +19,9 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The list is written a whole vector at a time, and is a multiple of every vector long.
-inline constexpr size_t kMostFragments = 1024;
+// The list is written a whole vector at a time, and is a multiple of every vector long; not of 4096 bytes, where its
+// rows would all fall into the same places of a cache.
+inline constexpr size_t kMostFragments = 2048 + 80;
 
 /// Fragments of a cluster's small triangles.
 struct FragmentList {

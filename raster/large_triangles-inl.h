@@ -146,8 +146,10 @@ struct NearPlane {
 template <class T>
 struct BlockDepths {
   using D = hn::ScalableTag<float>;
+  static constexpr bool kWide = WholeEdges<T>::kWide;
   static constexpr int kLanes = int(hn::MaxLanes(D())), kHalf = int(hn::MaxLanes(D64()));
   EdgeVectors<T> edges;
+  V64 beyond[2][kBlockPixels / kHalf];  ///< of E_1 and E_2 from the first pixel of a block; not of wide setups
   V64 z0, g1, g2, low, high;
 
   HWY_INLINE BlockDepths(const TriangleSetup<T>& s, const DepthCommit& commit) : edges(s) {
@@ -158,13 +160,38 @@ struct BlockDepths {
       return std::min(std::max(z, double(commit.range_low)), double(commit.range_high));
     };
     low = hn::Set(d, in_range(commit.z_low)), high = hn::Set(d, in_range(commit.z_high));
+    if constexpr (!kWide) {
+      for (int i = 0; i < 2; ++i)
+        for (int part = 0; part < kBlockPixels / kHalf; ++part) {
+          const int x = part * kHalf % kBlockSize, y = part * kHalf / kBlockSize;
+          beyond[i][part] = hn::Add(edges.across[i + 1], hn::Set(d, x * s.sx[i + 1] + y * s.sy[i + 1]));
+        }
+    }
   }
 
-  /// Of the vector of samples that starts with pixel k of the block whose first is (px, py).
-  HWY_INLINE V32 at(int px, int py, int k) const {
-    const double x = px + k % kBlockSize, y = py + k / kBlockSize;
-    const V64 e1 = edges.at(1, x, y), e2 = edges.at(2, x, y);
-    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
+  /// E_1 and E_2 at the first pixel of a block.
+  struct First {
+    double e[2];
+  };
+  HWY_INLINE First first(int px, int py) const {
+    if constexpr (kWide)
+      return {};
+    else
+      return {{edges.s.edge(1, px, py), edges.s.edge(2, px, py)}};
+  }
+
+  /// Of the vector of samples that starts with pixel k of the block whose first is (px, py). Edge functions below 2^53
+  /// are sums without rounding, whatever the order.
+  HWY_INLINE V32 at(const First& first, int px, int py, int k) const {
+    const D64 d;
+    V64 e[2];
+    for (int i = 0; i < 2; ++i) {
+      if constexpr (kWide)
+        e[i] = edges.at(i + 1, px + k % kBlockSize, py + k / kBlockSize);
+      else
+        e[i] = hn::Add(hn::Set(d, first.e[i]), beyond[i][k / kHalf]);
+    }
+    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e[0], g1), hn::Mul(e[1], g2)));
     return hn::DemoteTo(D32(), hn::Min(hn::Max(plane, low), high));
   }
 
@@ -173,11 +200,12 @@ struct BlockDepths {
     const hn::RebindToUnsigned<D> du;
     commit.fragments += uint64_t(std::popcount(covered));
     bool changed = false;
+    const First start = first(px, py);
     auto far = hn::Set(d, -std::numeric_limits<float>::infinity());
     for (int k = 0; k < kBlockPixels; k += kLanes) {
       float* const depth = commit.tile.depth + block * kBlockPixels + k;
       uint32_t* const id = commit.tile.id + block * kBlockPixels + k;
-      const auto z = commit.stored(joined(d, at(px, py, k), at(px, py, k + kLanes - kHalf)));
+      const auto z = commit.stored(joined(d, at(start, px, py, k), at(start, px, py, k + kLanes - kHalf)));
       const auto there = hn::Load(d, depth);
       const auto there_id = hn::Load(du, id), my_id = hn::Set(du, commit.id);
       const auto wins = commit.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);

@@ -34,47 +34,58 @@ struct SmoothWeights {
   }
 };
 
-/// Pixels of a block that see different triangles.
+/// Pixels that see different triangles, a block's worth at a time: a block of them, or pixels from anywhere in the
+/// tile.
 struct MixedPixels {
-  const uint64_t* placed[3][kBlockPixels];
-  const VisibleTriangle* triangle[kBlockPixels];  // of pixels that are not ours one that is
-  alignas(64) double b1[kBlockPixels], b2[kBlockPixels];
+  /// All pixels of a block. Those that are not covered become anyone's.
+  HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted,
+                              SurfaceTile& out) {
+    for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, in.place[block.at + i], i);
+    for (int h = 0; h < kHalves; ++h) set_weights(block.column(h), block.row(h), h);
+    for (int row = 0; row < kBlockSize; ++row) set_rows<false>(in, wanted, row * kBlockSize, block.at, out);
+  }
 
-  /// The pixels in `mine`; `alone`: the block's others are anyone's.
-  HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted, uint32_t mine,
-                              bool alone, SurfaceTile& out) {
-    const uint32_t* const place = in.place + block.at;
-    const uint16_t* const index = in.index.data();
-    const uint32_t any = place[std::countr_zero(mine)];
-    const PlacedVertex* const vertices = in.placed.data();
-    for (int i = 0; i < kBlockPixels; ++i) {
-      const VisibleTriangle& t = in.triangle[index[(mine >> i) & 1 ? place[i] : any]];
-      triangle[i] = &t;
-      for (int k = 0; k < 3; ++k) placed[k][i] = &vertices[t.vertex[k]].key;
+  /// A pixel that waits for others.
+  HWY_INLINE void add(const VisibleTriangles& in, const BlockPlace& block, int pixel, WantedValues wanted,
+                      SurfaceTile& out) {
+    at[count] = block.at + pixel;
+    x[count] = block.x + pixel % kBlockSize;
+    y[count] = block.y + pixel / kBlockSize;
+    set_triangle(in, in.place[block.at + pixel], count);
+    if (++count == kBlockPixels) finish(in, wanted, out);
+  }
+  /// The pixels that wait.
+  HWY_NOINLINE void finish(const VisibleTriangles& in, WantedValues wanted, SurfaceTile& out) {
+    const D64 d;
+    if (count == 0) return;
+    for (int i = count; i < kBlockPixels; ++i) {  // whole vectors of something
+      triangle[i] = triangle[0];
+      for (auto& of : placed) of[i] = of[0];
     }
-    for (int h = 0; h < kHalves; ++h) set_weights(block, h);
-    const VertexRecord* const records = in.record.data();
-    const VertexColor* const colors = in.color.data();
-    for (int row = 0; row < kBlockSize; ++row) {
-      const uint32_t ours = (mine >> row * kBlockSize) & 15;
-      if (ours == 0) continue;
-      const uint32_t stored = alone ? 15 : ours;
-      for (int g = 0; g < VertexRecord::kValues; g += kGroup)
-        set_row<kGroup>(records, row, g, 0, wanted.first, wanted.last, stored, block.at, out);
-      constexpr int kColor = std::min(kGroup, 4);
-      for (int g = 0; g < 4 && wanted.color; g += kColor)
-        set_row<kColor>(colors, row, g, VertexRecord::kValues, 0, kStreams, stored, block.at, out);
-    }
+    for (int h = 0; h * kHalf < count; ++h) set_weights(hn::Load(d, x + h * kHalf), hn::Load(d, y + h * kHalf), h);
+    for (int first = 0; first < count; first += kBlockSize) set_rows<true>(in, wanted, first, 0, out);
+    count = 0;
   }
 
  private:
   static constexpr int kGroup = kHalf == 1 ? 1 : std::max(kHalf, 4);  // attributes side by side
+  const uint64_t* placed[3][kBlockPixels];
+  const VisibleTriangle* triangle[kBlockPixels];
+  alignas(64) double b1[kBlockPixels], b2[kBlockPixels];
+  alignas(64) double x[kBlockPixels] = {}, y[kBlockPixels] = {};  // of pixels from anywhere
+  int at[kBlockPixels], count = 0;
 
-  HWY_INLINE void set_weights(const BlockPlace& block, int h) {
+  HWY_INLINE void set_triangle(const VisibleTriangles& in, uint32_t place, int i) {
+    const VisibleTriangle& t = in.triangle[in.index.data()[place]];
+    const PlacedVertex* const vertices = in.placed.data();
+    triangle[i] = &t;
+    for (int k = 0; k < 3; ++k) placed[k][i] = &vertex_at(vertices, t.vertex[k]).key;
+  }
+
+  HWY_INLINE void set_weights(V64 column, V64 row, int h) {
     const D64 d;
     const hn::RebindToUnsigned<D64> du;
-    V64 x[3], y[3], u[3];
-    const V64 column = block.column(h), row = block.row(h);
+    V64 rx[3], ry[3], u[3];
     // A double 2^52 + n has the bits of n at its end.
     const V64 zero = hn::Set(d, 0x1p52 + double(PlacedVertex::kBias)), pixel = hn::Set(d, 256.0);
     const V64 sx = hn::Add(zero, hn::Mul(column, pixel)), sy = hn::Add(zero, hn::Mul(row, pixel));
@@ -82,44 +93,58 @@ struct MixedPixels {
     for (int k = 0; k < 3; ++k) {
       auto key = hn::Zero(du), inverse = key;
       load_pairs(du, placed[k] + h * kHalf, key, inverse);
-      x[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key, low), exponent)), sx);
-      y[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key), exponent)), sy);
+      rx[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key, low), exponent)), sx);
+      ry[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key), exponent)), sy);
       u[k] = hn::BitCast(d, inverse);
     }
     SmoothWeights w;
-    w.set(x, y, u);
+    w.set(rx, ry, u);
     hn::Store(w.b1, d, b1 + h * kHalf);
     hn::Store(w.b2, d, b2 + h * kHalf);
   }
 
-  /// kCount attributes of a row's pixels, from place `from` on in a vertex's record, `shift` more in kRecordStream.
-  template <int kCount, class Record>
-  HWY_INLINE void set_row(const Record* records, int row, int from, int shift, int first, int last, uint32_t stored,
-                          int at, SurfaceTile& out) const {
+  /// Everything wanted of four pixels from `first` on: a row of the block at `at_block`, or from anywhere.
+  template <bool kAnywhere>
+  HWY_INLINE void set_rows(const VisibleTriangles& in, WantedValues wanted, int first, int at_block,
+                           SurfaceTile& out) const {
+    constexpr int kValues = VertexRecord::kValues, kColor = std::min(kGroup, 4);
+    for (int g = 0; g < kValues; g += kGroup) {
+      if (wanted.first == 0 && wanted.last == kRecordUv)  // the usual case without a question an attribute
+        set_group<kGroup, kAnywhere>(in.record.data(), g, 0, 0, kRecordUv, first, at_block, out);
+      else
+        set_group<kGroup, kAnywhere>(in.record.data(), g, 0, wanted.first, wanted.last, first, at_block, out);
+    }
+    for (int g = 0; g < 4 && wanted.color; g += kColor)
+      set_group<kColor, kAnywhere>(in.color.data(), g, kValues, 0, 4, first, at_block, out);
+  }
+
+  /// kCount attributes from place `from` on of those in [first, last), `shift` further in kRecordStream.
+  template <int kCount, bool kAnywhere, class Record>
+  HWY_INLINE void set_group(const Record* records, int from, int shift, int first, int last, int pixel, int at_block,
+                            SurfaceTile& out) const {
     using D = hn::CappedTag<float, size_t(kCount)>;
     const D d;
-    hn::Vec<D> v[kBlockSize];
-    for (int x = 0; x < kBlockSize; ++x) {
-      const int i = row * kBlockSize + x;
-      const uint16_t(&vertex)[3] = triangle[i]->vertex;
-      v[x] = values(d, records[vertex[0]].value + from, records[vertex[1]].value + from,
-                    records[vertex[2]].value + from, i);
-    }
-    if constexpr (kCount > 1) transpose(d, v);
     const hn::CappedTag<float, kBlockSize> dq;
+    hn::Vec<D> v[kBlockSize];
+    for (int i = 0; i < kBlockSize; ++i) {
+      const uint16_t(&vertex)[3] = triangle[pixel + i]->vertex;
+      v[i] = values(d, vertex_at(records, vertex[0]).value + from, vertex_at(records, vertex[1]).value + from,
+                    vertex_at(records, vertex[2]).value + from, pixel + i);
+    }
+    alignas(64) float value[kBlockSize][kCount];
+    if constexpr (kAnywhere || kCount == 1)
+      for (int i = 0; i < kBlockSize; ++i) hn::Store(v[i], d, value[i]);
+    else
+      transpose(d, v);
     for (int k = 0; k < kCount; ++k) {
       if (from + k < first || from + k >= last) continue;
-      float* const plane = out.plane[kRecordStream[shift + from + k]] + at + row * kBlockSize;
-      if constexpr (kCount == 1) {
-        for (int x = 0; x < kBlockSize; ++x)
-          if ((stored >> x) & 1) hn::Store(v[x], dq, plane + x);
-      } else {
-        const auto four = quarter_row(d, v[k % 4], k / 4);
-        if (stored == 15)
-          hn::Store(four, dq, plane);
-        else
-          hn::BlendedStore(four, lane_mask(dq, stored), dq, plane);
-      }
+      float* const plane = out.plane[kRecordStream[shift + from + k]];
+      if constexpr (kAnywhere)
+        for (int i = 0; i < kBlockSize && pixel + i < count; ++i) plane[at[pixel + i]] = value[i][k];
+      else if constexpr (kCount == 1)
+        for (int i = 0; i < kBlockSize; ++i) plane[at_block + pixel + i] = value[i][k];
+      else
+        hn::Store(quarter_row(d, v[k % 4], k / 4), dq, plane + at_block + pixel);
     }
   }
 
@@ -151,7 +176,7 @@ struct MixedPixels {
     v[3] = InterleaveUpper(d, high_02, high_13);
   }
   template <class D>
-  HWY_INLINE auto quarter_row(D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
+  HWY_INLINE auto quarter_row([[maybe_unused]] D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
     if constexpr (hn::MaxLanes(D()) == 4) {
       return v;
     } else {

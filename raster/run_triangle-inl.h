@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-inline constexpr int kWhole = int(hn::MaxLanes(DWF())), kHalf = int(hn::MaxLanes(D64()));  // pixels of a vector
+inline constexpr int kHalf = int(hn::MaxLanes(D64()));  // pixels of a vector
 inline constexpr int kHalves = kBlockPixels / kHalf;
 
 /// A block of a tile.
@@ -52,20 +52,22 @@ struct RunTriangle {
     if (triangle == index) return;
     triangle = index;
     const uint16_t(&vertex)[3] = in.triangle[index].vertex;
+    const PlacedVertex* const placed = in.placed.data();
     for (int k = 0; k < 3; ++k) {
-      const PlacedVertex &a = in.placed[vertex[(k + 1) % 3]], &b = in.placed[vertex[(k + 2) % 3]];
+      const PlacedVertex &a = vertex_at(placed, vertex[(k + 1) % 3]), &b = vertex_at(placed, vertex[(k + 2) % 3]);
       c[k] = a.x() * b.y() - b.x() * a.y();
       sx[k] = (a.y() - b.y()) * 256.0;
       sy[k] = (b.x() - a.x()) * 256.0;
-      u[k] = in.placed[vertex[k]].u;
+      u[k] = vertex_at(placed, vertex[k]).u;
     }
-    const VertexRecord* const record = in.record.data();
-    set_values(record[vertex[0]].value, record[vertex[1]].value, record[vertex[2]].value, 0, VertexRecord::kValues);
-    if (!color) return;
-    const VertexColor* const colors = in.color.data();
-    set_values(colors[vertex[0]].value, colors[vertex[1]].value, colors[vertex[2]].value, VertexRecord::kValues, 4);
+    set_corners(in.record.data(), vertex, 0, VertexRecord::kValues);
+    if (color) set_corners(in.color.data(), vertex, VertexRecord::kValues, 4);
   }
-  HWY_INLINE void set_values(const float* at_0, const float* at_1, const float* at_2, int first, int count) {
+  template <class Record>
+  HWY_INLINE void set_corners(const Record* records, const uint16_t vertex[3], int first, int count) {
+    const float* const at_0 = vertex_at(records, vertex[0]).value;
+    const float* const at_1 = vertex_at(records, vertex[1]).value;
+    const float* const at_2 = vertex_at(records, vertex[2]).value;
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> df;
     for (int i = 0; i < count; i += int(hn::Lanes(d))) {
@@ -83,14 +85,14 @@ struct RunTriangle {
   HWY_INLINE void interpolate(const BlockPlace& block, WantedValues wanted, uint32_t mine, bool alone,
                               SurfaceTile& out) const {
     const D64 d;
-    const DWF df;
-    V64 b1[kHalves], b2[kHalves];
+    V64 b1[kHalves] = {}, b2[kHalves] = {};
     const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
     const auto across = [&](int i) {
       return hn::Add(hn::Mul(column, hn::Set(d, sx[i])), hn::Mul(row, hn::Set(d, sy[i])));
     };
     const V64 across_0 = across(0), across_1 = across(1), across_2 = across(2);
     for (int h = 0; h < kHalves; ++h) {
+      if (((mine >> h * kHalf) & kHalfBits) == 0) continue;
       const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
       const auto weighted = [&](int i, V64 beyond) {
         return hn::Mul(hn::Add(hn::Set(d, c[i] + px * sx[i] + py * sy[i]), beyond), hn::Set(d, u[i]));
@@ -99,22 +101,40 @@ struct RunTriangle {
       const V64 r = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(l0, l1), l2));
       b1[h] = hn::Mul(l1, r), b2[h] = hn::Mul(l2, r);
     }
-    for (int k = wanted.first; k < kStreams; ++k) {
-      if (k == wanted.last) k = VertexRecord::kValues;
-      if (k == VertexRecord::kValues && !wanted.color) break;
-      float* const plane = out.plane[kRecordStream[k]] + block.at;
-      const auto at = [&](int h) {
-        return hn::DemoteTo(D32(), hn::Add(hn::Set(d, a0[k]), hn::Add(hn::Mul(b1[h], hn::Set(d, to_1[k])),
-                                                                      hn::Mul(b2[h], hn::Set(d, to_2[k])))));
+    for (int p = 0; p < kBlockPixels; p += kTogether) {
+      const uint32_t here = (mine >> p) & ((1u << kTogether) - 1);
+      if (here == 0) continue;
+      const int h = p / kHalf, h_last = (p + kTogether - kHalf) / kHalf;
+      const bool all = alone || here == (1u << kTogether) - 1;
+      set_values(wanted.first, wanted.last, block.at + p, b1[h], b2[h], b1[h_last], b2[h_last], here, all, out);
+      if (wanted.color)
+        set_values(VertexRecord::kValues, kStreams, block.at + p, b1[h], b2[h], b1[h_last], b2[h_last], here, all, out);
+    }
+  }
+
+ private:
+  using DT = hn::CappedTag<float, 8>;
+  static constexpr int kTogether = int(hn::MaxLanes(DT()));
+  static constexpr uint32_t kHalfBits = (1u << kHalf) - 1;
+
+  /// Attributes [first, last) of kTogether pixels with the weights of both their halves.
+  HWY_INLINE void set_values(int first, int last, int at, V64 b1, V64 b2, V64 upper_b1, V64 upper_b2, uint32_t mine,
+                             bool all, SurfaceTile& out) const {
+    const D64 d;
+    const DT df;
+    const auto mask = lane_mask(df, mine);
+    for (int k = first; k < last; ++k) {
+      const auto plane = [&](V64 w1, V64 w2) {
+        return hn::DemoteTo(D32(), hn::Add(hn::Set(d, a0[k]), hn::Add(hn::Mul(w1, hn::Set(d, to_1[k])),
+                                                                      hn::Mul(w2, hn::Set(d, to_2[k])))));
       };
-      for (int p = 0; p < kBlockPixels; p += kWhole) {
-        const VWF value = joined(df, at(p / kHalf), at((p + kWhole - kHalf) / kHalf));
-        const VWF held = lesser(greater(value, hn::Set(df, low[k])), hn::Set(df, high[k]));
-        if (alone)
-          hn::Store(held, df, plane + p);
-        else
-          hn::BlendedStore(held, lane_mask(df, mine >> p), df, plane + p);
-      }
+      const auto value = joined(df, plane(b1, b2), plane(upper_b1, upper_b2));
+      const auto held = lesser(greater(value, hn::Set(df, low[k])), hn::Set(df, high[k]));
+      float* const to = out.plane[kRecordStream[k]] + at;
+      if (all)
+        hn::Store(held, df, to);
+      else
+        store_lanes(held, mask, df, to);
     }
   }
 };

@@ -36,7 +36,7 @@ using VT = hn::Vec<DT>;
 inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
 // Lists are written a whole vector at a time, and are a multiple of every vector long.
 inline constexpr size_t kMostCandidates = 144;
-static_assert(kClusterTriangles + 16 <= kMostCandidates && 16 * 16 + 16 <= kMostFragments);
+static_assert(kClusterTriangles + 16 <= kMostCandidates && (64 + 1) * 16 <= kMostFragments);
 
 /// A cluster's triangles that have a sample in their box and the tile: corners' vertices and triangle, a byte each.
 struct Candidates {
@@ -267,14 +267,16 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
       auto covered = hn::And(in_rows, hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(d, -1)));
       if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
       const uint32_t bits = lane_bits(d, covered);
-      const FrontLanes front(d, bits);
-      const int n = out.count;
-      hn::StoreU(front(hn::Add(f1, e1.not_owned)), d, out.e1 + n);
-      hn::StoreU(front(hn::Add(f2, e2.not_owned)), d, out.e2 + n);
-      hn::StoreU(front(size), d, out.area + n);
-      hn::StoreU(front(named), d, out.word + n);
-      hn::StoreU(front(hn::Add(at_x[x], at_y)), d, out.at + n);
-      out.count = n + std::popcount(bits);
+      if (kSide <= 2 || bits != 0) {  // of few samples there is nearly always one
+        const FrontLanes front(d, bits);
+        const int n = out.count;
+        hn::StoreU(front(hn::Add(f1, e1.not_owned)), d, out.e1 + n);
+        hn::StoreU(front(hn::Add(f2, e2.not_owned)), d, out.e2 + n);
+        hn::StoreU(front(size), d, out.area + n);
+        hn::StoreU(front(named), d, out.word + n);
+        hn::StoreU(front(hn::Add(at_x[x], at_y)), d, out.at + n);
+        out.count = n + std::popcount(bits);
+      }
       f0 = hn::Sub(f0, e0.across);
       f1 = hn::Sub(f1, e1.across);
       f2 = hn::Sub(f2, e2.across);
@@ -285,52 +287,87 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
   }
 }
 
-/// Draws a cluster's triangles of at most 2x2 samples.
-HWY_INLINE void draw_upto_2(const SmallDraw& in, const Candidates& found, const double* vertex_z, uint32_t first_id,
-                            FragmentList& fragments, DepthCommit& commit) {
+/// Where fragments go.
+struct SmallCommit {
+  FragmentList& fragments;
+  const double* vertex_z;
+  uint32_t first_id;  ///< of the cluster's first triangle
+  DepthCommit& commit;
+
+  HWY_INLINE void make_room(int count) const {
+    if (fragments.count + count > int(kMostFragments)) finish();
+  }
+  HWY_INLINE void finish() const {
+    if (fragments.count != 0) commit_fragments(fragments, vertex_z, first_id, commit);
+  }
+};
+
+/// A vector of listed triangles.
+struct ListedTriangles {
+  VT word, p0, p1, p2;
+  SampleBoxes box;
+  hn::Mask<DT> present;
+
+  HWY_INLINE ListedTriangles(const SmallDraw& in, const int32_t* list, int count, int i)
+      : word(hn::Load(DT(), list + i)),
+        p0(corner_of(in.packed, word)),
+        p1(corner_of(in.packed, hn::ShiftRight<8>(word))),
+        p2(corner_of(in.packed, hn::ShiftRight<16>(word))),
+        box(p0, p1, p2, in.limit),
+        present(hn::FirstN(DT(), size_t(count - i))) {}
+};
+
+/// Draws the listed triangles of at most kSide x kSide samples; returns how many larger ones it listed in `larger`.
+template <int kSide>
+HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, const SmallCommit& into,
+                         [[maybe_unused]] int32_t* larger) {
   const DT d;
   const int lanes = int(hn::Lanes(d));
-  for (int i = 0; i < found.count_2; i += lanes) {
-    if (fragments.count + (4 + 1) * lanes > int(kMostFragments))
-      commit_fragments(fragments, vertex_z, first_id, commit);
-    const VT word = hn::Load(d, found.upto_2 + i);
-    const VT p0 = corner_of(in.packed, word), p1 = corner_of(in.packed, hn::ShiftRight<8>(word)),
-             p2 = corner_of(in.packed, hn::ShiftRight<16>(word));
-    cover_small<2>(in, OrderedTriangles(p0, p1, p2, word), SampleBoxes(p0, p1, p2, in.limit),
-                   hn::FirstN(d, size_t(found.count_2 - i)), fragments);
+  int count_larger = 0;
+  for (int i = 0; i < count; i += lanes) {
+    into.make_room((kSide * kSide + 1) * lanes);
+    const ListedTriangles t(in, list, count, i);
+    auto drawn = t.present;
+    if constexpr (kSide == 4) {
+      drawn = hn::And(t.present, t.box.upto(4, in.any_held));
+      count_larger = append(larger, count_larger, hn::AndNot(drawn, t.present), t.word);
+      if (hn::AllFalse(d, drawn)) continue;
+    }
+    cover_small<kSide>(in, OrderedTriangles(t.p0, t.p1, t.p2, t.word), t.box, drawn, into.fragments);
   }
+  return count_larger;
 }
 
-/// Draws those of the others that have at most 4x4 samples, and lists the rest: counter-clockwise ones first, as in a
-/// closed mesh they hide the others. Of held corners the sign is a guess, which will do.
-HWY_INLINE void draw_upto_4(const SmallDraw& in, Candidates& found, const double* vertex_z, uint32_t first_id,
-                            FragmentList& fragments, DepthCommit& commit) {
+/// Draws the listed triangles of at most 8x8 samples where enough of a vector is, and lists the rest in `larger`:
+/// counter-clockwise ones first, as in a closed mesh they hide the others. Of held corners the sign is a guess, which
+/// will do.
+HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, const SmallCommit& into,
+                           int32_t* larger) {
   const DT d;
   const int lanes = int(hn::Lanes(d));
   alignas(64) int32_t back[kMostCandidates];
   int fronts = 0, backs = 0;
-  for (int i = 0; i < found.count_more; i += lanes) {
-    if (fragments.count + (16 + 1) * lanes > int(kMostFragments))
-      commit_fragments(fragments, vertex_z, first_id, commit);
-    const VT word = hn::Load(d, found.more + i);
-    const VT p0 = corner_of(in.packed, word), p1 = corner_of(in.packed, hn::ShiftRight<8>(word)),
-             p2 = corner_of(in.packed, hn::ShiftRight<16>(word));
-    const SampleBoxes box(p0, p1, p2, in.limit);
-    const auto here = hn::FirstN(d, size_t(found.count_more - i)), upto_4 = hn::And(here, box.upto(4, in.any_held));
-    if (!hn::AllFalse(d, upto_4)) cover_small<4>(in, OrderedTriangles(p0, p1, p2, word), box, upto_4, fragments);
-    const auto large = hn::AndNot(upto_4, here);
-    if (hn::AllFalse(d, large)) continue;
-    const VT x0 = lower_half(p0), y0 = upper_half(p0);
-    const auto front = hn::Gt(hn::Mul(hn::Sub(lower_half(p1), x0), hn::Sub(upper_half(p2), y0)),
-                              hn::Mul(hn::Sub(lower_half(p2), x0), hn::Sub(upper_half(p1), y0)));
-    fronts = append(found.large, fronts, hn::And(front, large), word);
-    backs = append(back, backs, hn::AndNot(front, large), word);
+  for (int i = 0; i < count; i += lanes) {
+    const ListedTriangles t(in, list, count, i);
+    auto rest = t.present;
+    const auto upto_8 = hn::And(t.present, t.box.upto(8, in.any_held));
+    if (2 * int(hn::CountTrue(d, upto_8)) >= lanes) {
+      into.make_room((64 + 1) * lanes);
+      cover_small<8>(in, OrderedTriangles(t.p0, t.p1, t.p2, t.word), t.box, upto_8, into.fragments);
+      rest = hn::AndNot(upto_8, t.present);
+    }
+    if (hn::AllFalse(d, rest)) continue;
+    const VT x0 = lower_half(t.p0), y0 = upper_half(t.p0);
+    const auto front = hn::Gt(hn::Mul(hn::Sub(lower_half(t.p1), x0), hn::Sub(upper_half(t.p2), y0)),
+                              hn::Mul(hn::Sub(lower_half(t.p2), x0), hn::Sub(upper_half(t.p1), y0)));
+    fronts = append(larger, fronts, hn::And(front, rest), t.word);
+    backs = append(back, backs, hn::AndNot(front, rest), t.word);
   }
-  std::copy_n(back, backs, found.large + fronts);
-  found.count_large = fronts + backs;
+  std::copy_n(back, backs, larger + fronts);
+  return fronts + backs;
 }
 
-/// Draws those of a cluster's triangles whose box holds at most 4x4 samples; the others that may cover any are left in
+/// Draws those of a cluster's triangles whose box holds few samples; the others that may cover any are left in
 /// `work.found.large`. Its vertices are in `work`, and none needs care; `box` is theirs. Not under polygon offset.
 inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const WindowBox& box,
                                  const GeometryState& state, bool upper_left, const TileRect& rect, uint32_t first_id,
@@ -338,13 +375,14 @@ inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& clust
   const int32_t middle = rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
   const bool any_held = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
   const SmallDraw in{work.packed, any_held, state, upper_left, rect, PackedLimits(rect)};
-  const double* z = work.vertices.z;
-  FragmentList& fragments = work.fragments;
+  const SmallCommit into{work.fragments, work.vertices.z, first_id, commit};
+  Candidates& found = work.found;
   pack_corners(work.vertices, cluster.vertices, middle, work.packed);
-  find_candidates(work.packed, any_held, mesh, cluster, in.limit, work.found);
-  draw_upto_2(in, work.found, z, first_id, fragments, commit);
-  draw_upto_4(in, work.found, z, first_id, fragments, commit);
-  if (fragments.count != 0) commit_fragments(fragments, z, first_id, commit);
+  find_candidates(work.packed, any_held, mesh, cluster, in.limit, found);
+  draw_upto<2>(in, found.upto_2, found.count_2, into, nullptr);
+  const int larger = draw_upto<4>(in, found.more, found.count_more, into, found.upto_2);
+  found.count_large = draw_upto_8(in, found.upto_2, larger, into, found.large);
+  into.finish();
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

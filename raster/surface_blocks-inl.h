@@ -24,17 +24,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Pixels of a triangle that needed care: of each the first piece that has it.
 inline void interpolate_careful_block(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
-                                      uint32_t id, uint32_t triangle, const BlockPlace& block, uint32_t mine,
-                                      VisibleVertices& work, std::vector<CarefulSurface>& surfaces, SurfaceTile& out) {
+                                      bool color, uint32_t id, uint32_t triangle, const BlockPlace& block,
+                                      uint32_t mine, VisibleVertices& work, std::vector<CarefulSurface>& surfaces,
+                                      SurfaceTile& out) {
   const D64 d;
   if (std::none_of(surfaces.begin(), surfaces.end(), [id](const CarefulSurface& s) { return s.id == id; })) {
     const VisibleTriangles& seen = work.triangles;
     float value[kStreams][3] = {};
     for (int k = 0; k < 3; ++k) {
       const uint32_t vertex = seen.triangle[triangle].vertex[k];
-      for (int c = 0; c < VertexRecord::kValues; ++c) value[kRecordStream[c]][k] = seen.record[vertex].value[c];
-      for (int c = 0; c < 4; ++c)
-        value[kAlbedo + c][k] = vertex < seen.color.size() ? seen.color[vertex].value[c] : 1.0f;
+      for (int c = 0; c < VertexRecord::kValues; ++c)
+        value[kRecordStream[c]][k] = vertex_at(seen.record.data(), vertex).value[c];
+      for (int c = 0; c < 4 && color; ++c) value[kAlbedo + c][k] = vertex_at(seen.color.data(), vertex).value[c];
     }
     add_careful_surfaces(in, rect, group, groups, id, value, surfaces);
   }
@@ -43,8 +44,7 @@ inline void interpolate_careful_block(const TileDraws& in, const TileRect& rect,
     const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
     for (const CarefulSurface& s : surfaces) {
       if (s.id != id || hn::AllFalse(d, open)) continue;
-      const EdgeVectors<__int128> edges(s.setup);
-      const V64 e[3] = {edges.at(0, px, py), edges.at(1, px, py), edges.at(2, px, py)};
+      const V64 e[3] = {s.edges.at(0, px, py), s.edges.at(1, px, py), s.edges.at(2, px, py)};
       M64 owned = open;
       for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
       if (hn::AllFalse(d, owned)) continue;
@@ -74,33 +74,38 @@ inline void interpolate_blocks(const TileDraws& in, const TileRect& rect, const 
   const WantedValues wanted{group[0].first == kPosition ? 0 : int(kNormal),
                             streams.uv ? VertexRecord::kValues : kRecordUv, streams.color};
   RunTriangle run;
-  MixedPixels mixed;
+  MixedPixels mixed, few;
   std::vector<CarefulSurface> careful;  // of the tile, in no order: there are few
   for (int b = 0; b < blocks * blocks; ++b) {
     const BlockPlace block{b % blocks * kBlockSize, b / blocks * kBlockSize, b * kBlockPixels};
     const uint32_t* const id = visible.id + block.at;
     const uint32_t covered = seen.block[b].covered;
-    uint32_t few = seen.block[b].seen == VisibleTriangles::many ? covered : 0;
-    for (uint32_t rest = covered & ~few; rest != 0;) {
+    if (seen.block[b].seen == VisibleTriangles::many) {
+      mixed.interpolate(seen, block, wanted, out);
+      continue;
+    }
+    for (uint32_t rest = covered; rest != 0;) {
       const int pixel = std::countr_zero(rest);
       const bool one = seen.block[b].seen == VisibleTriangles::one;
       const uint32_t mine = one ? covered : equal_bits<uint32_t>(id, id[pixel]);
       rest &= ~mine;
       const bool needs_care = !one && id_careful(id[pixel]);
       if (!needs_care && std::popcount(mine) < kFew) {
-        few |= mine;
+        for (uint32_t bits = mine; bits != 0; bits &= bits - 1)
+          few.add(seen, block, std::countr_zero(bits), wanted, out);
         continue;
       }
       const uint32_t triangle = seen.index[seen.place[block.at + pixel]];
       if (needs_care) {
-        interpolate_careful_block(in, rect, group, groups, id[pixel], triangle, block, mine, work, careful, out);
+        interpolate_careful_block(in, rect, group, groups, wanted.color, id[pixel], triangle, block, mine, work,
+                                  careful, out);
       } else {
         run.set(seen, triangle, wanted.color);
         run.interpolate(block, wanted, mine, mine == covered, out);
       }
     }
-    if (few != 0) mixed.interpolate(seen, block, wanted, few, few == covered, out);
   }
+  few.finish(seen, wanted, out);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "raster/careful_surfaces-inl.h"
+#include "raster/lanes-inl.h"
 #include "raster/store-inl.h"
 #include "raster/surfaces.h"
 #include "scenes/scene.h"
@@ -126,20 +127,45 @@ inline bool fills_planes(const LightModel& model) {
   return model.emission || reads_specular_plane(model) || maps_metals(model);
 }
 
+/// Calls run(material + 1, mask of its pixels, whether no other is there) for each material of a vector of pixels at i.
+template <class Run>
+HWY_INLINE void for_each_material(const SurfaceTile& out, int i, Run&& run) {
+  const DU d;
+  const auto here = hn::Load(d, out.material + i);
+  auto rest = hn::Ne(here, hn::Zero(d));
+  for (bool only = true;; only = false) {
+    const intptr_t first = hn::FindFirstTrue(d, rest);
+    if (first < 0) return;
+    const uint32_t material = out.material[i + first];
+    const auto mine = hn::Eq(here, hn::Set(d, material));
+    rest = hn::AndNot(mine, rest);
+    only = only && hn::AllFalse(d, rest);
+    run(material, hn::RebindMask(DF(), mine), only);
+    if (only) return;
+  }
+}
+
 // Albedo times the material's colour, and the planes that the material fills.
 inline void apply_materials(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
                             const LightModel& model, SurfaceTile& out) {
-  const int pixels = rect.size * rect.size;
+  const DF d;
+  const int pixels = rect.size * rect.size, lanes = int(hn::Lanes(d));
   const bool materials = fills_planes(model);
+  const Material* const list = in.scene.materials.data();
   std::vector<MaterialValues> values;
   for (size_t m = 0; m < in.scene.materials.size() && materials; ++m)
-    values.push_back(material_values(in.scene.materials[m], model,
-                                     in.view.maps.textured() && in.view.maps.material[m].specular.has_value()));
-  for (int i = 0; i < pixels; ++i) {
-    if (out.covered[i] == 0) continue;
-    const glm::vec4& base = in.scene.materials[out.material[i] - 1].base_color;
-    for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] *= base[c];
-    if (materials) fill_material_planes(values[out.material[i] - 1], model, i, out);
+    values.push_back(
+        material_values(list[m], model, in.view.maps.textured() && in.view.maps.material[m].specular.has_value()));
+  for (int i = 0; i < pixels; i += lanes) {
+    for_each_material(out, i, [&](uint32_t material, auto mine, bool) {
+      for (int c = 0; c < 4; ++c) {
+        float* const plane = out.plane[kAlbedo + c] + i;
+        const VF there = hn::Load(d, plane), colored = hn::Mul(there, hn::Set(d, list[material - 1].base_color[c]));
+        hn::Store(hn::IfThenElse(mine, colored, there), d, plane);
+      }
+    });
+    for (int k = i; k < i + lanes && materials; ++k)
+      if (out.covered[k] != 0) fill_material_planes(values[out.material[k] - 1], model, k, out);
   }
   store_plane(kAlbedo, 4, planes.albedo.format, planes, in.view.profile, pixels, out);
   if (reads_specular_plane(model)) store_plane(kSpecular, 4, planes.specular, planes, in.view.profile, pixels, out);
@@ -185,7 +211,6 @@ inline void fill_plain_materials(const TileDraws& in, const TileRect& rect, cons
                                  const LightModel& model, SurfaceTile& out) {
   constexpr uint32_t kRecent = 32;
   const DF d;
-  const hn::Rebind<uint32_t, DF> du;
   const int lanes = int(hn::Lanes(d));
   MaterialTexel recent[kRecent];
   const auto texel = [&](uint32_t material) -> const MaterialTexel& {
@@ -194,19 +219,16 @@ inline void fill_plain_materials(const TileDraws& in, const TileRect& rect, cons
     return entry;
   };
   for (int i = 0; i < rect.size * rect.size; i += lanes) {
-    const auto here = hn::Load(du, out.material + i), most = hn::MaxOfLanes(du, here);  // 0 where not covered
-    const uint32_t material = hn::GetLane(most);
-    if (material == 0) continue;
-    if (hn::AllTrue(du, hn::Or(hn::Eq(here, most), hn::Eq(here, hn::Zero(du))))) {
+    for_each_material(out, i, [&](uint32_t material, auto mine, bool only) {
       const MaterialTexel& t = texel(material);
-      for (int k = 0; k < t.planes; ++k) hn::Store(hn::Set(d, t.value[k]), d, out.plane[t.plane[k]] + i);
-      continue;
-    }
-    for (int lane = i; lane < i + lanes; ++lane) {
-      if (out.material[lane] == 0) continue;
-      const MaterialTexel& t = texel(out.material[lane]);
-      for (int k = 0; k < t.planes; ++k) out.plane[t.plane[k]][lane] = t.value[k];
-    }
+      for (int k = 0; k < t.planes; ++k) {
+        float* const plane = out.plane[t.plane[k]] + i;
+        if (only)
+          hn::Store(hn::Set(d, t.value[k]), d, plane);
+        else
+          store_lanes(hn::Set(d, t.value[k]), mine, d, plane);
+      }
+    });
   }
 }
 

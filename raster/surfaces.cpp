@@ -74,8 +74,7 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
   for (size_t c = 0; c < 3; ++c) {
     std::copy_n(&clusters.position[c][cluster.first_vertex], cluster.vertices,
                 work.stream[size_t(kPosition) + c].data() + at);
-    std::copy_n(&clusters.normal[c][cluster.first_vertex], cluster.vertices,
-                work.stream[size_t(kNormal) + c].data() + at);
+    copy_stream(mesh.normal[c], vertex, cluster.vertices, 0.0f, work.stream[size_t(kNormal) + c].data() + at);
   }
   for (size_t c = 0; c < 4; ++c)
     copy_stream(mesh.color[c], vertex, cluster.vertices, 1.0f, work.stream[size_t(kAlbedo) + c].data() + at);
@@ -208,8 +207,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
       M64 open = hn::Gt(hn::Load(d, mine), hn::Zero(d));
       for (const CarefulSurface& s : surfaces) {
         if (s.id != id) continue;
-        const EdgeVectors<__int128> edges(s.setup);
-        const V64 e[3] = {edges.at(0, px, py), edges.at(1, px, py), edges.at(2, px, py)};
+        const V64 e[3] = {s.edges.at(0, px, py), s.edges.at(1, px, py), s.edges.at(2, px, py)};
         M64 owned = open;
         for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
         if (hn::AllFalse(d, owned)) continue;
@@ -237,7 +235,7 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
                            const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
                            SurfaceTile& out) {
   need_uv = need_uv || in.view.maps.textured();
-  StreamGroup group[4];
+  StreamGroup group[4], in_blocks[4];
   const int groups = stream_groups(planes, need_uv, group);
   if (!in.fast_paths || in.view.maps.textured() || !all_smooth(group, groups)) {
     resolve_generally(in, rect, planes, model, group, groups, visible, need_uv, work, out);
@@ -249,7 +247,10 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   find_triangles(in, rect, visible, work.triangles, out);
   if (out.covered_pixels == 0) return;
   place_triangles(in, rect, wanted, work.triangles);
-  interpolate_blocks(in, rect, group, groups, wanted, visible, work, out);
+  int block_groups = 0;
+  for (int g = 0; g < groups; ++g)
+    if (colored || group[g].first != kAlbedo) in_blocks[block_groups++] = group[g];
+  interpolate_blocks(in, rect, in_blocks, block_groups, wanted, visible, work, out);
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_interpolated(in, rect, planes, group, groups, out);
   if (colored)

@@ -54,6 +54,27 @@ inline void begin_lists(const TileDraws& in, int pixels, VisibleTriangles& work)
   work.clusters = 1;
 }
 
+/// Writes object and material of a block's covered pixels, 0 elsewhere.
+HWY_INLINE void set_object(const VisibleCluster& seen, int at, SurfaceTile& out) {
+  const hn::RebindToUnsigned<DWF> d;
+  for (int k = at; k < at + kBlockPixels; k += int(hn::Lanes(d))) {
+    const auto covered = hn::Load(d, reinterpret_cast<const uint32_t*>(out.covered) + k);
+    hn::Store(hn::And(covered, hn::Set(d, seen.object)), d, out.object + k);
+    hn::Store(hn::And(covered, hn::Set(d, seen.material)), d, out.material + k);
+  }
+}
+
+/// Whether the pixels of a block see nothing or triangles of the cluster of one's.
+HWY_INLINE bool of_one_cluster(const uint32_t* id, uint32_t one) {
+  const hn::RebindToUnsigned<DWF> d;
+  for (int k = 0; k < kBlockPixels; k += int(hn::Lanes(d))) {
+    const auto here = hn::Load(d, id + k);
+    const auto same = hn::Eq(hn::ShiftRight<8>(here), hn::Set(d, one >> 8));
+    if (!hn::AllTrue(d, hn::Or(same, hn::Eq(here, hn::Zero(d))))) return false;
+  }
+  return true;
+}
+
 /// Fills the planes of coverage, object and material and finds the clusters and triangles that are seen.
 inline void find_triangles(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible,
                            VisibleTriangles& work, SurfaceTile& out) {
@@ -64,7 +85,7 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
   begin_lists(in, pixels, work);
   uint32_t* const slot_of = work.slot_of.data();
   uint8_t* const mark = work.mark.data();
-  const VisibleCluster* const cluster = work.cluster.data();
+  VisibleCluster* const cluster = work.cluster.data();
   const auto slot_at = [&](uint32_t id) {
     uint32_t& slot = slot_of[id >> 8];
     if (HWY_UNLIKELY(slot == VisibleTriangles::kNoSlot)) slot = add_cluster(in, id_position(id), work);
@@ -92,22 +113,42 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
     VisibleTriangles::Block& block = work.block[at / kBlockPixels];
     block = {uint16_t(covered), VisibleTriangles::one};
     if (same == 0xFFFF) {
-      const uint32_t slot = slot_at(id[0]), place = marked(slot, id[0]);
-      for (int k = 0; k < kBlockPixels; k += lanes) {
-        hn::Store(hn::Set(d, cluster[slot].object), d, out.object + at + k);
-        hn::Store(hn::Set(d, cluster[slot].material), d, out.material + at + k);
-        hn::Store(hn::Set(d, place), d, work.place + at + k);
-      }
+      const uint32_t slot = slot_at(id[0]);
+      work.place[at] = marked(slot, id[0]);  // the others are not asked for
+      set_object(cluster[slot], at, out);
       if (careful != 0) block.seen = VisibleTriangles::some;
       continue;
     }
+    block.seen = careful == 0 && std::popcount(changed) > kFewChanges ? VisibleTriangles::many : VisibleTriangles::some;
+    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id), object = cluster[first].object;
+    uint32_t others = 0;
+    if (careful == 0 && of_one_cluster(id, first_id)) {
+      for (int k = 0; k < kBlockPixels; k += lanes) {
+        const auto here = hn::Load(d, id + k);
+        const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, VisibleTriangles::kPlaces - 1));
+        const auto place = hn::Add(triangle, hn::Set(d, first * VisibleTriangles::kPlaces));
+        hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), place), d, work.place + at + k);
+      }
+      for (int k = 0; k < kBlockPixels; ++k) mark[work.place[at + k]] = 2;
+      set_object(cluster[first], at, out);
+      continue;
+    }
+    cluster[0].object = object;  // of what is not covered
     for (int k = 0; k < kBlockPixels; ++k) {
       const uint32_t slot = slot_at(id[k]);
+      others |= cluster[slot].object ^ object;
       work.place[at + k] = marked(slot, id[k]);
-      out.object[at + k] = cluster[slot].object;
-      out.material[at + k] = cluster[slot].material;
     }
-    block.seen = careful == 0 && std::popcount(changed) > kFewChanges ? VisibleTriangles::many : VisibleTriangles::some;
+    if (others == 0) {
+      set_object(cluster[first], at, out);
+    } else {
+      cluster[0].object = 0;
+      for (int k = 0; k < kBlockPixels; ++k) {
+        const VisibleCluster& seen = cluster[work.place[at + k] / VisibleTriangles::kPlaces];
+        out.object[at + k] = seen.object;
+        out.material[at + k] = seen.material;
+      }
+    }
   }
   for (uint32_t slot = 1; slot < work.clusters; ++slot) slot_of[cluster[slot].position + 1] = VisibleTriangles::kNoSlot;
 }
@@ -145,12 +186,14 @@ HWY_INLINE uint32_t list_triangles(VisibleCluster& seen, uint8_t* mark, uint16_t
 /// From corners in their cluster to vertices, those that need no care in canonical order.
 HWY_INLINE void order_corners(const VisibleCluster& seen, const PlacedVertex* placed, VisibleTriangle* triangle) {
   uint16_t vertex[kClusterVertices];
-  uint32_t next = seen.first_vertex;
-  for (uint64_t used = seen.used; used != 0; used &= used - 1) vertex[std::countr_zero(used)] = uint16_t(next++);
+  uint32_t next = seen.first_vertex * kVertexStep;
+  for (uint64_t used = seen.used; used != 0; used &= used - 1, next += kVertexStep)
+    vertex[std::countr_zero(used)] = uint16_t(next);
   for (uint32_t i = 0; i < seen.triangles; ++i) {
     VisibleTriangle& t = triangle[i];
     const uint64_t v[3] = {vertex[t.vertex[0]], vertex[t.vertex[1]], vertex[t.vertex[2]]};
-    const uint64_t key_0 = placed[v[0]].key, key_1 = placed[v[1]].key, key_2 = placed[v[2]].key;
+    const uint64_t key_0 = vertex_at(placed, uint32_t(v[0])).key, key_1 = vertex_at(placed, uint32_t(v[1])).key,
+                   key_2 = vertex_at(placed, uint32_t(v[2])).key;
     // No branch on what is anyone's guess. Careful ones keep their order.
     const uint32_t from_2 = uint32_t(key_2 < key_0) & uint32_t(key_2 < key_1);
     const uint32_t from_1 = uint32_t(key_1 < key_0) & (from_2 ^ 1);

@@ -28,9 +28,17 @@ struct alignas(16) VertexColor {
   float value[4];
 };
 
+/// Vertices are named by four times their place, so that the place of what they have is one address.
+inline constexpr uint32_t kVertexStep = 4;
+template <class T>
+const T& vertex_at(const T* first, uint32_t vertex) {
+  return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + vertex * (sizeof(T) / kVertexStep));
+}
+static_assert(3 * kMaxTilePixels * kVertexStep <= UINT16_MAX);
+
 /// A triangle that is seen in a tile.
 struct VisibleTriangle {
-  uint16_t vertex[3];  ///< into VisibleTriangles, canonical order; as submitted where it needs care
+  uint16_t vertex[3];  ///< for vertex_at(); canonical order, as submitted where it needs care
   uint16_t careful;    ///< 1 or 0
 };
 

@@ -51,13 +51,12 @@ struct UsedVertices {
 
   /// Returns how many there are. The last is repeated up to a whole vector.
   int gather(const ClusteredMesh& mesh, const Cluster& cluster, uint64_t used, bool color) {
-    const float* from[10];
     const size_t first = cluster.first_vertex;
-    for (size_t c = 0; c < 3; ++c)
-      from[c] = mesh.position[c].data() + first, from[3 + c] = mesh.normal[c].data() + first;
-    color = color && !mesh.color[0].empty();
-    for (size_t c = 0; c < 4 && color; ++c) from[6 + c] = mesh.color[c].data() + first;
-    return color ? gather<10>(from, cluster.vertices, used) : gather<6>(from, cluster.vertices, used);
+    const float* const position[3] = {mesh.position[0].data() + first, mesh.position[1].data() + first,
+                                      mesh.position[2].data() + first};
+    const VertexLine* const lines = surface_of(mesh, first);
+    return color && mesh.surface_lines == 7 ? gather<7>(position, lines, 7, cluster.vertices, used)
+                                            : gather<3>(position, lines, mesh.surface_lines, cluster.vertices, used);
   }
 
   /// The same of streams that the mesh keeps by its own vertices; `absent` where it has none.
@@ -68,8 +67,9 @@ struct UsedVertices {
   }
 
  private:
-  template <int kCount>
-  HWY_INLINE int gather(const float* const from[], int vertices, uint64_t used) {
+  template <int kSurface>
+  HWY_INLINE int gather(const float* const position[3], const VertexLine* lines, int lines_each, int vertices,
+                        uint64_t used) {
     const DWF d;
     const int lanes = int(hn::Lanes(d));
     int count = 0;
@@ -77,10 +77,13 @@ struct UsedVertices {
       const uint32_t bits = uint32_t(used >> g) & range_bits(0, lanes - 1, 0, lanes);
       if (bits == 0) continue;
       const FrontLanes front(d, bits);
-      for (int c = 0; c < kCount; ++c) hn::StoreU(front(hn::LoadU(d, from[c] + g)), d, stream[c] + count);
+      const VertexLine* const line = lines + g / 16 * lines_each;
+      for (int c = 0; c < 3; ++c) hn::StoreU(front(hn::LoadU(d, position[c] + g)), d, stream[c] + count);
+      for (int c = 0; c < kSurface; ++c)
+        hn::StoreU(front(hn::Load(d, line[c].value + g % 16)), d, stream[3 + c] + count);
       count += std::popcount(bits);
     }
-    for (int c = 0; c < kCount; ++c) hn::StoreU(hn::Set(d, stream[c][count - 1]), d, stream[c] + count);
+    for (int c = 0; c < 3 + kSurface; ++c) hn::StoreU(hn::Set(d, stream[c][count - 1]), d, stream[c] + count);
     return count;
   }
 };
@@ -150,14 +153,12 @@ HWY_INLINE void fetch_used(const TileDraws& in, const VisibleCluster& seen, Want
   const ClusterDraw& draw = in.draws[in.list[seen.position]];
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const size_t first = mesh.clusters[draw.cluster].first_vertex;
+  const int lines = wanted.color ? mesh.surface_lines : 3;
   for (size_t i = 0; i < kClusterVertices; i += 16) {
     if (((seen.used >> i) & kLineBits) == 0) continue;
-    for (size_t c = 0; c < 3; ++c) {
-      hwy::Prefetch(mesh.position[c].data() + first + i);
-      hwy::Prefetch(mesh.normal[c].data() + first + i);
-    }
-    for (size_t c = 0; c < 4 && wanted.color && !mesh.color[c].empty(); ++c)
-      hwy::Prefetch(mesh.color[c].data() + first + i);
+    const VertexLine* const surface = surface_of(mesh, first + i);
+    for (size_t c = 0; c < 3; ++c) hwy::Prefetch(mesh.position[c].data() + first + i);
+    for (int c = 0; c < lines; ++c) hwy::Prefetch(surface + c);
   }
 }
 

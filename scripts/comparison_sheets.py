@@ -30,10 +30,10 @@ STRIP = 11  # pixels: a line of text
 # Columns of 5x7 glyphs, the top pixel in the lowest bit.
 GLYPHS = {
     "a": "2054545478", "b": "7f48444438", "c": "3844444420", "d": "384444487f", "e": "3854545418", "f": "087e090102",
-    "g": "0c5252523e", "h": "7f08040478", "i": "00447d4000", "j": "2040443d00", "k": "7f10284400", "l": "00417f4000",
-    "m": "7c04180478", "n": "7c08040478", "o": "3844444438", "p": "7c14141408", "q": "081414187c", "r": "7c08040408",
+    "g": "18a4a4a47c", "h": "7f08040478", "i": "00447d4000", "j": "4080847d00", "k": "7f10284400", "l": "00417f4000",
+    "m": "7c04180478", "n": "7c08040478", "o": "3844444438", "p": "fc24242418", "q": "18242424fc", "r": "7c08040408",
     "s": "4854545420", "t": "043f444020", "u": "3c4040207c", "v": "1c2040201c", "w": "3c4030403c", "x": "4428102844",
-    "y": "0c5050503c", "z": "4464544c44", "-": "0808080808", "1": "00427f4000", "6": "3c4a494930",
+    "y": "1ca0a0a07c", "z": "4464544c44", "-": "0808080808", "1": "00427f4000", "6": "3c4a494930",
 }
 MOST_BYTES = 60000
 
@@ -134,7 +134,7 @@ def write_sheet(path, grid, driver):
     """Rows of a name and its pictures, as many colours as the size allows."""
     rows = []
     for name, pictures in grid:
-        rows += text_strip([f"{name} - trueshade", driver, "16 x the difference"])
+        rows += text_strip([f"{name} - ours", driver, "16 x the difference"])
         for y in range(SIZE[1]):
             row = []
             for picture in pictures:

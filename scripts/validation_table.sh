@@ -2,7 +2,7 @@
 # The tables of docs/validation.md as Markdown, from the lines that validation_rows wrote (tests/intervals/validation_rows.cpp
 # says how to make them): a table a driver and profile, a row a scene, size and strategy, pixels summed over the presets.
 # Usage: validation_table.sh FILE...
-#   lit: the least share of a preset's pixels with a surface that are EXACT or STORE-2
+#   lit: the least share of a preset's pixels with a surface that are EXACT or STORE-2, or TEX in a G-buffer
 #   seen / predicted: EDGE + DEPTH-TIE + CLIP + BRANCH pixels and how many are expected at most; in brackets the largest
 #   quotient of a preset
 # Ends with status 1 where a pixel is in no legal set.
@@ -29,7 +29,7 @@ awk -F'\t' '
       }
       ++presets[key]
       for (i = 1; i <= 9; ++i) sum[key, i] += $(8 + i)
-      others = $11 + $12 + $13 + $14 + $15 + $16 + $17
+      others = $11 + $12 + $13 + $14 + $16 + $17
       if ($8 > 0 && 100 * ($8 - others) / $8 < least[key]) least[key] = 100 * ($8 - others) / $8
       seen[key] += $18; predicted[key] += $19
       quotient = $18 == 0 ? 0 : $19 == 0 ? 999 : $18 / $19

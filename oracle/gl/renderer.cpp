@@ -67,6 +67,7 @@ std::unique_ptr<Targets> make_targets(int width, int height, Format color_format
 void clear_geometry(const Targets& t, float clear_depth) {
   glBindFramebuffer(GL_FRAMEBUFFER, t.geometry.framebuffer);
   glDepthMask(GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // clears are masked too, and the frame before may have left one
   constexpr std::array<float, 4> kZero{};
   constexpr std::array<GLuint, 4> kNone{};
   for (size_t i = 0; i < t.planes.size(); ++i) {

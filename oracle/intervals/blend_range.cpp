@@ -191,13 +191,18 @@ class ValueBlend {
   std::array<Span, 4> operands_[3];  ///< source, destination, constant
 };
 
+/// llvmpipe blends 8 and 16 bits in codes, but in floats where some channels are sRGB: their alpha too.
+bool multiplies_codes(const Profile& profile, const FormatInfo& layout) {
+  return profile.blend == BlendRule::mesa_codes && !layout.packed() && !layout.srgb;
+}
+
 /// The equation in codes of a fixed-point format: of 8 and 16 bits as llvmpipe multiplies them, else any neighbour of
 /// each number.
 class CodeBlend {
  public:
   CodeBlend(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
             const Texel& stored)
-      : layout_(info(format)), profile_(profile), exact_(profile.blend == BlendRule::mesa_codes && !layout_.packed()) {
+      : layout_(info(format)), profile_(profile), exact_(multiplies_codes(profile, layout_)) {
     for (size_t k = 0; k < 4; ++k) {
       const double constant = double(state.constant[k]);
       const LegalTexel s = legal_texel(source[k], format, int(k), profile);
@@ -284,6 +289,16 @@ Profile float_once(const Profile& profile) {
   return p;
 }
 
+Texel blended_in_16_bits(const BlendState& state, const Profile& profile, const std::array<Range, 4>& source,
+                         const Texel& stored) {
+  Texel wide, out = stored;
+  for (size_t k = 0; k < 4; ++k) wide[k] = widened(stored[k], int(k));
+  wide = blended_texel(state, Format::rgba16, profile, source, wide);
+  for (size_t k = 0; k < 4; ++k)
+    if (state.mask[k]) out[k] = narrowed(wide[k], int(k));
+  return out;
+}
+
 }  // namespace
 
 LegalTexel known_texel(double stored) {
@@ -300,6 +315,7 @@ LegalTexel hull(const LegalTexel& a, const LegalTexel& b) {
 
 Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                     const Texel& stored) {
+  if (state.enabled && computes_in_16_bits(format, profile)) return blended_in_16_bits(state, profile, source, stored);
   const FormatInfo layout = info(format);
   Texel out = stored;
   if (!state.enabled) {
@@ -333,7 +349,7 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
     out[k] = legal_texel({std::clamp(value, range.low, range.high), range.low, range.high}, format, int(k), profile);
     if (!in_codes(k) || profile.blend == BlendRule::float_once) continue;
     const Span sum = codes->blended(term, k);
-    if (profile.blend == BlendRule::mesa_codes && !layout.packed())
+    if (multiplies_codes(profile, layout))
       out[k] = {std::clamp(out[k].nominal, sum.low, sum.high), sum.low, sum.high, out[k].second_chance,
                 out[k].second_side};
     else

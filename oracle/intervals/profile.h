@@ -23,7 +23,7 @@ enum class HalfStore : uint8_t { toward_zero, nearest, either };
 enum class BlendRule : uint8_t {
   any_precision,  ///< no less than the target's (GL 4.6 core, 17.3.6): anything from its codes to real numbers, fused or not
   float_once,     ///< docs/arithmetic.md section 10: codes added for ONE, ONE; else float32, rounded once
-  mesa_codes,     ///< section 11: products of codes for rgba8 and rgba16, float32 for floats; else any_precision
+  mesa_codes,     ///< section 11: products of codes, rgb10_a2's in 16 bits; float32 for floats and sRGB
 };
 
 /// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
@@ -57,7 +57,9 @@ struct Profile {
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
-  double fetch_error = 1.25 * 0x1p-23;  ///< relative, of reading a unorm texel as float (GL_RULES section 3)
+  /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25 ulp at
+  /// most (GL_RULES section 3).
+  double fetch_error = 2.5 * 0x1p-23;
   Sampling sampling;
   Arithmetic arithmetic;
 };

@@ -83,21 +83,6 @@ LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   return t;
 }
 
-/// llvmpipe makes 10 and 2 bits of codes of 16 (docs/arithmetic.md section 11): not always the nearest.
-LegalTexel narrowed(const Range& r, int channel, const Profile& profile) {
-  const LegalTexel wide = unorm(r, 65535, profile);
-  const auto narrow = [channel](double code) {
-    const auto c = uint32_t(code);
-    return double(channel == 3 ? ((c >> 2) * 3 + (1u << 13)) >> 14 : c >> 6);
-  };
-  LegalTexel t;
-  t.nominal = narrow(wide.nominal), t.low = narrow(wide.low), t.high = narrow(wide.high);
-  if (t.low < t.high && channel < 3)
-    set_chance(t, {65535 * r.value, 65535 * std::max(0.0, r.low), 65535 * std::min(1.0, r.high)}, 64 * t.nominal - 0.5,
-               64 * t.nominal + 63.5);
-  return t;
-}
-
 LegalTexel srgb8(const Range& r, const Profile& profile) {
   const auto scaled = [](double x) {
     const double c = std::clamp(x, 0.0, 1.0);
@@ -136,10 +121,34 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
 
 }  // namespace
 
+bool computes_in_16_bits(Format format, const Profile& profile) {
+  return format == Format::rgb10_a2 && profile.blend == BlendRule::mesa_codes;
+}
+
+LegalTexel widened(const LegalTexel& stored, int channel) {
+  const auto wide = [channel](double code) {
+    const auto c = uint32_t(code);
+    return double(channel == 3 ? c * 0x5555u : c << 6 | c >> 4);
+  };
+  return {wide(stored.nominal), wide(stored.low), wide(stored.high), stored.second_chance, stored.second_side};
+}
+
+LegalTexel narrowed(const LegalTexel& wide, int channel) {
+  const auto narrow = [channel](double code) {
+    const auto c = uint32_t(code);
+    return double(channel == 3 ? ((c >> 2) * 3 + (1u << 13)) >> 14 : c >> 6);
+  };
+  LegalTexel t;
+  t.nominal = narrow(wide.nominal), t.low = narrow(wide.low), t.high = narrow(wide.high);
+  if (t.low < t.high && channel < 3)
+    set_chance(t, {wide.nominal, wide.low, wide.high}, 64 * t.nominal - 0.5, 64 * t.nominal + 63.5);
+  return t;
+}
+
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile) {
   const FormatInfo layout = info(format);
   if (layout.srgb_channel(channel)) return srgb8(range, profile);
-  if (format == Format::rgb10_a2 && profile.blend == BlendRule::mesa_codes) return narrowed(range, channel, profile);
+  if (computes_in_16_bits(format, profile)) return narrowed(unorm(range, 65535, profile), channel);
   if (layout.number_class == NumberClass::unorm) return unorm(range, double(layout.largest_code(channel)), profile);
   if (layout.small_float()) {
     const int bits = layout.bits[size_t(channel)];

@@ -216,7 +216,7 @@ Rgba grey(float x) { return {x, x, x, x}; }
 /// Every target whose bits this CPU has the driver draw: sRGB codes are made of the CPU's estimates.
 std::vector<Format> targets() {
   std::vector<Format> all(std::begin(kTargetFormats), std::end(kTargetFormats));
-  if (!estimates_as_amd()) std::erase(all, Format::srgb8_a8);
+  if (!estimates_as_recorded()) std::erase(all, Format::srgb8_a8);
   return all;
 }
 std::vector<Format> targets_of_8_bits() {
@@ -270,7 +270,7 @@ TEST_CASE("Row 48: llvmpipe blends all 2^24 triples of nine 8-bit modes to the p
 }
 
 TEST_CASE("llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile") {
-  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
+  if (opened_mesa_22_3() == nullptr || !estimates_as_recorded()) return;
   constexpr int kWide = 4096;
   const GlProgram program =
       make_program("floats", fullscreen_vertex_text(330),
@@ -324,7 +324,7 @@ TEST_CASE("llvmpipe clears every target to what the profile's draws leave of the
 }
 
 TEST_CASE("llvmpipe clears sRGB codes upward where the profile says, one float below and one above") {
-  if (opened_mesa_22_3() == nullptr || !estimates_as_amd()) return;
+  if (opened_mesa_22_3() == nullptr || !estimates_as_recorded()) return;
   const GlTexture target = make_texture(Format::srgb8_a8, 1, 1);
   const std::array<GLuint, 1> colors{target};
   const GlTarget framebuffer = make_target(colors, 0);

@@ -90,3 +90,29 @@ TEST_CASE("llvmpipe's boxes, spheres and quads of lights cover what ours do, whi
         CHECK(d.alpha <= d.covered / 200);
       }
 }
+
+TEST_CASE("A frame does not show which strategy the renderer drew before it") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Scene scene = builtin_scene("cornell");
+  GlRenderer renderer(*context, scene);
+  for (const std::string_view before : kStrategyNames)
+    for (const std::string_view after : kStrategyNames) {
+      Pipeline first, second;
+      first.width = second.width = 64, first.height = second.height = 48;
+      second.geometry.viewport = {8, 8, 16, 12};  // what lies around it shows what was cleared
+      for (size_t s = 0; s < std::size(kStrategyNames); ++s) {
+        if (kStrategyNames[s] == before) first.strategy = Strategy(s);
+        if (kStrategyNames[s] == after) second.strategy = Strategy(s);
+      }
+      renderer.draw(first);
+      const Capture next = renderer.draw(second).capture, fresh = GlRenderer(*context, scene).draw(second).capture;
+      CAPTURE(before, after);
+      CHECK(next.color.texels == fresh.color.texels);
+      REQUIRE(next.planes.size() == fresh.planes.size());
+      for (size_t i = 0; i < next.planes.size(); ++i) {
+        CAPTURE(next.planes[i].name);
+        CHECK(next.planes[i].image.texels == fresh.planes[i].image.texels);
+      }
+    }
+}

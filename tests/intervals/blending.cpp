@@ -67,6 +67,7 @@ TEST_CASE("Our own random frames, drawn light by light, are explained in every t
     Pipeline pipeline = testing::random_pipeline(random);
     pipeline.target = kTargetFormats[size_t(i) % std::size(kTargetFormats)];
     pipeline.strategy = kBlended[i % 2];
+    if (is_forward(pipeline.strategy)) pipeline.transparency.mode = TransparencyMode::after_lights;
     const std::vector<BlendState> states = blend_states();
     pipeline.blend = states[random.below(uint32_t(states.size()))];
     constexpr LightExtent extents[] = {LightExtent::unbounded, LightExtent::range, LightExtent::box, LightExtent::sphere};

@@ -31,6 +31,7 @@ Liberties random_liberties(Pcg32& random) {
   l.any_level = random.below(2) == 0;
   l.depth_unit = 1 + int(random.below(2));
   l.slope_norm = random.between(0, 1);
+  l.blends_codes = random.below(2) == 0;
   return l;
 }
 

@@ -104,7 +104,8 @@ float loose_falloff(LooseFloat& f, const Light& light, Falloff falloff, const fl
 }  // namespace
 
 void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, bool reverse, const float position[3],
-                 const float normal[3], const float albedo[3], float color[3]) {
+                 const float normal[3], const float albedo[3], float color[3], const float gloss[4],
+                 const LightVolumes& extents) {
   float n[3] = {normal[0], normal[1], normal[2]}, to_eye[3], v[3], sum[3] = {0, 0, 0};
   if (model.renormalize) f.unit(normal, n);
   for (int k = 0; k < 3; ++k) to_eye[k] = f.sub(scene.camera.eye[k], position[k]);
@@ -123,6 +124,8 @@ void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, boo
       float d[3];
       for (int k = 0; k < 3; ++k) d[k] = f.sub(light.position[k], position[k]);
       f.unit(d, l);
+      const LightExtent extent = light.type == LightType::spot ? extents.spot : extents.point;
+      if (extent != LightExtent::unbounded && !(f.sqrt(f.dot(d, d)) < light.range)) continue;
       falloff = f.mul(loose_falloff(f, light, model.falloff, d), loose_cone(f, light, model.cone, l));
     }
     const float n_l = f.dot(n, l), c = std::max(n_l, 0.0f);
@@ -130,9 +133,11 @@ void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, boo
     float h[3], unit_h[3];
     for (int k = 0; k < 3; ++k) h[k] = f.add(l[k], v[k]);
     f.unit(h, unit_h);
-    const float s = f.pow(std::max(f.dot(n, unit_h), 0.0f), model.shininess);
+    const float s = f.pow(std::max(f.dot(n, unit_h), 0.0f), gloss != nullptr ? gloss[3] : model.shininess);
     for (int k = 0; k < 3; ++k) {
-      const float strength = f.mul(light.color[k], falloff), ks = model.specular_source == SpecularSource::albedo ? albedo[k] : model.specular_color[k];
+      const float strength = f.mul(light.color[k], falloff), ks = gloss != nullptr                                        ? gloss[k]
+                                                                    : model.specular_source == SpecularSource::albedo ? albedo[k]
+                                                                                                                      : model.specular_color[k];
       if (last)
         sum[k] = f.mad(f.add(c, s), strength, sum[k]);
       else if (model.order == TermOrder::factored)

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "oracle/scalar_renderer.h"
+#include "scenes/transparency.h"
 
 namespace trueshade::testing {
 
@@ -28,30 +29,43 @@ class Drawing {
     const int w = pipeline.width, h = pipeline.height;
     capture_.color = Image(w, h, pipeline.target);
     for (const auto& [name, format] : {std::pair<const char*, Format>{"depth", Format::d32f}, {"position", Format::rgba32f},
-                                       {"normal", pipeline.gbuffer.normal.format}, {"albedo", Format::rgba8}, {"id.object", Format::r32ui}})
+                                       {"normal", pipeline.gbuffer.normal.format}, {"albedo", Format::rgba8}, {"id.object", Format::r32ui},
+                                       {"specular", Format::rgba32f}})
       capture_.planes.push_back({name, Image(w, h, format)});
+    if (!reads_specular_plane(pipeline.light_model)) capture_.planes.pop_back();
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) put(0, x, y, 0, 1.0f);
   }
 
   Capture draw() {
+    const TransparencyMode mode = draws_transparent(scene_, pipeline_) ? pipeline_.transparency.mode : TransparencyMode::none;
+    apart_ = mode != TransparencyMode::none;
+    draw_instances(Pass::opaque);
+    if (mode == TransparencyMode::into_albedo) draw_instances(Pass::into_albedo);
+    for (int y = 0; y < pipeline_.height; ++y)
+      for (int x = 0; x < pipeline_.width; ++x) light(x, y);
+    if (mode == TransparencyMode::after_lights) draw_instances(Pass::over);
+    return std::move(capture_);
+  }
+
+ private:
+  enum class Pass : uint8_t { opaque, into_albedo, over };
+
+  void draw_instances(Pass pass) {
     for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
-      const std::vector<uint32_t>& indices = scene_.meshes[scene_.instances[i].mesh].indices;
-      std::vector<LooseVertex> vertices;
+      if (apart_ && scene_.materials[scene_.instances[i].material].transparent != (pass != Pass::opaque)) continue;
       const Mesh& mesh = scene_.meshes[scene_.instances[i].mesh];
+      const std::vector<uint32_t>& indices = mesh.indices;
+      std::vector<LooseVertex> vertices;
       for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         vertices.push_back(vertex(scene_.instances[i], v));
         share_place(mesh, v, vertices);
       }
       for (size_t t = 0; t + 2 < indices.size(); t += 3)
-        triangle(i, {&vertices[indices[t]], &vertices[indices[t + 1]], &vertices[indices[t + 2]]});
+        triangle(pass, i, t, {&vertices[indices[t]], &vertices[indices[t + 1]], &vertices[indices[t + 2]]});
     }
-    for (int y = 0; y < pipeline_.height; ++y)
-      for (int x = 0; x < pipeline_.width; ++x) light(x, y);
-    return std::move(capture_);
   }
 
- private:
   void put(size_t plane, int x, int y, int channel, float v) { std::memcpy(capture_.planes[plane].image.texel(x, y) + 4 * channel, &v, 4); }
   float get(size_t plane, int x, int y, int channel) const { return float(capture_.planes[plane].image.value(x, y, channel)); }
 
@@ -148,7 +162,92 @@ class Drawing {
     return true;
   }
 
-  void triangle(uint32_t instance, const std::array<const LooseVertex*, 3>& v) {
+  /// Where u and v grow on a triangle: in the object, turned into the world.
+  void tangents(uint32_t instance, size_t t, float along[2][3]) {
+    const Instance& drawn = scene_.instances[instance];
+    const Mesh& mesh = scene_.meshes[drawn.mesh];
+    const auto change = [&](const std::vector<float>& stream, size_t i) {
+      return double(stream[mesh.indices[t + i]]) - double(stream[mesh.indices[t]]);
+    };
+    const double a1 = change(mesh.uv[0], 1), b1 = change(mesh.uv[1], 1), a2 = change(mesh.uv[0], 2), b2 = change(mesh.uv[1], 2);
+    const double area = a1 * b2 - a2 * b1, sign = area < 0 ? -1 : area > 0 ? 1 : 0;
+    float object[2][3];
+    for (size_t k = 0; k < 3; ++k) {
+      const double e1 = change(mesh.position[k], 1), e2 = change(mesh.position[k], 2);
+      object[0][k] = float(sign * (e1 * b2 - e2 * b1)), object[1][k] = float(sign * (e2 * a1 - e1 * a2));
+    }
+    for (int axis = 0; axis < 2; ++axis)
+      for (int r = 0; r < 3; ++r) {
+        const float m[3] = {drawn.world_from_object[0][r], drawn.world_from_object[1][r], drawn.world_from_object[2][r]};
+        along[axis][r] = f_.dot(m, object[axis]);
+      }
+  }
+
+  struct LooseSurface {
+    float position[3], normal[3], albedo[4], gloss[4];
+  };
+
+  /// What the fragment shader makes of a sample.
+  LooseSurface surface(uint32_t instance, size_t t, const std::array<Plane, 12>& planes, const Plane& divisor, float sx, float sy) {
+    const Material& material = scene_.materials[scene_.instances[instance].material];
+    const auto lookup = [&](const TextureSlot& slot) {
+      return slot.used() ? textures_.texel(f_, slot, place(planes, divisor, sx, sy)) : std::array<float, 4>{1, 1, 1, 1};
+    };
+    LooseSurface out{};
+    for (int k = 0; k < 10; ++k) {
+      const float a = f_.div(at(planes[size_t(k)], sx, sy), at(divisor, sx, sy));
+      (k < 3 ? out.position[k] : k < 6 ? out.normal[k - 3] : out.albedo[k - 6]) = a;
+    }
+    const std::array<float, 4> texel = lookup(material.color_map);
+    for (int k = 0; k < 4; ++k)
+      out.albedo[k] = f_.mul(material.color_map.used() ? f_.mul(out.albedo[k], texel[size_t(k)]) : out.albedo[k], material.base_color[k]);
+    const std::array<float, 4> gloss = lookup(material.specular_map);
+    for (int k = 0; k < 3; ++k)
+      out.gloss[k] = material.specular_map.used() ? f_.mul(material.specular_color[k], gloss[size_t(k)]) : material.specular_color[k];
+    out.gloss[3] = material.shininess;
+    if (!material.normal_map.used()) return out;
+    float along[2][3];
+    tangents(instance, t, along);
+    loose_bend(f_, along[0], along[1], lookup(material.normal_map), material.normal_scale, out.normal);
+    return out;
+  }
+
+  void keep(int x, int y, uint32_t instance, float depth, const LooseSurface& s) {
+    put(0, x, y, 0, depth);
+    const bool halved = info(pipeline_.gbuffer.normal.format).number_class == NumberClass::unorm;
+    for (int k = 0; k < 3; ++k) {
+      put(1, x, y, k, s.position[k]);
+      store(capture_.planes[2].image, x, y, k, halved ? f_.mad(s.normal[k], 0.5f, 0.5f) : s.normal[k]);
+    }
+    put(1, x, y, 3, 1);
+    store(capture_.planes[2].image, x, y, 3, 1);
+    for (int k = 0; k < 4; ++k) store(capture_.planes[3].image, x, y, k, s.albedo[k]);
+    const uint32_t id = instance + 1;
+    std::memcpy(capture_.planes[4].image.texel(x, y), &id, 4);
+    for (int k = 0; k < 4 && capture_.planes.size() > 5; ++k) put(5, x, y, k, s.gloss[k]);
+  }
+
+  /// A transparent fragment, blended into the albedo or, lit, into the target.
+  void blend(Pass pass, int x, int y, const LooseSurface& s) {
+    float source[4] = {s.albedo[0], s.albedo[1], s.albedo[2], s.albedo[3]};
+    if (pass == Pass::over)
+      loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, s.position, s.normal, s.albedo, source,
+                  reads_specular_plane(pipeline_.light_model) ? s.gloss : nullptr, pipeline_.light_volumes);
+    Image& image = pass == Pass::over ? capture_.color : capture_.planes[3].image;
+    const bool codes = info(image.format).number_class == NumberClass::unorm;
+    std::array<double, 4> stored{};
+    for (int k = 0; k < 4; ++k) stored[size_t(k)] = codes ? double(image.code(x, y, k)) : image.value(x, y, k);
+    const std::array<double, 4> left = loose_blend(f_, pipeline_.transparency.blend, image.format, free_, source, stored);
+    const bool in_codes = codes && !info(image.format).srgb && free_.blends_codes;
+    for (int k = 0; k < 4; ++k) {
+      if (in_codes)
+        image.set_code(x, y, k, uint32_t(std::lround(left[size_t(k)])));
+      else
+        store(image, x, y, k, float(left[size_t(k)]));
+    }
+  }
+
+  void triangle(Pass pass, uint32_t instance, size_t t, const std::array<const LooseVertex*, 3>& v) {
     const double area = (double(v[1]->x) - double(v[0]->x)) * (double(v[2]->y) - double(v[0]->y)) -
                         (double(v[2]->x) - double(v[0]->x)) * (double(v[1]->y) - double(v[0]->y));
     if (area == 0) return;
@@ -159,30 +258,17 @@ class Drawing {
       const float n[3] = {f_.mul(v[0]->attribute[k], u[0]), f_.mul(v[1]->attribute[k], u[1]), f_.mul(v[2]->attribute[k], u[2])};
       planes[k] = plane(v, n);
     }
-    const Material& material = scene_.materials[scene_.instances[instance].material];
     for (int y = 0; y < pipeline_.height; ++y)
       for (int x = 0; x < pipeline_.width; ++x) {
         const float sx = float(x) + 0.5f, sy = float(pipeline_.height - 1 - y) + 0.5f;
         if (!inside(v, area, double(sx), double(sy))) continue;
         const float d = stored_depth(depth, z, sx, sy);
         if (!(d < get(0, x, y, 0))) continue;
-        put(0, x, y, 0, d);
-        std::array<float, 4> texel{1, 1, 1, 1};
-        if (material.color_map.used()) texel = textures_.texel(f_, material.color_map, place(planes, divisor, sx, sy));
-        for (int k = 0; k < 10; ++k) {
-          const float a = f_.div(at(planes[size_t(k)], sx, sy), at(divisor, sx, sy));
-          if (k < 3)
-            put(1, x, y, k, a);
-          else if (k < 6)
-            store(capture_.planes[2].image, x, y, k - 3, a);
-          else
-            store(capture_.planes[3].image, x, y, k - 6,
-                  f_.mul(material.color_map.used() ? f_.mul(a, texel[size_t(k - 6)]) : a, material.base_color[k - 6]));
-        }
-        put(1, x, y, 3, 1);
-        store(capture_.planes[2].image, x, y, 3, 1);
-        const uint32_t id = instance + 1;
-        std::memcpy(capture_.planes[4].image.texel(x, y), &id, 4);
+        const LooseSurface s = surface(instance, t, planes, divisor, sx, sy);
+        if (pass == Pass::opaque)
+          keep(x, y, instance, d, s);
+        else
+          blend(pass, x, y, s);
       }
   }
 
@@ -245,9 +331,18 @@ class Drawing {
 
   void light(int x, int y) {
     if (capture_.planes[4].image.value(x, y, 0) == 0) return;
-    float position[3], normal[3], albedo[3], color[4] = {0, 0, 0, 1};
-    for (int k = 0; k < 3; ++k) position[k] = get(1, x, y, k), normal[k] = get(2, x, y, k), albedo[k] = f_.div(float(capture_.planes[3].image.texel(x, y)[k]), 255);
-    loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, position, normal, albedo, color);
+    float position[3], normal[3], albedo[3], gloss[4] = {}, color[4] = {0, 0, 0, 1};
+    const Image& normals = capture_.planes[2].image;
+    const bool halved = info(normals.format).number_class == NumberClass::unorm;
+    for (int k = 0; k < 3; ++k) {
+      position[k] = get(1, x, y, k);
+      normal[k] = halved ? f_.mad(2, f_.div(float(normals.code(x, y, k)), float(info(normals.format).largest_code(k))), -1) : get(2, x, y, k);
+      albedo[k] = f_.div(float(capture_.planes[3].image.texel(x, y)[k]), 255);
+    }
+    const bool glossy = capture_.planes.size() > 5;
+    for (int k = 0; k < 4 && glossy; ++k) gloss[k] = get(5, x, y, k);
+    loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, position, normal, albedo, color, glossy ? gloss : nullptr,
+                pipeline_.light_volumes);
     for (int k = 0; k < 4; ++k) store(capture_.color, x, y, k, color[k]);
   }
 
@@ -257,6 +352,7 @@ class Drawing {
   LooseFloat f_;
   const LooseTextures textures_;
   const Matrix4 projection_;
+  bool apart_ = false;
   Capture capture_;
 };
 

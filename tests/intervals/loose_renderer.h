@@ -26,6 +26,7 @@ struct Liberties {
   bool any_level = false;      ///< rho anywhere between OpenGL's limits, else the longer gradient
   int depth_unit = 1;          ///< codes of fixed-point depth that a unit of polygon offset is
   double slope_norm = 0;       ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
+  bool blends_codes = false;   ///< fixed-point targets are blended in their own codes
 };
 
 /// Arithmetic that errs as GLSL 4.60, 4.7.1 allows.
@@ -51,9 +52,19 @@ class LooseFloat {
   bool any_;
 };
 
-/// Lights one pixel; planes as the shader reads them.
+/// Lights one pixel; planes as the shader reads them. gloss: specular colour and shininess, where the model reads them.
 void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, bool reverse, const float position[3],
-                 const float normal[3], const float albedo[3], float color[3]);
+                 const float normal[3], const float albedo[3], float color[3], const float gloss[4] = nullptr,
+                 const LightVolumes& extents = {});
+
+/// The normal of a texel of a normal map, of tangents along_u and along_v in the world.
+void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], const std::array<float, 4>& texel,
+                float scale, float normal[3]);
+
+/// What a fragment may make of a stored texel: of fixed-point formats given as codes, back as values, or as codes where
+/// they were blended.
+std::array<double, 4> loose_blend(LooseFloat& f, const BlendState& state, Format format, const Liberties& liberties,
+                                  const float source[4], const std::array<double, 4>& stored);
 
 /// Texels as a lookup may give them.
 class LooseTextures {
@@ -68,7 +79,7 @@ class LooseTextures {
   std::vector<Texture> encoded_;  ///< sRGB textures as if they were not
 };
 
-/// The whole capture: depth, position, normal, albedo (rgba8), id.object and the target; normal, depth and target in the
+/// The whole capture: depth, position, normal, albedo (rgba8), id.object, specular and the target; normal, depth and target in the
 /// pipeline's formats (targets: rgba8, srgb8_a8, rgba16f, rgba32f).
 oracle::Capture loose_frame(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed);
 

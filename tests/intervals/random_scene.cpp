@@ -33,6 +33,36 @@ void add_textures(Scene& scene, Pcg32& random) {
   }
 }
 
+/// Bumps of both textures, gloss of the other one.
+void add_bumps(Scene& scene, Pcg32& random) {
+  for (Material& m : scene.materials) {
+    if (!m.color_map.used()) continue;
+    m.normal_map = m.specular_map = m.color_map;
+    m.normal_map.texture = int32_t(random.below(2));
+    m.specular_map.texture = 1 - m.normal_map.texture;
+    m.normal_scale = random.below(2) == 0 ? 1.0f : float(random.between(0.1, 2));
+  }
+}
+
+BlendState random_blend(Pcg32& random) {
+  using enum BlendFactor;
+  BlendState b = kBlendOver;
+  switch (random.below(5)) {
+    case 0:
+      b.rgb = {BlendEquation::add, one, one_minus_src_alpha};
+      break;
+    case 1:
+      b.rgb = {BlendEquation::add, src_alpha, one};
+      break;
+    case 2:
+      b.rgb = b.alpha = {BlendEquation::add, dst_color, zero};
+      break;
+    default:
+      break;
+  }
+  return b;
+}
+
 }  // namespace
 
 Scene random_scene(Pcg32& random) {
@@ -40,7 +70,19 @@ Scene random_scene(Pcg32& random) {
   scene.spec = "random";
   scene.meshes = {cube_mesh(), sphere_mesh(2), plane_mesh(2)};
   for (int k = 0; k < 3; ++k) scene.materials.push_back({"", {random.between(0, 1), random.between(0, 1), random.between(0, 1), 1}});
-  if (random.below(2) == 0) add_textures(scene, random);
+  for (Material& m : scene.materials) {
+    m.specular_color = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+    m.shininess = float(1 + random.below(40));
+  }
+  if (random.below(2) == 0) {
+    add_textures(scene, random);
+    if (random.below(2) == 0) add_bumps(scene, random);
+  }
+  if (random.below(4) == 0)
+    for (int k = 1; k < 3; ++k) {
+      scene.materials[size_t(k)].transparent = k == 1 || random.below(2) == 0;
+      scene.materials[size_t(k)].base_color.a = float(random.between(0.1, 0.9));
+    }
   const uint32_t objects = 2 + random.below(5);
   for (uint32_t i = 0; i < objects; ++i) {
     Instance instance{random.below(3), random.below(3), {}};
@@ -90,7 +132,17 @@ Pipeline random_pipeline(Pcg32& random) {
   // The albedo can come last only where the highlight has its colour too.
   if (of_albedo || p.light_model.order == TermOrder::albedo_last) p.light_model.specular_source = SpecularSource::albedo;
   p.target = targets[random.below(4)];
-  if (random.below(2) == 0) p.gbuffer.normal.format = Format::rgba16f;
+  constexpr Format normals[] = {Format::rgba32f, Format::rgba16f, Format::rgba16f, Format::rgb10_a2};
+  p.gbuffer.normal.format = normals[random.below(4)];
+  if (random.below(4) == 0 && p.light_model.specular_source == SpecularSource::model)
+    p.light_model.specular_source = SpecularSource::material;
+  if (random.below(4) == 0) {
+    constexpr LightExtent extents[] = {LightExtent::unbounded, LightExtent::range};
+    const uint32_t first = random.below(2);
+    p.light_volumes.point = extents[first], p.light_volumes.spot = extents[1 - first];
+  }
+  p.transparency.mode = TransparencyMode(random.below(3));
+  p.transparency.blend = random_blend(random);
   p.geometry.depth_format = depths[random.below(4)];
   if (random.below(4) == 0) {
     p.geometry.polygon_offset_factor = float(random.between(-2, 2));

@@ -125,6 +125,39 @@ TEST_CASE("Random frames are the same by the paths for usual triangles and surfa
   }
 }
 
+TEST_CASE("Sheets of triangles of 1 to 12 pixels are the same by the path for their size and by the general one") {
+  Random random(35);
+  const Pipeline pipeline = window_pipeline();
+  for (const double side : {0.7, 1.5, 3.0, 4.5, 6.5, 8.0, 12.0}) {
+    constexpr int kQuads = 14;
+    const double low = 0.5 * (kWindow - kQuads * side);
+    std::vector<Corner> corners;
+    for (int y = 0; y <= kQuads; ++y)
+      for (int x = 0; x <= kQuads; ++x)
+        corners.push_back({low + side * (x + between(random, -0.3, 0.3)), low + side * (y + between(random, -0.3, 0.3)),
+                           between(random, -0.9, 0.9)});
+    std::vector<Corners> sheets[2];  // the second turned about the middle: what it hides and what hides it changes
+    for (int y = 0; y < kQuads; ++y)
+      for (int x = 0; x < kQuads; ++x) {
+        const size_t i = size_t(y * (kQuads + 1) + x), above = i + kQuads + 1;
+        sheets[0].push_back({corners[i], corners[i + 1], corners[above]});
+        sheets[0].push_back({corners[i + 1], corners[above + 1], corners[above]});
+      }
+    for (Corners triangle : sheets[0]) {
+      for (Corner& c : triangle) c.x = kWindow - c.x, c.z = -c.z;
+      sheets[1].push_back(triangle);
+    }
+    const Scene scene = window_objects({sheets[0], sheets[1]});
+    Execution general;
+    general.fast_geometry = false;
+    const Planes expected = drawn(scene, pipeline, general);
+    for (const Execution& execution : executions()) {
+      INFO("quads of " << side << " pixels, " << named(execution));
+      REQUIRE(drawn(scene, pipeline, execution) == expected);
+    }
+  }
+}
+
 TEST_CASE("Random frames do not depend on which vertex a triangle names first") {
   Random random(34);
   const std::vector<Execution> all = executions();
