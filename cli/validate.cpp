@@ -37,7 +37,8 @@ DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Vali
 
 /// A capture that `--gbuffer` takes, but for the planes that no file holds.
 void save(const oracle::Capture& capture, const std::string& path) {
-  constexpr std::string_view kPlanes[] = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material"};
+  constexpr std::string_view kPlanes[] = {"depth",    "position", "normal",    "albedo",     "specular",
+                                         "emission", "uv",       "id.object", "id.material"};
   std::vector<NamedImage> planes;
   for (const NamedImage& plane : capture.planes)
     if (std::find(std::begin(kPlanes), std::end(kPlanes), plane.name) != std::end(kPlanes)) planes.push_back(plane);

@@ -81,13 +81,19 @@ Format format_for(Format wanted, int channels) {
   return wanted;
 }
 
+/// No normal is (-1, -1, -1), which codes of 0 stand for: a plane of them is cleared there.
+bool untouched(const Image& normal, int x, int y) {
+  return normal.value(x, y, 0) == 0.0 && normal.value(x, y, 1) == 0.0 && normal.value(x, y, 2) == 0.0;
+}
+
 Image converted(const std::string& where, const std::string& name, const Image& given, Format wanted) {
   const FormatInfo from = info(given.format);
   const Format format = format_for(wanted, from.channels);
   if (given.format == format) return given;
   const FormatInfo to = info(format);
   const bool pads_uv = name == "uv" && from.channels == 2;
-  if (from.channels != to.channels && !pads_uv)
+  const bool pads_normal = name == "normal" && from.channels == 3 && to.packed();
+  if (from.channels != to.channels && !pads_uv && !pads_normal)
     throw bad_capture(where,
                       name + " has " + std::to_string(from.channels) + " channels, and " +
                           std::string(info(wanted).name) + " has " + std::to_string(to.channels),
@@ -97,9 +103,10 @@ Image converted(const std::string& where, const std::string& name, const Image& 
                       "write it as float, or name half formats in --pipeline");
   Image image(given.width, given.height, format);
   for (int y = 0; y < given.height; ++y)
-    for (int x = 0; x < given.width; ++x)
+    for (int x = 0; x < given.width; ++x) {
+      const double last = pads_normal && untouched(given, x, y) ? 0.0 : 1.0;  // w of what is drawn is 1
       for (int k = 0; k < to.channels; ++k) {
-        const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? 1.0 : 0.0;
+        const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? last : 0.0;
         const std::optional<uint32_t> bits = bits_of(value, to, k, from);
         if (!bits)
           throw bad_capture(where,
@@ -108,6 +115,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
                             "name the plane's format in --pipeline, or capture before it is converted");
         image.set_code(x, y, k, *bits);
       }
+    }
   return image;
 }
 

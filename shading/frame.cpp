@@ -312,7 +312,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   frame.stats.before_tiles_ms = now_ms() - start;
   draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
               std::move(groups), std::move(meshes), std::move(outlines), need_uv,
-              LightPlanes(aovs, scene, pipeline.light_model), TransparentPass(scene, pipeline, execution), frame},
+              LightPlanes(aovs, scene, pipeline), TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

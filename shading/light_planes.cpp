@@ -16,11 +16,15 @@ std::optional<size_t> light_of_plane(std::string_view name) {
   return light;
 }
 
-LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const LightModel& model)
-    : model_(model) {
+LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline)
+    : model_(pipeline.light_model) {
   for (size_t i = 0; i < planes.size(); ++i)
-    if (const std::optional<size_t> light = light_of_plane(planes[i]))
-      planes_.push_back({i, make_light_table(std::span(scene.lights).subspan(*light, 1), model, scene.camera)});
+    if (const std::optional<size_t> light = light_of_plane(planes[i])) {
+      const std::span<const Light> alone = std::span(scene.lights).subspan(*light, 1);
+      LightTable table = make_light_table(alone, model_, scene.camera);
+      bound_by_extents(table, alone, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
+      planes_.push_back({i, std::move(table)});
+    }
 }
 
 void LightPlanes::draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,

@@ -15,11 +15,11 @@ namespace trueshade {
 /// The i of a plane `light.<i>`, written without leading zeros; nothing for other names.
 std::optional<size_t> light_of_plane(std::string_view name);
 
-/// What each of some lights alone adds to the pixels: the planes `light.<i>`, rgb32f. Their f32 sums in index order,
-/// from +0, are what a loop over all lights comes to before it is stored, bit for bit.
+/// What each of some lights alone adds to the pixels within its extent: the planes `light.<i>`, rgb32f. Their f32 sums
+/// in index order, from +0, are what a loop over all lights comes to before it is stored, bit for bit.
 class LightPlanes {
  public:
-  LightPlanes(std::span<const std::string> planes, const Scene& scene, const LightModel& model);
+  LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline);
 
   /// Draws a tile of each plane; `planes` are those of the constructor, in order. `work` and `color` are scratch.
   void draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,

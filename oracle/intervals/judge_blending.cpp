@@ -71,10 +71,8 @@ class BlendingJudge {
     each_row([&](int y) {
       for (int x = 0; x < pipeline_.width; ++x) {
         LightOutput out;
-        for (size_t k = 0; k < 4; ++k) {
-          const double c = double(scene_.clear[int(k)]);
-          out.nominal[k] = {c, c, c};
-        }
+        for (size_t k = 0; k < 4; ++k)
+          out.nominal[k] = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
         if (drawn && covered_[at(x, y)] != 0) out = outputs_.start(surfaces_[at(x, y)]);
         const DrawnFragment only{out, 1, 1, 1, PixelClass::exact};
         judge(x, y, -1, nullptr, given, {&only, 1}, BlendState{});

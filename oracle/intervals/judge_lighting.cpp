@@ -66,8 +66,8 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
   CarriedTexel at;
   bool branches = false;
   for (size_t k = 0; k < 4; ++k) {
-    const double c = double(scene_.clear[int(k)]);
-    at.nominal[k] = at.all[k] = legal_texel({c, c, c}, color_.image->format, int(k), profile_);
+    const Range c = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
+    at.nominal[k] = at.all[k] = legal_texel(c, color_.image->format, int(k), profile_);
   }
   if (covered) {
     ++row.covered;
@@ -112,8 +112,8 @@ void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
   Match m;
   const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
   for (int k = 0; k < color_.channels; ++k) {
-    const double c = double(scene_.clear[k]);
-    m.channel_is(color_, "color", k, {c, c, c}, color_.stored(x, y, k), pixel, profile_);
+    const Range c = cleared_range(double(scene_.clear[k]), color_.image->format, k, profile_);
+    m.channel_is(color_, "color", k, c, color_.stored(x, y, k), pixel, profile_);
   }
   row.take(x, y,
            !m.legal   ? PixelClass::violation

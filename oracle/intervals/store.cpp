@@ -125,6 +125,19 @@ bool computes_in_16_bits(Format format, const Profile& profile) {
   return format == Format::rgb10_a2 && profile.blend == BlendRule::mesa_codes;
 }
 
+Range cleared_range(double color, Format format, int channel, const Profile& profile) {
+  const FormatInfo layout = info(format);
+  const bool wide = format == Format::rgba16 || format == Format::rgb10_a2;
+  double c = color;
+  if (wide && profile.blend == BlendRule::mesa_codes) {
+    const float scaled = float(std::clamp(color, 0.0, 1.0)) * float(layout.largest_code(channel));
+    LegalTexel code;
+    code.nominal = std::floor(double(scaled + 0.5f));
+    c = (layout.packed() ? widened(code, channel).nominal : code.nominal) / 65535;
+  }
+  return {c, c, c};
+}
+
 LegalTexel widened(const LegalTexel& stored, int channel) {
   const auto wide = [channel](double code) {
     const auto c = uint32_t(code);

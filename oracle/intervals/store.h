@@ -30,6 +30,10 @@ struct LegalTexel {
 ///   to floats.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
 
+/// What a draw would output to leave what a clear to `color` leaves: llvmpipe clears 10 and 16 bits by rounding halves
+/// upward, and not by way of 16 bits (docs/arithmetic.md section 11); elsewhere the colour itself.
+Range cleared_range(double color, Format format, int channel, const Profile& profile);
+
 /// llvmpipe makes 10 and 2 bits of codes of 16, rgba16's (docs/arithmetic.md section 11): whether `profile` says so of
 /// `format`; a stored code in 16 bits, its bits repeated; and a code of 16 bits stored, not always as the nearest.
 bool computes_in_16_bits(Format format, const Profile& profile);

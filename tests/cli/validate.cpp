@@ -108,6 +108,28 @@ TEST_CASE("what the driver drew is saved as a picture, and as a capture that is 
   check_refused(judged(folder, {"--gbuffer", "c.exr", "--save", "d.png"}), 2, "--save");
 }
 
+TEST_CASE("what is saved of any preset, and of normals of ten bits, is a capture") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("n.json")) << R"({"gbuffer":{"normal":{"format":"rgb10_a2"}}})";
+  for (const Arguments& pipeline :
+       {Arguments{"--preset", "punctual"}, {"--preset", "gl-fixed"}, {"--preset", "redsdk"}, {"--pipeline", "n.json"}}) {
+    Arguments draw{"--driver", "llvmpipe", "--size", "64x48", "--save", "c.exr"};
+    Arguments judge{"--gbuffer", "c.exr", "--subpixel-bits", "8"};
+    draw.insert(draw.end(), pipeline.begin(), pipeline.end());
+    judge.insert(judge.end(), pipeline.begin(), pipeline.end());
+    const Outcome drawn = judged(folder, draw);
+    if (drawn.exit_code == kNoDriver) {
+      WARN("SKIPPED: " << drawn.err);
+      return;
+    }
+    const Outcome again = judged(folder, judge);
+    INFO(pipeline[1] << drawn.out << drawn.err << again.out << again.err);
+    CHECK(drawn.exit_code == 0);
+    CHECK(again.exit_code == 0);
+    CHECK(has(again.out, "lighting: 3072 pixels"));
+  }
+}
+
 TEST_CASE("a driver's report and JSON name the driver and the tightest profile") {
   const ScratchFolder folder;
   const Outcome outcome = run_command(

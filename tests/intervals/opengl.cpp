@@ -159,6 +159,32 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
   CHECK(judged >= 36);
 }
 
+TEST_CASE("What llvmpipe clears is explained in every target format, whatever the colour") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const bool known = context->info().line().find("Mesa 22.3") != std::string::npos;
+  Pcg32 random(7);
+  for (const Format target : kTargetFormats)
+    for (int i = 0; i < 12; ++i) {
+      Scene scene = builtin_scene("city,lights=3");
+      for (int k = 0; k < 4; ++k) scene.clear[k] = float(random.below(1u << 24)) * 0x1p-24f;
+      Pipeline pipeline;
+      pipeline.width = 24, pipeline.height = 18;
+      pipeline.target = target;
+      pipeline.strategy = i % 2 == 0 ? Strategy::deferred_loop : Strategy::deferred_volumes;
+      GlRenderer renderer(*context, scene);
+      const Capture capture = renderer.draw(pipeline).capture;
+      for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
+        if (name != std::string_view("unknown") && !known) continue;
+        Profile profile = *profile_named(name);
+        profile.subpixel_bits = 8;
+        CAPTURE(info(target).name, name, i);
+        CHECK(judge_lighting(scene, pipeline, profile, capture).passes());
+        if (i % 2 == 1) CHECK(judge_blending(scene, pipeline, profile, capture, steps_of(renderer, pipeline)).passes());
+      }
+    }
+}
+
 TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;

@@ -105,36 +105,58 @@ TEST_CASE("A heat map's scale is the least power of two that no count exceeds, a
   }
 }
 
-TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32f image bit for bit", "[views]") {
-  for (const char* spec : {"builtin:cornell", "builtin:circle", "builtin:red,lights=40"})
-    for (const std::string_view preset : {"many-lights", "touchdesigner"}) {
-      const Scene scene = load_scene(spec);
-      const PreparedScene prepared(scene);
-      Pipeline pipeline = pipeline_of(preset, 61, 47);
-      pipeline.target = Format::rgba32f;
-      std::vector<std::string> names{"id.object"};
-      for (size_t i = 0; i < scene.lights.size(); ++i) names.push_back("light." + std::to_string(i));
-      for (const std::string_view simd : simd_targets()) {
-        Execution execution;
-        execution.simd = simd;
-        execution.tile = simd == "scalar" ? 16 : 64;
-        execution.light_culling = simd != "avx2";
-        const Frame frame = render_frame(prepared, pipeline, execution, names);
-        int lit = 0;
-        for (int y = 0; y < pipeline.height; ++y)
-          for (int x = 0; x < pipeline.width; ++x) {
-            if (at<uint32_t>(frame.aovs[0].image, x, y) == 0) continue;
-            for (int k = 0; k < 3; ++k) {
-              float sum = 0.0f;
-              for (size_t i = 1; i < names.size(); ++i) sum += at<float>(frame.aovs[i].image, x, y, k);
-              CAPTURE(spec, preset, simd, x, y, k);
-              REQUIRE(std::bit_cast<uint32_t>(sum) == std::bit_cast<uint32_t>(at<float>(frame.color, x, y, k)));
-              lit += sum > 0.0f;
-            }
-          }
-        CHECK(lit > 61 * 47 / 2);
-      }
+/// A loop over all lights of `preset`, which may be one of another strategy; extents as it has them, or of range.
+std::vector<Pipeline> loops_of(std::string_view preset) {
+  std::vector<Pipeline> loops;
+  for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop})
+    for (const bool ranged : {false, true}) {
+      Pipeline p = pipeline_of(preset, 61, 47);
+      p.strategy = strategy;
+      p.target = Format::rgba32f;
+      if (ranged) p.light_volumes.point = p.light_volumes.spot = LightExtent::range;
+      loops.push_back(p);
     }
+  return loops;
+}
+
+/// Pixels with a surface where `light.<i>` planes do not sum to the picture, and where they sum to more than 0.
+std::array<int, 2> unlike_and_lit(const PreparedScene& prepared, const Pipeline& pipeline, std::string_view simd) {
+  std::vector<std::string> names{"id.object"};
+  for (size_t i = 0; i < prepared.scene().lights.size(); ++i) names.push_back("light." + std::to_string(i));
+  Execution execution;
+  execution.simd = simd;
+  execution.tile = simd == "scalar" ? 16 : 64;
+  execution.light_culling = simd != "avx2";
+  const Frame frame = render_frame(prepared, pipeline, execution, names);
+  std::array<int, 2> count{};
+  for (int y = 0; y < pipeline.height; ++y)
+    for (int x = 0; x < pipeline.width; ++x) {
+      if (at<uint32_t>(frame.aovs[0].image, x, y) == 0) continue;
+      bool unlike = false, lit = false;
+      for (int k = 0; k < 3; ++k) {
+        float sum = 0.0f;
+        for (size_t i = 1; i < names.size(); ++i) sum += at<float>(frame.aovs[i].image, x, y, k);
+        unlike = unlike || std::bit_cast<uint32_t>(sum) != std::bit_cast<uint32_t>(at<float>(frame.color, x, y, k));
+        lit = lit || sum > 0.0f;
+      }
+      count[0] += unlike, count[1] += lit;
+    }
+  return count;
+}
+
+TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32f image bit for bit", "[views]") {
+  for (const char* spec : {"builtin:cornell", "builtin:circle", "builtin:red,lights=40", "builtin:lecture"}) {
+    const Scene scene = load_scene(spec);
+    const PreparedScene prepared(scene);
+    for (const std::string_view preset : {"many-lights", "touchdesigner", "light-volumes", "light-volumes-literal", "redsdk"})
+      for (const Pipeline& pipeline : loops_of(preset))
+        for (const std::string_view simd : simd_targets()) {
+          CAPTURE(spec, preset, int(pipeline.strategy), int(pipeline.light_volumes.point), simd);
+          const std::array<int, 2> count = unlike_and_lit(prepared, pipeline, simd);
+          CHECK(count[0] == 0);
+          CHECK(count[1] > 61 * 47 / 10);
+        }
+  }
 }
 
 TEST_CASE("Z is the distance along the view axis, whatever the camera's matrix", "[views]") {
