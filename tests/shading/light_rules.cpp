@@ -153,31 +153,62 @@ TEST_CASE("Row 54: a spot light's edge is inside: a cosine of cos(cutoff) is lit
   CHECK(red(render(scene, pipeline), 30, 20) == 1.0f);
 }
 
+/// Adds lights that just reach a pixel at a corner of a 4x4 block, that just do not, or end at it; the edges of their
+/// cones pass through it.
+static void add_touching_lights(Scene& scene, const Result& surface, int count, Random& random) {
+  for (int i = 0; i < count; ++i) {
+    const int x = 4 * int(random() % 13) + int(random() % 2) * 3, y = 4 * int(random() % 9) + int(random() % 2) * 3;
+    if (!surface.covered(x, y)) continue;
+    const Vec p = surface.pixel(x, y).position;
+    Light light = random_light(random);
+    light.type = i % 2 == 0 ? LightType::point : LightType::spot;
+    const Vec d = minus(vec(light.position), p);
+    const float distance = std::sqrt(dot(d, d));
+    light.range = i % 3 == 0 ? distance : std::nextafter(distance, i % 3 == 1 ? 0.0f : 10.0f);
+    const double axis = double(-light.direction.x) * double(d.x) - double(light.direction.y) * double(d.y) -
+                        double(light.direction.z) * double(d.z);
+    const double angle = std::acos(std::max(-1.0, std::min(1.0, axis / double(distance))));
+    light.cone_rad = float(angle * 0.5), light.penumbra_rad = float(angle * 0.5);
+    scene.lights.push_back(light);
+  }
+}
+
 TEST_CASE("lights whose range or cone just touches a pixel, a block or a tile are culled without changing a bit") {
   Random random(65);
   for (const LightModel& model : bounded_models()) {
     Scene scene = sheet(random);
     Pipeline pipeline = loop_pipeline("many-lights");
     pipeline.light_model = model;
-    const Result surface = render(scene, pipeline);
-    for (int i = 0; i < 40; ++i) {
-      const int x = 4 * int(random() % 13) + int(random() % 2) * 3, y = 4 * int(random() % 9) + int(random() % 2) * 3;
-      if (!surface.covered(x, y)) continue;
-      const Vec p = surface.pixel(x, y).position;
-      Light light = random_light(random);
-      light.type = i % 2 == 0 ? LightType::point : LightType::spot;
-      const Vec d = minus(vec(light.position), p);
-      const float distance = std::sqrt(dot(d, d));
-      // The pixel is just in range, just out of it, or at it; and the cone's edge passes through it.
-      light.range = i % 3 == 0 ? distance : std::nextafter(distance, i % 3 == 1 ? 0.0f : 10.0f);
-      const double axis = double(-light.direction.x) * double(d.x) - double(light.direction.y) * double(d.y) -
-                          double(light.direction.z) * double(d.z);
-      const double angle = std::acos(std::max(-1.0, std::min(1.0, axis / double(distance))));
-      light.cone_rad = float(angle * 0.5), light.penumbra_rad = float(angle * 0.5);
-      scene.lights.push_back(light);
-    }
+    add_touching_lights(scene, render(scene, pipeline), 40, random);
     require_culling_changes_nothing(scene, pipeline);
   }
+}
+
+TEST_CASE("lights that just touch are culled without changing a bit under every preset, strategy, target and profile") {
+  Random random(68);
+  Scene scene = sheet(random);
+  add_touching_lights(scene, render(scene, loop_pipeline("many-lights")), 60, random);
+  for (Light& light : scene.lights) light.color *= 0.2f;  // so that 8 bits do not saturate
+  const PreparedScene prepared(scene);
+  const auto drawn = [&](const Pipeline& pipeline, std::string_view simd, bool culling, int tile) {
+    return render_frame(prepared, pipeline, {.tile = tile, .simd = simd, .light_culling = culling}).color;
+  };
+  for (const Preset& row : presets())
+    for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
+      for (const Format target : kTargetFormats)
+        for (const NumericProfile profile : {NumericProfile::ideal, NumericProfile::mesa_llvmpipe_22_3}) {
+          Pipeline pipeline = row.pipeline;
+          pipeline.width = 57, pipeline.height = 43;
+          pipeline.strategy = Strategy(strategy);
+          pipeline.target = target;
+          pipeline.profile = profile;
+          INFO(row.name << ", " << kStrategyNames[strategy] << ", " << info(target).name << ", " << int(profile));
+          const Image expected = drawn(pipeline, "scalar", false, 64);
+          int unlike = 0;
+          for (const std::string_view simd : simd_targets())
+            for (const int tile : {8, 64}) unlike += drawn(pipeline, simd, true, tile).texels != expected.texels;
+          CHECK(unlike == 0);
+        }
 }
 
 TEST_CASE("lights in the plane of a surface, and a last bit above and below it, are culled without changing a bit") {

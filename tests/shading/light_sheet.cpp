@@ -87,20 +87,19 @@ Pipeline loop_pipeline(std::string_view preset) {
 
 Pixel Result::pixel(int x, int y) const {
   Pixel out{};
-  float texel[4];
-  std::memcpy(texel, frame.aovs[0].image.texel(x, y), sizeof texel);
-  out.position = {texel[0], texel[1], texel[2]};
-  std::memcpy(texel, frame.aovs[1].image.texel(x, y), sizeof texel);
-  out.normal = {texel[0], texel[1], texel[2]};
-  const Image& albedo = frame.aovs[2].image;
-  for (int k = 0; k < 4; ++k) {
-    if (albedo.format == Format::rgba8) {
-      out.albedo[k] = float(albedo.texel(x, y)[k]) / 255.0f;
-    } else {
-      std::memcpy(&out.albedo[k], albedo.texel(x, y) + 4 * k, 4);
-    }
-  }
-  std::memcpy(out.specular, frame.aovs[4].image.texel(x, y), 3 * sizeof(float));
+  // Codes of 8 bits and halves as numbers; floats keep their bits, a NaN's too.
+  const auto read = [&](size_t aov, int k) {
+    const Image& image = frame.aovs[aov].image;
+    if (image.format == Format::rgba8) return float(image.texel(x, y)[k]) / 255.0f;
+    if (info(image.format).bytes_per_channel != 4) return float(image.value(x, y, k));
+    float stored;
+    std::memcpy(&stored, image.texel(x, y) + 4 * k, sizeof stored);
+    return stored;
+  };
+  out.position = {read(0, 0), read(0, 1), read(0, 2)};
+  out.normal = {read(1, 0), read(1, 1), read(1, 2)};
+  for (int k = 0; k < 4; ++k) out.albedo[k] = read(2, k);
+  for (int k = 0; k < 3; ++k) out.specular[k] = read(4, k);
   const Material& m = materials[size_t(frame.aovs[5].image.value(x, y, 0)) - 1];
   const double r = std::max(double(m.roughness), 0.04);
   out.specular[3] = metals ? float(std::clamp(std::nearbyint(2 / (r * r * (r * r)) - 2), 1.0, 8192.0)) : m.shininess;
