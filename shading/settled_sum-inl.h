@@ -27,18 +27,6 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// x^kPower in float.
-template <int kPower>
-HWY_INLINE VF float_power(VF x) {
-  if constexpr (kPower == 1) {
-    return x;
-  } else {
-    const VF half = float_power<kPower / 2>(x), square = hn::Mul(half, half);
-    if constexpr (kPower % 2 == 1) return hn::Mul(square, x);
-    return square;
-  }
-}
-
 /// A ball about all vectors of a box.
 struct Ball {
   float center[3], radius, farthest;  ///< `farthest` from the origin
@@ -169,7 +157,7 @@ void sort_lights(const LightTable& table, const PlainLights& plain, const LightM
     const VF least_half = hn::Sub(hn::Sub(hn::Sqrt(half2), spread), hn::Set(d, at.viewer_radius + kSlack));
     const VF cosine = hn::Add(hn::IfThenElseZero(hn::Gt(most_toward, zero), hn::Div(most_toward, least_half)),
                               hn::Set(d, 64 * kSlack * size));
-    const VF power = float_power<2 * Shape::shape.power>(cosine);
+    const VF power = integer_power<2 * Shape::shape.power>(cosine);
     const VF gap = hn::Mul(hn::Sub(length, hn::Set(d, at.place.radius)), hn::Set(d, 1.0f - 0x1p-18f));
     const VF distance = hn::IfThenElseZero(hn::Gt(gap, zero), gap);
     const VF weaker = hn::Add(one, hn::Mul(distance, hn::Add(hn::LoadU(d, plain.k1.data() + i),
@@ -241,7 +229,7 @@ HWY_INLINE void add_plain(const PixelVector& px, const PlainLight* lights, const
       const VF t = hn::IfThenElseZero(hn::Gt(along[k], zero), along[k]);
       VF x = hn::Mul(hn::Mul(t, t), hn::Mul(quotient, weaker[k]));
       if (Shape::shape.renormalize) x = at_most(x, 1.0f);
-      const VF power = float_power<Shape::shape.power>(x);
+      const VF power = integer_power<Shape::shape.power>(x);
       weight[k] = hn::Mul(nl[k], strength);
       shine[k] = hn::Mul(power, strength);
       if (Shape::shape.specular_masked) shine[k] = hn::IfThenElseZero(lit[k], shine[k]);

@@ -51,12 +51,12 @@ HWY_INLINE VF rounded(V low, V high) {
 }
 
 /// x^p by binary powering from the highest bit of p down.
-template <int p>
-HWY_INLINE VD integer_power(VD x) {
+template <int p, class V>
+HWY_INLINE V integer_power(V x) {
   if constexpr (p == 1) {
     return x;
   } else {
-    const VD half = integer_power<p / 2>(x), square = hn::Mul(half, half);
+    const V half = integer_power<p / 2>(x), square = hn::Mul(half, half);
     if constexpr (p % 2 == 1) return hn::Mul(square, x);
     return square;
   }

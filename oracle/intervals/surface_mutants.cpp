@@ -201,7 +201,7 @@ constexpr Mutant kMutants[] = {
 
 }  // namespace
 
-void add_bumps(Scene& scene, Pipeline& pipeline) {
+void add_texture_coordinates(Scene& scene) {
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
     Mesh& mesh = scene.meshes[m];
     if (mesh.has_uv()) continue;
@@ -211,6 +211,10 @@ void add_bumps(Scene& scene, Pipeline& pipeline) {
       mesh.uv[1].push_back(mesh.position[2][v] - 0.21f * mesh.position[1][v]);
     }
   }
+}
+
+void add_bumps(Scene& scene, Pipeline& pipeline) {
+  add_texture_coordinates(scene);
   const size_t first = scene.textures.size();
   scene.textures.push_back(bumps(TextureFormat::rgba8, 8, 12, 1));
   scene.textures.push_back(bumps(TextureFormat::rgba32f, 5, 3, 2));

@@ -4,6 +4,9 @@
 
 namespace trueshade::oracle {
 
+/// Texture coordinates, made of positions, for meshes that have none; mirrored on every other mesh.
+void add_texture_coordinates(Scene& scene);
+
 /// Bumps and gloss for every surface: normal and specular maps, nearest and filtered, on meshes whose texture
 /// coordinates run left on every other one; the specular colour the material's, where the light model lets it be.
 void add_bumps(Scene& scene, Pipeline& pipeline);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/intervals/surface_mutants.h"
 #include "oracle/matrices.h"
 #include "oracle/texture_lookup.h"
 #include "scenes/builtin.h"
@@ -51,15 +52,7 @@ TextureSlot slot_of(int texture) {
 /// The scene with bumps and gloss on everything; meshes without texture coordinates get some, mirrored on every other.
 Scene bumpy(const char* name) {
   Scene scene = builtin_scene(name);
-  for (size_t m = 0; m < scene.meshes.size(); ++m) {
-    Mesh& mesh = scene.meshes[m];
-    if (mesh.has_uv()) continue;
-    const float sign = m % 2 == 0 ? 1.0f : -1.0f;
-    for (size_t v = 0; v < mesh.vertex_count(); ++v) {
-      mesh.uv[0].push_back(sign * (mesh.position[0][v] + 0.37f * mesh.position[1][v]));
-      mesh.uv[1].push_back(mesh.position[2][v] - 0.21f * mesh.position[1][v]);
-    }
-  }
+  add_texture_coordinates(scene);
   const auto first = int(scene.textures.size());
   scene.textures.push_back(bumps(TextureFormat::rgba8, 8, 12, 1));
   scene.textures.push_back(bumps(TextureFormat::rgba32f, 5, 3, 2));
