@@ -11,6 +11,12 @@ constexpr double kPixelLight = 58.0 / 16, kLitPixel = 3.75, kStoredPixel = 0.5;
 
 }  // namespace
 
+FrameBytes frame_bytes(const FrameStats& s, Format target) {
+  // 64 positions, 126 triangles of three bytes, the header: what visibility reads of a full one.
+  constexpr uint64_t kClusterBytes = 64 * 3 * sizeof(float) + 126 * 3 + 64;
+  return {s.pixels * uint64_t(info(target).bytes_per_texel()), s.clusters_drawn * kClusterBytes};
+}
+
 FrameFloor frame_floor(const FrameStats& s) {
   const bool small = s.triangles_tested > s.covered_pixels;
   FrameFloor floor;

@@ -11,6 +11,12 @@ struct FrameFloor {
   double ms(double clock_ghz, int cores) const { return (geometry_cycles + light_cycles) / (clock_ghz * 1e6 * cores); }
 };
 
+/// What a frame cannot do without moving: texels of the target, and each cluster drawn in a tile.
+struct FrameBytes {
+  uint64_t stored, clusters;
+};
+FrameBytes frame_bytes(const FrameStats& stats, Format target);
+
 FrameFloor frame_floor(const FrameStats& stats);
 
 }  // namespace trueshade

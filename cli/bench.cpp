@@ -1,14 +1,15 @@
 #include "cli/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "bench/peers.h"
 #include "cli/commands.h"
+#include "cli/own_frames.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
@@ -29,53 +30,13 @@ double peak_memory_mib() {
   return 0.0;
 }
 
-/// A frame drawn and timed from outside; the image checked against the hash that all frames must have.
-class OwnFrames {
- public:
-  OwnFrames(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution)
-      : prepared_(prepared), pipeline_(pipeline), execution_(execution) {}
-
-  /// Hash of the frame drawn in another way: one thread, other tiles, another SIMD target where there is one.
-  std::string checked_hash() {
-    Execution other = execution_;
-    other.threads = 1;
-    other.tile = execution_.tile == 32 ? 64 : 32;
-    other.simd = simd_targets().back();
-    const std::string expected = image_hash(render_frame(prepared_, pipeline_, other).color);
-    hash_ = image_hash(render_frame(prepared_, pipeline_, execution_).color);
-    if (hash_ != expected)
-      throw std::runtime_error("two ways to draw " + prepared_.scene().spec + " give two images: nothing is timed");
-    return hash_;
-  }
-
-  double draw() {
-    const auto start = std::chrono::steady_clock::now();
-    const Frame frame = render_frame(prepared_, pipeline_, execution_);
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    if (!hash_.empty() && image_hash(frame.color) != hash_)
-      throw std::runtime_error("a timed frame came out otherwise");
-    frames_.emplace_back(ms, frame.stats);
-    return ms;
-  }
-
-  FrameStats stats_of_median() const {
-    std::vector<std::pair<double, FrameStats>> sorted = frames_;
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    return sorted[sorted.size() / 2].second;
-  }
-
- private:
-  const PreparedScene& prepared_;
-  Pipeline pipeline_;
-  Execution execution_;
-  std::string hash_;
-  std::vector<std::pair<double, FrameStats>> frames_;
-};
+bool is_variant(const std::string& peer) { return peer.find('=') != std::string::npos; }
 
 std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const Scene& scene,
                                              const Pipeline& pipeline) {
   std::vector<std::unique_ptr<Peers>> peers;
   for (const std::string& name : options.against) {
+    if (is_variant(name)) continue;
     if (name != "gl" && draws_transparent(scene, pipeline))
       throw Error(ErrorKind::usage, "--against", name + " does not see through transparent surfaces",
                   "gl, a scene without, or a pipeline with transparency none");
@@ -83,6 +44,41 @@ std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const 
                                  : embree_peers(scene, pipeline, options.execution.threads));
   }
   return peers;
+}
+
+/// Ours drawn otherwise, each with the hash that it must have.
+std::vector<std::pair<std::string, std::unique_ptr<OwnFrames>>> variants_of(const BenchOptions& options,
+                                                                            const OwnFrames& frames) {
+  std::vector<std::pair<std::string, std::unique_ptr<OwnFrames>>> variants;
+  for (const std::string& name : options.against) {
+    if (!is_variant(name)) continue;
+    variants.emplace_back(name, std::make_unique<OwnFrames>(frames, variant_from_text(name)));
+    OwnFrames& variant = *variants.back().second;
+    if (variant.same_picture(frames))
+      variant.expect(frames.hash());
+    else
+      variant.checked_hash(simd_targets().back());
+  }
+  return variants;
+}
+
+/// What tiles cost by the sides that more cores would draw with.
+std::map<int, std::vector<double>> tile_costs(const OwnFrames& frames, const FrameStats& drawn, const Pipeline& p,
+                                              const Execution& execution) {
+  constexpr int kRounds = 5;
+  std::map<int, std::vector<double>> costs{{drawn.tile, drawn.tile_ms}};
+  if (execution.tile != 0) return costs;
+  for (const int cores : kMoreCores) {
+    const int tile = tile_for(p.width, p.height, cores);
+    if (costs.contains(tile)) continue;
+    Variant smaller;
+    smaller.tile = tile;
+    OwnFrames others(frames, smaller);
+    others.expect(frames.hash());
+    for (int round = 0; round < kRounds; ++round) others.draw();
+    costs[tile] = others.stats().tile_ms;
+  }
+  return costs;
 }
 
 /// Whether the peers drew this frame, or what else.
@@ -113,21 +109,26 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   OwnFrames frames(prepared, result.pipeline, execution);
   frames.draw();
   result.peak_mib = peak_memory_mib();
-  result.hash = frames.checked_hash();
+  result.hash = frames.checked_hash(simd_targets().back());
+  const auto variants = variants_of(options, frames);
   const auto peers = peers_of(options, scene, result.pipeline);
   std::vector<Contender> contenders{{"trueshade", "", [&frames] { return frames.draw(); }}};
   for (const auto& peer : peers) {
     for (Contender& c : peer->contenders()) contenders.push_back(std::move(c));
     result.peers_about.push_back(peer->about());
   }
+  for (const auto& [name, variant] : variants)
+    contenders.push_back({"trueshade", name, [&ours = *variant] { return ours.draw(); }});
   ProgressBar bar("timing " + spec, "frames");
   std::vector<Timing> timings = contest(contenders, {}, [&bar](int done, int most) { bar.show(done, most); });
   result.timing = std::move(timings[0]);
   for (size_t i = 1; i < contenders.size(); ++i)
     result.peers.push_back({contenders[i].name, contenders[i].strategy, std::move(timings[i]), {}});
   check_pictures(prepared, result.pipeline, execution, peers, result.peers);
-  result.stats = frames.stats_of_median();
+  result.stats = frames.stats();
   result.floor = frame_floor(result.stats);
+  result.bytes = frame_bytes(result.stats, result.pipeline.target);
+  result.tile_costs = tile_costs(frames, result.stats, result.pipeline, execution);
   return result;
 }
 
@@ -142,6 +143,7 @@ double median_ms(const BenchOptions& options, const std::string& spec, const Exe
   const Scene scene = load_scene(spec, {}, decode_image);
   const PreparedScene prepared(scene);
   OwnFrames frames(prepared, pipeline_of(own, scene), execution);
+  frames.checked_hash(simd_targets()[simd_targets().size() > 1 ? 1 : 0]);
   const std::vector<Contender> alone{{"trueshade", "", [&frames] { return frames.draw(); }}};
   return contest(alone, {7, 1000.0})[0].median();
 }
@@ -150,7 +152,7 @@ std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const Exec
   ProgressBar bar("scaling", "curves");
   std::vector<ScalingCurve> curves;
   ScalingCurve lights{"Lights, city", "lights", true, {}};
-  for (const char* count : {"1", "10", "100", "757", "10000", "100000"})
+  for (const char* count : {"1", "10", "100", "757", "10000", "100000", "1000000"})
     lights.points.push_back(
         {count, std::stod(count), median_ms(options, std::string("builtin:city,lights=") + count, execution)});
   bar.show(1, 5), curves.push_back(lights);

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@
 
 namespace trueshade {
 
-/// Somebody else's time for the same frame in the same run.
+inline constexpr int kMoreCores[] = {2, 4, 8, 16, 32, 64};  ///< that frames are scheduled on
+
+/// Somebody else's time for the same frame in the same run, or ours when it is drawn otherwise.
 struct PeerTime {
   std::string name, strategy;
   Timing timing;
@@ -27,9 +30,15 @@ struct SceneTime {
   Timing timing;
   FrameStats stats;  ///< of the frame of median time
   FrameFloor floor;
+  FrameBytes bytes;
+  std::map<int, std::vector<double>> tile_costs;  ///< ms of each tile in the order they are started, by the tiles' side
   double peak_mib = 0;  ///< most memory the process had while preparing and drawing, before any peer
   std::vector<PeerTime> peers;
   std::vector<std::string> peers_about;
+
+  /// How much faster than on one core the frame would be on `cores`, by these costs and the tiles that it would have.
+  double scheduled_speedup(int cores) const;
+  int scheduled_tile(int cores) const;
 
   double ratio(const PeerTime& peer) const { return peer.timing.median() / timing.median(); }
 };
@@ -53,6 +62,12 @@ struct BenchResult {
   std::vector<SceneTime> scenes;
   std::vector<ScalingCurve> scaling;  ///< empty unless a report was asked for
 };
+
+double ns_per_pixel_light(const SceneTime& scene);  ///< of one core, per pixel-light computed
+double million_triangles_per_s(const SceneTime& scene);
+double million_pixels_per_s(const SceneTime& scene);
+/// A scene of small triangles is as fast as its triangles are, one of large ones as its pixels are: both rates.
+std::string rate_text(const SceneTime& scene);
 
 std::string bench_heading(const BenchResult& bench);  ///< the machine and the execution, a line each
 std::string bench_text(const SceneTime& scene, const BenchResult& bench);  ///< one scene's lines

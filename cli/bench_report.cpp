@@ -41,11 +41,15 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
   html += row("geometry, light: core time", number(f.geometry_ms, "%.3f ms, ") + number(f.light_ms, "%.3f ms"));
   html += row("modelled floor",
               number(floor, "%.3f ms, ") + number(100 * floor / s.timing.median(), "%.0f %% of the time"));
+  html += row("light, of a core", number(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
+  html += row("rate", rate_text(s));
   html += row("triangles submitted, set up", std::to_string(f.triangles) + ", " + std::to_string(f.triangles_tested));
   html += row("fragments, pixels covered", std::to_string(f.fragments) + ", " + std::to_string(f.covered_pixels));
   html += row("pixel-lights left by tiles, computed, lit", std::to_string(f.tile_pixel_lights) + ", " +
                                                                std::to_string(f.evaluated_pixel_lights) + ", " +
                                                                std::to_string(f.lit_pixel_lights));
+  html +=
+      row("bytes stored, of clusters drawn", std::to_string(s.bytes.stored) + ", " + std::to_string(s.bytes.clusters));
   html += row("most memory", number(s.peak_mib, "%.0f MiB"));
   for (const std::string& about : s.peers_about) html += row("peer", about);
   return html + "</table></details>\n";

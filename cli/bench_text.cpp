@@ -23,25 +23,19 @@ double floor_ms(const SceneTime& s, const BenchResult& bench) {
 
 double per(double value, uint64_t count) { return count == 0 ? 0.0 : value / double(count); }
 
-/// ns of one core per pixel-light computed, and million triangles submitted a second.
-double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e6, s.stats.evaluated_pixel_lights); }
-double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
+/// What precedes the tiles, on as many cores as have anything to do.
+double alone_ms(const FrameStats& f) { return scheduled_frame_ms(f, {}, 1 << 20); }
 
-constexpr int kMoreCores[] = {2, 4, 8, 16, 32, 64};
-
-/// How much faster than one core the measured frame would be on `cores`, if what precedes the tiles gained nothing.
-double scheduled_speedup(const FrameStats& f, int cores) {
-  const double one = f.before_tiles_ms + scheduled_ms(f.tile_ms, 1);
-  return one / (f.before_tiles_ms + scheduled_ms(f.tile_ms, cores));
-}
-
-std::string schedule_text(const FrameStats& f) {
-  std::string text = "  before the tiles " + number(f.before_tiles_ms, "%.2f") + " ms, " +
-                     std::to_string(f.tile_ms.size()) + " tiles, the dearest " +
-                     number(*std::max_element(f.tile_ms.begin(), f.tile_ms.end()), "%.2f") +
-                     " ms; scheduled by these costs:";
+std::string schedule_text(const SceneTime& s) {
+  const FrameStats& f = s.stats;
+  std::string text = "  before the tiles " + number(f.before_tiles_ms, "%.2f") + " ms, " + number(alone_ms(f), "%.2f") +
+                     " on any number of cores; ";
+  for (const auto& [tile, ms] : s.tile_costs)
+    text += std::to_string(ms.size()) + " tiles of " + std::to_string(tile) + " pixels, the dearest " +
+            number(ms.empty() ? 0.0 : *std::max_element(ms.begin(), ms.end()), "%.2f") + " ms; ";
+  text += "scheduled by these costs:";
   for (const int cores : kMoreCores)
-    text += ' ' + std::to_string(cores) + " cores " + number(scheduled_speedup(f, cores), "%.1fx");
+    text += ' ' + std::to_string(cores) + " cores " + number(s.scheduled_speedup(cores), "%.1fx");
   return text + '\n';
 }
 
@@ -96,6 +90,7 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   const FrameStats& f = s.stats;
   JsonObject json =
       JsonObject().put("scene", s.scene).put("size", size_text(s.pipeline)).put("preset", s.pipeline.preset);
+  json.put("strategy", name_of(s.pipeline.strategy)).put("tile", s.stats.tile);
   json.put("hash", "sha256:" + s.hash);
   json.put("ms", s.timing.median()).put("least_ms", s.timing.least()).put("spread", s.timing.spread());
   json.put("frames", uint64_t(s.timing.ms.size()));
@@ -105,21 +100,47 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   json.put("evaluated_pixel_lights", f.evaluated_pixel_lights).put("tile_pixel_lights", f.tile_pixel_lights);
   json.put("ns_per_pixel_light", ns_per_pixel_light(s)).put("million_triangles_per_s", million_triangles_per_s(s));
   json.put("floor_ms", floor_ms(s, bench)).put("share_of_floor", floor_ms(s, bench) / s.timing.median());
-  json.put("peak_mib", s.peak_mib).put("before_tiles_ms", f.before_tiles_ms);
+  json.put("million_pixels_per_s", million_pixels_per_s(s));
+  json.put("bytes_stored", s.bytes.stored).put("bytes_of_clusters", s.bytes.clusters);
+  json.put("peak_mib", s.peak_mib).put("bytes_per_triangle", per(s.peak_mib * 1048576.0, f.triangles));
+  json.put("bytes_per_pixel", per(s.peak_mib * 1048576.0, f.pixels));
+  json.put("before_tiles_ms", f.before_tiles_ms).put("before_tiles_alone_ms", alone_ms(f));
   JsonArray tiles, speedups;
   for (const double ms : f.tile_ms) tiles.add_raw(number(ms, "%.4f"));
   for (const int cores : kMoreCores)
-    speedups.add_raw(JsonObject().put("cores", cores).put("speedup", scheduled_speedup(f, cores)).text());
+    speedups.add_raw(JsonObject()
+                         .put("cores", cores)
+                         .put("tile", s.scheduled_tile(cores))
+                         .put("speedup", s.scheduled_speedup(cores))
+                         .text());
   json.put_raw("tile_ms", tiles.text()).put_raw("scheduled", speedups.text());
   return json.put_raw("peers", peers.text()).text();
 }
 
 }  // namespace
 
+double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e6, s.stats.evaluated_pixel_lights); }
+double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
+double million_pixels_per_s(const SceneTime& s) { return double(s.stats.pixels) * 1e-3 / s.timing.median(); }
+
+std::string rate_text(const SceneTime& s) {
+  return number(million_triangles_per_s(s), "%.0f") + " million triangles submitted and " +
+         number(million_pixels_per_s(s), "%.0f") + " million pixels a second";
+}
+
+int SceneTime::scheduled_tile(int cores) const {
+  return tile_costs.size() == 1 ? tile_costs.begin()->first : tile_for(pipeline.width, pipeline.height, cores);
+}
+
+double SceneTime::scheduled_speedup(int cores) const {
+  const auto ms_on = [this](int n) { return scheduled_frame_ms(stats, tile_costs.at(scheduled_tile(n)), n); };
+  return ms_on(1) / ms_on(cores);
+}
+
 std::string bench_heading(const BenchResult& b) {
   return b.machine.cpu + ", " + std::to_string(b.machine.cores) + " cores at " + number(b.machine.clock_ghz, "%.2f") +
          " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + b.simd + ", " + std::to_string(b.threads) +
-         (b.threads == 1 ? " thread" : " threads") + ", tiles of " + std::to_string(b.execution.tile) + "\n";
+         (b.threads == 1 ? " thread\n" : " threads\n");
 }
 
 std::string bench_text(const SceneTime& s, const BenchResult& bench) {
@@ -133,9 +154,8 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
   text += fastest_text(s, "this picture", [](const PictureCheck& p) { return p.same(); });
   text += fastest_text(s, "this shading, wherever it rounds", [](const PictureCheck& p) { return p.same_shading(); });
   text += "  geometry " + number(f.geometry_ms, "%.2f") + " ms, light " + number(f.light_ms, "%.2f") +
-          " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " +
-          number(million_triangles_per_s(s), "%.0f") + " million triangles a second; modelled floor " +
-          number(floor_ms(s, bench), "%.2f") + " ms, " +
+          " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " + rate_text(s) +
+          "; modelled floor " + number(floor_ms(s, bench), "%.2f") + " ms, " +
           number(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
   text += "  " + std::to_string(f.triangles_tested) + " of " + std::to_string(f.triangles) + " triangles set up, " +
           std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) + " pixels covered; " +
@@ -143,7 +163,9 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
           number(s.peak_mib, "%.0f") + " MiB at most, " + number(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") +
           " bytes a triangle, " + number(per(s.peak_mib * 1048576.0, f.pixels), "%.0f") + " a pixel\n";
-  text += schedule_text(f);
+  text += "  " + number(double(s.bytes.stored) * 1e-6, "%.1f") + " MB stored, " +
+          number(double(s.bytes.clusters) * 1e-6, "%.1f") + " MB of clusters drawn\n";
+  text += schedule_text(s);
   for (const std::string& about : s.peers_about) text += "  " + about + "\n";
   return text;
 }
@@ -162,7 +184,7 @@ std::string bench_json(const BenchResult& bench) {
   machine.put("cpu", bench.machine.cpu).put("cores", bench.machine.cores).put("clock_ghz", bench.machine.clock_ghz);
   JsonObject json;
   json.put("version", kVersion).put("commit", kCommit).put_raw("machine", machine.text());
-  json.put("threads", bench.threads).put("simd", bench.simd).put("tile", bench.execution.tile);
+  json.put("threads", bench.threads).put("simd", bench.simd);
   json.put_raw("scenes", scenes.text());
   return json.put_raw("scaling", scaling.text()).text() + '\n';
 }

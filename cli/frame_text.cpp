@@ -26,10 +26,10 @@ JsonObject scene_json(const RenderedFrame& result) {
   return json;
 }
 
-JsonObject execution_json(const Execution& execution) {
+JsonObject execution_json(const Execution& execution, int tile) {
   JsonObject json;
   const std::string_view simd = execution.simd == "best" ? simd_targets().front() : execution.simd;
-  json.put("threads", thread_count(execution.threads)).put("tile", execution.tile).put("simd", simd);
+  json.put("threads", thread_count(execution.threads)).put("tile", tile).put("simd", simd);
   json.put("light_culling", execution.light_culling).put("geometry_culling", execution.geometry_culling);
   return json;
 }
@@ -126,7 +126,8 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
   JsonObject json;
   json.put("version", kVersion);
   json.put_raw("scene", scene_json(result).text()).put_raw("pipeline", pipeline_json(result.pipeline));
-  json.put_raw("execution", execution_json(result.execution).text()).put_raw("stats", stats.text());
+  json.put_raw("execution", execution_json(result.execution, result.frame.stats.tile).text())
+      .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
   return json.text() + '\n';

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kMaxSide = 65536;
 
+const std::string kVariantForms = "strategy=S target=F view=V threads=N tile=N simd=NAME aov=PLANE+PLANE";
+
 /// A decimal integer that is the whole of `text`; nothing where it is not one or beyond 64 bits.
 std::optional<int64_t> integer(std::string_view text) {
   int64_t value = 0;
@@ -32,6 +34,14 @@ int integer_in(const std::string& option, const std::string& text, int least, in
     throw usage(option,
                 "'" + text + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
                 "give one");
+  return int(*value);
+}
+
+int tile_from_text(const std::string& option, const std::string& text) {
+  constexpr int kTiles[] = {8, 16, 32, 48, 64};
+  const std::optional<int64_t> value = integer(text);
+  if (!value || std::find(std::begin(kTiles), std::end(kTiles), *value) == std::end(kTiles))
+    throw usage(option, "'" + text + "' is no side of a tile", "8, 16, 32, 48 or 64");
   return int(*value);
 }
 
@@ -119,12 +129,43 @@ std::vector<std::string> peers_from_text(const std::string& list) {
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
-    names.push_back(list.substr(begin, end - begin));
-    if (names.back() != "gl" && names.back() != "embree")
-      throw usage("--against", "there is no peer '" + names.back() + "'", "gl, embree or gl,embree");
+    const std::string name = list.substr(begin, end - begin);
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw usage("--against", "peer '" + name + "' is named twice", "name it once");
+    if (name.find('=') != std::string::npos)
+      variant_from_text(name);
+    else if (name != "gl" && name != "embree")
+      throw usage("--against", "there is no peer '" + name + "'", "any of, with commas: gl embree " + kVariantForms);
+    names.push_back(name);
     begin = end + 1;
   }
   return names;
+}
+
+Variant variant_from_text(const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+  Variant v;
+  if (key == "strategy") {
+    v.strategy = strategy_from_text(value);
+  } else if (key == "target") {
+    v.target = target_from_text(value);
+  } else if (key == "view") {
+    v.view = view_from_text(value);
+  } else if (key == "threads") {
+    v.threads = integer_in("--against threads", value, 0, 1024);
+  } else if (key == "tile") {
+    v.tile = tile_from_text("--against tile", value);
+  } else if (key == "simd") {
+    check_simd(v.simd = value);
+  } else if (key == "aov") {
+    std::string list = value;
+    std::replace(list.begin(), list.end(), '+', ',');
+    v.aovs = aovs_from_text(list);
+  } else {
+    throw usage("--against", "nothing of ours is chosen by '" + key + "'", "any of, with commas: " + kVariantForms);
+  }
+  return v;
 }
 
 void check_preset(const std::optional<std::string>& preset) {

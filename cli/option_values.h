@@ -11,6 +11,7 @@ namespace trueshade {
 /// Values of options from their texts. Each throws Error(usage) naming the option and what it takes; a size over 65,536
 /// pixels a side is Error(limit).
 int integer_in(const std::string& option, const std::string& text, int least, int most);
+int tile_from_text(const std::string& option, const std::string& text);
 Size size_from_text(const std::string& text);
 double time_from_text(const std::string& text);
 FrameRange frames_from_text(const std::string& text);
@@ -20,7 +21,20 @@ Format target_from_text(const std::string& text);
 Strategy strategy_from_text(const std::string& text);
 /// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
 std::vector<std::string> aovs_from_text(const std::string& list);
+/// Names of peers: gl, embree, or ours drawn otherwise, KEY=VALUE.
 std::vector<std::string> peers_from_text(const std::string& list);
+
+/// How a variant of the bench draws what is timed: one option of render in another way.
+struct Variant {
+  std::optional<Strategy> strategy;
+  std::optional<Format> target;
+  std::optional<ImageView> view;
+  std::optional<int> threads, tile;
+  std::string simd;  ///< empty: the same
+  std::vector<std::string> aovs;
+};
+/// Of strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE...
+Variant variant_from_text(const std::string& text);
 
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& name);

@@ -64,7 +64,8 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
-  render->add_option("--tile", texts.tile, "Tile side: 8, 16, 32, 48 or 64; never changes a pixel");
+  render->add_option("--tile", texts.tile,
+                     "Tile side: 8, 16, 32, 48 or 64; without it by size and threads; never changes a pixel");
   render->add_flag("--no-light-culling", texts.no_light_culling,
                    "Try every light on every pixel; never changes a pixel");
   render->add_flag("--hash", options.hash, "Print the hash of the image's stored bytes");
@@ -84,7 +85,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.view) options.view = view_from_text(*texts.view);
   if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.tile) options.execution.tile = integer_in("--tile", *texts.tile, 8, 64);
+  if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
   options.execution.light_culling = !texts.no_light_culling;
   options.execution.count_as_gl = options.stats || options.json;
   check_preset(options.preset);
@@ -133,7 +134,9 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
       "--subpixel-bits", texts.subpixel_bits,
       "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   command->add_option("--save", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
-  command->add_flag("--quick", options.quick, "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
+  command->add_flag(
+      "--quick", options.quick,
+      "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
   command->add_flag("--json", options.json, "Print all of it as one JSON document");
   command->add_option("-o,--output", options.report, "Report to write, .html");
   command->footer(
@@ -183,7 +186,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   bench->add_option("--threads", texts.threads, "Threads, 0 for one a core");
   bench->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512");
   bench->add_option("--against", texts.against,
-                    "Peers in the same run, with commas: gl (every design), embree (visibility)");
+                    "Peers in the same run, with commas: gl (every design), embree (visibility), and ours otherwise: "
+                    "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
   bench->add_option("--json", options.json_file, "JSON document to write");
   bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");
   return bench;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cfloat>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #if defined(__x86_64__)
@@ -89,14 +91,35 @@ int thread_count(int requested) {
   return requested > 0 ? requested : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
+namespace {
+thread_local LoopLog* current_log = nullptr;
+}
+
+LoopLog::LoopLog() : outer_(std::exchange(current_log, this)) {}
+LoopLog::~LoopLog() { current_log = outer_; }
+
 void parallel_for(int count, int threads, const std::function<void(int)>& body) {
   const auto one = [&body](int i) {
     const FpScope ieee;
     body(i);
   };
   threads = std::min(thread_count(threads), count);
-  if (threads > 1) return run_on_threads(count, threads, one);
-  for (int i = 0; i < count; ++i) one(i);
+  using Clock = std::chrono::steady_clock;
+  LoopLog* const log = std::exchange(current_log, nullptr);  // loops inside this one are part of it
+  const Clock::time_point start = log != nullptr ? Clock::now() : Clock::time_point();
+  try {
+    if (threads > 1)
+      run_on_threads(count, threads, one);
+    else
+      for (int i = 0; i < count; ++i) one(i);
+  } catch (...) {
+    current_log = log;
+    throw;
+  }
+  current_log = log;
+  if (log == nullptr || count == 0) return;
+  const double wall = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  log->loops_.push_back({wall * threads, count});
 }
 
 }  // namespace trueshade

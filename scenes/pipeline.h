@@ -130,7 +130,7 @@ constexpr GBufferState surface_planes(const Pipeline& pipeline) {
 /// How a frame is computed. Never changes a pixel.
 struct Execution {
   int threads = 0;                 ///< 0: one a core; at most 1024
-  int tile = 64;                   ///< pixels a side: 8, 16, 32, 48 or 64
+  int tile = 0;                    ///< pixels a side: 8, 16, 32, 48 or 64; 0: by size and threads, see tile_for()
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
   bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls

@@ -72,8 +72,11 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
     scene = scene_of(
         mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));
   } else {
+    const auto& known = builtin_scenes();
+    const std::string name = spec.substr(0, spec.find(','));
+    const bool bare = std::any_of(known.begin(), known.end(), [&](const BuiltinInfo& b) { return b.name == name; });
     throw Error(ErrorKind::bad_input, spec, "the ending names no scene or geometry format",
-                "builtin:NAME, .json, .ply or .ply.gz");
+                bare ? "a built-in scene is builtin:" + spec : "builtin:NAME, .json, .ply or .ply.gz");
   }
   scene.spec = name_without_folder(spec);
   validate(scene, limits);

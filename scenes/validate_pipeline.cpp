@@ -149,9 +149,9 @@ void validate(const Pipeline& pipeline) {
 
 void validate(const Execution& execution) {
   require_integer(execution.threads, 0, 1024, "threads", "0 to 1024; 0 is one a core");
-  constexpr int kTiles[] = {8, 16, 32, 48, 64};
+  constexpr int kTiles[] = {0, 8, 16, 32, 48, 64};
   require(std::find(std::begin(kTiles), std::end(kTiles), execution.tile) != std::end(kTiles), "tile",
-          std::to_string(execution.tile), "8, 16, 32, 48 or 64");
+          std::to_string(execution.tile), "8, 16, 32, 48 or 64; 0 is by size and threads");
   constexpr std::string_view kSimd[] = {"best", "scalar", "sse4", "avx2", "avx512"};
   require(std::find(std::begin(kSimd), std::end(kSimd), execution.simd) != std::end(kSimd), "simd",
           "'" + std::string(execution.simd) + "'", "best, scalar, sse4, avx2 or avx512");

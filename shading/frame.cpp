@@ -5,6 +5,7 @@
 #include <chrono>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "core/fp_env.h"
@@ -52,21 +53,28 @@ TileScratch& thread_scratch() {
   return *scratch;
 }
 
-// Bins that a frame has for its time, kept for the thread's next one.
-struct BinsLoan {
-  std::unique_ptr<ClusterBins> bins;
+// What a frame fills before its tiles, in memory that stays touched: pages are dear.
+struct FrameTables {
+  ClusterBins bins;
+  LightTable lights;
+  LightGroups groups;
+};
 
-  BinsLoan() : bins(std::move(kept())) {
-    if (!bins) bins = std::make_unique<ClusterBins>();
+// Tables that a frame has for its time, kept for the thread's next one.
+struct TablesLoan {
+  std::unique_ptr<FrameTables> tables;
+
+  TablesLoan() : tables(std::move(kept())) {
+    if (!tables) tables = std::make_unique<FrameTables>();
   }
-  ~BinsLoan() { kept() = std::move(bins); }
-  BinsLoan(const BinsLoan&) = delete;
-  BinsLoan& operator=(const BinsLoan&) = delete;
+  ~TablesLoan() { kept() = std::move(tables); }
+  TablesLoan(const TablesLoan&) = delete;
+  TablesLoan& operator=(const TablesLoan&) = delete;
 
  private:
-  static std::unique_ptr<ClusterBins>& kept() {
-    thread_local std::unique_ptr<ClusterBins> bins;
-    return bins;
+  static std::unique_ptr<FrameTables>& kept() {
+    thread_local std::unique_ptr<FrameTables> tables;
+    return tables;
   }
 };
 
@@ -85,9 +93,9 @@ struct FrameWork {
   const Execution& execution;
   const View view;
   const ClusterBins& bins;
-  const LightTable lights;
+  const LightTable& lights;
   const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
-  const LightGroups groups;
+  const LightGroups& groups;
   const LightMeshes meshes;
   const LightOutlines outlines;  ///< of strategies that blend
   bool need_uv;
@@ -280,8 +288,15 @@ PreparedScene::PreparedScene(const Scene& scene)
 PreparedScene::~PreparedScene() = default;
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
-Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+int tile_for(int width, int height, int threads) {
+  const auto tiles = [](int side) { return uint64_t(side + 63) / 64; };
+  return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
+}
+
+Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& asked,
                  std::span<const std::string> aovs, const Progress& progress) {
+  Execution execution = asked;
+  if (execution.tile == 0) execution.tile = tile_for(pipeline.width, pipeline.height, execution.threads);
   check_memory(pipeline, execution, aovs);
   const FpScope fp;
   const SimdScope simd(execution.simd);
@@ -292,27 +307,31 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   for (const std::string& name : aovs)
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
+  std::optional<LoopLog> log(std::in_place);
   View view = make_view(scene, pipeline, execution.threads);
-  BinsLoan bins;
-  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
-               *bins.bins);
+  const TablesLoan loan;
+  auto& [bins, lights, groups] = *loan.tables;
+  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads, bins);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
-  LightTable lights = make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads);
+  make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads, lights);
   bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
   PlainLights plain;
   if (execution.settled_sums && !blends_lights(pipeline.strategy))
     plain = make_plain_lights(lights, pipeline.light_model);
-  LightGroups groups;
-  if (execution.light_culling) groups = make_light_groups(lights, execution.threads);
+  groups.group.clear();
+  if (execution.light_culling) make_light_groups(lights, execution.threads, groups);
   LightMeshes meshes(pipeline.light_volumes);
   LightOutlines outlines;
   if (blends_lights(pipeline.strategy))
     outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
   frame.stats.before_tiles_ms = now_ms() - start;
-  draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
-              std::move(groups), std::move(meshes), std::move(outlines), need_uv,
-              LightPlanes(aovs, scene, pipeline), TransparentPass(scene, pipeline, execution), frame},
+  frame.stats.loops_before_tiles = log->loops();
+  frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
+  log.reset();
+  draw_tiles({prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, std::move(meshes),
+              std::move(outlines), need_uv, LightPlanes(aovs, scene, pipeline),
+              TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

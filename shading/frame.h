@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/fp_env.h"
 #include "core/image.h"
 #include "raster/simd_target.h"
 #include "scenes/pipeline.h"
@@ -40,19 +41,21 @@ struct FrameStats {
 
   GlCounts gl;  ///< of deferred-volumes with Execution::count_as_gl alone whole: P has to be counted
 
-  uint64_t clusters_drawn = 0;                         ///< cluster x tile pairs whose triangles were set up
-  uint64_t triangles_tested = 0;                       ///< set up, over all tiles
-  uint64_t fragments = 0;                              ///< covered samples before the depth test
-  uint64_t tile_pixel_lights = 0;                      ///< covered pixels times lights in the tile's list
+  uint64_t clusters_drawn = 0;     ///< cluster x tile pairs whose triangles were set up
+  uint64_t triangles_tested = 0;   ///< set up, over all tiles
+  uint64_t fragments = 0;          ///< covered samples before the depth test
+  uint64_t tile_pixel_lights = 0;  ///< covered pixels times lights in the tile's list; of many lights, its region's
   uint64_t evaluated_pixel_lights = 0;                 ///< lanes the light kernel computed a contribution for
   double geometry_ms = 0, light_ms = 0, total_ms = 0;  ///< wall time; the parts are summed over threads
   double before_tiles_ms = 0;                          ///< wall time: view, bins, light tables
+  std::vector<ParallelLoop> loops_before_tiles;        ///< the parts of that which threads share
+  int tile = 0, threads = 0;                           ///< of the frame: pixels a side, and how many at work
   std::vector<double> tile_ms;                         ///< each tile's, in the order they are started
 };
 
 /// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular
-/// emission uv id.object id.material light.count light.tile light.boxes light.edges light.intensity overdraw, and light.<i>
-/// for each light of the scene.
+/// emission uv id.object id.material light.count light.tile light.boxes light.edges light.intensity overdraw, and
+/// light.<i> for each light of the scene.
 std::span<const std::string_view> aov_names();  ///< but for light.<i>
 bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
 
@@ -80,6 +83,10 @@ class PreparedScene {
   const Scene* scene_;
   std::unique_ptr<ClusteredScene> clusters_;
 };
+
+/// The side of tiles that is drawn with where none is asked for: 64 pixels, or 32 where that leaves fewer than 8 tiles
+/// for a thread. `threads` as in Execution.
+int tile_for(int width, int height, int threads);
 
 /// Called now and then with the tiles done and the tiles in all, from any one thread at a time.
 using Progress = std::function<void(int done, int total)>;

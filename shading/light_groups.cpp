@@ -1,6 +1,7 @@
 #include "shading/light_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,13 +13,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kCellBits = 5;  // cells along an axis: 2^5
 
-struct Place {
-  float at[3];
-  Place(const LightTable& lights, uint32_t light) {
-    for (int c = 0; c < 3; ++c) at[c] = lights.position[c][light];
-  }
-};
-
 struct Bounds {
   float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
   void add(const float* least, const float* most) {
@@ -28,11 +22,17 @@ struct Bounds {
 
 // Bits of a cell's coordinates by turns: neighbours along the curve are neighbours in space (Morton 1966).
 uint32_t cell_of(const float* place, const Bounds& all) {
+  static constexpr auto kSpread = [] {  // bits of a coordinate, two of others between each
+    std::array<uint32_t, 1 << kCellBits> spread{};
+    for (uint32_t i = 0; i < spread.size(); ++i)
+      for (int bit = 0; bit < kCellBits; ++bit) spread[i] |= (i >> bit & 1) << (3 * bit);
+    return spread;
+  }();
   uint32_t code = 0;
   for (int c = 0; c < 3; ++c) {
     const float extent = all.high[c] - all.low[c], at = (place[c] - all.low[c]) / extent * float(1 << kCellBits);
     const uint32_t cell = at > 0.0f ? uint32_t(std::min(at, float((1 << kCellBits) - 1))) : 0;  // 0 where extent is
-    for (int bit = 0; bit < kCellBits; ++bit) code |= (cell >> bit & 1) << (3 * bit + c);
+    code |= kSpread[cell] << c;
   }
   return code;
 }
@@ -50,22 +50,55 @@ Bounds sphere_box(const float* place, float cut2) {
   return out;
 }
 
-// Lights by cell: where each cell's begin, then each light into its place.
-std::vector<uint32_t> along_curve(const LightTable& lights, const std::vector<uint32_t>& bounded, const Bounds& all,
-                                  int threads) {
-  constexpr size_t kCells = size_t(1) << (3 * kCellBits), kChunk = 4096;
-  std::vector<uint32_t> cell(bounded.size()), first(kCells + 1), order(bounded.size());
-  parallel_for(int((bounded.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
-    const size_t end = std::min(bounded.size(), (size_t(chunk) + 1) * kChunk);
-    for (size_t i = size_t(chunk) * kChunk; i < end; ++i) {
-      const Place at(lights, bounded[i]);
-      cell[i] = cell_of(at.at, all);
+constexpr size_t kCells = size_t(1) << (3 * kCellBits), kChunk = 4096;
+
+// Whether a light ends somewhere about a place.
+bool is_bounded(const LightTable& lights, size_t i) {
+  return std::isfinite(lights.cut2[i]) && !std::isnan(lights.position[0][i]);
+}
+
+// Calls visit(chunk, i, place) for each light, chunks on all threads.
+template <class Visit>
+void for_each_light(const LightTable& lights, int threads, const Visit& visit) {
+  parallel_for(int((lights.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
+    for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kChunk); ++i) {
+      const float at[3] = {lights.position[0][i], lights.position[1][i], lights.position[2][i]};
+      visit(chunk, i, at);
     }
   });
-  for (const uint32_t c : cell) ++first[c + 1];
-  for (size_t c = 0; c < kCells; ++c) first[c + 1] += first[c];
-  for (size_t i = 0; i < bounded.size(); ++i) order[first[cell[i]]++] = bounded[i];
-  return order;
+}
+
+Bounds places_of(const LightTable& lights, int threads) {
+  std::vector<Bounds> parts(lights.size() / kChunk + 1);
+  for_each_light(lights, threads, [&](int chunk, size_t i, const float* at) {
+    if (is_bounded(lights, i)) parts[size_t(chunk)].add(at, at);
+  });
+  Bounds all;
+  for (const Bounds& part : parts) all.add(part.low, part.high);
+  return all;
+}
+
+// Bounded lights by cell: where each cell's begin, then each light into its place. The others to `always`.
+void sort_along_curve(const LightTable& lights, int threads, LightGroups& out) {
+  const Bounds all = places_of(lights, threads);
+  out.cell.resize(lights.size());
+  for_each_light(lights, threads, [&](int, size_t i, const float* at) {
+    out.cell[i] = is_bounded(lights, i) ? cell_of(at, all) : uint32_t(kCells);
+  });
+  out.first.assign(kCells + 2, 0);
+  for (const uint32_t c : out.cell) ++out.first[c + 1];
+  const size_t bounded = lights.size() - out.first[kCells + 1];
+  for (size_t c = 0; c < kCells; ++c) out.first[c + 1] += out.first[c];
+  out.sorted.resize(bounded);
+  uint32_t* const next = out.first.data();
+  SortedLight* const sorted = out.sorted.data();
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    const uint32_t c = out.cell[i];
+    if (c == kCells)
+      out.always.push_back(i);
+    else
+      sorted[next[c]++] = {{lights.position[0][i], lights.position[1][i], lights.position[2][i]}, lights.cut2[i], i};
+  }
 }
 
 void resize(GroupBoxes& boxes, size_t count) {
@@ -78,47 +111,45 @@ void put(GroupBoxes& boxes, size_t i, const Bounds& b) {
   for (int c = 0; c < 3; ++c) boxes.low[c][i] = b.low[c], boxes.high[c][i] = b.high[c];
 }
 
+// One cluster of groups: its lights side by side, and the boxes.
+void fill_cluster(size_t cluster, LightGroups& out) {
+  constexpr size_t kGroup = LightGroups::kGroup;
+  Bounds of_cluster;
+  for (size_t g = cluster * kGroup; g < std::min(out.groups.count, (cluster + 1) * kGroup); ++g) {
+    LightGroup group{};
+    Bounds of_group;
+    for (size_t i = 0; i < std::min(kGroup, out.sorted.size() - g * kGroup); ++i) {
+      const SortedLight& light = out.sorted[g * kGroup + i];
+      const Bounds sphere = sphere_box(light.position, light.cut2);
+      of_group.add(sphere.low, sphere.high);
+      for (int c = 0; c < 3; ++c) group.position[c][i] = light.position[c];
+      group.cut2[i] = light.cut2, group.light[i] = light.light;
+    }
+    out.group[g] = group;
+    put(out.groups, g, of_group);
+    of_cluster.add(of_group.low, of_group.high);
+  }
+  put(out.clusters, cluster, of_cluster);
+}
+
 }  // namespace
+
+void make_light_groups(const LightTable& lights, int threads, LightGroups& out) {
+  constexpr size_t kGroup = LightGroups::kGroup;
+  out.group.clear(), out.always.clear();
+  if (lights.size() < LightGroups::kFewest) return;
+  sort_along_curve(lights, threads, out);
+  if (out.sorted.size() < LightGroups::kFewest) return;
+  const size_t groups = (out.sorted.size() + kGroup - 1) / kGroup, clusters = (groups + kGroup - 1) / kGroup;
+  out.group.resize(groups);
+  resize(out.groups, groups);
+  resize(out.clusters, clusters);
+  parallel_for(int(clusters), threads, [&](int cluster) { fill_cluster(size_t(cluster), out); });
+}
 
 LightGroups make_light_groups(const LightTable& lights, int threads) {
   LightGroups out;
-  if (lights.size() < LightGroups::kFewest) return out;
-  std::vector<uint32_t> bounded;
-  bounded.reserve(lights.size());
-  Bounds all;
-  for (uint32_t i = 0; i < lights.size(); ++i) {
-    if (!std::isfinite(lights.cut2[i])) {
-      out.always.push_back(i);
-      continue;
-    }
-    const Place place(lights, i);
-    bounded.push_back(i);
-    all.add(place.at, place.at);
-  }
-  if (bounded.size() < LightGroups::kFewest) return {};
-  out.light = along_curve(lights, bounded, all, threads);
-  constexpr size_t kGroup = LightGroups::kGroup;
-  const size_t groups = (out.light.size() + kGroup - 1) / kGroup, clusters = (groups + kGroup - 1) / kGroup;
-  for (auto& stream : out.position) stream.resize(groups * kGroup, 0.0f);
-  out.cut2.resize(groups * kGroup, 0.0f);
-  resize(out.groups, groups);
-  resize(out.clusters, clusters);
-  parallel_for(int(clusters), threads, [&](int cluster) {
-    Bounds of_cluster;
-    for (size_t g = size_t(cluster) * kGroup; g < std::min(groups, size_t(cluster + 1) * kGroup); ++g) {
-      Bounds of_group;
-      for (size_t i = g * kGroup; i < std::min(out.light.size(), (g + 1) * kGroup); ++i) {
-        const Place place(lights, out.light[i]);
-        out.cut2[i] = lights.cut2[out.light[i]];
-        for (int c = 0; c < 3; ++c) out.position[c][i] = place.at[c];
-        const Bounds sphere = sphere_box(place.at, out.cut2[i]);
-        of_group.add(sphere.low, sphere.high);
-      }
-      put(out.groups, g, of_group);
-      of_cluster.add(of_group.low, of_group.high);
-    }
-    put(out.clusters, size_t(cluster), of_cluster);
-  });
+  make_light_groups(lights, threads, out);
   return out;
 }
 

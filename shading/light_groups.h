@@ -12,17 +12,42 @@ struct GroupBoxes {
   size_t count = 0;
 };
 
-/// Many lights so that those near a box are found without looking at them all: in the order of a curve through space,
-/// 16 to a group, 16 groups to a cluster. Empty for lights so few that looking at them all is quicker.
+/// Neighbours along a curve through space, padded with lights that reach nothing: what is read of a group lies
+/// together.
+struct alignas(64) LightGroup {
+  static constexpr size_t kLights = 16;
+  float position[3][kLights], cut2[kLights];
+  uint32_t light[kLights];  ///< of the table
+};
+
+/// A light on its way to its group.
+struct SortedLight {
+  float position[3], cut2;
+  uint32_t light;
+};
+
+/// Many lights so that those near a box are found without looking at them all: along the curve, 16 to a group, 16
+/// groups to a cluster. Empty for lights so few that looking at them all is quicker.
 struct LightGroups {
-  static constexpr size_t kFewest = 4096, kGroup = 16;
-  std::vector<uint32_t> always;          ///< lights that end nowhere, ascending
-  std::vector<uint32_t> light;           ///< the others along the curve
-  std::vector<float> position[3], cut2;  ///< theirs, padded with lights that reach nothing
+  static constexpr size_t kFewest = 4096, kGroup = LightGroup::kLights;
+  std::vector<uint32_t> always;   ///< lights that end nowhere, ascending
+  std::vector<LightGroup> group;  ///< the others
   GroupBoxes groups, clusters;
-  bool empty() const { return light.empty(); }
+  std::vector<uint32_t> cell, first;  ///< scratch, kept from frame to frame like the rest
+  std::vector<SortedLight> sorted;    ///< scratch
+
+  bool empty() const { return group.empty(); }
+};
+
+/// Lights of a table found in another order than theirs; kept between regions to save allocation.
+struct FoundLights {
+  std::vector<uint32_t> at;         ///< kGroup times the group, and which of its lights
+  std::vector<uint64_t> word, any;  ///< a bit a light, and one for each word that has any; none between regions
+  std::vector<uint32_t> before;     ///< lights in the words before, of words that have any
 };
 
 LightGroups make_light_groups(const LightTable& lights, int threads);
+/// The same in the memory of any other table's.
+void make_light_groups(const LightTable& lights, int threads, LightGroups& out);
 
 }  // namespace trueshade

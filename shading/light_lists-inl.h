@@ -240,19 +240,19 @@ HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t e
 inline void reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
                             std::vector<uint64_t>& bits) {
   constexpr size_t kGroup = LightGroups::kGroup;
-  const float* const position[3] = {groups.position[0].data(), groups.position[1].data(), groups.position[2].data()};
-  const auto set = [&](size_t k) {
-    const uint32_t light = groups.light[k];
+  const auto set = [&](uint32_t light) {
     if (!cull.cone || !dark_over(lights.row[light], r.place.low, r.place.high))
       bits[light / 64] |= uint64_t(1) << light % 64;
   };
   for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
     const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
     for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
-      for (size_t i = group * kGroup; i < (group + 1) * kGroup; i += hn::Lanes(DF())) {
-        MF reaches = within_reach(position, groups.cut2.data(), i, r.place);
+      const LightGroup& of = groups.group[group];
+      const float* const position[3] = {of.position[0], of.position[1], of.position[2]};
+      for (size_t i = 0; i < kGroup; i += hn::Lanes(DF())) {
+        MF reaches = within_reach(position, of.cut2, i, r.place);
         if (cull.facing && !hn::AllFalse(DF(), reaches)) reaches = hn::AndNot(faced_away(position, i, r), reaches);
-        for_each_lane(reaches, i, groups.light.size(), set);
+        for_each_lane(reaches, i, kGroup, [&](size_t k) { set(of.light[k]); });
       }
     });
   });

@@ -10,6 +10,7 @@
 
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
+#include "shading/many_lights-inl.h"
 #include "shading/settled_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -167,7 +168,8 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   find_regions(in.surface, blocks, cull.facing || by_bounds, regions);
   if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
-  list_tile_lights(in, regions, cull);
+  const bool many = cull.distance && !in.groups.empty() && !by_bounds;
+  if (!many) list_tile_lights(in, regions, cull);
 
   const LightTerms<Shape> terms(in.lights, in.model, shape);
   if constexpr (Shape::compiled) {
@@ -177,7 +179,12 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   }
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
-    region_lights(in.work.tile, r, blocks, cull, in.work.region);
+    if (many) {
+      find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
+      in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();
+    } else {
+      region_lights(in.work.tile, r, blocks, cull, in.work.region);
+    }
     for (int k = 0; k < r.wide * r.tall; ++k) {
       const int block = (r.by + k / r.wide) * blocks + r.bx + k % r.wide;
       const std::span<const ListedLight> list =

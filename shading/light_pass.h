@@ -28,6 +28,7 @@ struct ColorTile {
 /// Light lists of the tile at work; kept between tiles to save allocation.
 struct LightLists {
   std::vector<uint64_t> bits;
+  FoundLights found;
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
   std::vector<ListedLight> block;

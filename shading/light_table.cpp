@@ -89,19 +89,24 @@ LightRow row_of(const Light& light, const LightModel& model) {
 
 }  // namespace
 
-LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads) {
+void make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads,
+                      LightTable& table) {
   constexpr size_t kChunk = 2048;
-  LightTable table;
   const glm::vec3 axis = view_axis(camera);
   for (int c = 0; c < 3; ++c) table.eye[c] = camera.eye[c], table.view_axis[c] = axis[c];
   const size_t padded = (lights.size() + 15) / 16 * 16;
-  for (auto& stream : table.position) stream.resize(padded, 0.0f);
-  table.cut2.resize(padded, 0.0f);
+  for (auto& stream : table.position)
+    stream.resize(padded), std::fill(stream.begin() + long(lights.size()), stream.end(), 0.0f);
+  table.cut2.resize(padded), std::fill(table.cut2.begin() + long(lights.size()), table.cut2.end(), 0.0f);
   table.row.resize(lights.size());
   parallel_for(int((lights.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
+    float range = -1.0f, cut2 = kInfinity;  // of the light before
     for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kChunk); ++i) {
       LightRow& row = table.row[i] = row_of(lights[i], model);
-      if (ends(model.falloff) && placed(lights[i].type)) row.cut2 = cut_distance2(model.falloff, lights[i].range);
+      if (ends(model.falloff) && placed(lights[i].type)) {
+        if (lights[i].range != range) range = lights[i].range, cut2 = cut_distance2(model.falloff, range);
+        row.cut2 = cut2;
+      }
       // No comparison with a NaN drops a light.
       for (int c = 0; c < 3; ++c) table.position[c][i] = placed(lights[i].type) ? row.position[c] : std::nanf("");
       table.cut2[i] = row.cut2;
@@ -109,6 +114,11 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
   });
   table.cones = model.cone != Cone::none &&
                 std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+}
+
+LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads) {
+  LightTable table;
+  make_light_table(lights, model, camera, threads, table);
   return table;
 }
 

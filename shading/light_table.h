@@ -56,5 +56,8 @@ bool dark_over(const LightRow& light, const float low[3], const float high[3]);
 
 LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera,
                             int threads = 1);
+/// The same in the memory of any other table.
+void make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads,
+                      LightTable& out);
 
 }  // namespace trueshade

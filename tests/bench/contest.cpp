@@ -1,6 +1,7 @@
 // How times are taken, with contenders that only say that they took some.
 #include "bench/contest.h"
 
+#include "bench/floor.h"
 #include "bench/machine.h"
 #include "bench/peers.h"
 #include "bench/schedule.h"
@@ -86,6 +87,36 @@ TEST_CASE("Tasks scheduled on more cores take as long as the last core that is a
   CHECK(scheduled_ms(ms, 3) == 4.0);   // 4; 3 and 1; 2 and 2
   CHECK(scheduled_ms(ms, 64) == 4.0);  // no less than the dearest
   CHECK(scheduled_ms({}, 2) == 0.0);
+}
+
+TEST_CASE("What precedes the tiles is shared by as many cores as it has tasks, and the rest of it by none") {
+  FrameStats stats;
+  stats.threads = 2;
+  stats.before_tiles_ms = 10.0;
+  stats.loops_before_tiles = {{8.0, 4}, {6.0, 1}};  // 4 ms of two threads, 6 ms of one: nothing else
+  const std::vector<double> tiles{3, 3, 2};
+  CHECK(scheduled_frame_ms(stats, tiles, 1) == 8.0 + 6.0 + 8.0);
+  CHECK(scheduled_frame_ms(stats, tiles, 2) == 4.0 + 6.0 + 5.0);
+  CHECK(scheduled_frame_ms(stats, tiles, 64) == 2.0 + 6.0 + 3.0);
+  stats.before_tiles_ms = 11.5;
+  CHECK(scheduled_frame_ms(stats, tiles, 64) == 1.5 + 2.0 + 6.0 + 3.0);
+}
+
+TEST_CASE("Tiles are small where large ones are fewer than eight a thread") {
+  CHECK(tile_for(800, 800, 1) == 64);
+  CHECK(tile_for(800, 800, 21) == 64);  // 169 tiles
+  CHECK(tile_for(800, 800, 22) == 32);
+  CHECK(tile_for(1920, 1080, 63) == 64);  // 510
+  CHECK(tile_for(1920, 1080, 64) == 32);
+  CHECK(tile_for(64, 64, 1) == 32);
+}
+
+TEST_CASE("What a frame must move is its texels and its clusters") {
+  FrameStats stats;
+  stats.pixels = 1000, stats.clusters_drawn = 3;
+  CHECK(frame_bytes(stats, Format::rgba8).stored == 4000);
+  CHECK(frame_bytes(stats, Format::rgba16f).stored == 8000);
+  CHECK(frame_bytes(stats, Format::rgba8).clusters == 3 * (64 * 12 + 126 * 3 + 64));
 }
 
 }  // namespace trueshade

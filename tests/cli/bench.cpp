@@ -1,4 +1,6 @@
 // What `trueshade bench` says and writes. No time is a verdict here.
+#include <sys/resource.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -73,10 +75,63 @@ TEST_CASE("bench times OpenGL under presets that draw lights as geometry, and sa
   }
 }
 
+TEST_CASE("bench times ours drawn otherwise in the same run: other targets, views, planes, threads and tiles") {
+  const ScratchFolder folder;
+  const std::string variants =
+      "simd=scalar,target=rgba16f,view=normal,aov=depth+normal,threads=3,tile=8,strategy=forward-loop";
+  const Outcome bench = run_command(
+      {"bench", "builtin:city,objects=20,lights=7", "--size", "64x48", "--against", variants, "--json", "b.json"},
+      folder.path(""));
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  CHECK(bench.out.find("trueshade aov=depth+normal") != std::string::npos);
+  const auto json = nlohmann::json::parse(contents(folder.path("b.json")));
+  const auto& scene = json["scenes"][0];
+  REQUIRE(scene["peers"].size() == 7);
+  for (const auto& peer : scene["peers"]) {
+    CHECK(peer["name"] == "trueshade");
+    CHECK(variants.find(peer["strategy"].get<std::string>()) != std::string::npos);
+    CHECK(peer["ratio"].get<double>() > 0.0);
+  }
+  CHECK(scene["bytes_stored"] == 64 * 48 * 4);
+  CHECK(scene["bytes_of_clusters"].get<int>() > 0);
+  CHECK(scene["bytes_per_pixel"].get<double>() ==
+        Approx(scene["peak_mib"].get<double>() * 1048576.0 / (64 * 48)).epsilon(1e-6));
+  REQUIRE(scene["scheduled"].size() == 6);
+  for (const auto& row : scene["scheduled"]) {
+    CHECK(row["speedup"].get<double>() <= row["cores"].get<int>() + 1e-9);
+    CHECK(row["tile"] == 32);  // one tile of 64 pixels is fewer than eight
+  }
+}
+
+TEST_CASE("The whole command stays below the memory that five and eight million triangles were given") {
+  const auto most_mb = [](const std::string& scene) {
+    const Outcome render = run_command({"render", scene, "--hash"});
+    INFO(render.err);
+    REQUIRE(render.exit_code == 0);
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);  // of the largest process so far
+    return double(usage.ru_maxrss) * 1024.0 / 1e6;
+  };
+  CHECK(most_mb("builtin:rabbits") < 300.0);
+  CHECK(most_mb("builtin:red") < 600.0);
+}
+
 TEST_CASE("bench refuses what it cannot do, in one line") {
   const ScratchFolder folder;
   check_refused(run_command({"bench", "--against", "vulkan"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,"}), 2, "no peer");
+  check_refused(run_command({"bench", "--against", "gl,gl"}), 2, "twice");
+  check_refused(run_command({"bench", "--against", "simd="}), 2, "simd");
+  check_refused(run_command({"bench", "--against", "simd=neon"}), 2, "neon");
+  check_refused(run_command({"bench", "--against", "target=rgb"}), 2, "target");
+  check_refused(run_command({"bench", "--against", "view=nothing"}), 2, "view");
+  check_refused(run_command({"bench", "--against", "tile=7"}), 2, "tile");
+  check_refused(run_command({"bench", "--against", "threads=-1"}), 2, "threads");
+  check_refused(run_command({"bench", "--against", "aov=depth+"}), 2, "plane");
+  check_refused(run_command({"bench", "--against", "strategy=best"}), 2, "strategy");
+  check_refused(run_command({"bench", "--against", "=avx2"}), 2, "chosen by ''");
+  check_refused(run_command({"bench", "city"}), 3, "builtin:city");
   check_refused(run_command({"bench", "builtin:nowhere"}), 3, "nowhere");
   check_refused(run_command({"bench", "--simd", "neon"}), 2, "neon");
   check_refused(run_command({"bench", "--size", "0x1"}), 2, "size");

@@ -49,6 +49,26 @@ TEST_CASE("FpScope computes as IEEE 754 says and gives the caller's settings bac
   CHECK(inside);
 }
 
+TEST_CASE("A log of loops has those that its thread calls, each with its tasks, and no others") {
+  parallel_for(3, 2, [](int) {});
+  const LoopLog log;
+  parallel_for(5, 2, [](int) { parallel_for(7, 1, [](int) {}); });
+  parallel_for(0, 2, [](int) {});
+  {
+    const LoopLog inner;
+    parallel_for(9, 1, [](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
+    REQUIRE(inner.loops().size() == 1);
+    CHECK(inner.loops()[0].tasks == 9);
+    CHECK(inner.loops()[0].core_ms >= 18.0);
+  }
+  CHECK_THROWS(parallel_for(4, 2, [](int) { throw std::runtime_error("no"); }));
+  parallel_for(2, 64, [](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
+  REQUIRE(log.loops().size() == 2);
+  CHECK(log.loops()[0].tasks == 5);
+  CHECK(log.loops()[1].tasks == 2);
+  CHECK(log.loops()[1].core_ms >= 4.0);  // both threads'
+}
+
 TEST_CASE("parallel_for calls every index once and under IEEE arithmetic, whatever the caller's settings") {
   for (const int threads : {0, 1, 2, 3, 8, 64}) {
     std::vector<std::atomic<int>> calls(1000);

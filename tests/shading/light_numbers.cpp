@@ -1,4 +1,6 @@
 // From no light to as many as the limit allows: culling changes no bit, and the sum is the naive one.
+#include <cmath>
+
 #include "core/error.h"
 #include "scenes/presets.h"
 #include "tests/catch.hpp"
@@ -44,6 +46,51 @@ TEST_CASE("0, 1, 757 and 100,000 lights give one image, culled or not, under eve
         if (count <= 1000) CHECK(drawn(prepared, pipeline, "scalar", true).texels == expected.texels);
       }
   }
+}
+
+TEST_CASE("Lists of many lights, region by region, change no bit on any target, by any tiles, under any preset") {
+  Scene scene = under_lights(70, 6000);
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    if (i % 100 != 0 && std::isinf(scene.lights[i].range)) scene.lights[i].range = 0.5f;  // most end somewhere
+  const PreparedScene prepared(scene);
+  for (const Preset& row : presets()) {
+    Pipeline pipeline = loop_pipeline(row.name);
+    pipeline.target = Format::rgba32f;
+    pipeline.width = 48, pipeline.height = 40;
+    const Image expected = drawn(prepared, pipeline, "best", false);
+    for (const std::string_view simd : simd_targets())
+      for (const int tile : {8, 64}) {
+        INFO(row.name << ", " << simd << ", tile " << tile);
+        CHECK(render_frame(prepared, pipeline, {.tile = tile, .simd = simd}).color.texels == expected.texels);
+      }
+  }
+}
+
+TEST_CASE("City under 20,000 lights has one image, culled or not, and its lists leave out nine pairs in ten") {
+  const Scene scene = load_scene("builtin:city,lights=20000");
+  const PreparedScene prepared(scene);
+  for (const char* preset : {"many-lights", "light-volumes"})
+    for (const Format target : {Format::rgba32f, Format::rgba8}) {
+      Pipeline pipeline = *preset_pipeline(preset);
+      pipeline.target = target;
+      pipeline.width = 80, pipeline.height = 72;
+      INFO(preset << ", " << info(target).name);
+      const Image expected = drawn(prepared, pipeline, "best", false);
+      for (const std::string_view simd : simd_targets()) {
+        const Frame culled = render_frame(prepared, pipeline, {.simd = simd});
+        CHECK(culled.color.texels == expected.texels);
+        CHECK(culled.stats.tile_pixel_lights * 10 < culled.stats.pixel_lights);
+      }
+    }
+}
+
+TEST_CASE("Tables that a thread keeps serve scenes of more lights, of fewer and of many again") {
+  const Scene many = under_lights(71, 9000), more = under_lights(72, 12000), few = under_lights(73, 40);
+  const PreparedScene scenes[] = {PreparedScene(many), PreparedScene(few), PreparedScene(more), PreparedScene(many)};
+  Pipeline pipeline = loop_pipeline(presets().front().name);
+  pipeline.width = 24, pipeline.height = 16;
+  for (const PreparedScene& scene : scenes)
+    CHECK(drawn(scene, pipeline, "best", true).texels == drawn(scene, pipeline, "best", false).texels);
 }
 
 TEST_CASE("1,000,000 lights are the naive sum of 1,000,000 terms, bit for bit") {
