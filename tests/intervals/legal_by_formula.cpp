@@ -14,8 +14,9 @@ using namespace trueshade::oracle;
 
 namespace {
 
-constexpr double kPlaneCeiling = 1e-5;  // GL_RULES 9: of attributes, w within a ratio of 10, relative to the largest value
-constexpr double kDepthCeiling = 4e-6;  // the same of depth in 32 bits
+// GL_RULES 9, how far a driver's planes were seen from the truth; two pictures may be twice that apart.
+constexpr double kPlaneCeiling = 2 * 1e-5;  // attributes, w within a ratio of 10, relative to the largest value
+constexpr double kDepthCeiling = 2 * 4e-6;  // depth in 32 bits
 
 /// Exactly snapped triangles, and whether an edge passes a sample closely.
 class Edges {
@@ -149,7 +150,8 @@ class Prover {
       if (b == nullptr) return plane.name;
       const bool whole = info(a->format).number_class == NumberClass::integer;
       for (int k = 0; k < info(a->format).channels; ++k)
-        if (whole ? a->code(x, y, k) != b->code(x, y, k) : !same_value(*a, *b, x, y, k, ceilings_[i])) return plane.name;
+        if (whole ? a->code(x, y, k) != b->code(x, y, k) : !same_value(*a, *b, x, y, k, ceilings_[i]))
+          return plane.name + " (" + std::to_string(a->value(x, y, k)) + ", " + std::to_string(b->value(x, y, k)) + ")";
     }
     return {};
   }

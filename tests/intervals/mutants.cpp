@@ -15,6 +15,6 @@ TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") {
     profiles.back().subpixel_bits = 8;
   }
   const Renderer renderer = [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); };
-  testing::try_mutants(profiles, renderer, 2, {});
+  testing::try_mutants(profiles, renderer, 2, {}, {});
   CHECK(mutants().size() == 56);
 }

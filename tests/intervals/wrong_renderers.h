@@ -18,9 +18,11 @@ struct MutantScore {
 
 /// Every wrong renderer of `mutants()` on seven scenes, where `renderer` draws. Each try must be rejected, or its picture shown to
 /// be legal without the judge (legal_by_formula.h); each renderer be rejected on two scenes at least, by any GPU's rules too where
-/// these leave no latitude. `same`: names of those that change no picture here, which is asserted. Prints the counts.
+/// these leave no latitude. Prints the counts.
 ///   presets: how many of presets() are tried on every scene; on cornell all are
+///   same: those that change no picture here
+///   inside: those whose pictures are all legal here, beside those of Latitude::always_legal
 void try_mutants(std::span<const oracle::Profile> profiles, const oracle::Renderer& renderer, size_t presets,
-                 std::span<const std::string_view> same);
+                 std::span<const std::string_view> same, std::span<const std::string_view> inside);
 
 }  // namespace trueshade::testing
