@@ -38,10 +38,29 @@ class Edges {
     return false;
   }
 
+  /// How much a driver's attribute may be off for making its plane from the window's corner in floats (docs/validation.md, False
+  /// alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
+  double plane_error(size_t value, Interpolation interpolation, const GeometryState& state, int x, int y_from_top) const {
+    const int y = height_ - 1 - y_from_top;
+    const Visible seen = visible_fragment(frame_.at(x, y), state);
+    if (!seen.fragment) return 0;
+    const DrawnTriangle& t = frame_.triangles[frame_.at(x, y)[*seen.fragment].window];
+    const auto at = [&](int dx, int dy) { return value_at(t, value, interpolation, x + dx, y + dy).value; };
+    return double(10 * 0x1p-23L * (std::fabs(at(1, 0) - at(0, 0)) * (x + 1) + std::fabs(at(0, 1) - at(0, 0)) * (y + 1)));
+  }
+
  private:
   int height_;
   ScalarFrame frame_;
 };
+
+/// Where a plane's values are among a vertex's; nothing of planes that are not interpolated.
+std::optional<size_t> value_of(const std::string& plane) {
+  if (plane == "position") return kPosition;
+  if (plane == "normal") return kNormal;
+  if (plane == "albedo") return kAlbedo;
+  return plane == "uv" ? std::optional<size_t>(kUv) : std::nullopt;
+}
 
 bool small_float(const Image& image) { return info(image.format).small_float(); }
 bool fixed(const Image& image) { return info(image.format).number_class == NumberClass::unorm; }
@@ -150,10 +169,22 @@ class Prover {
       if (b == nullptr) return plane.name;
       const bool whole = info(a->format).number_class == NumberClass::integer;
       for (int k = 0; k < info(a->format).channels; ++k)
-        if (whole ? a->code(x, y, k) != b->code(x, y, k) : !same_value(*a, *b, x, y, k, ceilings_[i]))
+        if (whole ? a->code(x, y, k) != b->code(x, y, k)
+                  : !same_value(*a, *b, x, y, k, ceilings_[i]) && !same_value(*a, *b, x, y, k, ceilings_[i] + 2 * plane_error(plane.name, k, x, y)))
           return plane.name + " (" + std::to_string(a->value(x, y, k)) + ", " + std::to_string(b->value(x, y, k)) + ")";
     }
     return {};
+  }
+
+  double plane_error(const std::string& plane, int channel, int x, int y) {
+    const std::optional<size_t> value = value_of(plane);
+    if (!value || channel == 3) return 0;
+    return edges().plane_error(*value + size_t(channel), pipeline_.gbuffer.normal.interpolation, pipeline_.geometry, x, y);
+  }
+
+  const Edges& edges() {
+    if (!edges_) edges_.emplace(scene_, pipeline_);
+    return *edges_;
   }
 
   /// Of a float plane held against a wider one, a half as float: the numbers tell.
@@ -221,8 +252,7 @@ class Prover {
   std::string at(int x, int y) {
     const std::string plane = other_surface(x, y);
     if (!plane.empty()) {
-      if (!edges_) edges_.emplace(scene_, pipeline_);
-      if (!edges_->near(x, y)) return "another surface in " + plane + ", no edge is near";
+      if (!edges().near(x, y)) return "another surface in " + plane + ", no edge is near";
     }
     if (!covered(wrong_, x, y)) {
       for (int k = 0; k < 3; ++k)
