@@ -308,8 +308,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   LightPlanes light_planes(aovs, scene, pipeline, meshes, view);
   frame.stats.before_tiles_ms = now_ms() - start;
   draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
-              std::move(groups), std::move(meshes), std::move(outlines), need_uv,
-              std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
+              std::move(groups), std::move(meshes), std::move(outlines), need_uv, std::move(light_planes),
+              TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

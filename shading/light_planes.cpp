@@ -59,20 +59,13 @@ void LightPlanes::blend(const LightDraws& frame, const SurfaceTile& surface, con
                         const TileRect& rect, BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const {
   const LightGroups ungrouped;
   for (const Plane& plane : planes_) {
-    const LightDraws draws{plane.alone,
-                           plane.table,
-                           ungrouped,
-                           frame.model,
-                           frame.volumes,
-                           frame.meshes,
-                           plane.outlines,
-                           frame.view,
-                           kAddLight,
-                           {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
-                           false,
-                           false,
-                           frame.culling,
-                           frame.compiled};
+    const LightDraws draws{plane.alone,    plane.table,
+                           ungrouped,      frame.model,
+                           frame.volumes,  frame.meshes,
+                           plane.outlines, frame.view,
+                           kAddLight,      {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
+                           false,          false,
+                           frame.culling,  frame.compiled};
     // What the first draw leaves is one fragment's, however many share the pixel.
     const bool in_first = frame.first_base && plane.light == 0;
     LightCounts uncounted;

@@ -95,7 +95,8 @@ TEST_CASE("a pipeline that contradicts itself is refused with its file; one that
     arguments.push_back("--hash");
     check_refused(run_command(arguments, folder.path("")), exit_code, about);
   };
-  refused({"builtin:cornell", "--pipeline", "p.json"}, 3, "p.json: transparency into-albedo with strategy forward-loop");
+  refused({"builtin:cornell", "--pipeline", "p.json"}, 3,
+          "p.json: transparency into-albedo with strategy forward-loop");
   refused({"s.json"}, 3, "s.json: /pipeline: transparency into-albedo with strategy forward-loop");
   refused({"builtin:cornell", "--pipeline", "half.json", "--strategy", "forward-loop"}, 2, "transparency.mode");
 }

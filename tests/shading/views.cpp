@@ -230,14 +230,15 @@ Scene scene_among_lights() {
   return scene;
 }
 
-constexpr const char* kPlanePresets[] = {"many-lights", "touchdesigner",         "gl-fixed", "lecture",
+constexpr const char* kPlanePresets[] = {"many-lights",   "touchdesigner",         "gl-fixed", "lecture",
                                          "light-volumes", "light-volumes-literal", "redsdk"};
 
 }  // namespace
 
-TEST_CASE("The planes light.<i> of light geometry, added in light order to what is there without lights, are the "
-          "rgba32f image bit for bit: whatever it is, wherever its faces point, inside and out",
-          "[views]") {
+TEST_CASE(
+    "The planes light.<i> of light geometry, added in light order to what is there without lights, are the "
+    "rgba32f image bit for bit: whatever it is, wherever its faces point, inside and out",
+    "[views]") {
   const Scene scene = scene_among_lights();
   size_t turn = 0;
   for (const char* preset : kPlanePresets)
