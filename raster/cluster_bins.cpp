@@ -67,23 +67,33 @@ void find_seen(const Scene& scene, const ClusteredScene& clusters, const View& v
 
 constexpr size_t kPieceDraws = 2048, kMostPieces = 16, kMostCounts = size_t(1) << 20;
 
+// pixel / tile by a multiplication. The factor exceeds 2^22 / tile by at most 1, so the product exceeds the quotient by
+// less than 1 / tile.
+struct TileOfPixel {
+  static_assert(uint64_t(UINT16_MAX) * kMaxTile < uint64_t(1) << 22);
+  uint64_t factor;
+  explicit TileOfPixel(int tile) : factor((uint64_t(1) << 22) / uint64_t(tile) + 1) {}
+  size_t operator()(uint16_t pixel) const { return size_t(pixel * factor >> 22); }
+};
+
 template <class Visit>
-void for_each_tile(const ClusterBins& bins, const ClusterDraw& draw, const Visit& visit) {
-  for (int y = draw.y0 / bins.tile; y <= draw.y1 / bins.tile; ++y)
-    for (int x = draw.x0 / bins.tile; x <= draw.x1 / bins.tile; ++x)
-      visit(size_t(y) * size_t(bins.tiles_x) + size_t(x));
+void for_each_tile(size_t tiles_x, TileOfPixel tile_of, const ClusterDraw& draw, const Visit& visit) {
+  const size_t x0 = tile_of(draw.x0), x1 = tile_of(draw.x1), y1 = tile_of(draw.y1);
+  for (size_t y = tile_of(draw.y0); y <= y1; ++y)
+    for (size_t x = x0; x <= x1; ++x) visit(y * tiles_x + x);
 }
 
 // Lists the draws by tile, piece by piece: each counts its own, then puts them behind those of the pieces before it.
 void list_draws(int threads, ClusterBins& bins) {
-  const size_t tiles = bins.first.size() - 1, draws = bins.draws.size();
+  const size_t tiles = bins.first.size() - 1, draws = bins.draws.size(), tiles_x = size_t(bins.tiles_x);
+  const TileOfPixel tile_of(bins.tile);
   const size_t pieces =
       std::clamp<size_t>(draws / kPieceDraws, 1, std::clamp<size_t>(kMostCounts / tiles, 1, kMostPieces));
   const auto for_each_draw = [&](int piece, const auto& visit) {
     const size_t from = draws * size_t(piece) / pieces, end = draws * (size_t(piece) + 1) / pieces;
     uint64_t* const next = bins.next.data() + size_t(piece) * tiles;
     for (size_t i = from; i < end; ++i)
-      for_each_tile(bins, bins.draws[i], [&](size_t tile) { visit(uint32_t(i), next[tile]); });
+      for_each_tile(tiles_x, tile_of, bins.draws[i], [&](size_t tile) { visit(uint32_t(i), next[tile]); });
   };
   bins.next.assign(pieces * tiles, 0);
   parallel_for(int(pieces), threads, [&](int piece) { for_each_draw(piece, [](uint32_t, uint64_t& n) { ++n; }); });
