@@ -88,8 +88,10 @@ const Array& Node::array(size_t least, size_t most) const {
   if (!a || (*a)->size() < least || (*a)->size() > most) {
     const std::string found = a ? "an array of " + std::to_string((*a)->size()) : shown(*value_);
     if (least == 0 && most == SIZE_MAX) fail("found " + found, "an array");
-    fail("found " + found, least == most ? "an array of " + std::to_string(least)
-                                         : "an array of " + std::to_string(least) + " to " + std::to_string(most));
+    const std::string from = std::to_string(least);
+    fail("found " + found, least == most      ? "an array of " + from
+                           : most == SIZE_MAX ? "an array of " + from + " or more"
+                                              : "an array of " + from + " to " + std::to_string(most));
   }
   return **a;
 }

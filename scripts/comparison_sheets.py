@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Pictures of docs/presets.md and docs/strategies.md: ours, OpenGL's, and their difference times 16, side by side.
+"""Pictures of docs/presets.md, docs/strategies.md and docs/pictures.md: ours, OpenGL's, and their difference times 16, side by side.
 
 Usage: comparison_sheets.py COMMAND FOLDER [--driver NAME] [--only SHEET]...
-Writes a PNG a preset (rows: scenes) and a PNG a scene (rows: strategies), each under 60 kB, and prints how far the two
-pictures are apart. Uses `trueshade render` and `trueshade validate --save`, and nothing but Python's own library."""
+Writes a PNG a preset (rows: scenes), a PNG a scene (rows: strategies), each under 60 kB, and a PNG a preset with every strategy of
+two scenes, under 110 kB; prints how far the two pictures are apart and what the judge says. Uses `trueshade render` and `trueshade validate --save`, and nothing but Python's own library."""
 import argparse
 import json
 import os
@@ -25,6 +25,9 @@ DAMPING = {
     "light-volumes-literal": (0.12, 1, 0.2),
     "redsdk": (0.08, 1, 0.09),
 }
+# Of the sheets of every strategy: scenes small enough for a pass a light, and their damping.
+PAIR = ["lecture", "atrium,lights=40"]
+PAIR_DAMPING = {"gl-fixed": (2, 1), "punctual": (2, 2), "lecture": (1, 0.07), "redsdk": (1, 0.4)}
 GAP = 2
 STRIP = 11  # pixels: a line of text
 # Columns of 5x7 glyphs, the top pixel in the lowest bit.
@@ -35,7 +38,7 @@ GLYPHS = {
     "s": "4854545420", "t": "043f444020", "u": "3c4040207c", "v": "1c2040201c", "w": "3c4030403c", "x": "4428102844",
     "y": "1ca0a0a07c", "z": "4464544c44", "-": "0808080808", "1": "00427f4000", "6": "3c4a494930",
 }
-MOST_BYTES = 60000
+MOST_BYTES, MOST_BYTES_OF_PAIR = 60000, 110000
 
 
 def read_png(path):
@@ -130,11 +133,11 @@ def text_strip(texts):
     return rows
 
 
-def write_sheet(path, grid, driver):
-    """Rows of a name and its pictures, as many colours as the size allows."""
+def write_sheet(path, grid, driver, most_bytes):
+    """Rows of a name and its pictures, three a scene, as many colours as the size allows."""
     rows = []
     for name, pictures in grid:
-        rows += text_strip([f"{name} - ours", driver, "16 x the difference"])
+        rows += text_strip([f"{name} - ours", driver, "16 x the difference"] * (len(pictures) // 3))
         for y in range(SIZE[1]):
             row = []
             for picture in pictures:
@@ -142,7 +145,7 @@ def write_sheet(path, grid, driver):
             rows.append(row)
     for most in (256, 192, 128, 96, 64, 48, 32):
         data = png_bytes(rows, most)
-        if len(data) <= MOST_BYTES:
+        if len(data) <= most_bytes:
             break
     open(path, "wb").write(data)
     print(f"{path}: {len(data)} bytes, {most} colours", file=sys.stderr, flush=True)
@@ -169,16 +172,17 @@ class Drawer:
         apart = [[tuple(abs(p[k] - q[k]) for k in range(3)) for p, q in zip(*rows)] for rows in zip(a, b)]
         worst = [max(c) for row in apart for c in row]
         verdict = {0: "every pixel explained", 1: "a pixel is in no legal set"}.get(judged.returncode, "not judged")
-        print(f"| {scene} | {name} | {sum(w > 0 for w in worst)} | {sum(w > 2 for w in worst)} | {max(worst)} "
+        print(f"| {scene} | {name} | {len(worst)} | {sum(w > 0 for w in worst)} | {sum(w > 2 for w in worst)} | {max(worst)} "
               f"| {verdict} |", flush=True)
         return [a, b, [[tuple(min(255, 16 * v) for v in c) for c in row] for row in apart]]
 
 
-def damped(folder, preset, scene):
+def damped(folder, preset, scene, table=DAMPING):
     """A pipeline file of the damping that a preset is shown with."""
-    path = os.path.join(folder, f"{preset}_{scene}.json")
+    value = table.get(preset, (1, 1, 1))[scene]
+    path = os.path.join(folder, f"{preset}_{value}.json")
     with open(path, "w") as file:
-        json.dump({"light_model": {"damping": DAMPING.get(preset, (1, 1, 1))[scene]}}, file)
+        json.dump({"light_model": {"damping": value}}, file)
     return path
 
 
@@ -192,17 +196,21 @@ def main():
     known = json.loads(subprocess.run([given.command, "list", "--json"], check=True, stdout=subprocess.PIPE).stdout)
     presets = [row["name"] for row in known["presets"]]
     strategies = [row["name"] for row in known["strategies"]]
-    print("| scene | drawn | pixels that differ | by more than 2 codes | most codes | judged |\n|---|---|---|---|---|---|")
+    print("| scene | drawn | pixels | that differ | by more than 2 codes | most codes | judged |\n|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as scratch:
         drawer = Drawer(given.command, given.driver, scratch)
-        sheets = {f"preset_{p}": [(s, p, ["--preset", p, "--pipeline", damped(scratch, p, i)])
+        sheets = {f"preset_{p}": [(s, [(s, p, ["--preset", p, "--pipeline", damped(scratch, p, i)])])
                                   for i, s in enumerate(SCENES)] for p in presets}
-        sheets.update({f"strategies_{s}": [(s, t, ["--strategy", t]) for t in strategies] for s in SCENES})
+        sheets.update({f"strategies_{s}": [(t, [(s, t, ["--strategy", t])]) for t in strategies] for s in SCENES})
+        for p in presets:
+            files = [damped(scratch, p, i, PAIR_DAMPING) for i in range(len(PAIR))]
+            sheets[f"every_{p}"] = [(t, [(s, f"{p}, {t}", ["--preset", p, "--strategy", t, "--pipeline", file])
+                                         for s, file in zip(PAIR, files)]) for t in strategies]
         for name, rows in sheets.items():
             if not given.only or name in given.only:
-                told = 1 if name.startswith("strategies_") else 0
-                write_sheet(os.path.join(given.folder, name + ".png"),
-                            [(row[told], drawer.row(*row)) for row in rows], given.driver)
+                grid = [(told, sum((drawer.row(*drawn) for drawn in frames), [])) for told, frames in rows]
+                write_sheet(os.path.join(given.folder, name + ".png"), grid, given.driver,
+                            MOST_BYTES_OF_PAIR if name.startswith("every_") else MOST_BYTES)
 
 
 if __name__ == "__main__":

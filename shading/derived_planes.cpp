@@ -6,17 +6,22 @@
 #include <limits>
 
 #include "core/fp_env.h"
+#include "scenes/light_shapes.h"
 #include "shading/light_table.h"
+#include "shading/overlay.h"
 
 namespace trueshade {
 namespace {
 
 struct Derived {
   std::string_view name;
-  std::string_view from[2];  ///< planes it is made of, beside the target
+  std::string_view from[3];  ///< planes it is made of, beside the target
 };
-constexpr Derived kDerived[] = {
-    {"Z", {"position", "id.object"}}, {"light.tile", {"position", "id.object"}}, {"light.intensity", {"", ""}}};
+constexpr Derived kDerived[] = {{"Z", {"position", "id.object"}},
+                                {"light.tile", {"position", "id.object"}},
+                                {"light.intensity", {}},
+                                {"light.boxes", {"albedo", "id.object", "depth"}},
+                                {"light.edges", {"albedo", "id.object", "depth"}}};
 
 void add_once(std::vector<std::string>& names, std::string_view name) {
   if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
@@ -110,6 +115,22 @@ Image intensities(const Image& target) {
   return out;
 }
 
+Image among_surfaces(const Scene& boxes, const Pipeline& pipeline, const Execution& execution,
+                     std::span<const NamedImage> drawn) {
+  const Image &albedo = plane_named(drawn, "albedo"), &object = plane_named(drawn, "id.object");
+  const Overlay over = overlay(boxes, pipeline, execution, plane_named(drawn, "depth"));
+  Image out(object.width, object.height, Format::rgba32f);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const bool boxed = over.object.value(x, y, 0) != 0.0;
+      if (!boxed && object.value(x, y, 0) == 0.0) continue;
+      glm::vec4 value(0.0f, 0.0f, 0.0f, boxed ? 1.0f : 0.0f);
+      for (int k = 0; k < 3; ++k) value[k] = float((boxed ? over.albedo : albedo).value(x, y, k));
+      put(out, x, y, value);
+    }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> planes_to_draw(std::span<const std::string> asked) {
@@ -125,13 +146,16 @@ std::vector<std::string> planes_to_draw(std::span<const std::string> asked) {
   return drawn;
 }
 
-Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, int threads,
+Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                     const Image& target, std::span<const NamedImage> drawn) {
   if (name == "light.intensity") return intensities(target);
+  if (name == "light.boxes") return among_surfaces(light_boxes(scene), pipeline, execution, drawn);
+  if (name == "light.edges") return among_surfaces(light_box_edges(scene), pipeline, execution, drawn);
   const Image& object = plane_named(drawn, "id.object");
   const Image& position = plane_named(drawn, "position");
   if (name == "Z") return view_distance(scene, pipeline, position, object);
-  return lights_by_tile(make_light_table(scene.lights, pipeline.light_model, scene.camera), threads, position, object);
+  return lights_by_tile(make_light_table(scene.lights, pipeline.light_model, scene.camera), execution.threads, position,
+                        object);
 }
 
 const Image& plane_named(std::span<const NamedImage> planes, std::string_view name) {

@@ -21,8 +21,10 @@ std::vector<std::string> planes_to_draw(std::span<const std::string> asked);
 ///   Z                distance of the stored position along the view axis; 0 without a surface
 ///   light.tile       lights that may reach the surfaces in the pixel's square of kLightTile pixels
 ///   light.intensity  luminance of the target
+///   light.boxes      albedo with the lights' boxes among the surfaces, tested for depth; alpha: 1 where a box is seen
+///   light.edges      the same with the boxes' edges
 /// `name` is one of these. Needs FpScope.
-Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, int threads,
+Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                     const Image& target, std::span<const NamedImage> drawn);
 
 /// The plane of that name, which must be there.

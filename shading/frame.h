@@ -51,8 +51,8 @@ struct FrameStats {
 };
 
 /// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular
-/// emission uv id.object id.material light.count light.tile light.intensity overdraw, and light.<i> for each light of the
-/// scene.
+/// emission uv id.object id.material light.count light.tile light.boxes light.edges light.intensity overdraw, and light.<i>
+/// for each light of the scene.
 std::span<const std::string_view> aov_names();  ///< but for light.<i>
 bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace trueshade {
 namespace {
@@ -42,6 +43,9 @@ Exponent exponent_of(float exponent, bool squares) {
   return {squared, squared ? whole / 2 : whole, double(squared ? whole / 2 : whole)};
 }
 
-double power(double x, double p) { return x > 0.0 ? exp2_of(p * log2_of(x)) : 0.0; }
+double power(double x, double p) {
+  if (x > std::numeric_limits<double>::max()) return x;
+  return x > 0.0 ? exp2_of(p * log2_of(x)) : 0.0;
+}
 
 }  // namespace trueshade

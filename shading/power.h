@@ -22,7 +22,7 @@ double log2_of(double x);
 double exp2_of(double t);
 
 /// x^p for x >= 0: exp2(p log2 x) in double (docs/arithmetic.md section 9). Relative error below 2^-40 while the result
-/// is a normal float. power(0, p) = 0 for p > 0.
+/// is a normal float. For p > 0, power(0, p) = 0 and that of infinity is infinity.
 double power(double x, double p);
 
 }  // namespace trueshade

@@ -3,22 +3,20 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
-#include "core/srgb.h"
-#include "scenes/light_shapes.h"
 #include "shading/derived_planes.h"
 #include "shading/draw_frame.h"
 #include "shading/heat_map.h"
 #include "shading/light_planes.h"
-#include "shading/overlay.h"
 #include "shading/post_frame.h"
 #include "shading/view_image.h"
 
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kAovNames[] = {
-    "depth", "Z",         "position",    "normal",      "albedo",     "specular",        "emission",
-    "uv",    "id.object", "id.material", "light.count", "light.tile", "light.intensity", "overdraw"};
+constexpr std::string_view kAovNames[] = {"depth",       "Z",           "position",        "normal",
+                                          "albedo",      "specular",    "emission",        "uv",
+                                          "id.object",   "id.material", "light.count",     "light.tile",
+                                          "light.boxes", "light.edges", "light.intensity", "overdraw"};
 
 bool is_plane(std::string_view name) {
   return light_of_plane(name) || std::find(std::begin(kAovNames), std::end(kAovNames), name) != std::end(kAovNames);
@@ -43,27 +41,10 @@ void add_missing(std::vector<std::string>& names, const std::vector<std::string>
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-bool draws_volumes(ImageView view) { return view == ImageView::light_boxes || view == ImageView::light_edges; }
-
-// The material colours with the light volumes among them.
-Image light_boxes_view(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                       std::span<const NamedImage> planes) {
-  Image image = view_image(ImageView::albedo, planes);
-  const Overlay boxes = overlay(pipeline.view == ImageView::light_edges ? light_box_edges(scene) : light_boxes(scene),
-                                pipeline, execution, plane_named(planes, "depth"));
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      if (boxes.object.value(x, y, 0) == 0.0) continue;
-      for (int k = 0; k < 3; ++k) image.texel(x, y)[k] = srgb8_from_linear(float(boxes.albedo.value(x, y, k)));
-    }
-  return image;
-}
-
 std::vector<std::string> planes_needed(const Pipeline& pipeline, std::span<const std::string> asked) {
   const ImageView view = pipeline.view;
   std::vector<std::string> names(asked.begin(), asked.end());
   add_missing(names, planes_of_view(view));
-  if (draws_volumes(view)) add_missing(names, {"albedo", "id.object", "depth"});
   if (view == ImageView::lit && pipeline.post.marker_radius > 0.0f) add_missing(names, {"depth"});
   return names;
 }
@@ -111,11 +92,9 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
     if (there != drawn.end())
       planes.push_back(*there);
     else
-      planes.push_back({name, derived_plane(name, prepared.scene(), pipeline, execution.threads, frame.color, drawn)});
+      planes.push_back({name, derived_plane(name, prepared.scene(), pipeline, execution, frame.color, drawn)});
   }
-  if (draws_volumes(pipeline.view))
-    frame.color = light_boxes_view(prepared.scene(), pipeline, execution, planes);
-  else if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
+  if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
     frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)));
   else if (pipeline.view != ImageView::lit)
     frame.color = view_image(pipeline.view, planes);

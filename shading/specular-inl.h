@@ -44,7 +44,7 @@ template <class V>
 HWY_INLINE VF rounded(V low, V high) {
   const DH dh;
   if constexpr (hn::MaxLanes(DF()) == 1) {
-    return DemoteTo(dh, low);
+    return Set(DF(), float(GetLane(low)));  // the target of one lane would demote what is too large to the largest float
   } else {
     return Combine(DF(), DemoteTo(dh, high), DemoteTo(dh, low));
   }

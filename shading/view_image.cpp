@@ -15,13 +15,14 @@ using Rgb = std::array<uint8_t, 3>;
 
 uint8_t code(double share) { return uint8_t((share > 0.0 ? std::min(share, 1.0) : 0.0) * 255.0 + 0.5); }
 
-/// A picture of color(x, y) where there is a surface.
+/// A picture of color(x, y) where there is a surface, or the plane `also` has an alpha.
 template <typename Color>
-Image picture(const Image& object, const Color& color) {
+Image picture(const Image& object, const Color& color, const Image* also = nullptr) {
   Image view(object.width, object.height, Format::rgba8);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x) {
-      const Rgb rgb = object.value(x, y, 0) != 0.0 ? color(x, y) : Rgb{kEmptyColor[0], kEmptyColor[1], kEmptyColor[2]};
+      const bool shown = object.value(x, y, 0) != 0.0 || (also != nullptr && also->value(x, y, 3) != 0.0);
+      const Rgb rgb = shown ? color(x, y) : Rgb{kEmptyColor[0], kEmptyColor[1], kEmptyColor[2]};
       std::copy(rgb.begin(), rgb.end(), view.texel(x, y));
       view.texel(x, y)[3] = 255;
     }
@@ -44,12 +45,13 @@ struct Extent {
   double share(double value) const { return most > least ? (value - least) / (most - least) : 0.5; }
 };
 
-Image linear_colors(const Image& plane, const Image& object) {
-  return picture(object, [&](int x, int y) {
+Image linear_colors(const Image& plane, const Image& object, const Image* also = nullptr) {
+  const auto color = [&](int x, int y) {
     Rgb rgb;
     for (int k = 0; k < 3; ++k) rgb[size_t(k)] = srgb8_from_linear(float(plane.value(x, y, k)));
     return rgb;
-  });
+  };
+  return picture(object, color, also);
 }
 
 Image directions(const Image& normal, const Image& object) {
@@ -98,9 +100,11 @@ Image texture_places(const Image& uv, const Image& object) {
 std::vector<std::string> planes_of_view(ImageView view) {
   switch (view) {
     case ImageView::lit:
-    case ImageView::light_boxes:
-    case ImageView::light_edges:
       return {};
+    case ImageView::light_boxes:
+      return {"light.boxes", "id.object"};
+    case ImageView::light_edges:
+      return {"light.edges", "id.object"};
     case ImageView::albedo:
       return {"albedo", "id.object"};
     case ImageView::specular:
@@ -135,7 +139,8 @@ Image view_image(ImageView view, std::span<const NamedImage> planes) {
   if (view == ImageView::normal) return directions(shown, object);
   if (view == ImageView::position) return places(shown, object);
   if (view == ImageView::uv) return texture_places(shown, object);
-  return linear_colors(shown, object);
+  const bool boxes = view == ImageView::light_boxes || view == ImageView::light_edges;
+  return linear_colors(shown, object, boxes ? &shown : nullptr);
 }
 
 }  // namespace trueshade

@@ -51,7 +51,7 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
   const ScratchFolder folder;
   output_of({"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
              "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,emission,light.1,light.tile,"
-             "light.intensity,overdraw"},
+             "light.intensity,overdraw,light.boxes"},
             folder.path(""));
   const auto file = OIIO::ImageInput::open(folder.path("x.exr"));
   REQUIRE(file);
@@ -82,6 +82,10 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
                                           "light.0001.B",
                                           "light.0001.G",
                                           "light.0001.R",
+                                          "light.boxes.A",
+                                          "light.boxes.B",
+                                          "light.boxes.G",
+                                          "light.boxes.R",
                                           "light.count",
                                           "light.intensity",
                                           "light.tile",

@@ -11,6 +11,7 @@
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
 #include "tests/intervals/random_scene.h"
+#include "tests/raster/window_scene.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -183,4 +184,21 @@ TEST_CASE("Depths of another rounding or format are violations") {
   CHECK(violations(scene, floats, held_to("unknown"), sixteen) > 100);
   const Capture scaled = with_depths(real, [](double z) { return std::rint(z * 65536) / 65536; });
   CHECK(violations(scene, pipeline_of(Format::d16, {0, 0}), held_to("ideal"), scaled) > 100);
+}
+
+TEST_CASE("Row 26: where a driver says nothing of itself a slope is anything from the larger one, 8e-4, to the norm, 1e-3") {
+  const Scene scene = testing::window_scene({{{{0, 0, -.5}, {256, 0, -.5 + 512 * 3e-4}, {0, 256, -.5 + 512 * 4e-4}}}});
+  Pipeline pipeline = testing::window_pipeline();
+  pipeline.geometry.polygon_offset_factor = 2;
+  const Capture larger = testing::captured(scene, pipeline);
+  const auto judged = [&](const char* name, double offset) {
+    CAPTURE(name, offset);
+    return violations(scene, pipeline, held_to(name), with_depths(larger, [&](double z) { return z + offset - 8e-4; }));
+  };
+  for (const double legal : {8e-4, 9e-4, 1e-3}) CHECK(judged("unknown", legal) == 0);
+  for (const double wrong : {7.8e-4, 1.02e-3}) CHECK(judged("unknown", wrong) > 1000);
+  for (const char* name : {"ideal", "d3d-class", "mesa-llvmpipe-22.3"}) {
+    CHECK(judged(name, 8e-4) == 0);
+    CHECK(judged(name, 1e-3) > 1000);
+  }
 }

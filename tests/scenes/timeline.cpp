@@ -177,7 +177,7 @@ std::string light(const std::string& keys) { return R"({"version": 1, "lights": 
 
 TEST_CASE("steps that make no sense are refused at their pointer") {
   const std::pair<std::string, std::string> cases[] = {
-      {object(R"("steps": [])"), "s.json: /objects/0/steps: found an array of 0"},
+      {object(R"("steps": [])"), "s.json: /objects/0/steps: found an array of 0 (an array of 1 or more)"},
       {object(R"("steps": [{"position": [0, 0, 0]}])"), "s.json: /objects/0/steps/0: 'time' is missing"},
       {object(R"("steps": [{"time": 1e7}])"), "s.json: /objects/0/steps/0/time: found 1e+07"},
       {object(R"("steps": [{"time": 1}, {"time": 1}])"), "s.json: /objects/0/steps/1/time: the step is not after"},

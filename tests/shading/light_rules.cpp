@@ -285,3 +285,47 @@ TEST_CASE("a light without a number for a colour, where it does not reach, chang
     }
   }
 }
+
+TEST_CASE("a light of NaN or infinite colour out of its reach changes no bit under every preset, strategy and target") {
+  Random random(69);
+  Scene scene = sheet(random);
+  for (int i = 0; i < 5; ++i) scene.lights.push_back(random_light(random));
+  for (Light& light : scene.lights) light.color *= 0.2f;
+  const PreparedScene plain(scene);
+  std::vector<Scene> injected;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    injected.push_back(scene);  // after the scene was validated
+    Light light;
+    light.type = LightType::spot;
+    light.color = {bad, bad, bad};
+    light.range = 1;
+    light.position = {40, 0, 1};  // out of range and, where nothing ends it there, out of its cone
+    light.direction = {1, 0, 0};
+    light.cone_rad = 0.3f, light.penumbra_rad = 0.1f;
+    injected.back().lights.insert(injected.back().lights.begin() + 2, light);
+  }
+  for (const Scene& with : injected) {
+    const PreparedScene prepared(with);
+    for (const Preset& row : presets())
+      for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
+        for (const Format target : kTargetFormats) {
+          Pipeline pipeline = row.pipeline;
+          pipeline.width = 33, pipeline.height = 27;
+          pipeline.strategy = Strategy(strategy);
+          pipeline.target = target;
+          INFO(row.name << ", " << kStrategyNames[strategy] << ", " << info(target).name << ", "
+                        << with.lights[2].color.x);
+          // This preset reads neither range nor cone: its lights reach everywhere.
+          const bool ends = row.name != "touchdesigner";
+          const Image expected =
+              render_frame(ends ? plain : prepared, pipeline, {.simd = "scalar", .light_culling = false}).color;
+          int unlike = 0;
+          for (const std::string_view simd : simd_targets())
+            for (const bool culling : {true, false})
+              unlike +=
+                  render_frame(prepared, pipeline, {.tile = 16, .simd = simd, .light_culling = culling}).color.texels !=
+                  expected.texels;
+          CHECK(unlike == 0);
+        }
+  }
+}

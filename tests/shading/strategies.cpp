@@ -3,12 +3,14 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <tuple>
 
 #include "core/fp_env.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 #include "oracle/scalar_renderer.h"
 #include "raster/light_outlines.h"
+#include "raster/simd_target.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"
@@ -79,36 +81,52 @@ TEST_CASE("With RGBA32F planes forward-loop is deferred-loop and forward-multipa
   }
 }
 
-TEST_CASE(
-    "City's pictures by multipass and by full-screen volumes differ at coincident faces alone, which are added up") {
-  const Scene scene = builtin_scene("city");
+namespace {
+
+/// Pixels where multipass and full-screen volumes are not alike, and what long double says of their depths.
+struct Ties {
+  int differ = 0, alone = 0, less = 0, equal_faces = 0, covered = 0;
+};
+
+Ties ties_of(const Scene& scene, int width, int height) {
   const PreparedScene prepared(scene);
-  const Pipeline pipeline = float_planes(Strategy::forward_multipass, Format::rgba32f);
+  Pipeline pipeline = float_planes(Strategy::forward_multipass, Format::rgba32f);
+  pipeline.width = width, pipeline.height = height;
   const oracle::ScalarFrame exact = oracle::scalar_frame(scene, pipeline);
   const Image multipass = render_frame(prepared, pipeline).color;
-  const Image volumes = render_frame(prepared, float_planes(Strategy::deferred_volumes, Format::rgba32f)).color;
-  int differ = 0, alone = 0, less = 0, equal_faces = 0, covered = 0;
-  for (int y = 0; y < pipeline.height; ++y)
-    for (int x = 0; x < pipeline.width; ++x) {
-      const std::vector<oracle::Fragment>& fragments = exact.at(x, pipeline.height - 1 - y);
+  pipeline.strategy = Strategy::deferred_volumes;
+  const Image volumes = render_frame(prepared, pipeline).color;
+  Ties ties;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::vector<oracle::Fragment>& fragments = exact.at(x, height - 1 - y);
       if (fragments.empty()) continue;
-      ++covered;
+      ++ties.covered;
       const auto seen = std::min_element(fragments.begin(), fragments.end(),
                                          [](const auto& a, const auto& b) { return a.depth < b.depth; });
       // Stored depths are equal only where exact ones are less than a float apart.
       const auto coincides = [&](const oracle::Fragment& f) { return f.depth - seen->depth <= 0x1p-23L * seen->depth; };
       const bool tied = std::count_if(fragments.begin(), fragments.end(), coincides) > 1;
-      equal_faces += tied ? 1 : 0;
+      ties.equal_faces += tied ? 1 : 0;
       if (std::memcmp(multipass.texel(x, y), volumes.texel(x, y), 16) == 0) continue;
-      ++differ;
-      alone += tied ? 0 : 1;
-      for (int c = 0; c < 3; ++c) less += multipass.value(x, y, c) < volumes.value(x, y, c) ? 1 : 0;
+      ++ties.differ;
+      ties.alone += tied ? 0 : 1;
+      for (int c = 0; c < 3; ++c) ties.less += multipass.value(x, y, c) < volumes.value(x, y, c) ? 1 : 0;
     }
-  CAPTURE(differ, equal_faces, covered);
-  CHECK(alone == 0);
-  CHECK(less == 0);
-  CHECK(differ > 0);
-  CHECK(equal_faces < covered / 50);  // the rest of the picture is equal, bit for bit
+  return ties;
+}
+
+}  // namespace
+
+TEST_CASE("Pictures by multipass and by full-screen volumes differ at coincident faces alone, which are added up") {
+  for (const auto& [name, width, height] : {std::tuple{"city", 120, 90}, {"atrium", 100, 75}}) {
+    const Ties ties = ties_of(builtin_scene(name), width, height);
+    CAPTURE(name, ties.differ, ties.equal_faces, ties.covered);
+    CHECK(ties.alone == 0);
+    CHECK(ties.less == 0);
+    CHECK(ties.differ > 0);
+    CHECK(ties.equal_faces < ties.covered / 50);  // the rest of the picture is equal, bit for bit
+  }
 }
 
 TEST_CASE("Every strategy draws one image, whatever the culling, threads, tiles, SIMD target and order of tiles") {
@@ -150,12 +168,15 @@ TEST_CASE("Row 50 in a frame: 64 lights of a quarter code leave nothing where ea
   Scene scene = squares(1);
   for (int i = 0; i < 64; ++i) scene.lights.push_back(ambient(0.25f / 255.0f));
   for (const Strategy strategy : kStrategies) {
-    Pipeline p = float_planes(strategy, Format::rgba8);
-    const Image image = render_frame(scene, p).color;
-    INFO(name_of(strategy));
-    const uint8_t* texel = image.texel(60, 45);
-    CHECK(int(texel[0]) == (blends_lights(strategy) ? 0 : 16));
-    CHECK(int(texel[3]) == 255);
+    for (const std::string_view simd : simd_targets())
+      for (const int tile : {8, 64}) {
+        const Image image =
+            render_frame(scene, float_planes(strategy, Format::rgba8), {.tile = tile, .simd = simd}).color;
+        INFO(name_of(strategy) << ", " << simd << ", tile " << tile);
+        const uint8_t* texel = image.texel(60, 45);
+        CHECK(int(texel[0]) == (blends_lights(strategy) ? 0 : 16));
+        CHECK(int(texel[3]) == 255);
+      }
   }
 }
 
@@ -262,29 +283,82 @@ TEST_CASE("Each light shows where exact integers say its geometry is, as often a
     }
 }
 
-TEST_CASE("Costs are the lecture's: N L, N (L - 1), N L; N L, N; P, 3 P, 3 N + P") {
+TEST_CASE("Costs are the lecture's: N L, N (L - 1), N L; N L, N; P, 3 P, 3 N + P; N L, 3 N, 3 N + N") {
   const Scene scene = builtin_scene("city,lights=30");
   const PreparedScene prepared(scene);
-  const auto costs = [&](Strategy strategy) {
+  const uint64_t lights = 30, objects = scene.instances.size();
+  const auto costs = [&](Strategy strategy, bool base, bool culled) {
     Pipeline p = float_planes(strategy, Format::rgba8);
-    p.light_volumes = {LightExtent::box, LightExtent::box, 16, 8, CullFace::front, true, false};
-    return render_frame(prepared, p, {.count_as_gl = true}).stats;
+    p.light_volumes = {LightExtent::box, LightExtent::box, 16, 8, CullFace::front, true, base};
+    return render_frame(prepared, p, {.light_culling = culled, .geometry_culling = culled, .count_as_gl = true}).stats;
   };
-  const FrameStats multipass = costs(Strategy::forward_multipass), loop = costs(Strategy::forward_loop),
-                   volumes = costs(Strategy::deferred_volumes);
-  const uint64_t n = multipass.covered_pixels, lights = 30, p = volumes.gl.light_pixels;
-  CHECK(n > 5000);
-  CHECK(multipass.gl.material_computations == n * lights);
-  CHECK(multipass.gl.target_fragments_read == n * (lights - 1));
-  CHECK(multipass.gl.fragments_written == n * lights);
-  CHECK(multipass.gl.draws == scene.instances.size() * lights);
-  CHECK(loop.gl.material_computations == n * lights);
-  CHECK(loop.gl.fragments_written == n);
-  CHECK(loop.gl.target_fragments_read == 0);
-  CHECK(volumes.gl.material_computations == p);
-  CHECK(volumes.gl.gbuffer_fragments_read == 3 * p);
-  CHECK(volumes.gl.fragments_written == 3 * n + p);
-  CHECK((p > 0 && p < n * lights));
+  for (const bool culled : {true, false}) {
+    const FrameStats multipass = costs(Strategy::forward_multipass, false, culled),
+                     loop = costs(Strategy::forward_loop, false, culled),
+                     volumes = costs(Strategy::deferred_volumes, false, culled),
+                     based = costs(Strategy::deferred_volumes, true, culled),
+                     deferred = costs(Strategy::deferred_loop, false, culled);
+    const uint64_t n = multipass.covered_pixels, p = volumes.gl.light_pixels;
+    CHECK(n > 5000);
+    CHECK((p > 0 && p < n * lights));
+    CHECK(multipass.gl.material_computations == n * lights);
+    CHECK(multipass.gl.target_fragments_read == n * (lights - 1));
+    CHECK(multipass.gl.fragments_written == n * lights);
+    CHECK(multipass.gl.draws == objects * lights);
+    CHECK(loop.gl.material_computations == n * lights);
+    CHECK(loop.gl.fragments_written == n);
+    CHECK(loop.gl.target_fragments_read == 0);
+    CHECK(loop.gl.draws == objects);
+    CHECK(volumes.gl.material_computations == p);
+    CHECK(volumes.gl.gbuffer_fragments_read == 3 * p);
+    CHECK(volumes.gl.target_fragments_read == p);
+    CHECK(volumes.gl.fragments_written == 3 * n + p);
+    CHECK(volumes.gl.draws == objects + lights);
+    CHECK(volumes.gl.light_triangles == 12 * lights);
+    // The base is one more draw of a quad, over N pixels, that computes no material and blends with nothing.
+    CHECK(based.gl.light_pixels == p + n);
+    CHECK(based.gl.material_computations == p);
+    CHECK(based.gl.gbuffer_fragments_read == 3 * (p + n));
+    CHECK(based.gl.target_fragments_read == p);
+    CHECK(based.gl.fragments_written == 3 * n + p + n);
+    CHECK(based.gl.draws == objects + lights + 1);
+    CHECK(based.gl.light_triangles == 12 * lights + 2);
+    CHECK(deferred.gl.material_computations == n * lights);
+    CHECK(deferred.gl.gbuffer_fragments_read == 3 * n);
+    CHECK(deferred.gl.target_fragments_read == 0);
+    CHECK(deferred.gl.fragments_written == 3 * n + n);
+    CHECK(deferred.gl.draws == objects + 1);
+  }
+}
+
+TEST_CASE("Costs count the planes that a preset's lights read: three, and specular and emission where it has them") {
+  const Scene scene = builtin_scene("lecture");
+  const PreparedScene prepared(scene);
+  for (const Preset& preset : presets())
+    for (const Strategy strategy : kStrategies) {
+      Pipeline p = preset.pipeline;
+      p.width = 64, p.height = 48;
+      p.strategy = strategy;
+      const FrameStats stats = render_frame(prepared, p, {.count_as_gl = true}).stats;
+      const uint64_t n = stats.covered_pixels, lights = scene.lights.size(), objects = scene.instances.size();
+      const bool volumes = strategy == Strategy::deferred_volumes,
+                 deferred = volumes || strategy == Strategy::deferred_loop;
+      const bool material = preset.name == "gl-fixed" || preset.name == "punctual";
+      const uint64_t base = volumes && p.light_volumes.base ? 1 : 0, drawn = volumes ? stats.gl.light_pixels : n;
+      INFO(preset.name << ", " << name_of(strategy));
+      CHECK(n > 1000);
+      CHECK(stats.gl.planes >= (deferred ? 3 : 0));
+      CHECK((stats.gl.planes > 3) == (deferred && material));
+      CHECK(stats.gl.material_computations == (volumes ? drawn - base * n : n * lights));
+      CHECK(stats.gl.gbuffer_fragments_read == uint64_t(stats.gl.planes) * drawn);
+      CHECK(stats.gl.fragments_written == (deferred ? uint64_t(stats.gl.planes) * n + drawn
+                                           : strategy == Strategy::forward_multipass ? n * lights
+                                                                                     : n));
+      CHECK(stats.gl.draws == (volumes                                   ? objects + lights + base
+                               : deferred                                ? objects + 1
+                               : strategy == Strategy::forward_multipass ? objects * lights
+                                                                         : objects));
+    }
 }
 
 TEST_CASE("P is what is left on the target when every draw adds one") {

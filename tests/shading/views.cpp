@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "raster/simd_target.h"
 #include "scenes/presets.h"
 #include "scenes/scene.h"
@@ -148,7 +149,8 @@ TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32
   for (const char* spec : {"builtin:cornell", "builtin:circle", "builtin:red,lights=40", "builtin:lecture"}) {
     const Scene scene = load_scene(spec);
     const PreparedScene prepared(scene);
-    for (const std::string_view preset : {"many-lights", "touchdesigner", "light-volumes", "light-volumes-literal", "redsdk"})
+    for (const std::string_view preset :
+         {"many-lights", "touchdesigner", "light-volumes", "light-volumes-literal", "redsdk"})
       for (const Pipeline& pipeline : loops_of(preset))
         for (const std::string_view simd : simd_targets()) {
           CAPTURE(spec, preset, int(pipeline.strategy), int(pipeline.light_volumes.point), simd);
@@ -333,6 +335,54 @@ TEST_CASE("Light volumes are black boxes among the surfaces, tested for depth; o
   scene.lights[0].color = {3.0f, 1.5f, 0.0f};
   const Image edges = render_frame(scene, pipeline).color;
   CHECK(rgb(edges, 30, 30) == Rgb{255, 0, 0});  // seen through the box
+}
+
+TEST_CASE(
+    "light.boxes and light.edges are the albedo with boxes over it, alpha where one is seen: what the views encode",
+    "[views]") {
+  Scene scene = two_squares();
+  scene.lights = {bulb({0, 0, 1}, 1.0f), bulb({0.5f, 0, -1}, 0.5f)};  // the second one is behind the red square
+  scene.lights[0].color = {3.0f, 1.5f, 0.0f};
+  Pipeline pipeline = pipeline_of("many-lights", 60, 60);
+  const std::string planes[] = {"light.boxes", "light.edges", "albedo", "id.object"};
+  const Frame frame = render_frame(scene, pipeline, {}, planes);
+  const Image &albedo = frame.aovs[2].image, &object = frame.aovs[3].image;
+  int boxes = 0, edges = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const bool surface = at<uint32_t>(object, x, y) != 0;
+      // The box's front face is 2 from the eye and reaches 1 to each side: 15 pixels of 30 from the centre.
+      const bool inside = x >= 15 && x < 45 && y >= 15 && y < 45;
+      boxes += inside;
+      REQUIRE(at<float>(frame.aovs[0].image, x, y, 3) == (inside ? 1.0f : 0.0f));
+      const bool edge = at<float>(frame.aovs[1].image, x, y, 3) != 0.0f;
+      edges += edge;
+      const float bar[] = {1.0f, 0.5f, 0.0f};
+      for (int k = 0; k < 3; ++k) {
+        const float under = surface ? float(albedo.value(x, y, k)) : 0.0f;
+        REQUIRE(at<float>(frame.aovs[0].image, x, y, k) == (inside ? 0.0f : under));
+        REQUIRE(at<float>(frame.aovs[1].image, x, y, k) == (edge ? bar[k] : under));
+      }
+    }
+  CHECK(boxes == 900);
+  CHECK(edges > 80);  // four bars of the face in front, each about 30 pixels long
+  CHECK(edges < 400);
+  for (size_t i = 0; i < 2; ++i) {
+    pipeline.view = i == 0 ? ImageView::light_boxes : ImageView::light_edges;
+    const Image view = render_frame(scene, pipeline).color;
+    int unlike = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const bool shown = at<uint32_t>(object, x, y) != 0 || at<float>(frame.aovs[i].image, x, y, 3) != 0.0f;
+        const float* texel = reinterpret_cast<const float*>(frame.aovs[i].image.texel(x, y));
+        using Rgb = std::array<int, 3>;
+        const Rgb expected =
+            shown ? Rgb{srgb8_from_linear(texel[0]), srgb8_from_linear(texel[1]), srgb8_from_linear(texel[2])}
+                  : Rgb{24, 26, 31};
+        unlike += rgb(view, x, y) != expected;
+      }
+    CHECK(unlike == 0);
+  }
 }
 
 TEST_CASE("Every view and plane has one set of bits, however it is drawn, and a view changes no plane", "[views]") {
