@@ -66,6 +66,9 @@ bool judge_opengl(const ValidationOptions& options) {
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
+  if (v.pipeline.post.active())
+    v.notes.push_back("the post chain is not judged: drawn and judged is the target before it, and a captured picture "
+                      "must be that target");
   DriverFrame drawn;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty())

@@ -98,11 +98,13 @@ std::string invariance_line(const Validation& v) {
 std::string conclusion(const Validation& validation) {
   const oracle::Verdict& v = validation.verdict;
   const uint64_t violations = v.violations();
+  const std::string post = validation.pipeline.post.active() ? "; the post chain is not judged" : "";
   if (violations > 0)
-    return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set";
+    return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" + post;
   if (validation.repeat_changes.value_or(0) > 0)
-    return "every pixel is explained, yet the same frame drawn again is another";
-  return std::string("every pixel is explained") + (v.suspicious() ? ", yet the image is not what chance makes" : "");
+    return "every pixel is explained, yet the same frame drawn again is another" + post;
+  const char* remark = ", yet the image is not what chance makes (a remark: each pixel is legal)";
+  return std::string("every pixel is explained") + (v.suspicious() ? remark : "") + post;
 }
 
 double exact_share(const StageVerdict& stage) {
@@ -140,7 +142,8 @@ std::string validation_json(const Validation& v) {
   json.put("subpixel_bits", v.profile.subpixel_bits)
       .put_raw("passes", passes.text())
       .put("timed_frames", v.timed_frames)
-      .put_raw("notes", notes.text());
+      .put_raw("notes", notes.text())
+      .put("post_chain", v.pipeline.post.active() ? "not judged" : "none");
   if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
   if (v.move_changes) json.put("move_changes", *v.move_changes);
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "raster/cluster_bounds.h"
+#include "raster/fixed_point.h"
 
 namespace trueshade {
 namespace {
@@ -67,33 +68,39 @@ void find_seen(const Scene& scene, const ClusteredScene& clusters, const View& v
 
 constexpr size_t kPieceDraws = 2048, kMostPieces = 16, kMostCounts = size_t(1) << 20;
 
-// pixel / tile by a multiplication. The factor exceeds 2^22 / tile by at most 1, so the product exceeds the quotient by
-// less than 1 / tile.
-struct TileOfPixel {
-  static_assert(uint64_t(UINT16_MAX) * kMaxTile < uint64_t(1) << 22);
-  uint64_t factor;
-  explicit TileOfPixel(int tile) : factor((uint64_t(1) << 22) / uint64_t(tile) + 1) {}
-  size_t operator()(uint16_t pixel) const { return size_t(pixel * factor >> 22); }
+// Division of places of an image, which are below 2^16, by a number that many are divided by: with
+// m = ceil(2^32 / n) the product v m is above v 2^32 / n by less than v < 2^32 / n.
+class SharedDivisor {
+ public:
+  explicit SharedDivisor(int n) : inverse_(((uint64_t(1) << 32) + uint64_t(n) - 1) / uint64_t(n)) {}
+  uint32_t quotient(uint16_t v) const { return uint32_t((v * inverse_) >> 32); }
+
+ private:
+  uint64_t inverse_;
 };
+static_assert(kMaxSizeBits == 16);
 
 template <class Visit>
-void for_each_tile(size_t tiles_x, TileOfPixel tile_of, const ClusterDraw& draw, const Visit& visit) {
-  const size_t x0 = tile_of(draw.x0), x1 = tile_of(draw.x1), y1 = tile_of(draw.y1);
-  for (size_t y = tile_of(draw.y0); y <= y1; ++y)
-    for (size_t x = x0; x <= x1; ++x) visit(y * tiles_x + x);
+void for_each_tile(const ClusterDraw& draw, const SharedDivisor& tile, uint32_t tiles_x, const Visit& visit) {
+  const uint32_t x0 = tile.quotient(draw.x0), x1 = tile.quotient(draw.x1);
+  const uint32_t first = tile.quotient(draw.y0) * tiles_x, last = tile.quotient(draw.y1) * tiles_x;
+  for (uint32_t row = first; row <= last; row += tiles_x)
+    for (uint32_t x = x0; x <= x1; ++x) visit(size_t(row + x));
 }
 
 // Lists the draws by tile, piece by piece: each counts its own, then puts them behind those of the pieces before it.
 void list_draws(int threads, ClusterBins& bins) {
-  const size_t tiles = bins.first.size() - 1, draws = bins.draws.size(), tiles_x = size_t(bins.tiles_x);
-  const TileOfPixel tile_of(bins.tile);
+  const size_t tiles = bins.first.size() - 1, draws = bins.draws.size();
   const size_t pieces =
       std::clamp<size_t>(draws / kPieceDraws, 1, std::clamp<size_t>(kMostCounts / tiles, 1, kMostPieces));
+  const SharedDivisor tile(bins.tile);
+  const auto tiles_x = uint32_t(bins.tiles_x);
   const auto for_each_draw = [&](int piece, const auto& visit) {
     const size_t from = draws * size_t(piece) / pieces, end = draws * (size_t(piece) + 1) / pieces;
     uint64_t* const next = bins.next.data() + size_t(piece) * tiles;
+    const ClusterDraw* const first = bins.draws.data();
     for (size_t i = from; i < end; ++i)
-      for_each_tile(tiles_x, tile_of, bins.draws[i], [&](size_t tile) { visit(uint32_t(i), next[tile]); });
+      for_each_tile(first[i], tile, tiles_x, [&](size_t at) { visit(uint32_t(i), next[at]); });
   };
   bins.next.assign(pieces * tiles, 0);
   parallel_for(int(pieces), threads, [&](int piece) { for_each_draw(piece, [](uint32_t, uint64_t& n) { ++n; }); });
@@ -106,8 +113,9 @@ void list_draws(int threads, ClusterBins& bins) {
     bins.first[tile + 1] = at;
   }
   bins.list.resize(bins.first.back());
+  uint32_t* const list = bins.list.data();
   parallel_for(int(pieces), threads,
-               [&](int piece) { for_each_draw(piece, [&](uint32_t i, uint64_t& at) { bins.list[at++] = i; }); });
+               [&](int piece) { for_each_draw(piece, [list](uint32_t i, uint64_t& at) { list[at++] = i; }); });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "raster/run_triangle-inl.h"
 
@@ -40,18 +41,18 @@ struct MixedPixels {
   /// All pixels of a block. Those that are not covered become anyone's.
   HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted,
                               SurfaceTile& out) {
-    for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, in.place[block.at + i], i);
+    for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, {in.place[block.at + i], in.corners[block.at + i]}, i);
     for (int h = 0; h < kHalves; ++h) set_weights(block.column(h), block.row(h), h);
     for (int row = 0; row < kBlockSize; ++row) set_rows<false>(in, wanted, row * kBlockSize, block.at, out);
   }
 
   /// A pixel that waits for others.
-  HWY_INLINE void add(const VisibleTriangles& in, const BlockPlace& block, int pixel, WantedValues wanted,
-                      SurfaceTile& out) {
+  HWY_INLINE void add(const VisibleTriangles& in, const BlockPlace& block, int pixel, SeenTriangle triangle,
+                      WantedValues wanted, SurfaceTile& out) {
     at[count] = block.at + pixel;
     x[count] = block.x + pixel % kBlockSize;
     y[count] = block.y + pixel / kBlockSize;
-    set_triangle(in, in.place[block.at + pixel], count);
+    set_triangle(in, triangle, count);
     if (++count == kBlockPixels) finish(in, wanted, out);
   }
   /// The pixels that wait.
@@ -59,7 +60,7 @@ struct MixedPixels {
     const D64 d;
     if (count == 0) return;
     for (int i = count; i < kBlockPixels; ++i) {  // whole vectors of something
-      triangle[i] = triangle[0];
+      vertices[i] = vertices[0];
       for (auto& of : placed) of[i] = of[0];
     }
     for (int h = 0; h * kHalf < count; ++h) set_weights(hn::Load(d, x + h * kHalf), hn::Load(d, y + h * kHalf), h);
@@ -68,34 +69,54 @@ struct MixedPixels {
   }
 
  private:
+  using DU64 = hn::RebindToUnsigned<D64>;
   static constexpr int kGroup = kHalf == 1 ? 1 : std::max(kHalf, 4);  // attributes side by side
   const uint64_t* placed[3][kBlockPixels];
-  const VisibleTriangle* triangle[kBlockPixels];
+  alignas(64) uint64_t vertices[kBlockPixels];  // of each pixel, 16 bits each, the first lowest
   alignas(64) double b1[kBlockPixels], b2[kBlockPixels];
   alignas(64) double x[kBlockPixels] = {}, y[kBlockPixels] = {};  // of pixels from anywhere
   int at[kBlockPixels], count = 0;
 
-  HWY_INLINE void set_triangle(const VisibleTriangles& in, uint32_t place, int i) {
-    const VisibleTriangle& t = in.triangle[in.index.data()[place]];
-    const PlacedVertex* const vertices = in.placed.data();
-    triangle[i] = &t;
-    for (int k = 0; k < 3; ++k) placed[k][i] = &vertex_at(vertices, t.vertex[k]).key;
+  HWY_INLINE void set_triangle(const VisibleTriangles& in, SeenTriangle triangle, int i) {
+    const SubmittedVertices of(in, triangle);
+    const PlacedVertex* const first = in.placed.data();
+    vertices[i] = of.vertex[0] | uint64_t(of.vertex[1]) << 16 | uint64_t(of.vertex[2]) << 32;
+    for (int k = 0; k < 3; ++k) placed[k][i] = &vertex_at(first, of.vertex[k]).key;
+  }
+
+  /// Turns the vertices of a vector of pixels into canonical order, with them what is given of them.
+  HWY_INLINE void turn(hn::Vec<DU64> key[3], hn::Vec<DU64> inverse[3], int h) {
+    const DU64 d;
+    const auto from_2 = hn::And(hn::Lt(key[2], key[0]), hn::Lt(key[2], key[1]));
+    const auto from_1 = hn::AndNot(from_2, hn::Lt(key[1], key[0]));
+    const auto turned = [&](auto a, auto from_b, auto from_c) {
+      return hn::IfThenElse(from_2, from_c, hn::IfThenElse(from_1, from_b, a));
+    };
+    for (auto* of : {key, inverse}) {
+      const auto v0 = of[0], v1 = of[1], v2 = of[2];
+      of[0] = turned(v0, v1, v2), of[1] = turned(v1, v2, v0), of[2] = turned(v2, v0, v1);
+    }
+    const auto all = hn::Load(d, vertices + h * kHalf);
+    hn::Store(turned(all, hn::Or(hn::ShiftRight<16>(all), hn::ShiftLeft<32>(all)),
+                     hn::Or(hn::ShiftRight<32>(all), hn::ShiftLeft<16>(all))),
+              d, vertices + h * kHalf);
   }
 
   HWY_INLINE void set_weights(V64 column, V64 row, int h) {
     const D64 d;
-    const hn::RebindToUnsigned<D64> du;
+    const DU64 du;
     V64 rx[3], ry[3], u[3];
     // A double 2^52 + n has the bits of n at its end.
     const V64 zero = hn::Set(d, 0x1p52 + double(PlacedVertex::kBias)), pixel = hn::Set(d, 256.0);
     const V64 sx = hn::Add(zero, hn::Mul(column, pixel)), sy = hn::Add(zero, hn::Mul(row, pixel));
     const auto exponent = hn::Set(du, 0x4330000000000000u), low = hn::Set(du, 0xFFFFFFFFu);
+    hn::Vec<DU64> key[3], inverse[3];
+    for (int k = 0; k < 3; ++k) load_pairs(du, placed[k] + h * kHalf, key[k], inverse[k]);
+    turn(key, inverse, h);
     for (int k = 0; k < 3; ++k) {
-      auto key = hn::Zero(du), inverse = key;
-      load_pairs(du, placed[k] + h * kHalf, key, inverse);
-      rx[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key, low), exponent)), sx);
-      ry[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key), exponent)), sy);
-      u[k] = hn::BitCast(d, inverse);
+      rx[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key[k], low), exponent)), sx);
+      ry[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key[k]), exponent)), sy);
+      u[k] = hn::BitCast(d, inverse[k]);
     }
     SmoothWeights w;
     w.set(rx, ry, u);
@@ -127,7 +148,8 @@ struct MixedPixels {
     const hn::CappedTag<float, kBlockSize> dq;
     hn::Vec<D> v[kBlockSize];
     for (int i = 0; i < kBlockSize; ++i) {
-      const uint16_t(&vertex)[3] = triangle[pixel + i]->vertex;
+      uint16_t vertex[3];
+      std::memcpy(vertex, vertices + pixel + i, sizeof(vertex));
       v[i] = values(d, vertex_at(records, vertex[0]).value + from, vertex_at(records, vertex[1]).value + from,
                     vertex_at(records, vertex[2]).value + from, pixel + i);
     }

@@ -1,5 +1,5 @@
-// Smooth attributes of a triangle that fills a good part of a block: all of the block's pixels at once, by the same
-// operations as interpolate-inl.h. Included once per SIMD target. docs/arithmetic.md section 5.
+// Smooth attributes of a triangle that fills a good part of some blocks: block after block, all of its pixels at once,
+// by the same operations as interpolate-inl.h. Included once per SIMD target. docs/arithmetic.md section 5.
 #if defined(TRUESHADE_RASTER_RUN_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_RUN_TRIANGLE_INL_H_
 #undef TRUESHADE_RASTER_RUN_TRIANGLE_INL_H_
@@ -9,10 +9,13 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "raster/edge_vectors-inl.h"
 #include "raster/interpolate-inl.h"
 #include "raster/lanes-inl.h"
 #include "raster/surfaces.h"
+#include "raster/visible_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -20,11 +23,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kHalf = int(hn::MaxLanes(D64()));  // pixels of a vector
 inline constexpr int kHalves = kBlockPixels / kHalf;
+inline constexpr uint32_t kHalfBits = (1u << kHalf) - 1;
 
 /// A block of a tile.
 struct BlockPlace {
   int x, y, at;  ///< first pixel, and its place in the planes
 
+  HWY_INLINE BlockPlace(int block, int blocks)
+      : x(block % blocks * kBlockSize), y(block / blocks * kBlockSize), at(block * kBlockPixels) {}
   HWY_INLINE V64 column(int half) const {
     const D64 d;
     return hn::Add(hn::Set(d, x + half * kHalf % kBlockSize), hn::LoadU(d, kLaneColumn));
@@ -39,32 +45,161 @@ struct BlockPlace {
 struct WantedValues {
   int first, last;
   bool color;
+
+  uint32_t bits() const {
+    const uint32_t colors = color ? (1u << kStreams) - (1u << VertexRecord::kValues) : 0;
+    return colors | ((1u << last) - (1u << first));
+  }
+};
+
+/// Weights of vertices 1 and 2 at the pixels of a block.
+struct BlockWeights {
+  V64 b1[kHalves], b2[kHalves];
+
+  /// From the edge functions times 1 / w.
+  HWY_INLINE void set(int half, V64 l0, V64 l1, V64 l2) {
+    const V64 r = hn::Div(hn::Set(D64(), 1.0), hn::Add(hn::Add(l0, l1), l2));
+    b1[half] = hn::Mul(l1, r), b2[half] = hn::Mul(l2, r);
+  }
+};
+
+/// Attributes of a triangle's corners, set up for many pixels. Hull is the type of their least and greatest values.
+/// Where the corners agree, with both differences 0, the plane a_0 + (b_1*0 + b_2*0) is a_0 + 0 at every pixel: weights
+/// there are finite, and edge functions, 1 / w and so weights not negative.
+template <class Hull>
+struct RunAttributes {
+  static constexpr int kRoom = 16;  ///< whole vectors
+  static_assert(kRoom >= kStreams);
+  uint32_t varying, constant;  ///< a bit each
+  alignas(64) double a0[kRoom], to_1[kRoom] = {}, to_2[kRoom] = {};
+  alignas(64) Hull low[kRoom], high[kRoom];
+
+  /// Those of the pixels `mine` of a block. `whole`: the block's others are anyone's.
+  HWY_INLINE void put(const BlockWeights& w, int at, uint32_t mine, bool whole, SurfaceTile& out) const {
+    const DF d;
+    for (int p = 0; p < kBlockPixels; p += kTogether) {
+      const uint32_t here = (mine >> p) & ((1u << kTogether) - 1);
+      if (here == 0) continue;
+      const int h = p / kHalf, h_last = (p + kTogether - kHalf) / kHalf;
+      if constexpr (kTogether == 2 * kHalf && kHalf == 8) {
+        if ((here & kHalfBits) == 0 || (here >> kHalf) == 0) {
+          const int only = here >> kHalf == 0 ? 0 : 1;
+          const hn::Half<DF> dh;
+          put_varying(dh, w, only, only, at + only * kHalf, lane_mask(dh, here >> (only * kHalf)), whole, out);
+          continue;
+        }
+      }
+      put_varying(d, w, h, h_last, at + p, lane_mask(d, here), whole || here == (1u << kTogether) - 1, out);
+    }
+    for (uint32_t bits = constant; bits != 0; bits &= bits - 1) {
+      const int k = std::countr_zero(bits);
+      const auto value = hn::Set(d, float(a0[k]) + 0.0f);
+      float* const plane = out.plane[kRecordStream[k]] + at;
+      for (int p = 0; p < kBlockPixels; p += kTogether)
+        if (whole)
+          hn::Store(value, d, plane + p);
+        else
+          store_lanes(value, lane_mask(d, mine >> p), d, plane + p);
+    }
+  }
+
+ protected:
+  using DF = hn::CappedTag<float, kBlockPixels>;
+  static constexpr int kTogether = int(hn::MaxLanes(DF()));
+
+  /// Sorts the attributes `wanted` into varying ones and constant ones, from the differences set.
+  HWY_INLINE void sort(uint32_t wanted) {
+    const D64 d;
+    uint32_t same = 0;
+    for (int k = 0; k < kStreams; k += kHalf) {
+      const auto none =
+          hn::And(hn::Eq(hn::LoadU(d, to_1 + k), hn::Zero(d)), hn::Eq(hn::LoadU(d, to_2 + k), hn::Zero(d)));
+      same |= lane_bits(d, none) << k;
+    }
+    varying = wanted & ~same;
+    constant = wanted & same;
+  }
+
+ private:
+  template <class D>
+  HWY_INLINE void put_varying(D d, const BlockWeights& w, int half, int upper, int at, hn::Mask<D> mask, bool all,
+                              SurfaceTile& out) const {
+    const V64 b1 = w.b1[half], b2 = w.b2[half], upper_b1 = w.b1[upper], upper_b2 = w.b2[upper];
+    for (uint32_t bits = varying; bits != 0; bits &= bits - 1) {
+      const int k = std::countr_zero(bits);
+      const V64 from = hn::Set(D64(), a0[k]), d1 = hn::Set(D64(), to_1[k]), d2 = hn::Set(D64(), to_2[k]);
+      const auto plane = [&](V64 w1, V64 w2) { return hn::Add(from, hn::Add(hn::Mul(w1, d1), hn::Mul(w2, d2))); };
+      const auto value = held(d, plane(b1, b2), plane(upper_b1, upper_b2), low[k], high[k]);
+      float* const to = out.plane[kRecordStream[k]] + at;
+      if (all)
+        hn::Store(value, d, to);
+      else
+        store_lanes(value, mask, d, to);
+    }
+  }
+
+  template <class D>
+  static HWY_INLINE hn::Vec<D> held(D d, V64 lower, V64 upper, float low, float high) {
+    const D32 dh;
+    const auto value = joined(d, hn::DemoteTo(dh, lower), hn::DemoteTo(dh, upper));
+    return lesser(greater(value, hn::Set(d, low)), hn::Set(d, high));
+  }
+  template <class D>
+  static HWY_INLINE hn::Vec<D> held(D d, V64 lower, V64 upper, double low, double high) {
+    const D32 dh;
+    const V64 least = hn::Set(D64(), low), most = hn::Set(D64(), high);
+    return joined(d, hn::DemoteTo(dh, lesser(greater(lower, least), most)),
+                  hn::DemoteTo(dh, lesser(greater(upper, least), most)));
+  }
 };
 
 /// One triangle, set up for many pixels.
-struct RunTriangle {
-  uint32_t triangle = ~0u;
-  double c[3] = {}, sx[3] = {}, sy[3] = {}, u[3] = {};  // E_i = c + px sx + py sy, exact
-  alignas(64) double a0[kStreams], to_1[kStreams], to_2[kStreams];
-  alignas(64) float low[kStreams], high[kStreams];
+struct RunTriangle : RunAttributes<float> {
+  double c[3], sx[3], sy[3], u[3];  // E_i = c + px sx + py sy, exact
 
-  HWY_INLINE void set(const VisibleTriangles& in, uint32_t index, bool color) {
-    if (triangle == index) return;
-    triangle = index;
-    const uint16_t(&vertex)[3] = in.triangle[index].vertex;
+  RunTriangle(const VisibleTriangles& in, SeenTriangle triangle, WantedValues wanted) {
+    const CanonicalVertices canonical(in, triangle);
+    const uint32_t(&vertex)[3] = canonical.vertex;
     const PlacedVertex* const placed = in.placed.data();
+    double x[3], y[3];
     for (int k = 0; k < 3; ++k) {
-      const PlacedVertex &a = vertex_at(placed, vertex[(k + 1) % 3]), &b = vertex_at(placed, vertex[(k + 2) % 3]);
-      c[k] = a.x() * b.y() - b.x() * a.y();
-      sx[k] = (a.y() - b.y()) * 256.0;
-      sy[k] = (b.x() - a.x()) * 256.0;
-      u[k] = vertex_at(placed, vertex[k]).u;
+      const PlacedVertex& v = vertex_at(placed, vertex[k]);
+      x[k] = v.x(), y[k] = v.y(), u[k] = v.u;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      c[k] = x[a] * y[b] - x[b] * y[a];
+      sx[k] = (y[a] - y[b]) * 256.0;
+      sy[k] = (x[b] - x[a]) * 256.0;
     }
     set_corners(in.record.data(), vertex, 0, VertexRecord::kValues);
-    if (color) set_corners(in.color.data(), vertex, VertexRecord::kValues, 4);
+    if (wanted.color) set_corners(in.color.data(), vertex, VertexRecord::kValues, 4);
+    sort(wanted.bits());
   }
+
+  /// The pixels of a run of its; `whole`: the block's others are anyone's.
+  HWY_INLINE void put_run(const BlockPlace& block, uint32_t mine, bool whole, SurfaceTile& out) const {
+    const D64 d;
+    BlockWeights w{};
+    const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
+    const auto across = [&](int i) {
+      return hn::Add(hn::Mul(column, hn::Set(d, sx[i])), hn::Mul(row, hn::Set(d, sy[i])));
+    };
+    const V64 across_0 = across(0), across_1 = across(1), across_2 = across(2);
+    for (int h = 0; h < kHalves; ++h) {
+      if (((mine >> h * kHalf) & kHalfBits) == 0) continue;
+      const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
+      const auto weighted = [&](int i, V64 beyond) {
+        return hn::Mul(hn::Add(hn::Set(d, c[i] + px * sx[i] + py * sy[i]), beyond), hn::Set(d, u[i]));
+      };
+      w.set(h, weighted(0, across_0), weighted(1, across_1), weighted(2, across_2));
+    }
+    put(w, block.at, mine, whole, out);
+  }
+
+ private:
   template <class Record>
-  HWY_INLINE void set_corners(const Record* records, const uint16_t vertex[3], int first, int count) {
+  HWY_INLINE void set_corners(const Record* records, const uint32_t vertex[3], int first, int count) {
     const float* const at_0 = vertex_at(records, vertex[0]).value;
     const float* const at_1 = vertex_at(records, vertex[1]).value;
     const float* const at_2 = vertex_at(records, vertex[2]).value;
@@ -78,63 +213,6 @@ struct RunTriangle {
       hn::StoreU(hn::Sub(hn::PromoteTo(d, v2), wide), d, to_2 + first + i);
       hn::StoreU(lesser(lesser(v0, v1), v2), df, low + first + i);
       hn::StoreU(greater(greater(v0, v1), v2), df, high + first + i);
-    }
-  }
-
-  /// The pixels in `mine`; `alone`: the block's others are anyone's.
-  HWY_INLINE void interpolate(const BlockPlace& block, WantedValues wanted, uint32_t mine, bool alone,
-                              SurfaceTile& out) const {
-    const D64 d;
-    V64 b1[kHalves] = {}, b2[kHalves] = {};
-    const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
-    const auto across = [&](int i) {
-      return hn::Add(hn::Mul(column, hn::Set(d, sx[i])), hn::Mul(row, hn::Set(d, sy[i])));
-    };
-    const V64 across_0 = across(0), across_1 = across(1), across_2 = across(2);
-    for (int h = 0; h < kHalves; ++h) {
-      if (((mine >> h * kHalf) & kHalfBits) == 0) continue;
-      const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
-      const auto weighted = [&](int i, V64 beyond) {
-        return hn::Mul(hn::Add(hn::Set(d, c[i] + px * sx[i] + py * sy[i]), beyond), hn::Set(d, u[i]));
-      };
-      const V64 l0 = weighted(0, across_0), l1 = weighted(1, across_1), l2 = weighted(2, across_2);
-      const V64 r = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(l0, l1), l2));
-      b1[h] = hn::Mul(l1, r), b2[h] = hn::Mul(l2, r);
-    }
-    for (int p = 0; p < kBlockPixels; p += kTogether) {
-      const uint32_t here = (mine >> p) & ((1u << kTogether) - 1);
-      if (here == 0) continue;
-      const int h = p / kHalf, h_last = (p + kTogether - kHalf) / kHalf;
-      const bool all = alone || here == (1u << kTogether) - 1;
-      set_values(wanted.first, wanted.last, block.at + p, b1[h], b2[h], b1[h_last], b2[h_last], here, all, out);
-      if (wanted.color)
-        set_values(VertexRecord::kValues, kStreams, block.at + p, b1[h], b2[h], b1[h_last], b2[h_last], here, all, out);
-    }
-  }
-
- private:
-  using DT = hn::CappedTag<float, 8>;
-  static constexpr int kTogether = int(hn::MaxLanes(DT()));
-  static constexpr uint32_t kHalfBits = (1u << kHalf) - 1;
-
-  /// Attributes [first, last) of kTogether pixels with the weights of both their halves.
-  HWY_INLINE void set_values(int first, int last, int at, V64 b1, V64 b2, V64 upper_b1, V64 upper_b2, uint32_t mine,
-                             bool all, SurfaceTile& out) const {
-    const D64 d;
-    const DT df;
-    const auto mask = lane_mask(df, mine);
-    for (int k = first; k < last; ++k) {
-      const auto plane = [&](V64 w1, V64 w2) {
-        return hn::DemoteTo(D32(), hn::Add(hn::Set(d, a0[k]), hn::Add(hn::Mul(w1, hn::Set(d, to_1[k])),
-                                                                      hn::Mul(w2, hn::Set(d, to_2[k])))));
-      };
-      const auto value = joined(df, plane(b1, b2), plane(upper_b1, upper_b2));
-      const auto held = lesser(greater(value, hn::Set(df, low[k])), hn::Set(df, high[k]));
-      float* const to = out.plane[kRecordStream[k]] + at;
-      if (all)
-        hn::Store(held, df, to);
-      else
-        store_lanes(held, mask, df, to);
     }
   }
 };

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "raster/careful_surfaces-inl.h"
 #include "raster/mixed_pixels-inl.h"
@@ -22,91 +23,122 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Pixels of a triangle that needed care: of each the first piece that has it.
-inline void interpolate_careful_block(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
-                                      bool color, uint32_t id, uint32_t triangle, const BlockPlace& block,
-                                      uint32_t mine, VisibleVertices& work, std::vector<CarefulSurface>& surfaces,
-                                      SurfaceTile& out) {
-  const D64 d;
-  if (std::none_of(surfaces.begin(), surfaces.end(), [id](const CarefulSurface& s) { return s.id == id; })) {
-    const VisibleTriangles& seen = work.triangles;
-    float value[kStreams][3] = {};
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t vertex = seen.triangle[triangle].vertex[k];
-      for (int c = 0; c < VertexRecord::kValues; ++c)
-        value[kRecordStream[c]][k] = vertex_at(seen.record.data(), vertex).value[c];
-      for (int c = 0; c < 4 && color; ++c) value[kAlbedo + c][k] = vertex_at(seen.color.data(), vertex).value[c];
-    }
-    add_careful_surfaces(in, rect, group, groups, id, value, surfaces);
-  }
-  for (int h = 0; h < kHalves; ++h) {
-    M64 open = lane_mask(d, mine >> (h * kHalf));
-    const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
-    for (const CarefulSurface& s : surfaces) {
-      if (s.id != id || hn::AllFalse(d, open)) continue;
-      const V64 e[3] = {s.edges.at(0, px, py), s.edges.at(1, px, py), s.edges.at(2, px, py)};
-      M64 owned = open;
-      for (int k = 0; k < 3; ++k) owned = hn::And(owned, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
-      if (hn::AllFalse(d, owned)) continue;
-      interpolate_piece(s, e, owned, group, groups, block.at + h * kHalf, in.view.maps, work, out);
-      open = hn::AndNot(owned, open);
-    }
-  }
-}
+/// A piece of a triangle that needed care, set up for many pixels.
+struct CarefulRun : RunAttributes<double> {
+  const CarefulSurface& piece;
 
-/// Bits of a block's pixels whose word is `value`.
-template <class T>
-HWY_INLINE uint32_t equal_bits(const T* words, T value) {
-  const hn::CappedTag<T, kBlockPixels> d;
-  uint32_t bits = 0;
-  for (int k = 0; k < kBlockPixels; k += int(hn::Lanes(d)))
-    bits |= lane_bits(d, hn::Eq(hn::LoadU(d, words + k), hn::Set(d, value))) << k;
-  return bits;
+  CarefulRun(const CarefulSurface& of, WantedValues wanted) : piece(of) {
+    for (int k = 0; k < kStreams; ++k) {
+      const double* const a = of.attribute[kRecordStream[k]];
+      a0[k] = a[0], to_1[k] = a[1] - a[0], to_2[k] = a[2] - a[0];
+      low[k] = of.low[kRecordStream[k]], high[k] = of.high[kRecordStream[k]];
+    }
+    sort(wanted.bits());
+  }
+
+  /// Those of the pixels `open` that the piece has; returns them. `whole`: the block's others are anyone's.
+  HWY_INLINE uint32_t put_run(const BlockPlace& block, uint32_t open, bool whole, SurfaceTile& out) const {
+    const D64 d;
+    BlockWeights w{};
+    uint32_t mine = 0;
+    for (int h = 0; h < kHalves; ++h) {
+      const uint32_t here = (open >> h * kHalf) & kHalfBits;
+      if (here == 0) continue;
+      const double px = block.x + h * kHalf % kBlockSize, py = block.y + h * kHalf / kBlockSize;
+      const V64 e[3] = {piece.edges.at(0, px, py), piece.edges.at(1, px, py), piece.edges.at(2, px, py)};
+      M64 inside = hn::Ge(e[0], hn::Set(d, double(piece.setup.least[0])));
+      for (int k = 1; k < 3; ++k) inside = hn::And(inside, hn::Ge(e[k], hn::Set(d, double(piece.setup.least[k]))));
+      const uint32_t owned = here & lane_bits(d, inside);
+      if (owned == 0) continue;
+      mine |= owned << h * kHalf;
+      w.set(h, hn::Mul(e[0], hn::Set(d, piece.u[0])), hn::Mul(e[1], hn::Set(d, piece.u[1])),
+            hn::Mul(e[2], hn::Set(d, piece.u[2])));
+    }
+    if (mine != 0) put(w, block.at, mine, whole && mine == open, out);
+    return mine;
+  }
+};
+
+inline WantedValues wanted_values(const StreamGroup* group, WantedStreams streams) {
+  return {group[0].first == kPosition ? 0 : int(kNormal), streams.uv ? VertexRecord::kValues : kRecordUv,
+          streams.color};
 }
 
 /// Fills the planes of a tile whose attributes are all smooth, from the triangles found and placed.
-inline void interpolate_blocks(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
-                               WantedStreams streams, const VisibilityTile& visible, VisibleVertices& work,
-                               SurfaceTile& out) {
-  constexpr int kFew = 4;  // pixels of one triangle from which on they go together
-  const VisibleTriangles& seen = work.triangles;
-  const int blocks = rect.size / kBlockSize;
-  const WantedValues wanted{group[0].first == kPosition ? 0 : int(kNormal),
-                            streams.uv ? VertexRecord::kValues : kRecordUv, streams.color};
-  RunTriangle run;
-  MixedPixels mixed, few;
-  std::vector<CarefulSurface> careful;  // of the tile, in no order: there are few
-  for (int b = 0; b < blocks * blocks; ++b) {
-    const BlockPlace block{b % blocks * kBlockSize, b / blocks * kBlockSize, b * kBlockPixels};
-    const uint32_t* const id = visible.id + block.at;
-    const uint32_t covered = seen.block[b].covered;
-    if (seen.block[b].seen == VisibleTriangles::many) {
-      mixed.interpolate(seen, block, wanted, out);
-      continue;
-    }
-    for (uint32_t rest = covered; rest != 0;) {
-      const int pixel = std::countr_zero(rest);
-      const bool one = seen.block[b].seen == VisibleTriangles::one;
-      const uint32_t mine = one ? covered : equal_bits<uint32_t>(id, id[pixel]);
-      rest &= ~mine;
-      const bool needs_care = !one && id_careful(id[pixel]);
-      if (!needs_care && std::popcount(mine) < kFew) {
-        for (uint32_t bits = mine; bits != 0; bits &= bits - 1)
-          few.add(seen, block, std::countr_zero(bits), wanted, out);
-        continue;
-      }
-      const uint32_t triangle = seen.index[seen.place[block.at + pixel]];
-      if (needs_care) {
-        interpolate_careful_block(in, rect, group, groups, wanted.color, id[pixel], triangle, block, mine, work,
-                                  careful, out);
+struct BlockInterpolation {
+  const TileDraws& in;
+  const TileRect& rect;
+  const StreamGroup* const group;  ///< what is wanted
+  const int groups;
+  const WantedValues wanted;
+  const VisibilityTile& visible;
+  VisibleTriangles& seen;
+  SurfaceTile& out;
+  const int blocks = rect.size / kBlockSize;  ///< a row
+
+  void run() {
+    constexpr int kFew = 2;  // pixels of one triangle from which on they go together
+    constexpr uint16_t kNone = VisibleTriangles::kNoRun;
+    MixedPixels mixed;
+    for (uint32_t i = 0; i < seen.manys; ++i) mixed.interpolate(seen, BlockPlace(seen.many[i], blocks), wanted, out);
+    uint16_t* const first_run = seen.first_run.data();
+    uint32_t chains = 0;
+    for (uint32_t i = seen.runs; i-- > 0;) {
+      const SeenRun& run = seen.run[i];
+      if (std::popcount(run.pixels) < kFew && !id_careful(id_of(run))) {
+        const BlockPlace block(run.block, blocks);
+        for (uint32_t bits = run.pixels; bits != 0; bits &= bits - 1)
+          mixed.add(seen, block, std::countr_zero(bits), run.triangle, wanted, out);
       } else {
-        run.set(seen, triangle, wanted.color);
-        run.interpolate(block, wanted, mine, mine == covered, out);
+        uint16_t& before = first_run[run.triangle.place];
+        seen.chain[chains] = run.triangle.place;
+        chains += before == kNone;
+        seen.next_run[i] = before;
+        before = uint16_t(i);
+      }
+    }
+    mixed.finish(seen, wanted, out);
+    while (chains-- > 0) interpolate_runs(std::exchange(first_run[seen.chain[chains]], kNone));
+  }
+
+ private:
+  HWY_INLINE uint32_t id_of(const SeenRun& run) const {
+    return visible.id[run.block * kBlockPixels + std::countr_zero(run.pixels)];
+  }
+
+  /// The long runs of a triangle.
+  HWY_INLINE void interpolate_runs(uint16_t first) {
+    if (HWY_UNLIKELY(id_careful(id_of(seen.run[first])))) return interpolate_careful_runs(first);
+    const RunTriangle set_up(seen, seen.run[first].triangle, wanted);
+    for (uint16_t i = first; i != VisibleTriangles::kNoRun; i = seen.next_run[i]) {
+      const SeenRun& run = seen.run[i];
+      set_up.put_run(BlockPlace(run.block, blocks), run.pixels, run.pixels == seen.covered[run.block], out);
+    }
+  }
+
+  /// Of a triangle that needed care each pixel is of the first piece that has it.
+  HWY_NOINLINE void interpolate_careful_runs(uint16_t first) {
+    const SubmittedVertices vertices(seen, seen.run[first].triangle);
+    float value[kStreams][3] = {};
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t vertex = vertices.vertex[k];
+      for (int c = 0; c < VertexRecord::kValues; ++c)
+        value[kRecordStream[c]][k] = vertex_at(seen.record.data(), vertex).value[c];
+      for (int c = 0; c < 4 && wanted.color; ++c) value[kAlbedo + c][k] = vertex_at(seen.color.data(), vertex).value[c];
+    }
+    std::vector<CarefulSurface> pieces;
+    add_careful_surfaces(in, rect, group, groups, id_of(seen.run[first]), value, pieces);
+    for (const CarefulSurface& piece : pieces) {
+      const CarefulRun set_up(piece, wanted);
+      for (uint16_t i = first; i != VisibleTriangles::kNoRun; i = seen.next_run[i]) {
+        SeenRun& run = seen.run[i];
+        const bool alone = run.pixels == seen.covered[run.block];
+        const uint32_t mine = set_up.put_run(BlockPlace(run.block, blocks), run.pixels, alone, out);
+        run.pixels = uint16_t(run.pixels & ~mine);  // the rest is for the pieces that follow
       }
     }
   }
-  few.finish(seen, wanted, out);
-}
+};
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

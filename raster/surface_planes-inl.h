@@ -177,7 +177,7 @@ struct MaterialTexel {
   static constexpr int kMost = 11;
   uint32_t material = 0;  // index + 1
   int planes = 0;
-  int plane[kMost];
+  int plane[kMost];  // albedo first
   float value[kMost];
 
   void set(const TileDraws& in, const GBufferState& g, const LightModel& model, uint32_t index_plus_1) {
@@ -207,28 +207,54 @@ struct MaterialTexel {
   }
 };
 
-inline void fill_plain_materials(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
-                                 const LightModel& model, SurfaceTile& out) {
-  constexpr uint32_t kRecent = 32;
-  const DF d;
-  const int lanes = int(hn::Lanes(d));
+// The texels of the materials that a tile has shown lately.
+struct RecentTexels {
+  static constexpr uint32_t kRecent = 32;
+  const TileDraws& in;
+  const GBufferState& planes;
+  const LightModel& model;
   MaterialTexel recent[kRecent];
-  const auto texel = [&](uint32_t material) -> const MaterialTexel& {
+
+  const MaterialTexel& operator[](uint32_t material) {
     MaterialTexel& entry = recent[material % kRecent];
     if (entry.material != material) entry.set(in, planes, model, material);
     return entry;
-  };
-  for (int i = 0; i < rect.size * rect.size; i += lanes) {
-    for_each_material(out, i, [&](uint32_t material, auto mine, bool only) {
-      const MaterialTexel& t = texel(material);
-      for (int k = 0; k < t.planes; ++k) {
-        float* const plane = out.plane[t.plane[k]] + i;
-        if (only)
-          hn::Store(hn::Set(d, t.value[k]), d, plane);
-        else
-          store_lanes(hn::Set(d, t.value[k]), mine, d, plane);
+  }
+};
+
+// Of a vector of pixels that show several materials. Albedo is not read: that would wait for what is under way to it.
+HWY_NOINLINE inline void fill_mixed_materials(int i, RecentTexels& texels, SurfaceTile& out) {
+  const DF d;
+  VF albedo[4] = {};
+  for_each_material(out, i, [&](uint32_t material, auto mine, bool) {
+    const MaterialTexel& t = texels[material];
+    for (int c = 0; c < 4; ++c) albedo[c] = hn::IfThenElse(mine, hn::Set(d, t.value[c]), albedo[c]);
+    for (int k = 4; k < t.planes; ++k) store_lanes(hn::Set(d, t.value[k]), mine, d, out.plane[t.plane[k]] + i);
+  });
+  for (int c = 0; c < 4; ++c) hn::Store(albedo[c], d, out.plane[kAlbedo + c] + i);
+}
+
+inline void fill_plain_materials(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
+                                 const LightModel& model, SurfaceTile& out) {
+  const DF d;
+  const DU du;
+  RecentTexels texels{in, planes, model, {}};
+  MaterialTexel last;
+  VF albedo[4] = {};
+  for (int i = 0; i < rect.size * rect.size; i += int(hn::Lanes(d))) {
+    const auto here = hn::Load(du, out.material + i), none = hn::Zero(du);
+    const auto others = hn::And(hn::Ne(here, hn::Set(du, last.material)), hn::Ne(here, none));
+    if (!hn::AllFalse(du, others)) {
+      const uint32_t material = out.material[i + hn::FindFirstTrue(du, others)];
+      if (!hn::AllTrue(du, hn::Or(hn::Eq(here, hn::Set(du, material)), hn::Eq(here, none)))) {
+        fill_mixed_materials(i, texels, out);
+        continue;
       }
-    });
+      last = texels[material];
+      for (int c = 0; c < 4; ++c) albedo[c] = hn::Set(d, last.value[c]);
+    }
+    for (int c = 0; c < 4; ++c) hn::Store(albedo[c], d, out.plane[kAlbedo + c] + i);
+    for (int k = 4; k < last.planes; ++k) hn::Store(hn::Set(d, last.value[k]), d, out.plane[last.plane[k]] + i);
   }
 }
 

@@ -246,11 +246,12 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   const WantedStreams wanted{need_uv, colored};
   find_triangles(in, rect, visible, work.triangles, out);
   if (out.covered_pixels == 0) return;
-  place_triangles(in, rect, wanted, work.triangles);
+  place_seen(in, rect, wanted, work.triangles);
   int block_groups = 0;
   for (int g = 0; g < groups; ++g)
     if (colored || group[g].first != kAlbedo) in_blocks[block_groups++] = group[g];
-  interpolate_blocks(in, rect, in_blocks, block_groups, wanted, visible, work, out);
+  BlockInterpolation{in, rect, in_blocks, block_groups, wanted_values(in_blocks, wanted), visible, work.triangles, out}
+      .run();
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_interpolated(in, rect, planes, group, groups, out);
   if (colored)

@@ -153,13 +153,13 @@ class PlainVertices {
       for (int c = 0; c < 4; ++c) clip_[r][c] = instance.clip[r][c];
   }
 
-  /// Places one vector of object-space positions at out[i...].
+  /// Places one vector of object-space positions at out[i...]; with their depths or without.
+  template <bool kDepth = true>
   HWY_INLINE void place(V32 px, V32 py, V32 pz, size_t i, WindowVertices& out) const {
     const D64 d;
     const I32 di;
     const V64 wx = hn::PromoteTo(d, affine_row(clip_[0], px, py, pz)),
               wy = hn::PromoteTo(d, affine_row(clip_[1], px, py, pz)),
-              wz = hn::PromoteTo(d, affine_row(clip_[2], px, py, pz)),
               ww = hn::PromoteTo(d, affine_row(clip_[3], px, py, pz));
     const V64 u = hn::Div(hn::Set(d, 1.0), ww);
     const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, scale_[0])), y = hn::Mul(hn::Mul(wy, u), hn::Set(d, scale_[1]));
@@ -172,7 +172,10 @@ class PlainVertices {
     hn::Store(hn::DemoteTo(di, hn::Add(x_fx, hn::Set(d, offset_[0]))), di, out.x + i);
     hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, offset_[1]))), di, out.y + i);
     hn::Store(u, d, out.u + i);
-    hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_)), d, out.z + i);
+    if constexpr (kDepth) {
+      const V64 wz = hn::PromoteTo(d, affine_row(clip_[2], px, py, pz));
+      hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_)), d, out.z + i);
+    }
   }
 
  private:

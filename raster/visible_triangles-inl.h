@@ -35,7 +35,7 @@ HWY_NOINLINE inline uint32_t add_cluster(const TileDraws& in, uint32_t position,
   seen.material = instance.material + 1;
   for (size_t c = 0; c < 3; ++c) {
     seen.corner[c] = &mesh.corner[c][first];
-    for (size_t line = 0; line < VisibleTriangles::kPlaces; line += 64) hwy::Prefetch(seen.corner[c] + line);
+    for (size_t line = 0; line < kTrianglePlaces; line += 64) hwy::Prefetch(seen.corner[c] + line);
   }
   return slot;
 }
@@ -46,18 +46,24 @@ inline void begin_lists(const TileDraws& in, int pixels, VisibleTriangles& work)
   if (work.slot_of.size() < in.list.size() + 1) work.slot_of.resize(in.list.size() + 1, VisibleTriangles::kNoSlot);
   if (work.cluster.size() < most) {
     work.cluster.resize(most);
-    work.mark.resize(most * VisibleTriangles::kPlaces, 0);
-    work.index.resize(most * VisibleTriangles::kPlaces);
+    work.used.resize(most * kClusterVertices, 0);
+    work.first_run.resize(most * kTrianglePlaces, VisibleTriangles::kNoRun);
   }
   work.slot_of[0] = 0;
-  work.cluster[0] = {};
+  static constexpr uint8_t kNothing[kTrianglePlaces] = {};
+  work.cluster[0] = {0, 0, 0, 0, 0, {kNothing, kNothing, kNothing}};
   work.clusters = 1;
+  work.runs = work.manys = 0;
 }
+
+/// Vectors of a block's words.
+using DBlock = hn::CappedTag<uint32_t, kBlockPixels>;
+inline constexpr int kBlockLanes = int(hn::MaxLanes(DBlock())), kBlockVectors = kBlockPixels / kBlockLanes;
 
 /// Writes object and material of a block's covered pixels, 0 elsewhere.
 HWY_INLINE void set_object(const VisibleCluster& seen, int at, SurfaceTile& out) {
-  const hn::RebindToUnsigned<DWF> d;
-  for (int k = at; k < at + kBlockPixels; k += int(hn::Lanes(d))) {
+  const DBlock d;
+  for (int k = at; k < at + kBlockPixels; k += kBlockLanes) {
     const auto covered = hn::Load(d, reinterpret_cast<const uint32_t*>(out.covered) + k);
     hn::Store(hn::And(covered, hn::Set(d, seen.object)), d, out.object + k);
     hn::Store(hn::And(covered, hn::Set(d, seen.material)), d, out.material + k);
@@ -66,8 +72,8 @@ HWY_INLINE void set_object(const VisibleCluster& seen, int at, SurfaceTile& out)
 
 /// Whether the pixels of a block see nothing or triangles of the cluster of one's.
 HWY_INLINE bool of_one_cluster(const uint32_t* id, uint32_t one) {
-  const hn::RebindToUnsigned<DWF> d;
-  for (int k = 0; k < kBlockPixels; k += int(hn::Lanes(d))) {
+  const DBlock d;
+  for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
     const auto here = hn::Load(d, id + k);
     const auto same = hn::Eq(hn::ShiftRight<8>(here), hn::Set(d, one >> 8));
     if (!hn::AllTrue(d, hn::Or(same, hn::Eq(here, hn::Zero(d))))) return false;
@@ -75,32 +81,105 @@ HWY_INLINE bool of_one_cluster(const uint32_t* id, uint32_t one) {
   return true;
 }
 
+/// Finds the clusters and triangles that are seen in a tile and what each block sees.
+struct TriangleFinder {
+  const TileDraws& in;
+  VisibleTriangles& work;
+  SurfaceTile& out;
+  uint32_t* const slot_of = work.slot_of.data();
+  VisibleCluster* const cluster = work.cluster.data();
+
+  HWY_INLINE uint32_t slot_at(uint32_t id) const {
+    uint32_t& slot = slot_of[id >> 8];
+    if (HWY_UNLIKELY(slot == VisibleTriangles::kNoSlot)) slot = add_cluster(in, id_position(id), work);
+    return slot;
+  }
+  HWY_INLINE void add_run(int at, uint32_t pixels, uint32_t slot, uint32_t id) const {
+    work.run[work.runs++] = {
+        uint16_t(at / kBlockPixels), uint16_t(pixels), {slot * kTrianglePlaces + id_triangle(id), 0}};
+  }
+
+  /// A block whose pixels all see one triangle.
+  HWY_INLINE void one(const uint32_t* id, int at) const {
+    const uint32_t slot = slot_at(id[0]);
+    add_run(at, 0xFFFF, slot, id[0]);
+    set_object(cluster[slot], at, out);
+  }
+
+  /// A block of few triangles.
+  HWY_INLINE void few(const uint32_t* id, int at, uint32_t covered) const {
+    const DBlock d;
+    hn::Vec<DBlock> here[kBlockVectors];
+    for (int v = 0; v < kBlockVectors; ++v) here[v] = hn::Load(d, id + v * kBlockLanes);
+    const uint32_t first = work.runs;
+    uint32_t objects = 0, slot = 0;  // bits in which objects differ from the last
+    for (uint32_t rest = covered; rest != 0;) {
+      const uint32_t one = id[std::countr_zero(rest)], before = slot;
+      uint32_t mine = 0;
+      for (int v = 0; v < kBlockVectors; ++v)
+        mine |= lane_bits(d, hn::Eq(here[v], hn::Set(d, one))) << (v * kBlockLanes);
+      slot = slot_at(one);
+      if (rest != covered) objects |= cluster[slot].object ^ cluster[before].object;
+      rest &= ~mine;
+      add_run(at, mine, slot, one);
+    }
+    set_object(cluster[slot], at, out);
+    for (uint32_t i = first; i < work.runs && objects != 0; ++i) {
+      const VisibleCluster& its = cluster[work.run[i].triangle.place / kTrianglePlaces];
+      for (int v = 0; v < kBlockVectors; ++v) {
+        const auto mask = lane_mask(d, uint32_t(work.run[i].pixels) >> (v * kBlockLanes));
+        store_lanes(hn::Set(d, its.object), mask, d, out.object + at + v * kBlockLanes);
+        store_lanes(hn::Set(d, its.material), mask, d, out.material + at + v * kBlockLanes);
+      }
+    }
+  }
+
+  /// A block of more triangles than pay to be told apart.
+  HWY_INLINE void many(const uint32_t* id, int at, uint32_t covered) const {
+    const DBlock d;
+    work.many[work.manys++] = uint16_t(at / kBlockPixels);
+    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id), object = cluster[first].object;
+    if (of_one_cluster(id, first_id)) {
+      for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
+        const auto here = hn::Load(d, id + k);
+        const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, kTrianglePlaces - 1));
+        const auto place = hn::Add(triangle, hn::Set(d, first * kTrianglePlaces));
+        hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), place), d, work.place + at + k);
+      }
+      set_object(cluster[first], at, out);
+      return;
+    }
+    uint32_t others = 0;
+    cluster[0].object = object;  // of what is not covered
+    for (int k = 0; k < kBlockPixels; ++k) {
+      const uint32_t slot = slot_at(id[k]);
+      others |= cluster[slot].object ^ object;
+      work.place[at + k] = slot * kTrianglePlaces + id_triangle(id[k]);
+    }
+    if (others == 0) return set_object(cluster[first], at, out);
+    cluster[0].object = 0;
+    for (int k = 0; k < kBlockPixels; ++k) {
+      const VisibleCluster& seen = cluster[work.place[at + k] / kTrianglePlaces];
+      out.object[at + k] = seen.object;
+      out.material[at + k] = seen.material;
+    }
+  }
+};
+
 /// Fills the planes of coverage, object and material and finds the clusters and triangles that are seen.
 inline void find_triangles(const TileDraws& in, const TileRect& rect, const VisibilityTile& visible,
                            VisibleTriangles& work, SurfaceTile& out) {
   constexpr int kFewChanges = 8;  // in rows of four: two or three triangles side by side
-  const hn::RebindToUnsigned<DWF> d;
-  const hn::RebindToSigned<DWF> di;
-  const int lanes = int(hn::Lanes(d)), pixels = rect.size * rect.size;
+  const DBlock d;
+  const hn::RebindToSigned<DBlock> di;
+  const int pixels = rect.size * rect.size;
   begin_lists(in, pixels, work);
-  uint32_t* const slot_of = work.slot_of.data();
-  uint8_t* const mark = work.mark.data();
-  VisibleCluster* const cluster = work.cluster.data();
-  const auto slot_at = [&](uint32_t id) {
-    uint32_t& slot = slot_of[id >> 8];
-    if (HWY_UNLIKELY(slot == VisibleTriangles::kNoSlot)) slot = add_cluster(in, id_position(id), work);
-    return slot;
-  };
-  const auto marked = [&](uint32_t slot, uint32_t id) {
-    const uint32_t place = slot * VisibleTriangles::kPlaces + id_triangle(id);
-    mark[place] = uint8_t(2 + uint32_t(id_careful(id)));
-    return place;
-  };
+  const TriangleFinder find{in, work, out};
   out.covered_pixels = 0;
   for (int at = 0; at < pixels; at += kBlockPixels) {
     const uint32_t* const id = visible.id + at;
     uint32_t covered = 0, same = 0, changed = 0, careful = 0;  // the first block's changes are not counted
-    for (int k = 0; k < kBlockPixels; k += lanes) {
+    for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
       const auto here = hn::Load(d, id + k), before = hn::LoadU(d, id + k - (at + k > 0 ? 1 : 0));
       const auto drawn = hn::Ne(here, hn::Zero(d));
       covered |= lane_bits(d, drawn) << k;
@@ -109,111 +188,59 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
       careful |= lane_bits(d, hn::Ne(hn::And(here, hn::Set(d, 1)), hn::Zero(d))) << k;
       hn::Store(hn::VecFromMask(di, hn::RebindMask(di, drawn)), di, out.covered + at + k);
     }
+    work.covered[at / kBlockPixels] = uint16_t(covered);
     out.covered_pixels += std::popcount(covered);
-    VisibleTriangles::Block& block = work.block[at / kBlockPixels];
-    block = {uint16_t(covered), VisibleTriangles::one};
-    if (same == 0xFFFF) {
-      const uint32_t slot = slot_at(id[0]);
-      work.place[at] = marked(slot, id[0]);  // the others are not asked for
-      set_object(cluster[slot], at, out);
-      if (careful != 0) block.seen = VisibleTriangles::some;
-      continue;
-    }
-    block.seen = careful == 0 && std::popcount(changed) > kFewChanges ? VisibleTriangles::many : VisibleTriangles::some;
-    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id), object = cluster[first].object;
-    uint32_t others = 0;
-    if (careful == 0 && of_one_cluster(id, first_id)) {
-      for (int k = 0; k < kBlockPixels; k += lanes) {
-        const auto here = hn::Load(d, id + k);
-        const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, VisibleTriangles::kPlaces - 1));
-        const auto place = hn::Add(triangle, hn::Set(d, first * VisibleTriangles::kPlaces));
-        hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), place), d, work.place + at + k);
-      }
-      for (int k = 0; k < kBlockPixels; ++k) mark[work.place[at + k]] = 2;
-      set_object(cluster[first], at, out);
-      continue;
-    }
-    cluster[0].object = object;  // of what is not covered
-    for (int k = 0; k < kBlockPixels; ++k) {
-      const uint32_t slot = slot_at(id[k]);
-      others |= cluster[slot].object ^ object;
-      work.place[at + k] = marked(slot, id[k]);
-    }
-    if (others == 0) {
-      set_object(cluster[first], at, out);
-    } else {
-      cluster[0].object = 0;
-      for (int k = 0; k < kBlockPixels; ++k) {
-        const VisibleCluster& seen = cluster[work.place[at + k] / VisibleTriangles::kPlaces];
-        out.object[at + k] = seen.object;
-        out.material[at + k] = seen.material;
-      }
-    }
+    if (covered == 0)
+      set_object({}, at, out);
+    else if (same == 0xFFFF)
+      find.one(id, at);
+    else if (careful != 0 || std::popcount(changed) <= kFewChanges)
+      find.few(id, at, covered);
+    else
+      find.many(id, at, covered);
   }
-  for (uint32_t slot = 1; slot < work.clusters; ++slot) slot_of[cluster[slot].position + 1] = VisibleTriangles::kNoSlot;
+  for (uint32_t slot = 1; slot < work.clusters; ++slot)
+    find.slot_of[find.cluster[slot].position + 1] = VisibleTriangles::kNoSlot;
 }
 
-/// Lists the marked triangles of a cluster, with corners in it, and takes the marks away.
-HWY_INLINE uint32_t list_triangles(VisibleCluster& seen, uint8_t* mark, uint16_t* index, uint32_t first,
-                                   VisibleTriangle* out) {
-  const hn::ScalableTag<uint8_t> d;
-  const size_t lanes = hn::Lanes(d);
-  uint32_t count = 0;
-  uint64_t used = 0;
-  for (uint32_t half = 0; half < VisibleTriangles::kPlaces; half += 64) {
-    uint64_t marks = 0;
-    for (size_t k = 0; k < 64; k += lanes) {
-      uint64_t bits = 0;
-      hn::StoreMaskBits(d, hn::Ne(hn::LoadU(d, mark + half + k), hn::Zero(d)), reinterpret_cast<uint8_t*>(&bits));
-      marks |= bits << k;
-    }
-    for (; marks != 0; marks &= marks - 1) {
-      const uint32_t t = half + uint32_t(std::countr_zero(marks));
-      const uint8_t a = seen.corner[0][t], b = seen.corner[1][t], c = seen.corner[2][t];
-      used |= uint64_t(1) << a | uint64_t(1) << b | uint64_t(1) << c;
-      out[count] = {{a, b, c}, uint16_t(mark[t] & 1)};
-      index[t] = uint16_t(first + count);
-      ++count;
-    }
-  }
-  for (size_t k = 0; k < VisibleTriangles::kPlaces; k += lanes) hn::StoreU(hn::Zero(d), d, mark + k);
-  seen.used = used;
-  seen.first_triangle = first;
-  seen.triangles = count;
-  return count;
+/// The corners of the triangle at a place, whose vertices become used ones.
+HWY_INLINE uint32_t corners_at(uint32_t place, const VisibleCluster* cluster, uint8_t* used) {
+  const uint32_t slot = place / kTrianglePlaces, triangle = place % kTrianglePlaces;
+  const VisibleCluster& its = cluster[slot];
+  const uint32_t a = its.corner[0][triangle], b = its.corner[1][triangle], c = its.corner[2][triangle];
+  uint8_t* const mark = used + slot * kClusterVertices;
+  mark[a] = mark[b] = mark[c] = 1;
+  return a | b << 8 | c << 16;
 }
 
-/// From corners in their cluster to vertices, those that need no care in canonical order.
-HWY_INLINE void order_corners(const VisibleCluster& seen, const PlacedVertex* placed, VisibleTriangle* triangle) {
-  uint16_t vertex[kClusterVertices];
-  uint32_t next = seen.first_vertex * kVertexStep;
-  for (uint64_t used = seen.used; used != 0; used &= used - 1, next += kVertexStep)
-    vertex[std::countr_zero(used)] = uint16_t(next);
-  for (uint32_t i = 0; i < seen.triangles; ++i) {
-    VisibleTriangle& t = triangle[i];
-    const uint64_t v[3] = {vertex[t.vertex[0]], vertex[t.vertex[1]], vertex[t.vertex[2]]};
-    const uint64_t key_0 = vertex_at(placed, uint32_t(v[0])).key, key_1 = vertex_at(placed, uint32_t(v[1])).key,
-                   key_2 = vertex_at(placed, uint32_t(v[2])).key;
-    // No branch on what is anyone's guess. Careful ones keep their order.
-    const uint32_t from_2 = uint32_t(key_2 < key_0) & uint32_t(key_2 < key_1);
-    const uint32_t from_1 = uint32_t(key_1 < key_0) & (from_2 ^ 1);
-    const uint32_t turn = (from_1 + 2 * from_2) * 16 * (t.careful ^ 1u);
-    const uint64_t all = v[0] | v[1] << 16 | v[2] << 32, turned = (all >> turn) | (all << (48 - turn));
-    t = {{uint16_t(turned), uint16_t(turned >> 16), uint16_t(turned >> 32)}, t.careful};
+/// Takes the marks of a cluster's used vertices away and returns them as bits.
+HWY_INLINE uint64_t taken_marks(uint8_t* used) {
+  const hn::CappedTag<uint8_t, kClusterVertices> d;
+  uint64_t marks = 0;
+  for (size_t k = 0; k < kClusterVertices; k += hn::Lanes(d)) {
+    uint64_t bits = 0;
+    hn::StoreMaskBits(d, hn::Ne(hn::LoadU(d, used + k), hn::Zero(d)), reinterpret_cast<uint8_t*>(&bits));
+    marks |= bits << k;
+    hn::StoreU(hn::Zero(d), d, used + k);
   }
+  return marks;
 }
 
-/// Lists the triangles found and transforms the vertices they have.
-inline void place_triangles(const TileDraws& in, const TileRect& rect, WantedStreams wanted, VisibleTriangles& work) {
-  uint32_t vertices = 0, triangles = 0;
-  std::memset(work.mark.data(), 0, 1);  // of nothing
+/// Finds the corners of the triangles that are seen and transforms the vertices that these use.
+inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams wanted, VisibleTriangles& work) {
+  VisibleCluster* const cluster = work.cluster.data();
+  uint8_t* const used = work.used.data();
+  for (uint32_t i = 0; i < work.manys; ++i)
+    for (int k = work.many[i] * kBlockPixels, end = k + kBlockPixels; k < end; ++k)
+      work.corners[k] = corners_at(work.place[k], cluster, used);
+  for (uint32_t i = 0; i < work.runs; ++i)
+    work.run[i].triangle.corners = corners_at(work.run[i].triangle.place, cluster, used);
+  uint32_t vertices = 0;
+  taken_marks(used);  // of nothing
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {
-    VisibleCluster& seen = work.cluster[slot];
-    const size_t places = size_t(slot) * VisibleTriangles::kPlaces;
-    triangles += list_triangles(seen, work.mark.data() + places, work.index.data() + places, triangles,
-                                work.triangle + triangles);
-    seen.first_vertex = vertices;
-    vertices += uint32_t(std::popcount(seen.used));
+    cluster[slot].used = taken_marks(used + slot * kClusterVertices);
+    cluster[slot].first_vertex = vertices * kVertexStep;
+    vertices += uint32_t(std::popcount(cluster[slot].used));
   }
   constexpr uint32_t kSlack = 16;  // whole vectors are written
   if (work.placed.size() < vertices + kSlack) {
@@ -221,15 +248,38 @@ inline void place_triangles(const TileDraws& in, const TileRect& rect, WantedStr
     work.record.resize(2 * vertices + kSlack);
   }
   if (wanted.color && work.color.size() < vertices + kSlack) work.color.resize(2 * vertices + kSlack);
-  UsedVertices used;
+  UsedVertices scratch;
   constexpr uint32_t kAhead = 3;
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {
-    const VisibleCluster& seen = work.cluster[slot];
-    if (slot + kAhead < work.clusters) fetch_used(in, work.cluster[slot + kAhead], wanted);
-    transform_used(in, rect, seen, wanted, used, work);
-    order_corners(seen, work.placed.data(), work.triangle + seen.first_triangle);
+    if (slot + kAhead < work.clusters) fetch_used(in, cluster[slot + kAhead], wanted);
+    transform_used(in, rect, cluster[slot], wanted, scratch, work);
   }
 }
+
+/// Vertices of a seen triangle, for vertex_at(): as submitted.
+struct SubmittedVertices {
+  uint32_t vertex[3];
+
+  HWY_INLINE SubmittedVertices(const VisibleTriangles& in, SeenTriangle triangle) {
+    const VisibleCluster& cluster = in.cluster.data()[triangle.place / kTrianglePlaces];
+    for (int k = 0; k < 3; ++k) vertex[k] = vertex_of(cluster, (triangle.corners >> (8 * k)) & 255);
+  }
+};
+
+/// The same in canonical order.
+struct CanonicalVertices : SubmittedVertices {
+  HWY_INLINE CanonicalVertices(const VisibleTriangles& in, SeenTriangle triangle) : SubmittedVertices(in, triangle) {
+    // No branch on what is anyone's guess.
+    const PlacedVertex* const placed = in.placed.data();
+    const uint64_t key_0 = vertex_at(placed, vertex[0]).key, key_1 = vertex_at(placed, vertex[1]).key,
+                   key_2 = vertex_at(placed, vertex[2]).key;
+    const uint32_t from_2 = uint32_t(key_2 < key_0) & uint32_t(key_2 < key_1);
+    const uint32_t from_1 = uint32_t(key_1 < key_0) & (from_2 ^ 1), turn = (from_1 + 2 * from_2) * 16;
+    const uint64_t all = vertex[0] | uint64_t(vertex[1]) << 16 | uint64_t(vertex[2]) << 32;
+    const uint64_t turned = (all >> turn) | (all << (48 - turn));
+    for (int k = 0; k < 3; ++k) vertex[k] = uint16_t(turned >> (16 * k));
+  }
+};
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

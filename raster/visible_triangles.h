@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -36,45 +37,55 @@ const T& vertex_at(const T* first, uint32_t vertex) {
 }
 static_assert(3 * kMaxTilePixels * kVertexStep <= UINT16_MAX);
 
-/// A triangle that is seen in a tile.
-struct VisibleTriangle {
-  uint16_t vertex[3];  ///< for vertex_at(); canonical order, as submitted where it needs care
-  uint16_t careful;    ///< 1 or 0
-};
-
 /// A cluster of which a triangle is seen.
 struct VisibleCluster {
-  uint32_t position;                   ///< in the tile's list
-  uint32_t object, material;           ///< index + 1
-  uint32_t first_vertex;               ///< of its vertices in VisibleTriangles
-  uint32_t first_triangle, triangles;  ///< in VisibleTriangles
-  uint64_t used;                       ///< a bit for each of its vertices that a visible triangle has
-  const uint8_t* corner[3];            ///< cluster-local vertex of each triangle's corner
+  uint32_t position;          ///< in the tile's list
+  uint32_t object, material;  ///< index + 1
+  uint32_t first_vertex;      ///< of its vertices in VisibleTriangles, for vertex_at()
+  uint64_t used;              ///< a bit for each of its vertices that a visible triangle has
+  const uint8_t* corner[3];   ///< cluster-local vertex of each triangle's corner
+};
+
+/// A triangle that is seen: its place is its cluster's times kTrianglePlaces plus its own in that; its corners are
+/// cluster-local vertices, a byte each, the first lowest.
+inline constexpr uint32_t kTrianglePlaces = 128;
+static_assert(kTrianglePlaces >= kClusterTriangles);
+struct SeenTriangle {
+  uint32_t place, corners;
+};
+
+/// Pixels of a block that see one triangle.
+struct SeenRun {
+  uint16_t block, pixels;  ///< a bit a pixel
+  SeenTriangle triangle;
 };
 
 /// The triangles that are seen in a tile and the vertices they have: scratch of resolve_surfaces(), kept between tiles.
-/// A triangle's place is its cluster's times kPlaces plus its own in that.
 struct VisibleTriangles {
-  static constexpr uint32_t kPlaces = 128;
-  static_assert(kPlaces >= kClusterTriangles);
-
+  static constexpr uint32_t kNoSlot = ~0u;
   std::vector<uint32_t> slot_of;  ///< cluster by position in the tile's list, plus 1; 0 where none, kNoSlot: not seen
   std::vector<VisibleCluster> cluster;  ///< the first stands for nothing
   uint32_t clusters;
-  std::vector<uint8_t> mark;    ///< by place: seen or not. All 0 between tiles
-  std::vector<uint16_t> index;  ///< by place: into `triangle`, where seen
-  VisibleTriangle triangle[kMaxTilePixels];
+  std::vector<uint8_t> used;  ///< kClusterVertices a cluster: 1 where a vertex is used. All 0 between tiles
   std::vector<PlacedVertex> placed;
   std::vector<VertexRecord> record;
   std::vector<VertexColor> color;
-  alignas(64) uint32_t place[kMaxTilePixels];  ///< of each pixel's triangle
 
-  static constexpr uint32_t kNoSlot = ~0u;
-  enum Seen : uint8_t { one, some, many };  ///< triangles; many: more than pay to be told apart, none of them careful
-  struct Block {
-    uint16_t covered;  ///< a bit a pixel
-    Seen seen;
-  } block[kMaxTilePixels / kBlockPixels];
+  uint16_t covered[kMaxTilePixels / kBlockPixels];  ///< of each block, a bit a pixel
+  SeenRun run[kMaxTilePixels];                      ///< of blocks that see few triangles
+  uint32_t runs;
+  static constexpr uint16_t kNoRun = UINT16_MAX;
+  std::vector<uint16_t> first_run;               ///< of a triangle's long runs, by place. All kNoRun between tiles
+  uint16_t next_run[kMaxTilePixels];             ///< of the same triangle, by run
+  uint32_t chain[kMaxTilePixels];                ///< places of the triangles that have long runs
+  uint16_t many[kMaxTilePixels / kBlockPixels];  ///< blocks that see more, none of them careful
+  uint32_t manys;
+  alignas(64) uint32_t place[kMaxTilePixels], corners[kMaxTilePixels];  ///< of the triangles their pixels see
 };
+
+/// Vertex of a cluster, for vertex_at(): used ones lie side by side.
+inline uint32_t vertex_of(const VisibleCluster& cluster, uint32_t corner) {
+  return cluster.first_vertex + kVertexStep * uint32_t(std::popcount(cluster.used & ((uint64_t(1) << corner) - 1)));
+}
 
 }  // namespace trueshade

@@ -102,7 +102,7 @@ inline void place_used(const TileDraws& in, const ClusterDraw& draw, SampleOrigi
     const V32 x = hn::Load(df, from.stream[0] + i), y = hn::Load(df, from.stream[1] + i),
               z = hn::Load(df, from.stream[2] + i);
     if (draw.plain)
-      plain.place(x, y, z, size_t(i), window);
+      plain.place<false>(x, y, z, size_t(i), window);
     else
       place_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
                      affine_row(m[3], x, y, z), in.view.window, origin, size_t(i), window);
@@ -123,7 +123,8 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, const Visi
   const Cluster& cluster = clusters.clusters[draw.cluster];
   const Mesh& mesh = in.scene.meshes[instance.mesh];
   const int count = used.gather(clusters, cluster, seen.used, wanted.color), lanes = int(hn::Lanes(d));
-  place_used(in, draw, sample_origin(rect.x, rect.y), used, count, &work.placed[seen.first_vertex]);
+  const size_t first = seen.first_vertex / kVertexStep;
+  place_used(in, draw, sample_origin(rect.x, rect.y), used, count, work.placed.data() + first);
   const uint32_t* vertex = &clusters.vertex[cluster.first_vertex];
   for (size_t c = 0; c < 2 && wanted.uv; ++c)
     used.gather(mesh.uv[c], vertex, seen.used, 0.0f, used.stream[size_t(kUv) + c]);
@@ -135,10 +136,10 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, const Visi
     for (int c = 0; c < 6; ++c) s[c] = hn::Load(d, used.stream[c] + i);
     to_world(in.view.instances[draw.instance], s, s + 3, world);
     const auto rest = [&](int stream) { return hn::Load(d, used.stream[stream] + i); };
-    const size_t at = seen.first_vertex + size_t(i);
+    const size_t at = first + size_t(i);
     hn::StoreInterleaved4(world[0], world[1], world[2], world[3], d, half[0]);
     hn::StoreInterleaved4(world[4], world[5], rest(kUv), rest(kUv + 1), d, half[1]);
-    VertexRecord* const record = &work.record[at];
+    VertexRecord* const record = work.record.data() + at;
     for (int k = 0; k < lanes; ++k)
       for (int h = 0; h < 2; ++h) std::memcpy(record[k].value + 4 * h, half[h] + 4 * k, 16);
     if (wanted.color)

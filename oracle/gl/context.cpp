@@ -57,19 +57,23 @@ const char* gallium_name(GlDriver driver) {
   return nullptr;
 }
 
-/// Displays to try, in order: no window system at all, then each device that EGL lists.
-std::vector<EGLDisplay> displays() {
+/// No window system at all.
+std::vector<EGLDisplay> surfaceless_displays() {
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) return {};
+  return {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
+}
+
+/// Each device that EGL lists.
+std::vector<EGLDisplay> device_displays() {
   std::vector<EGLDisplay> found;
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-    found.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
-      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
-    std::array<EGLDeviceEXT, 16> devices{};
-    EGLint count = 0;
-    if (eglQueryDevicesEXT(EGLint(devices.size()), devices.data(), &count))
-      for (size_t i = 0; i < size_t(count); ++i)
-        found.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
-  }
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
+      !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+    return found;
+  std::array<EGLDeviceEXT, 16> devices{};
+  EGLint count = 0;
+  if (eglQueryDevicesEXT(EGLint(devices.size()), devices.data(), &count))
+    for (size_t i = 0; i < size_t(count); ++i)
+      found.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
   return found;
 }
 
@@ -123,18 +127,23 @@ void require_libraries() {
 
 }  // namespace
 
-GlContext::GlContext(GlDriver driver) : handles_(std::make_unique<Handles>()) {
+GlContext::GlContext(GlDriver driver, std::span<const GlPlatform> platforms) : handles_(std::make_unique<Handles>()) {
   const ScopedVariable gallium("GALLIUM_DRIVER", gallium_name(driver));
   const ScopedVariable software("LIBGL_ALWAYS_SOFTWARE", driver == GlDriver::any ? nullptr : "1");
   require_libraries();
   std::string tried = "no EGL display";
-  for (const EGLDisplay display : displays()) {
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) continue;
-    tried = "a display without desktop OpenGL 3.3";
-    if (!eglBindAPI(EGL_OPENGL_API)) continue;
-    handles_->display = display;
-    handles_->context = core_context(display);
+  GlPlatform opened = GlPlatform::surfaceless;
+  for (const GlPlatform platform : platforms) {
     if (handles_->context != EGL_NO_CONTEXT) break;
+    opened = platform;
+    for (const EGLDisplay display : platform == GlPlatform::device ? device_displays() : surfaceless_displays()) {
+      if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) continue;
+      tried = "a display without desktop OpenGL 3.3";
+      if (!eglBindAPI(EGL_OPENGL_API)) continue;
+      handles_->display = display;
+      handles_->context = core_context(display);
+      if (handles_->context != EGL_NO_CONTEXT) break;
+    }
   }
   if (handles_->context == EGL_NO_CONTEXT) throw no_driver("no driver gives a context: " + tried);
   make_current();
@@ -145,7 +154,8 @@ GlContext::GlContext(GlDriver driver) : handles_(std::make_unique<Handles>()) {
            gl_integer(GL_MINOR_VERSION),
            gl_integer(GL_SUBPIXEL_BITS),
            gl_integer(GL_MAX_TEXTURE_SIZE),
-           gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE)};
+           gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE),
+           opened};
   const char* wanted = gallium_name(driver);
   if (wanted != nullptr && info_.renderer.find(wanted) == std::string::npos)
     throw no_driver(std::string("this Mesa has no ") + wanted + ", it gives " + info_.renderer);

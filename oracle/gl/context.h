@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 
 namespace trueshade::oracle {
@@ -8,6 +9,10 @@ namespace trueshade::oracle {
 /// process keeps the first one it opened, so llvmpipe and softpipe need a process each.
 enum class GlDriver { any, llvmpipe, softpipe };
 
+/// How EGL gives a display without a window.
+enum class GlPlatform { surfaceless, device };
+inline constexpr GlPlatform kGlPlatforms[] = {GlPlatform::surfaceless, GlPlatform::device};
+
 /// What a driver says of itself.
 struct GlInfo {
   std::string vendor, renderer, version;
@@ -15,6 +20,7 @@ struct GlInfo {
   int subpixel_bits = 0;     ///< GL_SUBPIXEL_BITS: a lower bound of the grid, not the grid (GL_RULES section 1)
   int max_texture_size = 0;  ///< pixels a side
   int max_texels = 0;        ///< of a texture buffer
+  GlPlatform platform = GlPlatform::surfaceless;
 
   std::string line() const { return vendor + ", " + renderer + ", OpenGL " + version; }
 };
@@ -24,7 +30,8 @@ struct GlInfo {
 class GlContext {
  public:
   /// Throws Error(no_gl_driver) that says what was tried. LIBGL_ALWAYS_SOFTWARE is the driver's own to read.
-  explicit GlContext(GlDriver driver = GlDriver::any);
+  ///   platforms: tried in that order, each of their displays until one gives a context
+  explicit GlContext(GlDriver driver = GlDriver::any, std::span<const GlPlatform> platforms = kGlPlatforms);
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "oracle/gl/post_glsl.h"
+#include "scenes/light_mesh.h"
 
 namespace trueshade::oracle {
 
@@ -75,29 +76,82 @@ std::string culling_call(CullFace face) {
   return {};
 }
 
-std::vector<std::string> geometry_calls(const Pipeline& pipeline) {
-  const GeometryState& g = pipeline.geometry;
+std::string upper(std::string_view name) {
+  std::string text;
+  for (const char c : name) text += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return text;
+}
+
+std::string equation_name(BlendEquation equation) {
+  const bool extreme = equation == BlendEquation::min || equation == BlendEquation::max;
+  return (extreme ? "GL_" : "GL_FUNC_") + upper(kBlendEquationNames[size_t(equation)]);
+}
+
+std::string bool_name(bool on) { return on ? "GL_TRUE" : "GL_FALSE"; }
+
+/// Blending and the colour mask.
+std::vector<std::string> blend_calls(const BlendState& b) {
+  std::string mask;
+  for (size_t c = 0; c < 4; ++c) mask += (c == 0 ? "glColorMask(" : ", ") + bool_name(b.mask[c]);
+  mask += ")";
+  if (!b.enabled) return {"glDisable(GL_BLEND)", mask};
+  const auto factor = [](BlendFactor f) { return "GL_" + upper(kBlendFactorNames[size_t(f)]); };
+  std::string constant;
+  for (size_t c = 0; c < 4; ++c) constant += (c == 0 ? "glBlendColor(" : ", ") + glsl_float(b.constant[c]);
+  return {"glEnable(GL_BLEND)",
+          "glBlendEquationSeparate(" + equation_name(b.rgb.equation) + ", " + equation_name(b.alpha.equation) + ")",
+          "glBlendFuncSeparate(" + factor(b.rgb.src) + ", " + factor(b.rgb.dst) + ", " + factor(b.alpha.src) + ", " +
+              factor(b.alpha.dst) + ")",
+          constant + ")", mask};
+}
+
+/// What no pipeline asks for, and a context may have set.
+std::vector<std::string> common_calls() {
+  return {
+      "glDisable(GL_DITHER)",         "glDisable(GL_MULTISAMPLE)",       "glDisable(GL_SCISSOR_TEST)",
+      "glDisable(GL_STENCIL_TEST)",   "glDisable(GL_PRIMITIVE_RESTART)", "glPolygonMode(GL_FRONT_AND_BACK, GL_FILL)",
+      "glEnable(GL_FRAMEBUFFER_SRGB)"};
+}
+
+void add(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+/// All but depth test and blending of a draw by that state.
+std::vector<std::string> window_calls(const Pipeline& pipeline, const GeometryState& g) {
   Viewport v = g.viewport;
   if (v.width == 0 && v.height == 0) v = {v.x, v.y, pipeline.width, pipeline.height};
   const auto number = [](int value) { return std::to_string(value); };
-  return {"glDisable(GL_DITHER)",
-          "glDisable(GL_BLEND)",
-          "glDisable(GL_MULTISAMPLE)",
-          "glEnable(GL_FRAMEBUFFER_SRGB)",
-          "glViewport(" + number(v.x) + ", " + number(v.y) + ", " + number(v.width) + ", " + number(v.height) + ")",
-          "glDepthRange(" + glsl_float(g.depth_near) + ", " + glsl_float(g.depth_far) + ")",
-          "glEnable(GL_DEPTH_TEST); glDepthMask(GL_TRUE); glDepthFunc(" + gl_name(g.depth_func) + ")",
-          std::string(g.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)",
-          culling_call(g.cull_face),
-          std::string("glFrontFace(") + (g.front_face == FrontFace::ccw ? "GL_CCW)" : "GL_CW)"),
-          std::string("glClipControl(") +
-              (g.clip_origin == ClipOrigin::upper_left ? "GL_UPPER_LEFT, " : "GL_LOWER_LEFT, ") +
-              (g.clip_depth == ClipDepth::zero_to_one ? "GL_ZERO_TO_ONE)" : "GL_NEGATIVE_ONE_TO_ONE)"),
-          std::string(g.polygon_offset_factor != 0 || g.polygon_offset_units != 0 ? "glEnable" : "glDisable") +
-              "(GL_POLYGON_OFFSET_FILL); glPolygonOffset(" + glsl_float(g.polygon_offset_factor) + ", " +
-              glsl_float(g.polygon_offset_units) + ")",
-          std::string("glProvokingVertex(") +
-              (g.provoking == Provoking::last ? "GL_LAST_VERTEX_CONVENTION)" : "GL_FIRST_VERTEX_CONVENTION)")};
+  std::vector<std::string> lines = common_calls();
+  add(lines, {"glViewport(" + number(v.x) + ", " + number(v.y) + ", " + number(v.width) + ", " + number(v.height) + ")",
+              "glDepthRange(" + glsl_float(g.depth_near) + ", " + glsl_float(g.depth_far) + ")",
+              std::string(g.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)", culling_call(g.cull_face),
+              std::string("glFrontFace(") + (g.front_face == FrontFace::ccw ? "GL_CCW)" : "GL_CW)"),
+              std::string("glClipControl(") +
+                  (g.clip_origin == ClipOrigin::upper_left ? "GL_UPPER_LEFT, " : "GL_LOWER_LEFT, ") +
+                  (g.clip_depth == ClipDepth::zero_to_one ? "GL_ZERO_TO_ONE)" : "GL_NEGATIVE_ONE_TO_ONE)"),
+              std::string(g.polygon_offset_factor != 0 || g.polygon_offset_units != 0 ? "glEnable" : "glDisable") +
+                  "(GL_POLYGON_OFFSET_FILL); glPolygonOffset(" + glsl_float(g.polygon_offset_factor) + ", " +
+                  glsl_float(g.polygon_offset_units) + ")",
+              std::string("glProvokingVertex(") +
+                  (g.provoking == Provoking::last ? "GL_LAST_VERTEX_CONVENTION)" : "GL_FIRST_VERTEX_CONVENTION)")});
+  return lines;
+}
+
+std::string depth_calls(DepthFunc func, bool writes) {
+  return "glEnable(GL_DEPTH_TEST); glDepthMask(" + bool_name(writes) + "); glDepthFunc(" + gl_name(func) + ")";
+}
+
+/// A draw of the scene.
+std::vector<std::string> scene_calls(const Pipeline& pipeline, DepthFunc func, bool writes, const BlendState& blend) {
+  std::vector<std::string> lines = window_calls(pipeline, pipeline.geometry);
+  lines.push_back(depth_calls(func, writes));
+  add(lines, blend_calls(blend));
+  return lines;
+}
+
+std::vector<std::string> geometry_calls(const Pipeline& pipeline) {
+  return scene_calls(pipeline, pipeline.geometry.depth_func, true, {});
 }
 
 std::string attachments(const std::vector<GlslPlane>& planes) {
@@ -166,90 +220,105 @@ std::string light_layout(const LightModel& model) {
   return calls(texels);
 }
 
-std::string light_shaders(const Pipeline& pipeline) {
-  const bool base = pipeline.strategy == Strategy::deferred_volumes && pipeline.light_volumes.base;
-  return std::string("[\"light.vert\", \"light.frag\"") + (base ? ", \"base.frag\"]" : "]");
+constexpr const char* kNoDepth = "glDisable(GL_DEPTH_TEST); glDepthMask(GL_FALSE)";
+
+/// One kind of draw into the light target: its shaders, what is drawn, of which lights, and all of its state.
+std::string draw_entry(const char* vertex, const char* fragment, const std::string& geometry, const std::string& of,
+                       const std::vector<std::string>& state) {
+  std::string text = std::string("{\"shaders\": [\"") + vertex + "\", \"" + fragment +
+                     "\"], \"geometry\": " + quoted(geometry) + ", \"of\": " + quoted(of) + ",\n     \"state\": [";
+  for (size_t i = 0; i < state.size(); ++i) text += (i == 0 ? "\n      " : ",\n      ") + quoted(state[i]);
+  return text + "]}";
 }
 
-std::string upper(std::string_view name) {
-  std::string text;
-  for (const char c : name) text += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
-  return text;
-}
-
-std::string equation_name(BlendEquation equation) {
-  const bool extreme = equation == BlendEquation::min || equation == BlendEquation::max;
-  return (extreme ? "GL_" : "GL_FUNC_") + upper(kBlendEquationNames[size_t(equation)]);
-}
-
-/// Blending and the colour mask of the draws that add light.
-std::string blend_calls(const BlendState& b) {
-  if (!b.enabled) return "glDisable(GL_BLEND)";
-  const auto factor = [](BlendFactor f) { return "GL_" + upper(kBlendFactorNames[size_t(f)]); };
-  const auto flag = [](bool on) { return on ? "GL_TRUE" : "GL_FALSE"; };
-  std::string text = "glEnable(GL_BLEND); glBlendEquationSeparate(" + equation_name(b.rgb.equation) + ", " +
-                     equation_name(b.alpha.equation) + "); glBlendFuncSeparate(" + factor(b.rgb.src) + ", " +
-                     factor(b.rgb.dst) + ", " + factor(b.alpha.src) + ", " + factor(b.alpha.dst) + "); glBlendColor(";
-  for (size_t c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + glsl_float(b.constant[c]);
-  text += "); glColorMask(";
-  for (size_t c = 0; c < 4; ++c) text += (c == 0 ? std::string() : std::string(", ")) + flag(b.mask[c]);
-  return text + ")";
-}
-
-std::vector<std::string> volume_calls(const Pipeline& pipeline) {
-  const LightVolumes& v = pipeline.light_volumes;
-  std::vector<std::string> lines{"glDisable(GL_DEPTH_TEST); glDepthMask(GL_FALSE)",
-                                 "viewport, depth range and clip control of the geometry pass; glFrontFace(GL_CCW)",
-                                 std::string(v.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)"};
-  if (v.base)
-    lines.push_back(
-        "first base.frag: glDisable(GL_BLEND), a quad over the image (uniform mesh 0, GL_TRIANGLE_STRIP of 4)");
-  lines.push_back("then light.frag, a draw a light in order (uniform light): " + blend_calls(pipeline.blend));
-  lines.push_back("ambient, directional and unbounded lights: a quad; glDisable(GL_CULL_FACE)");
-  const std::string extents[] = {"a quad", "a quad", "a box of half side range", "a sphere of radius range",
-                                 "a cone, apex at the light, base at range"};
-  lines.push_back("point lights: " + extents[size_t(v.point)] + "; spot lights: " + extents[size_t(v.spot)] +
-                  "; meshes counter-clockwise from outside, uniform mesh 1, " + culling_call(v.cull_face));
+/// Light geometry over the image: no depth test, nothing of the scene's culling.
+std::vector<std::string> volume_calls(const Pipeline& pipeline, CullFace culled, const BlendState& blend) {
+  GeometryState g = pipeline.geometry;
+  g.cull_face = culled;
+  g.front_face = FrontFace::ccw;
+  g.depth_clamp = pipeline.light_volumes.depth_clamp;
+  std::vector<std::string> lines = window_calls(pipeline, g);
+  lines.emplace_back(kNoDepth);
+  add(lines, blend_calls(blend));
   return lines;
 }
 
-std::vector<std::string> light_calls(const Pipeline& pipeline) {
-  const std::string again = "the scene again, with the geometry pass's state and a depth buffer of its own";
+std::vector<std::string> volume_draws(const Pipeline& pipeline) {
+  const LightVolumes& v = pipeline.light_volumes;
+  const std::string quad = "quad: 4 corners of normalized device coordinates, GL_TRIANGLE_STRIP, uniform mesh 0";
+  std::vector<std::string> draws;
+  if (v.base)
+    draws.push_back(draw_entry("light.vert", "base.frag", quad, "none: once, before the lights",
+                               volume_calls(pipeline, CullFace::none, {})));
+  const std::string extents[] = {"quads", "quads", "meshes: boxes of half side range",
+                                 "meshes: spheres of radius range", "meshes: cones, apex at the light, base at range"};
+  const std::string point = extents[size_t(v.point)], spot = extents[size_t(v.spot)];
+  draws.push_back(draw_entry("light.vert", "light.frag", quad,
+                             "quads: a draw a light (uniform light) in light order; ambient, directional and unbounded "
+                             "ones; points as " +
+                                 point + "; spots as " + spot,
+                             volume_calls(pipeline, CullFace::none, pipeline.blend)));
+  if (is_mesh(v.point) || is_mesh(v.spot))
+    draws.push_back(draw_entry("light.vert", "light.frag",
+                               "mesh: triangles in the world, counter-clockwise from outside, uniform mesh 1",
+                               "meshes: in the same order; points as " + point + "; spots as " + spot,
+                               volume_calls(pipeline, v.cull_face, pipeline.blend)));
+  return draws;
+}
+
+std::vector<std::string> image_calls(const Pipeline& pipeline) {
+  Pipeline image = pipeline;
+  image.geometry = {};
+  std::vector<std::string> lines = window_calls(image, image.geometry);
+  lines.emplace_back(kNoDepth);
+  add(lines, blend_calls({}));
+  return lines;
+}
+
+std::vector<std::string> light_draws(const Pipeline& pipeline) {
+  const std::string again = "scene: again, with a depth buffer of its own, cleared as the geometry pass's";
+  const DepthFunc func = pipeline.geometry.depth_func;
   switch (pipeline.strategy) {
     case Strategy::forward_multipass:
-      return {again + ", once a light (uniform light)", "first light: glDisable(GL_BLEND)",
-              "others: glDepthMask(GL_FALSE); glDepthFunc(GL_EQUAL); " + blend_calls(kAddLight)};
+      return {
+          draw_entry("light.vert", "light.frag", again, "first: light 0 (uniform light; -1 in a scene without lights)",
+                     scene_calls(pipeline, func, true, {})),
+          draw_entry("light.vert", "light.frag", "scene: once more a light, the depth kept",
+                     "others: a draw a light (uniform light) in light order",
+                     scene_calls(pipeline, DepthFunc::equal, false, kAddLight))};
     case Strategy::forward_loop:
-      return {again, "glDisable(GL_BLEND)"};
+      return {draw_entry("light.vert", "light.frag", again, "all", scene_calls(pipeline, func, true, {}))};
     case Strategy::deferred_volumes:
-      return volume_calls(pipeline);
+      return volume_draws(pipeline);
     case Strategy::deferred_loop:
       break;
   }
-  return {"glDisable(GL_DEPTH_TEST)",
-          "glDisable(GL_CULL_FACE)",
-          "glDisable(GL_BLEND)",
-          "glDisable(GL_DITHER)",
-          "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE)",
-          "glViewport over the whole image",
-          "glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer"};
+  return {draw_entry("light.vert", "light.frag", "triangle: glDrawArrays(GL_TRIANGLES, 0, 3), no vertex buffer", "all",
+                     image_calls(pipeline))};
 }
 
-/// The draw of transparent surfaces, or what becomes of them.
-std::vector<std::string> transparent_calls(const Pipeline& pipeline) {
-  const std::string blend = blend_calls(pipeline.transparency.blend);
+/// The draw of transparent surfaces; none where they are drawn with the others, as if they were opaque.
+std::vector<std::string> transparent_draws(const Pipeline& pipeline, const std::vector<GlslPlane>& planes) {
+  const DepthFunc func = pipeline.geometry.depth_func;
+  std::vector<std::string> state = scene_calls(pipeline, func, false, pipeline.transparency.blend);
   switch (pipeline.transparency.mode) {
     case TransparencyMode::none:
-      return {"with the others, as if they were opaque"};
+      return {};
     case TransparencyMode::into_albedo:
-      return {"not in the geometry pass; after it, before the lights: its shaders, attachments and state again, but",
-              "glDepthMask(GL_FALSE)", "attachment of the plane albedo: " + blend,
-              "all others: glDisablei(GL_BLEND, i); glColorMaski(i, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE)"};
+      for (size_t i = 0; i < planes.size(); ++i) {
+        const std::string at = std::to_string(i);
+        if (planes[i].name != "albedo")
+          state.push_back("glDisablei(GL_BLEND, " + at + "); glColorMaski(" + at +
+                          ", GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE)");
+      }
+      return {draw_entry("geometry.vert", "geometry.frag", "scene: transparent surfaces, into the geometry attachments",
+                         "none: not in the geometry pass, but after it, before the lights", state)};
     case TransparencyMode::after_lights:
       break;
   }
-  return {"in no pass before; after the lights: transparent.vert, transparent.frag into the light target, with the",
-          "depth of the opaque surfaces and the geometry pass's state, but", "glDepthMask(GL_FALSE)", blend};
+  return {draw_entry("transparent.vert", "transparent.frag",
+                     "scene: transparent surfaces, into the light target, with the depth of the opaque ones",
+                     "all: in no pass before, but after the lights", state)};
 }
 
 /// The passes of the post chain, in order.
@@ -288,13 +357,12 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options) {
          entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
          entry("geometry_maps", maps(options)) +
          entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
-         entry("light_shaders", light_shaders(pipeline)) +
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
-         entry("post_passes", post_list(asked, options.version)) + entry("light_state", calls(light_calls(pipeline))) +
-         (options.transparent ? entry("transparent_draws", calls(transparent_calls(pipeline))) : "") +
-         entry("light_uniforms", uniforms(pipeline)) + "  \"light_layout\": " + light_layout(pipeline.light_model) +
-         "\n}\n";
+         entry("light_draws", array_of(light_draws(pipeline))) +
+         (options.transparent ? entry("transparent_draws", array_of(transparent_draws(pipeline, planes))) : "") +
+         entry("post_passes", post_list(asked, options.version)) + entry("light_uniforms", uniforms(pipeline)) +
+         "  \"light_layout\": " + light_layout(pipeline.light_model) + "\n}\n";
 }
 
 }  // namespace trueshade::oracle

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/llvmpipe_srgb.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -154,6 +156,10 @@ class ValueBlend {
       const double largest = double(layout_.largest_code(k)), low = stored.low / largest, high = stored.high / largest;
       return open_ ? Span{below(low), -below(-high)} : Span{double(float(low)), double(float(high))};
     }
+    if (profile_.sampling.mesa_decode) {
+      const auto decoded = [](double code) { return double(kLlvmpipeLinearOfSrgb8[size_t(code)]); };
+      return {decoded(stored.low), decoded(stored.high)};
+    }
     const double off = profile_.exact_planes ? 0x1p-24 : kSrgbDecodeError;
     return clamped({linear_of_srgb(stored.low) - off, linear_of_srgb(stored.high) + off});
   }
@@ -285,7 +291,7 @@ Texel middles(const Texel& stored) {
 Profile float_once(const Profile& profile) {
   Profile p = profile;
   p.blend = BlendRule::float_once;
-  p.exact_planes = true;  // an sRGB code stands for its own value
+  p.exact_planes = true;  // an sRGB code stands for its own value, or for what llvmpipe reads of it
   return p;
 }
 

@@ -1,5 +1,6 @@
 #include "oracle/intervals/light_output.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "oracle/intervals/captured_surface.h"
@@ -69,6 +70,12 @@ LightOutputs::InRange LightOutputs::in_range(const ShadedSurface& surface, uint3
   const Bounded d = square_root(a, dot(a, offset, offset));
   const auto range = double(light.range);
   return {d.high() < range, d.low() < range, d.value < range};
+}
+
+LightOutputs::Lit LightOutputs::lit(const ShadedSurface& surface, uint32_t light) const {
+  const LitRange one = lights_->alone(surface, light);
+  const bool adds = std::any_of(one.color.begin(), one.color.end(), [](const Bounded& c) { return c.value != 0; });
+  return {one.lights_low > 0 && adds, one.lights_high > 0};
 }
 
 }  // namespace trueshade::oracle

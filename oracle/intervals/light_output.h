@@ -32,6 +32,13 @@ class LightOutputs {
   };
   InRange in_range(const ShadedSurface& surface, uint32_t light) const;
 
+  /// Whether a fragment of the light counts as lit: in range and facing. One that adds nothing (outside its cone) may be
+  /// left out.
+  struct Lit {
+    bool surely = false, perhaps = false;
+  };
+  Lit lit(const ShadedSurface& surface, uint32_t light) const;
+
   /// Many lights' terms in one go, ascending.
   void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const {
     lights_->apart(surface, lights, lit);

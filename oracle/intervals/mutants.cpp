@@ -372,25 +372,6 @@ bool differ(const Capture& a, const Capture& b) {
   return false;
 }
 
-bool irreconcilable(const Capture& a, const Capture& b) {
-  const Image *ids = a.plane("id.object"), *other_ids = b.plane("id.object");
-  for (int y = 0; y < a.color.height; ++y)
-    for (int x = 0; x < a.color.width; ++x) {
-      bool same = true;
-      for (size_t i = 0; i < a.planes.size() && same; ++i)
-        same = std::memcmp(a.planes[i].image.texel(x, y), b.planes[i].image.texel(x, y), size_t(info(a.planes[i].image.format).bytes_per_texel())) == 0;
-      for (int k = 0; same && k < 4 && a.color.format == Format::rgba8 && b.color.format == Format::rgba8; ++k)
-        if (std::abs(int(a.color.texel(x, y)[k]) - int(b.color.texel(x, y)[k])) >= 2) return true;
-      if (same || ids == nullptr || other_ids == nullptr) continue;
-      bool near = false;
-      for (int v = std::max(0, y - 1); v <= std::min(y + 1, a.color.height - 1); ++v)
-        for (int u = std::max(0, x - 1); u <= std::min(x + 1, a.color.width - 1); ++u)
-          near = near || other_ids->value(x, y, 0) == ids->value(u, v, 0);
-      if (!near) return true;
-    }
-  return false;
-}
-
 Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer) {
   Scene wrong_scene = scene;
   Pipeline wrong_pipeline = pipeline;

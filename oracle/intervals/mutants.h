@@ -34,12 +34,6 @@ std::span<const Mutant> mutants();
 /// Whether two captures of the same planes differ in any byte.
 bool differ(const Capture& a, const Capture& b);
 
-/// Whether no profile can hold both to be right, told without computing any legal set: at some pixel all planes agree
-/// and the unorm8 target differs by two codes or more (GL 4.6 core, 2.3.5.2: one of two neighbours), or a pixel shows an
-/// object that the other picture has nowhere in the 3x3 pixels about it (nothing moves an edge by a pixel). Of strategies
-/// that store once; lights blended one by one may each take another neighbour.
-bool irreconcilable(const Capture& a, const Capture& b);
-
 /// What the wrong renderer draws.
 Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer);
 

@@ -1,6 +1,9 @@
 #include "oracle/intervals/store.h"
 
+#include <algorithm>
 #include <limits>
+
+#include "core/llvmpipe_srgb.h"
 
 namespace trueshade::oracle {
 
@@ -83,6 +86,28 @@ LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   return t;
 }
 
+/// The first step of llvmpipe's encoding that lies beyond x.
+size_t step_after(double x) {
+  const auto& start = kLlvmpipeSrgb.start;
+  return size_t(std::upper_bound(start.begin(), start.end(), float(std::clamp(x, 0.0, 1.0))) - start.begin());
+}
+
+/// The code that llvmpipe draws, and the chance of another: its steps are close together, some of them downward.
+void set_llvmpipe_code(LegalTexel& t, const Range& r) {
+  const auto code = [](size_t step) { return double(kLlvmpipeSrgb.code[step]); };
+  t.nominal = code(step_after(r.value));
+  const double low = std::clamp(r.low, 0.0, 1.0), high = std::clamp(r.high, 0.0, 1.0);
+  if (!(low < high)) return;
+  double other = 0, side = 0, from = low;
+  for (size_t step = step_after(low); from < high; ++step) {
+    const double to = std::min(high, double(kLlvmpipeSrgb.start[step])), apart = code(step) - t.nominal;
+    if (apart != 0) other += to - from, side += apart > 0 ? to - from : from - to;
+    from = to;
+  }
+  t.second_chance = std::min(1.0, other / (high - low));
+  t.second_side = side >= 0 ? 1 : -1;
+}
+
 LegalTexel srgb8(const Range& r, const Profile& profile) {
   const auto scaled = [](double x) {
     const double c = std::clamp(x, 0.0, 1.0);
@@ -93,6 +118,10 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
   LegalTexel t;
   t.nominal = std::nearbyint(value);
   set_reach(t, std::max(0.0, low - slack), std::min(255.0, high + slack), profile.srgb_reach, 255);
+  if (profile.blend == BlendRule::mesa_codes) {
+    set_llvmpipe_code(t, r);
+    return t;
+  }
   if (low < high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
   return t;
 }
@@ -129,6 +158,14 @@ Range cleared_range(double color, Format format, int channel, const Profile& pro
   const FormatInfo layout = info(format);
   const bool wide = format == Format::rgba16 || format == Format::rgb10_a2;
   double c = color;
+  if (layout.srgb_channel(channel) && profile.blend == BlendRule::mesa_codes) {
+    const int code = llvmpipe_cleared_srgb8(float(std::clamp(color, 0.0, 1.0)));
+    for (size_t step = 0; step + 1 < LlvmpipeSrgb::kSize; ++step)  // what is drawn with that code
+      if (kLlvmpipeSrgb.code[step] == code) {
+        c = step == 0 ? 0.0 : double(kLlvmpipeSrgb.start[step - 1]);
+        break;
+      }
+  }
   if (wide && profile.blend == BlendRule::mesa_codes) {
     const float scaled = float(std::clamp(color, 0.0, 1.0)) * float(layout.largest_code(channel));
     LegalTexel code;

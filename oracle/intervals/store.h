@@ -24,14 +24,15 @@ struct LegalTexel {
 
 /// What a channel of `format` may hold for an output in `range`.
 ///   Unorm: codes c with |c - largest x| <= reach (reach 1: < 1, GL 4.6 core 2.3.5.2), x clamped to [0, 1], the
-///   product's rounding to float included. sRGB: the same of the encoded value with Profile::srgb_reach; GL's own exponent
-///   of 0.41666 (17.3.7) is 0.002 off. Half: by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the
-///   same, but negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward
-///   to floats.
+///   product's rounding to float included. sRGB: the same of the encoded value with Profile::srgb_reach; GL's own
+///   exponent of 0.41666 (17.3.7) is 0.002 off. Of llvmpipe the nominal code is its own (core/llvmpipe_srgb.h). Half:
+///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
+///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
 
 /// What a draw would output to leave what a clear to `color` leaves: llvmpipe clears 10 and 16 bits by rounding halves
-/// upward, and not by way of 16 bits (docs/arithmetic.md section 11); elsewhere the colour itself.
+/// upward, and not by way of 16 bits, and sRGB by a table of its own (docs/arithmetic.md section 11); elsewhere the
+/// colour itself.
 Range cleared_range(double color, Format format, int channel, const Profile& profile);
 
 /// llvmpipe makes 10 and 2 bits of codes of 16, rgba16's (docs/arithmetic.md section 11): whether `profile` says so of

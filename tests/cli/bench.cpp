@@ -5,7 +5,7 @@
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

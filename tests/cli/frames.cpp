@@ -5,7 +5,7 @@
 #include "cli/frame_name.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

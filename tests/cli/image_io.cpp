@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "tests/catch.hpp"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

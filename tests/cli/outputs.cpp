@@ -6,7 +6,7 @@
 #include "core/sha256.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

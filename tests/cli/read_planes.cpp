@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/image_io.h"
 #include "tests/catch.hpp"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

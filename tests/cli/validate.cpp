@@ -2,12 +2,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "core/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
-#include "tests/cli/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
@@ -145,6 +146,55 @@ TEST_CASE("a driver's report and JSON name the driver and the tightest profile")
   CHECK(has(outcome.out, "\"known_as\":\"mesa-llvmpipe"));
   CHECK(has(outcome.out, "\"violations\":"));
   CHECK(folder.entries() == Arguments{"v.html"});
+}
+
+TEST_CASE("stores that lean are a remark where OpenGL allows them, in text and JSON, and no rejection") {
+  const ScratchFolder folder;
+  for (const char* target : {"srgb8_a8", "rgb10_a2"}) {  // whose codes llvmpipe does not round to the nearest
+    folder.write("p.json", std::string(R"({"target":")") + target + "\"}");
+    const Arguments draw = {"--driver", "llvmpipe", "--size", "80x60", "--pipeline", "p.json"};
+    const Outcome told = judged(folder, draw);
+    if (told.exit_code == kNoDriver) {
+      WARN("SKIPPED: " << told.err);
+      return;
+    }
+    INFO(told.out << told.err);
+    CHECK(told.exit_code == 0);
+    CHECK(has(told.out, "NOT what chance makes"));
+    CHECK(has(told.out, "every pixel is explained, yet the image is not what chance makes (a remark: each pixel is legal)"));
+    Arguments json = draw;
+    json.emplace_back("--json");
+    const Outcome listed = judged(folder, json);
+    CHECK(listed.exit_code == 0);
+    CHECK(has(listed.out, R"("pass":true,"suspicious":true)"));
+    CHECK(has(listed.out, R"("VIOLATION":0)"));
+  }
+}
+
+TEST_CASE("a post chain is not judged, and text, JSON and page say so") {
+  const ScratchFolder folder;
+  folder.write("p.json", R"({"target": "rgba16f", "post": {"tone_map": "reinhard", "encode": "srgb"}})");
+  REQUIRE(run_command({"render", "builtin:cornell", "--pipeline", "p.json", "--size", "64x48", "-o", "c.exr", "--aov",
+                       "depth,position,normal,albedo,id.object"},
+                      folder.path(""))
+              .exit_code == 0);
+  folder.write("q.json", R"({"target": "rgba16f"})");
+  REQUIRE(run_command({"render", "builtin:cornell", "--pipeline", "q.json", "--size", "64x48", "-o", "t.exr", "--aov",
+                       "depth,position,normal,albedo,id.object"},
+                      folder.path(""))
+              .exit_code == 0);
+  const Outcome target = judged(folder, {"--gbuffer", "t.exr", "--pipeline", "p.json", "-o", "v.html"});
+  INFO(target.out << target.err);
+  CHECK(target.exit_code == 0);
+  CHECK(has(target.out, "note        the post chain is not judged"));
+  CHECK(has(target.out, "verdict     every pixel is explained; the post chain is not judged"));
+  std::ifstream page(folder.path("v.html"));
+  CHECK(has({std::istreambuf_iterator<char>(page), {}}, "the post chain is not judged"));
+  const Outcome listed = judged(folder, {"--gbuffer", "t.exr", "--pipeline", "p.json", "--json"});
+  CHECK(has(listed.out, R"("post_chain": "not judged")"));
+  CHECK(has(judged(folder, {"--gbuffer", "t.exr", "--pipeline", "q.json", "--json"}).out, R"("post_chain": "none")"));
+  // The finished picture is another than the target.
+  CHECK(judged(folder, {"--gbuffer", "t.exr", "--image", "c.exr", "--pipeline", "p.json"}).exit_code != 0);
 }
 
 TEST_CASE("without a driver validate is exit 7, says what to install, and leaves nothing behind") {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "core/half.h"
@@ -20,6 +19,7 @@
 #include "shading/clear_color.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
+#include "tests/gl/random_states.h"
 #include "tests/shading/blend_pixels.h"
 
 using namespace trueshade;
@@ -29,7 +29,6 @@ using Rgba = trueshade::testing::Rgba;
 
 namespace {
 
-using Random = std::mt19937_64;
 constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
@@ -150,11 +149,6 @@ int different(const GlProgram& fetch, const BlendState& state, Format format, Ra
                                      << held(image, i, c) << ", ours " << stored.plane[c][i]);
     }
   return count;
-}
-
-BlendTerm random_term(Random& random) {
-  return {BlendEquation(random() % kBlendEquations), BlendFactor(random() % kBlendFactors),
-          BlendFactor(random() % kBlendFactors)};
 }
 
 BlendState random_state(Random& random, const BlendTerm& term) {

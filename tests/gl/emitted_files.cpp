@@ -23,6 +23,16 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+GlslShaders shaders_in(const std::filesystem::path& folder) {
+  return {contents(folder / "geometry.vert"),
+          contents(folder / "geometry.frag"),
+          contents(folder / "light.vert"),
+          contents(folder / "light.frag"),
+          std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : "",
+          contents(folder / "transparent.vert"),
+          contents(folder / "transparent.frag")};
+}
+
 }  // namespace
 
 TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as the judge's own") {
@@ -44,13 +54,7 @@ TEST_CASE("Shaders written by trueshade glsl, read back, draw the same bytes as 
                                 " --strategy " + std::string(name_of(strategy)) + " -o '" + folder.string() +
                                 "' > /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
-    const GlslShaders read{contents(folder / "geometry.vert"),
-                           contents(folder / "geometry.frag"),
-                           contents(folder / "light.vert"),
-                           contents(folder / "light.frag"),
-                           std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : "",
-                           contents(folder / "transparent.vert"),
-                           contents(folder / "transparent.frag")};
+    const GlslShaders read = shaders_in(folder);
     CHECK(contents(folder / "state.json").find("glDepthFunc(GL_LESS)") != std::string::npos);
     Pipeline pipeline = preset.pipeline;
     pipeline.strategy = strategy;
@@ -76,25 +80,33 @@ TEST_CASE(
     m.color_map.texture = 0;
     m.normal_map.texture = m.specular_map.texture = 1;
   }
+  for (size_t i = 0; i < scene.materials.size(); i += 2) {
+    scene.materials[i].base_color.a = 0.5f;
+    scene.materials[i].transparent = true;
+  }
   GlRenderer renderer(*context, scene);
-  for (const Preset& preset : presets()) {
+  for (size_t i = 0; i < presets().size() * std::size(kStrategyNames); ++i) {
+    const Preset& preset = presets()[i / std::size(kStrategyNames)];
+    const auto strategy = Strategy(i % std::size(kStrategyNames));
     std::filesystem::remove_all(folder);
     const std::string command = std::string("'") + TRUESHADE_COMMAND + "' glsl --maps --preset " +
-                                std::string(preset.name) + " -o '" + folder.string() + "' > /dev/null";
+                                std::string(preset.name) + " --strategy " + std::string(name_of(strategy)) + " -o '" +
+                                folder.string() + "' > /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
-    const GlslShaders read{contents(folder / "geometry.vert"), contents(folder / "geometry.frag"),
-                           contents(folder / "light.vert"), contents(folder / "light.frag"),
-                           std::filesystem::exists(folder / "base.frag") ? contents(folder / "base.frag") : ""};
+    const GlslShaders read = shaders_in(folder);
+    CHECK(read.transparent_frag.find("normal_map") != std::string::npos);
     CHECK(contents(folder / "state.json").find("tangents: samplerBuffer") != std::string::npos);
     Pipeline pipeline = preset.pipeline;
+    pipeline.strategy = strategy;
     pipeline.width = 120;
     pipeline.height = 90;
+    pipeline.transparency.mode = TransparencyMode::after_lights;
     GlDraw from_files;
     from_files.shaders = &read;
     from_files.shader_options.maps = from_files.shader_options.specular_maps = true;
-    from_files.shader_options.normal_maps = true;
+    from_files.shader_options.normal_maps = from_files.shader_options.transparent = true;
     const Capture theirs = renderer.draw(pipeline, from_files).capture, ours = renderer.draw(pipeline).capture;
-    INFO(preset.name);
+    INFO(preset.name << ", " << name_of(strategy));
     CHECK(theirs.color.texels == ours.color.texels);
     REQUIRE(theirs.planes.size() == ours.planes.size());
     for (size_t i = 0; i < ours.planes.size(); ++i) CHECK(theirs.planes[i].image.texels == ours.planes[i].image.texels);

@@ -2,7 +2,6 @@
 // nothing but what the profile promises takes part: triangles inside the viewport, constant colours and depths, ambient
 // light. Lit frames hang on the last bits of GLSL's attributes and powers as well, which no profile promises.
 #include <algorithm>
-#include <random>
 
 #include "oracle/blend.h"
 #include "scenes/builtin.h"
@@ -10,14 +9,13 @@
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
+#include "tests/gl/random_states.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
 using namespace trueshade::oracle;
 
 namespace {
-
-using Random = std::mt19937_64;
 
 float unit(Random& random) { return float(double(random() >> 11) * 0x1p-53); }
 
@@ -42,11 +40,6 @@ Scene flat_scene(Random& random) {
     light.color = {0.6f * unit(random), 0.6f * unit(random), 0.6f * unit(random)};
   }
   return scene;
-}
-
-BlendTerm random_term(Random& random) {
-  return {BlendEquation(random() % kBlendEquations), BlendFactor(random() % kBlendFactors),
-          BlendFactor(random() % kBlendFactors)};
 }
 
 void set_some_blend(Random& random, BlendState& blend) {

@@ -99,6 +99,40 @@ TEST_CASE("Surfaces drawn twice add twice under forward-multipass, and the judge
   CHECK(judge_blending(scene, judged, of_8_bits("unknown"), wrong, steps_of(once, pipeline)).count(PixelClass::violation) > 500);
 }
 
+TEST_CASE("A light too many or too few in light.count is found, by the light and by the last image") {
+  const Scene scene = builtin_scene("cornell");
+  for (const Strategy strategy : kBlended)
+    for (const LightExtent extent : {LightExtent::unbounded, LightExtent::range, LightExtent::sphere}) {
+      Pipeline pipeline;
+      pipeline.width = 64, pipeline.height = 48;
+      pipeline.strategy = strategy;
+      pipeline.light_volumes.point = pipeline.light_volumes.spot = extent;
+      pipeline.light_volumes.cull_face = CullFace::front;  // else a light may be drawn, and count, twice
+      const Capture right = captured(scene, pipeline);
+      const Pipeline judged = with_surface_planes(pipeline);
+      for (const int off : {-1, 1}) {
+        Capture wrong = right;
+        Image& counts = wrong.planes[7].image;
+        REQUIRE(wrong.planes[7].name == "light.count");
+        uint64_t changed = 0;
+        for (int y = 0; y < 48; ++y)
+          for (int x = 0; x < 64; ++x) {
+            if (right.plane("id.object")->value(x, y, 0) == 0 || counts.code(x, y, 0) == 0) continue;
+            counts.set_code(x, y, 0, counts.code(x, y, 0) + uint32_t(off));
+            ++changed;
+          }
+        REQUIRE(changed > 1000);
+        for (const char* name : {"ideal", "unknown"}) {
+          CAPTURE(name_of(strategy), int(extent), off, name, changed);
+          const StageVerdict v = judge_blending(scene, judged, of_8_bits(name), wrong, steps_of(scene, pipeline));
+          CHECK(100 * v.count(PixelClass::violation) >= 90 * changed);  // some lights may or may not face or be drawn
+          CHECK(v.worst.front().plane == "light.count.R");
+          CHECK(100 * judge_lighting(scene, judged, of_8_bits(name), wrong).count(PixelClass::violation) >= 90 * changed);
+        }
+      }
+    }
+}
+
 TEST_CASE("GL_RULES row 50: 64 lights of a quarter of a code blended give 0, or up to 64 by the letter") {
   Scene scene = builtin_scene("cornell");
   scene.lights.resize(64);

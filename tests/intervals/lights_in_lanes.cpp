@@ -74,6 +74,23 @@ ShadedSurface surface_of(Pcg32& random, bool at_origin, bool exact) {
   return s;
 }
 
+/// Lights and a model at random, ready for any surface; a quarter with extents, a quarter by ideal arithmetic.
+struct RandomLights {
+  explicit RandomLights(Pcg32& random)
+      : scene(scene_of(random)), model(model_of(random)), volumes(volumes_of(random)), ideal(random.below(4) == 0),
+        bounds(scene, model, {0, 0, 1}, profile_named(ideal ? "ideal" : "unknown")->arithmetic, ideal, volumes) {}
+  static LightVolumes volumes_of(Pcg32& random) {
+    LightVolumes v;
+    if (random.below(4) == 0) v.point = v.spot = LightExtent::box;
+    return v;
+  }
+  const Scene scene;
+  const LightModel model;
+  const LightVolumes volumes;
+  const bool ideal;
+  const LightBounds bounds;
+};
+
 }  // namespace
 
 TEST_CASE("Lights in lanes have the bounds of lights one by one, on every SIMD target") {
@@ -85,17 +102,12 @@ TEST_CASE("Lights in lanes have the bounds of lights one by one, on every SIMD t
     const int rounds = target == best ? 1500 : 150;
     for (int round = 0; round < rounds; ++round) {
       Pcg32 random(uint64_t(round) + 1);
-      const Scene scene = scene_of(random);
-      const LightModel model = model_of(random);
-      LightVolumes volumes;
-      if (random.below(4) == 0) volumes.point = volumes.spot = LightExtent::box;
-      const bool ideal = random.below(4) == 0;
-      const Arithmetic arithmetic = profile_named(ideal ? "ideal" : "unknown")->arithmetic;
-      const LightBounds bounds(scene, model, {0, 0, 1}, arithmetic, ideal, volumes);
+      const RandomLights lights(random);
+      const LightModel& model = lights.model;
       for (int i = 0; i < 6; ++i) {
         const ShadedSurface surface = surface_of(random, i == 3, i < 4);
-        const LitRange lanes = bounds.at(surface), single = bounds.one_by_one(surface);
-        CAPTURE(std::string(target), round, i, int(model.falloff), int(model.order), int(model.specular), model.shininess, ideal);
+        const LitRange lanes = lights.bounds.at(surface), single = lights.bounds.one_by_one(surface);
+        CAPTURE(std::string(target), round, i, int(model.falloff), int(model.order), int(model.specular), model.shininess, lights.ideal);
         CHECK(lanes.undefined == single.undefined);
         CHECK(lanes.branches.size() == single.branches.size());
         CHECK(lanes.lights_low <= single.lights_low);
@@ -125,22 +137,18 @@ TEST_CASE("Lights asked for apart have the bounds of each alone, whichever are a
   int compared = 0, open = 0, dark = 0;
   for (int round = 0; round < 400; ++round) {
     Pcg32 random(uint64_t(round) + 7);
-    const Scene scene = scene_of(random);
-    const LightModel model = model_of(random);
-    LightVolumes volumes;
-    if (random.below(4) == 0) volumes.point = volumes.spot = LightExtent::box;
-    const bool ideal = random.below(4) == 0;
-    const Arithmetic arithmetic = profile_named(ideal ? "ideal" : "unknown")->arithmetic;
-    const LightBounds bounds(scene, model, {0, 0, 1}, arithmetic, ideal, volumes);
+    const RandomLights all_lights(random);
+    const LightModel& model = all_lights.model;
+    const LightBounds& bounds = all_lights.bounds;
     const ShadedSurface surface = surface_of(random, round % 9 == 0, round % 3 != 0);
     std::vector<uint32_t> lights;
     const bool all = round % 5 == 0;
-    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    for (uint32_t i = 0; i < all_lights.scene.lights.size(); ++i)
       if (all || random.below(3) != 0) lights.push_back(i);
     bounds.apart(surface, lights, lit);
     for (size_t j = 0; j < lights.size(); ++j) {
       const LitRange alone = bounds.alone(surface, lights[j]);
-      CAPTURE(round, lights[j], int(model.falloff), int(model.order), int(model.specular), ideal);
+      CAPTURE(round, lights[j], int(model.falloff), int(model.order), int(model.specular), all_lights.ideal);
       CHECK((lit.plain[j] != 0) == (!alone.undefined && alone.branches.empty()));
       if (lit.plain[j] == 0) ++open;
       for (size_t k = 0; k < 3 && lit.plain[j] != 0; ++k) {

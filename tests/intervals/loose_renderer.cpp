@@ -28,8 +28,11 @@ class Drawing {
         projection_(oracle::projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
     const int w = pipeline.width, h = pipeline.height;
     capture_.color = Image(w, h, pipeline.target);
+    const bool stores = !is_forward(pipeline.strategy);
+    const Format normal = stores ? pipeline.gbuffer.normal.format : Format::rgba32f, albedo = stores ? Format::rgba8 : Format::rgba32f;
+    tied_.resize(size_t(w) * size_t(h));
     for (const auto& [name, format] : {std::pair<const char*, Format>{"depth", Format::d32f}, {"position", Format::rgba32f},
-                                       {"normal", pipeline.gbuffer.normal.format}, {"albedo", Format::rgba8}, {"id.object", Format::r32ui},
+                                       {"normal", normal}, {"albedo", albedo}, {"id.object", Format::r32ui},
                                        {"specular", Format::rgba32f}})
       capture_.planes.push_back({name, Image(w, h, format)});
     if (!reads_specular_plane(pipeline.light_model)) capture_.planes.pop_back();
@@ -43,7 +46,8 @@ class Drawing {
     draw_instances(Pass::opaque);
     if (mode == TransparencyMode::into_albedo) draw_instances(Pass::into_albedo);
     for (int y = 0; y < pipeline_.height; ++y)
-      for (int x = 0; x < pipeline_.width; ++x) light(x, y);
+      for (int x = 0; x < pipeline_.width; ++x)
+        if (capture_.planes[4].image.value(x, y, 0) != 0) light(x, y);
     if (mode == TransparencyMode::after_lights) draw_instances(Pass::over);
     return std::move(capture_);
   }
@@ -106,8 +110,8 @@ class Drawing {
     v.plane_y = f_.mul(f_.add(f_.div(clip[1], clip[3]), 1), height / 2);
     v.z = f_.mad(f_.div(clip[2], clip[3]), 0.5f, 0.5f);
     const float grid = std::ldexp(1.0f, free_.subpixel_bits);
-    v.x = free_.subpixel_bits > 0 ? std::nearbyint(v.plane_x * grid) / grid : v.plane_x;
-    v.y = free_.subpixel_bits > 0 ? std::nearbyint(v.plane_y * grid) / grid : v.plane_y;
+    v.x = free_.subpixel_bits > 0 ? float(loose_neighbour(f_, nearly(), double(v.plane_x * grid))) / grid : v.plane_x;
+    v.y = free_.subpixel_bits > 0 ? float(loose_neighbour(f_, nearly(), double(v.plane_y * grid))) / grid : v.plane_y;
     if (free_.snapped_planes) v.plane_x = v.x, v.plane_y = v.y;
     for (int r = 0; r < 3; ++r) {
       const float m[4] = {instance.world_from_object[0][r], instance.world_from_object[1][r], instance.world_from_object[2][r], instance.world_from_object[3][r]};
@@ -214,7 +218,7 @@ class Drawing {
 
   void keep(int x, int y, uint32_t instance, float depth, const LooseSurface& s) {
     put(0, x, y, 0, depth);
-    const bool halved = info(pipeline_.gbuffer.normal.format).number_class == NumberClass::unorm;
+    const bool halved = info(capture_.planes[2].image.format).number_class == NumberClass::unorm;
     for (int k = 0; k < 3; ++k) {
       put(1, x, y, k, s.position[k]);
       store(capture_.planes[2].image, x, y, k, halved ? f_.mad(s.normal[k], 0.5f, 0.5f) : s.normal[k]);
@@ -228,22 +232,26 @@ class Drawing {
   }
 
   /// A transparent fragment, blended into the albedo or, lit, into the target.
-  void blend(Pass pass, int x, int y, const LooseSurface& s) {
+  void draw_over(Pass pass, int x, int y, const LooseSurface& s) {
     float source[4] = {s.albedo[0], s.albedo[1], s.albedo[2], s.albedo[3]};
     if (pass == Pass::over)
       loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, s.position, s.normal, s.albedo, source,
                   reads_specular_plane(pipeline_.light_model) ? s.gloss : nullptr, pipeline_.light_volumes);
-    Image& image = pass == Pass::over ? capture_.color : capture_.planes[3].image;
-    const bool codes = info(image.format).number_class == NumberClass::unorm;
+    blend(pipeline_.transparency.blend, pass == Pass::over ? capture_.color : capture_.planes[3].image, x, y, source);
+  }
+
+  void blend(const BlendState& state, Image& image, int x, int y, const float source[4]) {
+    const FormatInfo layout = info(image.format);
+    const bool codes = layout.number_class == NumberClass::unorm;
     std::array<double, 4> stored{};
-    for (int k = 0; k < 4; ++k) stored[size_t(k)] = codes ? double(image.code(x, y, k)) : image.value(x, y, k);
-    const std::array<double, 4> left = loose_blend(f_, pipeline_.transparency.blend, image.format, free_, source, stored);
-    const bool in_codes = codes && !info(image.format).srgb && free_.blends_codes;
-    for (int k = 0; k < 4; ++k) {
-      if (in_codes)
+    for (int k = 0; k < layout.channels; ++k) stored[size_t(k)] = codes ? double(image.code(x, y, k)) : image.value(x, y, k);
+    const std::array<double, 4> left = loose_blend(f_, state, image.format, free_, source, stored);
+    for (int k = 0; k < layout.channels; ++k) {
+      if (!state.mask[size_t(k)]) continue;
+      if (blends_in_codes(image.format, free_))
         image.set_code(x, y, k, uint32_t(std::lround(left[size_t(k)])));
       else
-        store(image, x, y, k, float(left[size_t(k)]));
+        loose_store_blended(f_, free_, image, x, y, k, left[size_t(k)]);
     }
   }
 
@@ -263,12 +271,19 @@ class Drawing {
         const float sx = float(x) + 0.5f, sy = float(pipeline_.height - 1 - y) + 0.5f;
         if (!inside(v, area, double(sx), double(sy))) continue;
         const float d = stored_depth(depth, z, sx, sy);
-        if (!(d < get(0, x, y, 0))) continue;
+        std::vector<LooseSurface>& tied = tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)];
+        const bool ties = pass == Pass::opaque && d == get(0, x, y, 0) && d < 1;  // EQUAL passes there, LESS does not
+        if (!ties && !(d < get(0, x, y, 0))) continue;
+        if (pass == Pass::opaque && !ties) tied.clear();
+        if (ties) {
+          tied.push_back(surface(instance, t, planes, divisor, sx, sy));
+          continue;
+        }
         const LooseSurface s = surface(instance, t, planes, divisor, sx, sy);
         if (pass == Pass::opaque)
-          keep(x, y, instance, d, s);
+          keep(x, y, instance, d, s), tied.push_back(s);
         else
-          blend(pass, x, y, s);
+          draw_over(pass, x, y, s);
       }
   }
 
@@ -298,52 +313,63 @@ class Drawing {
       d = f_.add(d, f_.mad(float(m), g.polygon_offset_factor, float(r * double(g.polygon_offset_units))));
     }
     d = std::clamp(d, 0.0f, 1.0f);
-    return codes > 0 ? float(neighbour(double(d) * codes) / codes) : d;
+    return codes > 0 ? float(loose_neighbour(f_, free_, double(d) * codes) / codes) : d;
   }
 
-  double neighbour(double scaled) {
-    if (free_.any_neighbour) return (f_.random().next() & 1) != 0 ? std::floor(scaled) : std::ceil(scaled);
-    return std::nearbyint(scaled);
+  /// Liberties of the subpixel grid.
+  Liberties nearly() const {
+    Liberties l;
+    l.reach = free_.reach;
+    return l;
   }
 
-  /// One channel, as its format may store it.
-  void store(Image& image, int x, int y, int channel, float v) {
-    const FormatInfo layout = info(image.format);
-    if (layout.number_class == NumberClass::unorm) {
-      double value = std::clamp(double(v), 0.0, 1.0);
-      if (layout.srgb_channel(channel)) value = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-      image.set_code(x, y, channel, uint32_t(neighbour(value * double(layout.largest_code(channel)))));
-      return;
+  void store(Image& image, int x, int y, int channel, float v) { loose_store(f_, free_, image, x, y, channel, v); }
+
+  /// The pixel's surface as the light pass reads it.
+  LooseSurface read(int x, int y) {
+    LooseSurface s{};
+    const Image &normals = capture_.planes[2].image, &albedo = capture_.planes[3].image;
+    const bool halved = info(normals.format).number_class == NumberClass::unorm;
+    const bool coded = info(albedo.format).number_class == NumberClass::unorm;
+    for (int k = 0; k < 3; ++k) {
+      s.position[k] = get(1, x, y, k);
+      s.normal[k] = halved ? f_.mad(2, f_.div(float(normals.code(x, y, k)), float(info(normals.format).largest_code(k))), -1) : get(2, x, y, k);
+      s.albedo[k] = coded ? f_.div(float(albedo.code(x, y, k)), 255) : get(3, x, y, k);
     }
-    uint32_t bits = 0;
-    if (layout.small_float()) {
-      const double size = std::min(std::fabs(double(v)), 65504.0);  // the largest; infinity is legal, too
-      const int exponent = size == 0 ? -14 : std::max(std::ilogb(size), -14);
-      const double units = std::ldexp(size, 10 - exponent);  // 10 bits of fraction; 2^10 and up but for denormals
-      const bool cuts = !free_.any_neighbour || (f_.random().next() & 1) != 0;
-      bits = uint32_t(cuts ? std::floor(units) : std::ceil(units)) + uint32_t(exponent + 14) * 1024;
-      if (std::signbit(v)) bits |= 0x8000;
-    } else {
-      std::memcpy(&bits, &v, sizeof bits);
-    }
-    image.set_code(x, y, channel, bits);
+    for (int k = 0; k < 4 && capture_.planes.size() > 5; ++k) s.gloss[k] = get(5, x, y, k);
+    return s;
+  }
+
+  /// What lights [first, end) add up to, alpha 1.
+  std::array<float, 4> lit(const LooseSurface& s, size_t first, size_t end) {
+    Scene some;
+    some.camera = scene_.camera;
+    some.lights.assign(scene_.lights.begin() + std::ptrdiff_t(first), scene_.lights.begin() + std::ptrdiff_t(end));
+    std::array<float, 4> color{0, 0, 0, 1};
+    loose_light(f_, some, pipeline_.light_model, free_.reverse_lights, s.position, s.normal, s.albedo, color.data(),
+                capture_.planes.size() > 5 ? s.gloss : nullptr, pipeline_.light_volumes);
+    return color;
+  }
+
+  void store_color(int x, int y, const std::array<float, 4>& color) {
+    for (int k = 0; k < info(capture_.color.format).channels; ++k) store(capture_.color, x, y, k, color[size_t(k)]);
   }
 
   void light(int x, int y) {
-    if (capture_.planes[4].image.value(x, y, 0) == 0) return;
-    float position[3], normal[3], albedo[3], gloss[4] = {}, color[4] = {0, 0, 0, 1};
-    const Image& normals = capture_.planes[2].image;
-    const bool halved = info(normals.format).number_class == NumberClass::unorm;
-    for (int k = 0; k < 3; ++k) {
-      position[k] = get(1, x, y, k);
-      normal[k] = halved ? f_.mad(2, f_.div(float(normals.code(x, y, k)), float(info(normals.format).largest_code(k))), -1) : get(2, x, y, k);
-      albedo[k] = f_.div(float(capture_.planes[3].image.texel(x, y)[k]), 255);
+    const size_t lights = scene_.lights.size();
+    const LooseSurface s = read(x, y);
+    if (!blends_lights(pipeline_.strategy)) return store_color(x, y, lit(s, 0, lights));
+    const bool multipass = pipeline_.strategy == Strategy::forward_multipass;
+    const size_t first = multipass && lights > 0 ? 1 : 0;
+    if (multipass || pipeline_.light_volumes.base) store_color(x, y, lit(s, 0, first));
+    for (size_t i = first; i < lights; ++i) {
+      if (!multipass) {
+        blend(kAddLight, capture_.color, x, y, lit(s, i, i + 1).data());
+        continue;
+      }
+      for (const LooseSurface& tied : tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)])
+        blend(kAddLight, capture_.color, x, y, lit(tied, i, i + 1).data());
     }
-    const bool glossy = capture_.planes.size() > 5;
-    for (int k = 0; k < 4 && glossy; ++k) gloss[k] = get(5, x, y, k);
-    loose_light(f_, scene_, pipeline_.light_model, free_.reverse_lights, position, normal, albedo, color, glossy ? gloss : nullptr,
-                pipeline_.light_volumes);
-    for (int k = 0; k < 4; ++k) store(capture_.color, x, y, k, color[k]);
   }
 
   const Scene& scene_;
@@ -354,6 +380,7 @@ class Drawing {
   const Matrix4 projection_;
   bool apart_ = false;
   Capture capture_;
+  std::vector<std::vector<LooseSurface>> tied_;  ///< of each pixel what has its very depth, in order of submission
 };
 
 }  // namespace

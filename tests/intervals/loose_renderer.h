@@ -20,6 +20,7 @@ struct Liberties {
   bool snapped_planes = false;
   bool turn_ties = false;      ///< samples on an edge belong to the other side
   bool any_neighbour = false;  ///< stores of unorm, half, sRGB and fixed-point depth take either neighbour
+  double reach = 0.5;          ///< otherwise any neighbour that is as near as that, of stores and of the subpixel grid
   bool reverse_lights = false;
   int weight_bits = 0;         ///< of texture filters; 0: exact
   bool decode_late = false;    ///< sRGB textures are filtered in 8 bits, then decoded
@@ -66,6 +67,19 @@ void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], c
 std::array<double, 4> loose_blend(LooseFloat& f, const BlendState& state, Format format, const Liberties& liberties,
                                   const float source[4], const std::array<double, 4>& stored);
 
+/// Whether a target is blended in its own codes, all of one width.
+bool blends_in_codes(Format format, const Liberties& liberties);
+
+/// A whole number that a scaled value may become.
+double loose_neighbour(LooseFloat& f, const Liberties& liberties, double scaled);
+
+/// One channel, as its format may store it.
+void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, float v);
+
+/// The same of what a blend in floats made of a stored value: that floats miss a code by their own errors is no reason to
+/// store the one below it (GL 4.6 core, 17.3.6: precision no less than the target's).
+void loose_store_blended(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, double v);
+
 /// Texels as a lookup may give them.
 class LooseTextures {
  public:
@@ -79,8 +93,9 @@ class LooseTextures {
   std::vector<Texture> encoded_;  ///< sRGB textures as if they were not
 };
 
-/// The whole capture: depth, position, normal, albedo (rgba8), id.object, specular and the target; normal, depth and target in the
-/// pipeline's formats (targets: rgba8, srgb8_a8, rgba16f, rgba32f).
+/// The whole capture: depth, position, normal, albedo, id.object, specular and the target; of deferred strategies normals in the
+/// pipeline's format and albedo in rgba8, of forward ones floats. Any strategy and target; of deferred-volumes lights drawn as
+/// quads alone, blended as kAddLight says.
 oracle::Capture loose_frame(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed);
 
 }  // namespace trueshade::testing

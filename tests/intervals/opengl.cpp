@@ -1,6 +1,7 @@
 // A real driver judged: GL_RULES rows 62 and 63. Skipped, saying why, where there is no such driver.
 #include "tests/catch.hpp"
 #include <cstdio>
+#include <map>
 
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/glass_mutants.h"
@@ -27,13 +28,21 @@ LightSteps steps_of(GlRenderer& renderer, const Pipeline& pipeline) {
   };
 }
 
-void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& scene, const Pipeline& pipeline) {
+/// Pixels that show another surface or branch, and how many were predicted at most, over many frames.
+struct Others {
+  uint64_t seen = 0;
+  double predicted = 0;
+};
+
+/// Adds each profile's to `others`: one frame has too few for a mean to mean much.
+void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& scene, const Pipeline& pipeline,
+                 std::map<std::string, Others>& others) {
   const bool known = context.info().line().find("Mesa 22.3") != std::string::npos;
   const Capture capture = renderer.draw(pipeline).capture;
   for (const char* profile_name : {"unknown", "mesa-llvmpipe-22.3"}) {
     Profile profile = *profile_named(profile_name);
     if (profile.name == "unknown") profile.subpixel_bits = context.info().subpixel_bits;
-    if (profile.name != "unknown" && (!known || pipeline.strategy == Strategy::forward_loop)) continue;
+    if (profile.name != "unknown" && !known) continue;
     const Verdict v = validate_capture(scene, pipeline, capture, {profile, false, steps_of(renderer, pipeline)});
     CAPTURE(scene.spec, pipeline.preset, name_of(pipeline.strategy), profile_name);
     if (v.violations() > 0) UNSCOPED_INFO(verdict_json(v));
@@ -44,8 +53,19 @@ void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& sc
     for (const StageVerdict& s : v.stages) {
       const uint64_t exact = s.count(PixelClass::exact) + s.count(PixelClass::store_2) + s.count(PixelClass::tex);
       CHECK(100 * exact >= 99 * s.classes.size());
-      CHECK(double(s.explained()) <= 2 * s.predicted_other + 6);
+      Others& sum = others[profile.name + ", " + s.stage];
+      sum.seen += s.explained(), sum.predicted += s.predicted_other;
     }
+  }
+}
+
+/// At most twice what was predicted (GL_RULES section 9), no slack.
+void check_density(const std::map<std::string, Others>& others) {
+  CHECK(!others.empty());
+  for (const auto& [what, sum] : others) {
+    std::printf("%s: %llu pixels of another surface or branch, %.1f predicted\n", what.c_str(), static_cast<unsigned long long>(sum.seen), sum.predicted);
+    CAPTURE(what, sum.seen, sum.predicted);
+    CHECK(double(sum.seen) <= 2 * sum.predicted);
   }
 }
 
@@ -57,14 +77,17 @@ TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by 
   for (const char* spec : {"city,lights=20,objects=300", "cornell", "lecture"}) {
     const Scene scene = builtin_scene(spec);
     GlRenderer renderer(*context, scene);
+    std::map<std::string, Others> others;
     for (const Preset& preset : presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;
         pipeline.width = 80;
         pipeline.height = 60;
         pipeline.strategy = Strategy(strategy);
-        check_frame(*context, renderer, scene, pipeline);
+        check_frame(*context, renderer, scene, pipeline, others);
       }
+    INFO(spec);
+    check_density(others);
   }
 }
 
@@ -193,6 +216,7 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
   for (const char* name : {"city", "sphere", "cornell", "circle"}) {
     const Scene scene = builtin_scene(name);
     GlRenderer renderer(*context, scene);
+    std::map<std::string, Others> others;
     for (const Preset& preset : presets()) {
       Pipeline pipeline = preset.pipeline;
       if (pipeline.strategy != Strategy::deferred_loop) continue;  // the others: above
@@ -214,7 +238,8 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
             if (s.counts[c] > 0) std::printf(" %s %llu", std::string(text(PixelClass(c))).c_str(), static_cast<unsigned long long>(s.counts[c]));
           std::printf("; predicted %.1f, error / bound %.3f\n", s.predicted_other, s.worst_error);
           CHECK(s.count(PixelClass::exact) + s.count(PixelClass::store_2) >= uint64_t(0.99 * 200 * 150));
-          CHECK(double(s.explained()) <= 2 * s.predicted_other + 6);
+          Others& sum = others[std::string(profile_name) + ", " + s.stage];
+          sum.seen += s.explained(), sum.predicted += s.predicted_other;
         }
       }
       if (!known || std::string(name) != "circle") continue;
@@ -226,5 +251,7 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
       CHECK(found.half == HalfStore::toward_zero);
       CHECK(found.known_as == "mesa-llvmpipe-22.3");
     }
+    INFO(name);
+    check_density(others);
   }
 }

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "oracle/blend.h"
 #include "oracle/gl/renderer.h"
-#include "oracle/intervals/judge.h"
+#include "oracle/intervals/validate.h"
+#include "scenes/builtin.h"
 #include "scenes/shapes.h"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
@@ -64,6 +66,41 @@ TEST_CASE("Frames into an sRGB target are explained, ours and llvmpipe's; one th
   const Capture theirs = GlRenderer(*context, scene).draw(pipeline).capture;
   CHECK(violations(theirs, "unknown") == 0);
   if (context->info().line().find("Mesa 22.3") != std::string::npos) CHECK(violations(theirs, "mesa-llvmpipe-22.3") == 0);
+}
+
+TEST_CASE("llvmpipe's sRGB and ten-bit codes are its profile's nominal ones; any GPU's takes them for a lean, and none for wrong") {
+  const GlContext* context = testing::opened_mesa_22_3();
+  if (context == nullptr) return;
+  const Scene scene = builtin_scene("cornell");
+  GlRenderer renderer(*context, scene);
+  Profile own = *profile_named("mesa-llvmpipe-22.3"), unknown = *profile_named("unknown");
+  unknown.subpixel_bits = 8;
+  for (const Format target : {Format::srgb8_a8, Format::rgb10_a2}) {
+    if (target == Format::srgb8_a8 && !estimates_as_recorded()) continue;  // another CPU maker's estimate of 1/sqrt
+    for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
+      Pipeline pipeline;
+      pipeline.width = 120, pipeline.height = 90;
+      pipeline.target = target;
+      pipeline.strategy = Strategy(strategy);
+      const Capture capture = renderer.draw(pipeline).capture;
+      LightSteps steps;
+      if (blends_lights(pipeline.strategy))
+        steps = [&](const StepSink& sink) {
+          GlDraw draw;
+          draw.after_light = sink;
+          renderer.draw(pipeline, draw);
+        };
+      CAPTURE(info(target).name, name_of(pipeline.strategy));
+      const Verdict by_own = validate_capture(scene, pipeline, capture, {own, false, steps, {}});
+      CHECK(by_own.violations() == 0);
+      CHECK_FALSE(by_own.suspicious());
+      CHECK(by_own.stages.back().count(PixelClass::store_2) <= 120 * 90 / 200);
+      const Verdict by_any = validate_capture(scene, pipeline, capture, {unknown, false, steps, {}});
+      CHECK(by_any.violations() == 0);
+      CHECK((by_any.suspicious() || blends_lights(pipeline.strategy)));
+      CHECK((by_any.stages.back().count(PixelClass::store_2) > 120 * 90 / 50 || blends_lights(pipeline.strategy)));
+    }
+  }
 }
 
 TEST_CASE("llvmpipe encodes sRGB within its profile's reach of the real code, and not within half a code") {

@@ -125,6 +125,40 @@ TEST_CASE("Random frames are the same by the paths for usual triangles and surfa
   }
 }
 
+TEST_CASE("Attributes that a triangle's corners share are the same by the path for them and by the general one") {
+  Random random(36);
+  const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, 0.25f, 1e-40f, -1e18f};
+  for (int i = 0; i < 40; ++i) {
+    Scene scene = random_scene(random);
+    scene.materials.resize(70);
+    for (size_t m = 2; m < scene.materials.size(); ++m) scene.materials[m].base_color.g = float(between(random, 0, 1));
+    for (Instance& instance : scene.instances)  // 1, 33, 65: those that the same place would hold
+      instance.material = uint32_t(random() % 3 * 32 + random() % 2);
+    for (Mesh& mesh : scene.meshes) {
+      if (i % 3 != 0)
+        for (auto& channel : mesh.color) channel.clear();
+      for (auto& stream : mesh.normal)  // the first mesh has vertices of its own for each triangle
+        for (size_t v = 0; v < stream.size(); ++v)
+          stream[v] = v % 3 != 0 && random() % 8 != 0 ? stream[v - 1] : values[random() % std::size(values)];
+      for (auto& channel : mesh.color)
+        for (size_t v = 1; v < channel.size(); ++v)
+          if (v % 3 != 0 && random() % 8 != 0) channel[v] = channel[v - 1];
+    }
+    Pipeline pipeline = random_pipeline(random);
+    for (PlaneState* plane : {&pipeline.gbuffer.position, &pipeline.gbuffer.normal, &pipeline.gbuffer.albedo})
+      plane->interpolation = Interpolation::smooth;
+    pipeline.geometry.depth_func = DepthFunc::less;
+    if (i % 2 == 0) pipeline.width *= 2, pipeline.height *= 3;
+    Execution general;
+    general.fast_geometry = false;
+    const Planes expected = drawn(scene, pipeline, general);
+    for (const Execution& execution : executions()) {
+      INFO("frame " << i << ", " << named(execution) << ", " << pipeline_json(pipeline));
+      REQUIRE(drawn(scene, pipeline, execution) == expected);
+    }
+  }
+}
+
 TEST_CASE("Sheets of triangles of 1 to 50 pixels are the same by the path for their size and by the general one") {
   Random random(35);
   const Pipeline pipeline = window_pipeline();

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "expect_error.h"
-#include "scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

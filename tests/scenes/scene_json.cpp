@@ -7,7 +7,7 @@
 #include "scenes/json_value.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
-#include "scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

@@ -6,7 +6,7 @@
 #include "expect_error.h"
 #include "scenes/scene.h"
 #include "scenes/texture_pattern.h"
-#include "scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

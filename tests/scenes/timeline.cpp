@@ -7,7 +7,7 @@
 #include "expect_error.h"
 #include "scenes/builtin.h"
 #include "scenes/scene.h"
-#include "scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {

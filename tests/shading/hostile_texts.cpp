@@ -6,7 +6,7 @@
 #include "scenes/presets.h"
 #include "scenes/scene.h"
 #include "tests/catch.hpp"
-#include "tests/scenes/scratch_folder.h"
+#include "tests/scratch_folder.h"
 #include "tests/shading/nan_search.h"
 
 namespace trueshade {
