@@ -1,5 +1,6 @@
 // Every term of scenes/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
 // roundings; the kernels compiled for the usual models against the general one.
+#include <cmath>
 #include <cstring>
 #include <iterator>
 
@@ -118,6 +119,38 @@ TEST_CASE("the kernels compiled for a model's shape and the general kernel give 
           INFO("shape " << &shape - kCompiledShapes << ", " << simd << " " << compiled << " " << culling);
           CHECK(render(scene, pipeline, on(simd, compiled, culling)).frame.color.texels == expected.texels);
         }
+  }
+}
+
+TEST_CASE("Lambert's lights over torn sheets of any size are culled block by block without changing a bit") {
+  Random random(62);
+  const std::vector<std::string_view> targets = simd_targets();
+  for (const int exponent : {-60, -20, 0, 0, 0, 30, 58}) {
+    const float scale = std::ldexp(1.0f, exponent);
+    Scene scene = sheet(random);
+    for (auto& stream : scene.meshes[0].normal)
+      for (float& value : stream) value = between(random, -1, 1);
+    for (int light = 0; light < 150; ++light) scene.lights.push_back(random_light(random));
+    for (int axis = 0; axis < 3; ++axis) scene.instances[0].world_from_object[axis][axis] = scale;
+    for (Light& light : scene.lights) light.position *= scale, light.range *= 0.3f * scale;
+    scene.camera.eye *= scale, scene.camera.near *= scale, scene.camera.far = 50 * scale;
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes})
+      for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+        Pipeline pipeline = loop_pipeline(format == Format::rgba16f ? "lecture" : "light-volumes");
+        pipeline.strategy = strategy;
+        pipeline.target = format;
+        const std::vector<std::string> aovs = {"light.count"};
+        const Frame expected = render_frame(scene, pipeline, on("scalar", false, false), aovs);
+        REQUIRE(expected.stats.lit_pixel_lights > 0);
+        for (const std::string_view simd : targets) {
+          const Frame frame = render_frame(scene, pipeline, on(simd, true), aovs);
+          INFO("2^" << exponent << ", " << simd << ", " << pipeline_json(pipeline));
+          CHECK(frame.color.texels == expected.color.texels);
+          CHECK(frame.aovs[0].image.texels == expected.aovs[0].image.texels);
+          CHECK(frame.stats.lit_pixel_lights == expected.stats.lit_pixel_lights);
+          CHECK(frame.stats.evaluated_pixel_lights < frame.stats.pixel_lights);
+        }
+      }
   }
 }
 
