@@ -2,6 +2,8 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "core/numeric_profile.h"
+#include "oracle/intervals/profile.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"
@@ -23,6 +25,13 @@ std::vector<Section> sections() {
                                          "G-buffer, then each light's geometry, blended and rounded light by light",
                                          "G-buffer, then all lights summed in float32, one store"};
   for (size_t i = 0; i < std::size(kStrategyNames); ++i) strategies.entries.emplace_back(kStrategyNames[i], kAbout[i]);
+  Section profiles{"profiles", "Profiles (--profile): whose bits where OpenGL leaves a choice", {}};
+  constexpr std::string_view kWhose[] = {"our own: exact snapping, nearest stores, blending in float32",
+                                         "that driver's, on a CPU with FMA (docs/arithmetic.md section 11)"};
+  static_assert(std::size(kWhose) == std::size(kProfileNames));
+  for (size_t i = 0; i < std::size(kProfileNames); ++i) profiles.entries.emplace_back(kProfileNames[i], kWhose[i]);
+  Section drivers{"driver_profiles", "Profiles that validate holds a driver to (--profile)", {}};
+  for (const std::string_view name : oracle::profile_names()) drivers.entries.emplace_back(name, "");
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
@@ -33,7 +42,7 @@ std::vector<Section> sections() {
   planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
   for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  return {scenes, rows, strategies, formats, planes, views, simd};
+  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd};
 }
 
 std::string json_of(const std::vector<Section>& list) {

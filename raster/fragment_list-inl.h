@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
 #include "raster/commit-inl.h"
 #include "raster/vertex_stage-inl.h"
@@ -30,6 +29,8 @@ struct FragmentList {
   int count = 0;
   alignas(64) double corner_z[3][kMostFragments];
   alignas(64) float z[kMostFragments];
+  uint16_t block[kMaxTilePixels / kBlockPixels + 1];    ///< those that fragments fall into
+  uint8_t touched[kMaxTilePixels / kBlockPixels] = {};  ///< 1 while listed there
 };
 
 /// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
@@ -38,14 +39,13 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
   const D32 df;
   const I32 di;
   double(&z)[3][kMostFragments] = in.corner_z;
-  const int padded = (in.count + int(hn::Lanes(d)) - 1) / int(hn::Lanes(d)) * int(hn::Lanes(d));
   for (int i = 0; i < in.count; ++i) {
     const uint32_t word = uint32_t(in.word[i]);
     z[0][i] = vertex_z[word & 255];
     z[1][i] = vertex_z[(word >> 8) & 255];
     z[2][i] = vertex_z[(word >> 16) & 255];
   }
-  for (int i = in.count; i < padded; ++i) z[0][i] = z[1][i] = z[2][i] = 0.0;
+  for (size_t k = 0; k < 3; ++k) hn::StoreU(hn::Zero(d), d, z[k] + in.count);
   for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
     const V64 z0 = hn::Load(d, z[0] + i), z1 = hn::Load(d, z[1] + i), z2 = hn::Load(d, z[2] + i);
     const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
@@ -74,8 +74,9 @@ HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z
   float* const depth = commit.tile.depth;
   uint32_t* const seen = commit.tile.id;
   const uint32_t turned = commit.func == DepthFunc::less ? 0u : ~0u;
-  constexpr size_t kBlocks = kMaxTilePixels / kBlockPixels;
-  alignas(64) uint8_t touched[kBlocks] = {};
+  uint16_t* const block = fragments.block;
+  uint8_t* const touched = fragments.touched;
+  size_t blocks = 0;
   const int count = fragments.count;
   for (int i = 0; i < count; ++i) {  // no branch on what the depth test says: it is anyone's guess
     const size_t at = size_t(place[i]);
@@ -85,12 +86,14 @@ HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z
     const uint64_t kept = mine < there ? mine : there;
     depth[at] = std::bit_cast<float>(uint32_t(kept >> 32));
     seen[at] = uint32_t(kept) ^ turned;
-    touched[at / kBlockPixels] = 1;
+    const size_t in_block = at / kBlockPixels;
+    block[blocks] = uint16_t(in_block);
+    blocks += touched[in_block] ^ 1u;
+    touched[in_block] = 1;
   }
-  for (size_t k = 0; k < kBlocks; k += sizeof(uint64_t)) {
-    uint64_t some;
-    std::memcpy(&some, touched + k, sizeof(some));
-    for (; some != 0; some &= some - 1) commit.finish_block(int(k) + std::countr_zero(some) / 8);
+  for (size_t i = 0; i < blocks; ++i) {
+    commit.finish_block(block[i]);
+    touched[block[i]] = 0;
   }
   fragments.count = 0;
 }

@@ -2,7 +2,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/visibility.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -13,8 +12,10 @@
 #include <vector>
 
 #include "raster/coverage-inl.h"
+#include "raster/draw_order-inl.h"
 #include "raster/hidden-inl.h"
 #include "raster/large_triangles-inl.h"
+#include "raster/large_vectors-inl.h"
 #include "raster/small_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -122,9 +123,10 @@ DepthCommit& depth_test(DepthCommit& commit) { return commit; }
 DepthCommit& depth_test(ListCommit& commit) { return commit.test; }
 
 template <class Commit>
-void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, ClusterScratch& work, Commit& commit,
-                  RasterCounts& counts) {
-  const ClusterDraw& draw = in.draws[in.list[position]];
+void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& listed, ClusterScratch& work,
+                  Commit& commit, RasterCounts& counts) {
+  const ClusterDraw& draw = listed.draw;
+  const uint32_t position = listed.position;
   const WindowTransform& t = in.view.window;
   // Corners' depths bound fragments from below unless an offset may bring these nearer.
   const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
@@ -151,8 +153,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
       if (commit.fast && masked == nullptr && !t.depth.offsets()) {
         draw_small_triangles(mesh, cluster, box, in.state, t.upper_left, rect, visible_id(position, 0, false), work,
                              commit);
-        count = work.found.count_large;
-        for (int i = 0; i < count; ++i) triangle[i] = uint8_t(uint32_t(work.found.large[i]) >> 24);
+        count = draw_large_triangles({v, in.state, t.upper_left, rect}, work.found.large, work.found.count_large,
+                                     visible_id(position, 0, false), commit, triangle);
         sorted = true;
       }
     }
@@ -195,45 +197,6 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, uint32_t position, 
   }
 }
 
-// Positions in the tile's list, nearest clusters first and last those of unknown depth, large ones near the eye that
-// much of the rest hides: by 256 steps of depth, which is order enough, since any order gives the same image.
-void nearest_first(const TileDraws& in, std::span<uint32_t> order) {
-  constexpr size_t kSteps = 256;
-  float low = std::numeric_limits<float>::infinity(), high = -low;
-  for (const uint32_t i : in.list) {
-    const float near = in.draws[i].near_depth;
-    high = std::max(high, near);
-    if (near > -std::numeric_limits<float>::infinity()) low = std::min(low, near);
-  }
-  const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
-  const auto step = [&](uint32_t i) {
-    const float near = in.draws[in.list[i]].near_depth;
-    return near >= low ? std::min(size_t((near - low) * scale), kSteps - 2) : kSteps - 1;
-  };
-  uint32_t next[kSteps + 1] = {};
-  for (uint32_t i = 0; i < order.size(); ++i) ++next[step(i) + 1];
-  for (size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
-  for (uint32_t i = 0; i < order.size(); ++i) order[next[step(i)]++] = i;
-}
-
-// Asks memory for what draw_cluster() reads of a cluster: soon, or the header through which that is found.
-HWY_INLINE void fetch_header(const TileDraws& in, uint32_t position) {
-  const ClusterDraw& draw = in.draws[in.list[position]];
-  hwy::Prefetch(&in.clusters.meshes[in.scene.instances[draw.instance].mesh].clusters[draw.cluster]);
-}
-HWY_INLINE void fetch_streams(const TileDraws& in, uint32_t position) {
-  constexpr size_t kLine = 64, kNear = size_t(1) << 16;  // vertices that caches hold between tiles
-  const ClusterDraw& draw = in.draws[in.list[position]];
-  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
-  if (mesh.vertex.size() < kNear) return;
-  const Cluster& cluster = mesh.clusters[draw.cluster];
-  for (const auto& stream : mesh.position)
-    for (size_t i = 0; i < cluster.vertices; i += kLine / sizeof(float))
-      hwy::Prefetch(stream.data() + cluster.first_vertex + i);
-  for (const auto& stream : mesh.corner)
-    for (size_t i = 0; i < cluster.triangles; i += kLine) hwy::Prefetch(stream.data() + cluster.first_triangle + i);
-}
-
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                           RasterCounts& counts) {
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
@@ -248,16 +211,11 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   commit.fast = in.fast_paths && commit.skip_hidden;
   ClusterScratch work;
   if (!commit.skip_hidden) {
-    for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, counts);
+    for (uint32_t i = 0; i < in.list.size(); ++i)
+      draw_cluster(in, rect, {in.draws[in.list[i]], i}, work, commit, counts);
   } else {
-    std::vector<uint32_t> order(in.list.size());
-    nearest_first(in, order);
-    constexpr size_t kHeaderAhead = 6, kStreamsAhead = 3;
-    for (size_t i = 0; i < order.size(); ++i) {
-      if (i + kHeaderAhead < order.size()) fetch_header(in, order[i + kHeaderAhead]);
-      if (i + kStreamsAhead < order.size()) fetch_streams(in, order[i + kStreamsAhead]);
-      draw_cluster(in, rect, order[i], work, commit, counts);
-    }
+    for_each_open(in, rect, out, !commit.rule.may_come_nearer(),
+                  [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, commit, counts); });
   }
   counts.fragments += commit.fragments;
 }
@@ -281,7 +239,8 @@ void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc
   ListCommit commit{visible, {visible, func, t.depth_low, t.depth_high, cull, t.depth}, out, cull};
   RasterCounts uncounted;
   ClusterScratch work;
-  for (uint32_t i = 0; i < in.list.size(); ++i) draw_cluster(in, rect, i, work, commit, uncounted);
+  for (uint32_t i = 0; i < in.list.size(); ++i)
+    draw_cluster(in, rect, {in.draws[in.list[i]], i}, work, commit, uncounted);
   std::sort(out.begin(), out.end(), [](const DepthFragment& a, const DepthFragment& b) {
     return a.at < b.at || (a.at == b.at && a.id < b.id);
   });

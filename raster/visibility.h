@@ -40,7 +40,8 @@ constexpr bool id_careful(uint32_t id) { return id & 1; }
 struct VisibilityTile {
   alignas(64) float depth[kMaxTilePixels];
   alignas(64) uint32_t id[kMaxTilePixels];
-  alignas(64) float far[kMaxTilePixels / kBlockPixels];  ///< largest depth of each block
+  /// Largest depth of each block. Windows of 4x4 blocks that begin in the tile may be read.
+  alignas(64) float far[kMaxTilePixels / kBlockPixels + 64];
 };
 
 /// A fragment of the triangle `id` at a pixel of the tile.

@@ -1,6 +1,7 @@
 #include "scenes/light_json.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "scenes/light_buffers.h"
 #include "scenes/light_generators.h"
@@ -204,6 +205,11 @@ struct BufferSource {
   uint64_t most;
 };
 
+bool is_exr(const Bytes& content) {
+  constexpr uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
+  return content.size() >= std::size(kMagic) && std::equal(std::begin(kMagic), std::end(kMagic), content.begin());
+}
+
 std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSource& source) {
   const std::string where = source.path + ": " + node.pointer();
   const std::string file = relative_path_from_uri(node.string(), where);
@@ -214,6 +220,8 @@ std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSou
   if (table)
     return samples_from_csv({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where + ": " + file,
                             source.most);
+  if (!is_exr(bytes))  // before the reader of pictures, which would name others too
+    throw Error(ErrorKind::bad_input, where + ": " + file, "it is no EXR", "a .csv table or an .exr");
   return samples_from_image(source.decode(bytes, where + ": " + file, source.limits.texture_bytes), where + ": " + file,
                             source.most);
 }

@@ -152,6 +152,15 @@ void read_transparency(const json::Node& node, TransparencyState& t) {
   if (const auto blend = node.find("blend")) read_blend(*blend, t.blend);
 }
 
+// Whether a text by itself wants surfaces blended into a G-buffer that its strategy has not. Where it says only one of
+// the two it is right by itself; what it is put together with is validate()'s matter.
+bool blends_into_no_gbuffer(const json::Node& text, const Pipeline& p) {
+  const auto transparency = text.find("transparency");
+  const bool all = text.find("preset").has_value();
+  const bool strategy = all || text.find("strategy"), mode = all || (transparency && transparency->find("mode"));
+  return strategy && mode && p.transparency.mode == TransparencyMode::into_albedo && is_forward(p.strategy);
+}
+
 void read_post(const json::Node& node, PostChain& p) {
   node.check_keys(kObjects[kPost]);
   read_integer(node, "samples", p.samples, 1, 8);
@@ -197,6 +206,9 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   read_choice(node, "strategy", p.strategy, kStrategyNames);
   read_format(node, "target", p.target, kTargetFormats);
   read_choice(node, "profile", p.profile, kProfileNames);
+  if (blends_into_no_gbuffer(node, p))
+    node.fail("transparency into-albedo with strategy " + std::string(name_of(p.strategy)) + ", which has no G-buffer",
+              "after-lights, or a deferred strategy");
   if (const auto post = node.find("post")) read_post(*post, p.post);
   read_choice(node, "view", p.view, kViewNames);
   if (p.gbuffer.position_from_depth && p.geometry.depth_near == p.geometry.depth_far)

@@ -86,15 +86,15 @@ inline void draw_every(const AnyTerms& terms, const BlendPlan& plan, const Surfa
   out.store(tile, i);
 }
 
-/// Pixels that several fragments share: every light but the first draws all of them, in order of submission.
-inline void draw_tied(const AnyTerms& terms, const BlendPlan& plan, const TiedFragments& tied, int pixels,
+/// Pixels that several fragments share: every light from `first` on draws all of them, in order of submission.
+inline void draw_tied(const AnyTerms& terms, const BlendPlan& plan, const TiedFragments& tied, size_t first, int pixels,
                       ColorTile& tile, LightCounts& counts) {
   const DF d;
   const DI di;
   for (int i = 0; i < pixels; i += int(hn::Lanes(d))) {
     if (hn::AllTrue(di, hn::Eq(hn::LoadU(di, tied.tied.data() + i), hn::Zero(di)))) continue;
     StoredPixels out(tile, i);
-    for (size_t light = 1; light < terms.lights.size(); ++light)
+    for (size_t light = first; light < terms.lights.size(); ++light)
       for (size_t layer = 0; layer < tied.used; ++layer) {
         const SurfaceTile& surface = *tied.layers[layer];
         const PixelVector px = terms.load(surface, i);

@@ -352,7 +352,7 @@ void blend_tile_simd(const LightDraws& draws, const SurfaceTile& surface, const 
     list_chunk(t, first, std::min(work.touching.size(), first + kChunkLights));
     with_shape(draws.model, draws.compiled, DrawRegions{t});
   }
-  if (t.tied != nullptr) draw_tied(t.terms, t.plan, *tied, t.pixels(), out, counts);
+  if (t.tied != nullptr) draw_tied(t.terms, t.plan, *tied, first_light, t.pixels(), out, counts);
   counts.lit_pairs += sum_of(out.light_count, t.pixels());
 }
 

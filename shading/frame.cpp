@@ -177,8 +177,11 @@ struct FrameWork {
       write_stored(s.color, where, out.color);
     else
       store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
-    light_planes.draw(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
-                      out.aovs);
+    if (blends_lights(pipeline.strategy))
+      light_planes.blend(light_draws(), s.surface, tied ? &s.tied : nullptr, where, s.blend, s.extra, out.aovs);
+    else
+      light_planes.sum(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
+                       out.aovs);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
       if (aov.name == "specular" || aov.name == "emission") {
@@ -266,13 +269,6 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
   }
 }
 
-// Of forward-multipass every light is a draw of the scene, wherever it reaches.
-Pipeline drawn_volumes(const Pipeline& pipeline) {
-  Pipeline p = pipeline;
-  if (p.strategy == Strategy::forward_multipass) p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;
-  return p;
-}
-
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene)
@@ -308,11 +304,12 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   LightMeshes meshes(pipeline.light_volumes);
   LightOutlines outlines;
   if (blends_lights(pipeline.strategy))
-    outlines = make_light_outlines(scene.lights, drawn_volumes(pipeline), meshes, view, execution.threads);
+    outlines = outlines_of_draws(scene.lights, pipeline, meshes, view, execution.threads);
+  LightPlanes light_planes(aovs, scene, pipeline, meshes, view);
   frame.stats.before_tiles_ms = now_ms() - start;
   draw_tiles({prepared, pipeline, execution, std::move(view), *bins.bins, std::move(lights), std::move(plain),
-              std::move(groups), std::move(meshes), std::move(outlines), need_uv,
-              LightPlanes(aovs, scene, pipeline), TransparentPass(scene, pipeline, execution), frame},
+              std::move(groups), std::move(meshes), std::move(outlines), need_uv, std::move(light_planes),
+              TransparentPass(scene, pipeline, execution), frame},
              progress);
 
   FrameStats& stats = frame.stats;

@@ -25,6 +25,14 @@ void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::
 
 }  // namespace
 
+LightOutlines outlines_of_draws(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
+                                const View& view, int threads) {
+  Pipeline drawn = pipeline;
+  if (pipeline.strategy == Strategy::forward_multipass)
+    drawn.light_volumes.point = drawn.light_volumes.spot = LightExtent::unbounded;
+  return make_light_outlines(lights, drawn, meshes, view, threads);
+}
+
 void list_draws(const LightDraws& in, const TileRect& rect, std::span<const uint32_t> lights,
                 std::vector<uint16_t>& counts, TileLights& out) {
   for (const uint32_t light : lights) {

@@ -30,6 +30,11 @@ struct LightDraws {
   bool compiled;    ///< use kernels compiled for the model's shape; never changes a bit
 };
 
+/// What the draws of lights cover under a strategy that blends: of forward-multipass every light is a draw of the
+/// scene, wherever it reaches.
+LightOutlines outlines_of_draws(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
+                                const View& view, int threads);
+
 /// Adds the draws that some lights have in a tile, a light as often as its geometry covers pixels. `counts` is scratch.
 void list_draws(const LightDraws& draws, const TileRect& rect, std::span<const uint32_t> lights,
                 std::vector<uint16_t>& counts, TileLights& out);

@@ -1,5 +1,6 @@
 #include "shading/light_planes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 
@@ -16,31 +17,60 @@ std::optional<size_t> light_of_plane(std::string_view name) {
   return light;
 }
 
-LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline)
+namespace {
+
+constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+
+void store(const ColorTile& color, const TileRect& rect, Image& image) {
+  for (int y = 0; y < std::min(rect.size, image.height - rect.y); ++y)
+    for (int x = 0; x < std::min(rect.size, image.width - rect.x); ++x) {
+      const int at = tile_index(rect.size, x, y);
+      const float value[3] = {color.plane[0][at], color.plane[1][at], color.plane[2][at]};
+      std::memcpy(image.texel(rect.x + x, image.height - 1 - (rect.y + y)), value, sizeof value);
+    }
+}
+
+}  // namespace
+
+LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
+                         const LightMeshes& meshes, const View& view)
     : model_(pipeline.light_model) {
   for (size_t i = 0; i < planes.size(); ++i)
     if (const std::optional<size_t> light = light_of_plane(planes[i])) {
       const std::span<const Light> alone = std::span(scene.lights).subspan(*light, 1);
-      LightTable table = make_light_table(alone, model_, scene.camera);
-      bound_by_extents(table, alone, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
-      planes_.push_back({i, std::move(table)});
+      Plane plane{i, *light, alone, make_light_table(alone, model_, scene.camera), {}};
+      bound_by_extents(plane.table, alone, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
+      if (blends_lights(pipeline.strategy)) plane.outlines = outlines_of_draws(alone, pipeline, meshes, view, 1);
+      planes_.push_back(std::move(plane));
     }
 }
 
-void LightPlanes::draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
-                       ColorTile& color, std::span<NamedImage> planes) const {
-  constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+void LightPlanes::sum(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
+                      ColorTile& color, std::span<NamedImage> planes) const {
   for (const Plane& plane : planes_) {
     LightCounts uncounted;
-    light_tile(surface, rect.size, plane.light, LightGroups{}, model_, kNothing, {culling, compiled}, work, color,
+    light_tile(surface, rect.size, plane.table, LightGroups{}, model_, kNothing, {culling, compiled}, work, color,
                uncounted);
-    Image& image = planes[plane.index].image;
-    for (int y = 0; y < std::min(rect.size, image.height - rect.y); ++y)
-      for (int x = 0; x < std::min(rect.size, image.width - rect.x); ++x) {
-        const int at = tile_index(rect.size, x, y);
-        const float value[3] = {color.plane[0][at], color.plane[1][at], color.plane[2][at]};
-        std::memcpy(image.texel(rect.x + x, image.height - 1 - (rect.y + y)), value, sizeof value);
-      }
+    store(color, rect, planes[plane.index].image);
+  }
+}
+
+void LightPlanes::blend(const LightDraws& frame, const SurfaceTile& surface, const TiedFragments* tied,
+                        const TileRect& rect, BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const {
+  const LightGroups ungrouped;
+  for (const Plane& plane : planes_) {
+    const LightDraws draws{plane.alone,    plane.table,
+                           ungrouped,      frame.model,
+                           frame.volumes,  frame.meshes,
+                           plane.outlines, frame.view,
+                           kAddLight,      {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
+                           false,          false,
+                           frame.culling,  frame.compiled};
+    // What the first draw leaves is one fragment's, however many share the pixel.
+    const bool in_first = frame.first_base && plane.light == 0;
+    LightCounts uncounted;
+    blend_tile(draws, surface, in_first ? nullptr : tied, rect, kNothing, work, color, uncounted);
+    store(color, rect, planes[plane.index].image);
   }
 }
 

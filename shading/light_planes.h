@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "raster/visibility.h"
 #include "scenes/scene.h"
+#include "shading/blend_pass.h"
 #include "shading/light_pass.h"
 
 namespace trueshade {
@@ -15,20 +16,30 @@ namespace trueshade {
 /// The i of a plane `light.<i>`, written without leading zeros; nothing for other names.
 std::optional<size_t> light_of_plane(std::string_view name);
 
-/// What each of some lights alone adds to the pixels within its extent: the planes `light.<i>`, rgb32f. Their f32 sums
-/// in index order, from +0, are what a loop over all lights comes to before it is stored, bit for bit.
+/// What each of some lights alone adds to the pixels that the strategy draws it on, as often as it draws it there: the
+/// planes `light.<i>`, rgb32f. Their f32 sums in index order, from what pixels hold before any light, are bit for bit
+/// what a loop over all lights comes to before it is stored, and what draws leave that are added into floats, where
+/// none lights a pixel twice (docs/views.md).
 class LightPlanes {
  public:
-  LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline);
+  LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
+              const LightMeshes& meshes, const View& view);
 
-  /// Draws a tile of each plane; `planes` are those of the constructor, in order. `work` and `color` are scratch.
-  void draw(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
-            ColorTile& color, std::span<NamedImage> planes) const;
+  /// Draws a tile of each plane for strategies that sum; `planes` are those of the constructor, in order. `work` and
+  /// `color` are scratch.
+  void sum(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
+           ColorTile& color, std::span<NamedImage> planes) const;
+
+  /// The same for strategies that blend. `frame`: the draws of all lights; `tied`: as blend_tile() takes it.
+  void blend(const LightDraws& frame, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
+             BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const;
 
  private:
   struct Plane {
-    size_t index;
-    LightTable light;
+    size_t index, light;
+    std::span<const Light> alone;
+    LightTable table;
+    LightOutlines outlines;  ///< of strategies that blend
   };
   std::vector<Plane> planes_;
   LightModel model_;

@@ -84,6 +84,23 @@ TEST_CASE("a bad pipeline file is refused with its place") {
   CHECK(folder.entries() == std::vector<std::string>{"p.json"});
 }
 
+TEST_CASE("a pipeline that contradicts itself is refused with its file; one that options contradict, as a mistake") {
+  const ScratchFolder folder;
+  const std::string both = R"({"strategy": "forward-loop", "transparency": {"mode": "into-albedo"}})";
+  std::ofstream(folder.path("p.json")) << both;
+  std::ofstream(folder.path("s.json")) << R"({"version": 1, "pipeline": )" << both << "}";
+  std::ofstream(folder.path("half.json")) << R"({"transparency": {"mode": "into-albedo"}})";
+  const auto refused = [&](Arguments arguments, int exit_code, const std::string& about) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.push_back("--hash");
+    check_refused(run_command(arguments, folder.path("")), exit_code, about);
+  };
+  refused({"builtin:cornell", "--pipeline", "p.json"}, 3,
+          "p.json: transparency into-albedo with strategy forward-loop");
+  refused({"s.json"}, 3, "s.json: /pipeline: transparency into-albedo with strategy forward-loop");
+  refused({"builtin:cornell", "--pipeline", "half.json", "--strategy", "forward-loop"}, 2, "transparency.mode");
+}
+
 TEST_CASE("an output that cannot be written is exit 5, and nothing is left") {
   const ScratchFolder folder;
   const Arguments small = {"render", "builtin:cornell", "--size", "64x64", "-o"};

@@ -181,8 +181,13 @@ TEST_CASE("help, version and lists go to standard output") {
   CHECK(output_of({"--version"}).starts_with("trueshade "));
   CHECK(output_of({"list"}).find("city") != std::string::npos);
   const std::string json = output_of({"list", "--json"});
-  for (const char* key : {"scenes", "presets", "strategies", "formats", "simd"})
+  for (const char* key : {"scenes", "presets", "strategies", "profiles", "driver_profiles", "formats", "simd"})
     CHECK(json.find('"' + std::string(key) + "\": [") != std::string::npos);
+  for (const std::string& text : {output_of({"list"}), json})
+    for (const char* name : {"ideal", "mesa-llvmpipe-22.3", "d3d-class"}) {
+      INFO(name);
+      CHECK(text.find(name) != std::string::npos);
+    }
 }
 
 TEST_CASE("info on a scene says what is in it") {

@@ -159,10 +159,10 @@ TEST_CASE("Attributes that a triangle's corners share are the same by the path f
   }
 }
 
-TEST_CASE("Sheets of triangles of 1 to 12 pixels are the same by the path for their size and by the general one") {
+TEST_CASE("Sheets of triangles of 1 to 50 pixels are the same by the path for their size and by the general one") {
   Random random(35);
   const Pipeline pipeline = window_pipeline();
-  for (const double side : {0.7, 1.5, 3.0, 4.5, 6.5, 8.0, 12.0}) {
+  for (const double side : {0.7, 1.5, 3.0, 4.5, 6.5, 8.0, 12.0, 20.0, 50.0}) {
     constexpr int kQuads = 14;
     const double low = 0.5 * (kWindow - kQuads * side);
     std::vector<Corner> corners;

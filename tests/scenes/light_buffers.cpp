@@ -90,7 +90,7 @@ TEST_CASE("a picture's texels are samples, rows top first") {
 
 /// A decoder that knows one picture.
 Image decoded(std::span<const uint8_t> content, const std::string& where, uint64_t) {
-  if (content.size() != 7) throw Error(ErrorKind::bad_input, where, "it is no picture", "one");
+  if (content.size() != 11) throw Error(ErrorKind::bad_input, where, "it is no picture", "one");
   return floats(3, 1);
 }
 
@@ -99,8 +99,11 @@ Scene load(const std::string& lights, const ImageDecoder& decode = decoded) {
   scratch.write("p.csv", "tx,ty,tz\n1,2,3\n4,5,6\n7,8,9\n");
   scratch.write("two.csv", "1,1,1\n1,1,1\n");
   scratch.write("dark.csv", "1,1,1\n1,-1,1\n1,1,1\n");
-  scratch.write("c.exr", "picture");
-  scratch.write("bad.exr", "");
+  scratch.write("c.exr", "\x76\x2f\x31\x01picture");
+  scratch.write("torn.exr", "\x76\x2f\x31\x01");
+  scratch.write("empty.exr", "");
+  scratch.write("text.exr", "1,2,3\n4,5,6\n");
+  scratch.write("png.exr", "\x89PNG\r\n\x1a\n");
   return load_scene(scratch.write("s.json", R"({"version": 1, "lights": [)" + lights + "]}"), {}, decode);
 }
 
@@ -134,7 +137,13 @@ TEST_CASE("buffers that do not fit are refused at their place") {
        "s.json: /lights/0/color: sample 1 is out of range"},
       {R"({"type": "buffers", "position": "p.txt"})", "s.json: /lights/0/position: the ending names no format"},
       {R"({"type": "buffers", "position": "../p.csv"})", "s.json: /lights/0/position: the path leaves"},
-      {R"({"type": "buffers", "position": "bad.exr"})", "s.json: /lights/0/position: bad.exr: it is no picture"},
+      {R"({"type": "buffers", "position": "torn.exr"})", "s.json: /lights/0/position: torn.exr: it is no picture"},
+      {R"({"type": "buffers", "position": "empty.exr"})",
+       "s.json: /lights/0/position: empty.exr: it is no EXR (a .csv table or an .exr)"},
+      {R"({"type": "buffers", "position": "text.exr"})",
+       "s.json: /lights/0/position: text.exr: it is no EXR (a .csv table or an .exr)"},
+      {R"({"type": "buffers", "position": "p.csv", "color": "png.exr"})",
+       "s.json: /lights/0/color: png.exr: it is no EXR (a .csv table or an .exr)"},
       {R"({"type": "buffers", "position": "p.csv", "intensity": 1e18, "color": [[1, 1, 1], [2, 1, 1], [1, 1, 1]]})",
        "s.json: light 1: the colour"},
   };

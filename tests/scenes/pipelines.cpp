@@ -61,7 +61,7 @@ Pipeline strange_pipeline() {
             PostChain::Encode::srgb,
             true,
             Format::rgba16f};
-  p.strategy = Strategy::forward_loop;
+  p.strategy = Strategy::deferred_volumes;
   p.light_volumes = {LightExtent::box, LightExtent::cone, 64, 2, CullFace::front, false, false};
   p.blend = {false,
              {BlendEquation::reverse_subtract, BlendFactor::src_alpha_saturate, BlendFactor::one_minus_dst_color},
@@ -169,6 +169,12 @@ TEST_CASE("bad pipelines are refused at their pointer") {
        "p.json: /transparency/mode: found \"sorted\" (one of none into-albedo after-lights)"},
       {R"({"transparency": {"blend": {"rgb": {"dst": "alpha"}}}})",
        "p.json: /transparency/blend/rgb/dst: found \"alpha\" (one of zero"},
+      {R"({"strategy": "forward-loop", "transparency": {"mode": "into-albedo"}})",
+       "p.json: transparency into-albedo with strategy forward-loop, which has no G-buffer (after-lights, or a deferred"},
+      {R"({"transparency": {"mode": "into-albedo"}, "strategy": "forward-multipass"})",
+       "p.json: transparency into-albedo with strategy forward-multipass"},
+      {R"({"preset": "lecture", "transparency": {"mode": "into-albedo"}})",
+       "p.json: transparency into-albedo with strategy forward-loop"},
       {R"({"transparency": {"alpha": 1}})", "p.json: /transparency/alpha: this key is unknown"},
       {R"({"light_model": {"cone": "cosine"}})",
        "p.json: /light_model/cone: found \"cosine\" (one of none smooth_cutoff"},

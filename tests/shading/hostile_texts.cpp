@@ -128,6 +128,13 @@ std::string scene_text(const Text& row, const std::string& number) {
          "}}";
 }
 
+/// What README promises of a bad file: `FILE: WHERE: REASON (REMEDY)` in one line, and exit code 3, or 4 for a limit.
+bool names_the_file(const Error& error) {
+  const std::string line = error.what();
+  return (error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::limit) &&
+         line.find("s.json: ") != std::string::npos && line.find('\n') == std::string::npos;
+}
+
 TEST_CASE("hostile numbers in a scene's text: a frame without NaN, or exit code 3 or 4 in one line") {
   const ScratchFolder scratch;
   size_t drawn = 0, refused = 0, case_number = 0;
@@ -147,9 +154,7 @@ TEST_CASE("hostile numbers in a scene's text: a frame without NaN, or exit code 
         if (fault.empty()) fault = fault_of(scene, pipeline, Format::rgba32f);
         ++drawn;
       } catch (const Error& error) {
-        const bool in_kind = error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::limit ||
-                             error.kind() == ErrorKind::usage;  // usage: validate(Pipeline) names no file
-        if (!in_kind || std::string(error.what()).find('\n') != std::string::npos) fault = error.what();
+        if (!names_the_file(error)) fault = error.what();
         ++refused;
       }
       if (!fault.empty()) FAIL_CHECK(row.text << " with " << number << ": " << fault);
@@ -160,6 +165,29 @@ TEST_CASE("hostile numbers in a scene's text: a frame without NaN, or exit code 
   }
   CHECK(drawn > 250);
   CHECK(refused > 400);
+}
+
+TEST_CASE("values of a pipeline that are each in range and contradict each other are the file's fault, by its name") {
+  constexpr const char* kContradictions[] = {
+      R"({"strategy": "forward-loop", "transparency": {"mode": "into-albedo"}})",
+      R"({"strategy": "forward-multipass", "transparency": {"mode": "into-albedo"}})",
+      R"({"preset": "lecture", "transparency": {"mode": "into-albedo"}})",
+      R"({"light_model": {"order": "albedo_last", "specular_source": "model"}})",
+      R"({"gbuffer": {"position_from_depth": true}, "geometry": {"depth_near": 0.5, "depth_far": 0.5}})",
+      R"({"post": {"tone_map": "reinhard", "white": 1e-7}})",
+  };
+  const ScratchFolder scratch;
+  for (const char* pipeline : kContradictions) {
+    INFO(pipeline);
+    const std::string path = scratch.write("s.json", R"({"version": 1, "pipeline": )" + std::string(pipeline) + "}");
+    bool refused = false;
+    try {
+      load_scene(path);
+    } catch (const Error& error) {
+      refused = names_the_file(error) && error.kind() == ErrorKind::bad_input;
+    }
+    CHECK(refused);
+  }
 }
 
 }  // namespace

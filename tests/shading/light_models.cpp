@@ -1,9 +1,11 @@
 // Every term of scenes/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
 // roundings; the kernels compiled for the usual models against the general one.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
 
+#include "core/half.h"
 #include "oracle/scalar_light.h"
 #include "scenes/presets.h"
 #include "shading/light_shape.h"
@@ -68,6 +70,84 @@ Execution on(std::string_view simd, bool compiled, bool culling = true) {
 }
 
 }  // namespace
+
+namespace {
+
+/// What a plane of the G-buffer holds of a value (docs/arithmetic.md section 7).
+float as_stored(Format format, HalfRound round, float x) {
+  if (info(format).bytes_per_channel == 4) return x;
+  if (format == Format::rgba8) return std::nearbyint(255.0f * std::clamp(x, 0.0f, 1.0f)) / 255.0f;
+  return float_from_half(half_from_float(x, round));
+}
+
+/// What lights read of a pixel's material through planes of those formats. `plain`: a frame whose albedo is what metals
+/// are made of.
+Pixel through_planes(const Result& result, const Result& plain, const GBufferState& planes, int x, int y) {
+  Pixel p = result.pixel(x, y);
+  const Pixel unmapped = plain.pixel(x, y);
+  const Material& m = result.materials[size_t(result.frame.aovs[5].image.value(x, y, 0)) - 1];
+  for (int k = 0; k < 3; ++k) {
+    const float metal = m.metallic,
+                own = result.metals ? 0.04f * (1.0f - metal) + unmapped.albedo[k] * metal : m.specular_color[k];
+    p.specular[k] = as_stored(planes.specular, planes.half_round, own);
+    p.emission[k] = as_stored(planes.emission, planes.half_round, p.emission[k]);
+  }
+  p.specular[3] = as_stored(planes.specular, planes.half_round, p.specular[3]);
+  return p;
+}
+
+/// Values of the planes `specular` and `emission`, and of the picture, that are not the formula's.
+std::array<size_t, 3> unlike_through_planes(const Scene& scene, const Pipeline& pipeline, std::string_view simd) {
+  const Execution execution = on(simd, simd != "scalar");
+  const Result result = render(scene, pipeline, execution);
+  Pipeline unmapped = pipeline;
+  unmapped.light_model.specular_source = SpecularSource::material;
+  const Result plain = render(scene, unmapped, execution);
+  const std::string names[] = {"specular", "emission"};
+  const Frame frame = render_frame(scene, pipeline, execution, names);
+  std::array<size_t, 3> unlike{};
+  REQUIRE(frame.aovs[0].image.format == pipeline.gbuffer.specular);
+  REQUIRE(frame.aovs[1].image.format == pipeline.gbuffer.emission);
+  const auto held = [](const Image& image, int x, int y, int k) {
+    return image.format == Format::rgba8 ? float(image.texel(x, y)[k]) / 255.0f : float(image.value(x, y, k));
+  };
+  for (int y = 0; y < pipeline.height; ++y)
+    for (int x = 0; x < pipeline.width; ++x) {
+      if (!result.covered(x, y)) continue;
+      const Pixel p = through_planes(result, plain, pipeline.gbuffer, x, y);
+      for (int k = 0; k < 4; ++k) unlike[0] += held(frame.aovs[0].image, x, y, k) != p.specular[k];
+      for (int k = 0; k < 3; ++k) unlike[1] += held(frame.aovs[1].image, x, y, k) != p.emission[k];
+      const std::array<float, 4> expected = naive_sum(scene, pipeline.light_model, p);
+      unlike[2] += std::memcmp(expected.data(), result.frame.color.texel(x, y), sizeof expected) != 0;
+    }
+  return unlike;
+}
+
+}  // namespace
+
+TEST_CASE("specular colour, shininess and emission reach the lights through planes of every format they may have") {
+  Random random(71);
+  Scene scene = mixed_sheets(random);
+  const float shininess[] = {8191, 2049, 4099, 7};  // halves hold the last of these alone
+  for (size_t i = 0; i < 4; ++i) scene.materials[i].shininess = shininess[i];
+  scene.materials[2].roughness = 0.15f;                // 3949, no half either
+  scene.materials[3].emission = {3.7f, 0.001f, 0.6f};  // what 8 bits clamp
+  for (int light = 0; light < 24; ++light) scene.lights.push_back(random_light(random));
+  Pipeline pipeline = loop_pipeline("many-lights");
+  pipeline.gbuffer.albedo.format = Format::rgba32f;
+  pipeline.light_model.emission = true;
+  for (const SpecularSource source : {SpecularSource::material, SpecularSource::metallic_roughness})
+    for (const Format specular : kSpecularFormats)
+      for (const Format emission : kEmissionFormats)
+        for (const HalfRound round : {HalfRound::toward_zero, HalfRound::nearest})
+          for (const std::string_view simd : simd_targets()) {
+            pipeline.light_model.specular_source = source;
+            pipeline.gbuffer.specular = specular, pipeline.gbuffer.emission = emission;
+            pipeline.gbuffer.half_round = round;
+            CAPTURE(int(source), info(specular).name, info(emission).name, int(round), simd);
+            CHECK(unlike_through_planes(scene, pipeline, simd) == std::array<size_t, 3>{0, 0, 0});
+          }
+}
 
 TEST_CASE("every term, falloff, cone and order of a light model has the naive loop's bits") {
   Random random(58);

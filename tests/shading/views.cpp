@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/srgb.h"
 #include "raster/simd_target.h"
+#include "scenes/light_mesh.h"
 #include "scenes/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -159,6 +160,148 @@ TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32
           CHECK(count[1] > 61 * 47 / 10);
         }
   }
+}
+
+namespace {
+
+Frame with_light_planes(const PreparedScene& prepared, const Pipeline& pipeline, std::string_view simd) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < prepared.scene().lights.size(); ++i) names.push_back("light." + std::to_string(i));
+  Execution execution;
+  execution.simd = simd;
+  execution.tile = simd == "scalar" ? 16 : 64;
+  execution.light_culling = simd != "scalar";
+  return render_frame(prepared, pipeline, execution, names);
+}
+
+bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
+
+/// Values of a rgba32f picture that are not what pixels hold without lights with each light's draws added in turn, the
+/// planes of light geometry of both faces that are not the sum of its two draws; and values that light changes.
+std::array<int, 2> unlike_and_lit_by_draws(const Scene& scene, const Pipeline& pipeline, std::string_view simd) {
+  const PreparedScene prepared(scene);
+  Scene dark = scene;
+  dark.lights.clear();
+  const Image start = render_frame(dark, pipeline).color;
+  const Frame frame = with_light_planes(prepared, pipeline, simd);
+  std::vector<Frame> face;
+  if (pipeline.strategy == Strategy::deferred_volumes && pipeline.light_volumes.cull_face == CullFace::none)
+    for (const CullFace culled : {CullFace::back, CullFace::front}) {
+      Pipeline one = pipeline;
+      one.light_volumes.cull_face = culled;
+      face.push_back(with_light_planes(prepared, one, simd));
+    }
+  std::array<int, 2> count{};
+  for (int y = 0; y < pipeline.height; ++y)
+    for (int x = 0; x < pipeline.width; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const float before = at<float>(start, x, y, k);
+        float sum = before;
+        bool unlike = false;
+        for (size_t i = 0; i < scene.lights.size(); ++i) {
+          const float plane = at<float>(frame.aovs[i].image, x, y, k);
+          if (!face.empty() && is_mesh(drawn_extent(scene.lights[i], pipeline.light_volumes))) {
+            const float front = at<float>(face[0].aovs[i].image, x, y, k);
+            const float back = at<float>(face[1].aovs[i].image, x, y, k);
+            unlike = unlike || !same_bits(plane, front + back);
+            sum = sum + front + back;
+          } else {
+            sum += plane;
+          }
+        }
+        unlike = unlike || !same_bits(sum, at<float>(frame.color, x, y, k));
+        count[0] += unlike, count[1] += !same_bits(sum, before);
+      }
+  return count;
+}
+
+/// The lights of a built-in scene, some of which lie outside the view, a spot, and one about the camera.
+Scene scene_among_lights() {
+  Scene scene = load_scene("builtin:circle");
+  scene.lights.resize(std::min<size_t>(scene.lights.size(), 12));
+  for (size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].range = 0.4f + 0.3f * float(i);
+  scene.lights.push_back(bulb(scene.camera.eye, 7.0f));
+  Light spot = bulb({0.3f, 3.0f, 0.2f}, 4.0f);
+  spot.type = LightType::spot;
+  spot.direction = {0.0f, -1.0f, 0.0f};
+  spot.cone_rad = 0.6f, spot.penumbra_rad = 0.2f;
+  scene.lights.push_back(spot);
+  scene.lights.push_back(bulb({0.0f, 2.0f, 0.0f}, std::numeric_limits<float>::infinity()));
+  return scene;
+}
+
+constexpr const char* kPlanePresets[] = {"many-lights",   "touchdesigner",         "gl-fixed", "lecture",
+                                         "light-volumes", "light-volumes-literal", "redsdk"};
+
+}  // namespace
+
+TEST_CASE(
+    "The planes light.<i> of light geometry, added in light order to what is there without lights, are the "
+    "rgba32f image bit for bit: whatever it is, wherever its faces point, inside and out",
+    "[views]") {
+  const Scene scene = scene_among_lights();
+  size_t turn = 0;
+  for (const char* preset : kPlanePresets)
+    for (const LightExtent extent :
+         {LightExtent::unbounded, LightExtent::range, LightExtent::box, LightExtent::sphere, LightExtent::cone})
+      for (const CullFace culled : {CullFace::none, CullFace::front, CullFace::back, CullFace::front_and_back}) {
+        Pipeline p = pipeline_of(preset, 61, 47);
+        p.strategy = Strategy::deferred_volumes;
+        p.target = Format::rgba32f;
+        p.blend = kAddLight;
+        p.light_volumes.point = extent == LightExtent::cone ? LightExtent::sphere : extent;
+        p.light_volumes.spot = extent;
+        p.light_volumes.cull_face = culled;
+        p.light_volumes.base = turn++ % 3 != 0;
+        const std::string_view simd = turn % 2 ? "best" : "scalar";
+        CAPTURE(preset, int(extent), int(culled), p.light_volumes.base, simd);
+        const std::array<int, 2> count = unlike_and_lit_by_draws(scene, p, simd);
+        CHECK(count[0] == 0);
+        if (culled != CullFace::front_and_back) CHECK(count[1] > 61 * 47 / 10);
+      }
+}
+
+TEST_CASE("The planes light.<i> of forward-multipass, added likewise, are the rgba32f image bit for bit", "[views]") {
+  const Scene scene = scene_among_lights();
+  for (const char* preset : kPlanePresets)
+    for (const std::string_view simd : simd_targets()) {
+      Pipeline p = pipeline_of(preset, 61, 47);
+      p.strategy = Strategy::forward_multipass;
+      p.target = Format::rgba32f;
+      p.light_model.clamp_result = false;  // or light 0 and what needs no light are clamped as one
+      CAPTURE(preset, simd);
+      const std::array<int, 2> count = unlike_and_lit_by_draws(scene, p, simd);
+      CHECK(count[0] == 0);
+      CHECK(count[1] > 61 * 47 / 10);
+    }
+}
+
+TEST_CASE("A plane light.<i> has what the light adds through every fragment that multipass lights", "[views]") {
+  Scene scene = two_squares();
+  scene.instances[1].world_from_object = scene.instances[0].world_from_object;  // the same depth everywhere
+  scene.materials[0].base_color = {1.0f, 0.25f, 0.0f, 1.0f};
+  scene.lights = {bulb({0.0f, 0.0f, 1.5f}, 6.0f), bulb({0.5f, 0.0f, 2.0f}, 6.0f)};
+  Pipeline p = pipeline_of("light-volumes", 60, 60);  // diffuse: what is reflected is proportional to the albedo
+  p.strategy = Strategy::forward_multipass;
+  p.target = Format::rgba32f;
+  p.geometry.depth_func = DepthFunc::lequal;
+  const std::string planes[] = {"light.0", "light.1"};
+  const Frame frame = render_frame(scene, p, {}, planes);
+  int lit = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      float value[2][3];
+      for (size_t i = 0; i < 2; ++i)
+        for (int k = 0; k < 3; ++k) value[i][k] = at<float>(frame.aovs[i].image, x, y, k);
+      for (int k = 0; k < 3; ++k) {
+        const float found = at<float>(frame.color, x, y, k);
+        if (value[0][1] > 0.0f) CHECK(std::fabs(value[0][k] + value[1][k] - found) <= found * 0x1p-22f);
+      }
+      if (!(value[1][1] > 0.0f)) continue;
+      ++lit;
+      CHECK(value[1][0] == Approx(value[1][1] / 1.25f).epsilon(0.02));  // red once, green of both
+    }
+  CHECK(lit > 100);
 }
 
 TEST_CASE("Z is the distance along the view axis, whatever the camera's matrix", "[views]") {

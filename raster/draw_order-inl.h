@@ -1,0 +1,104 @@
+// The order in which a tile's clusters are drawn, and what memory is asked for ahead of that. Included once per SIMD
+// target. Any order gives the same image.
+#if defined(TRUESHADE_RASTER_DRAW_ORDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_DRAW_ORDER_INL_H_
+#undef TRUESHADE_RASTER_DRAW_ORDER_INL_H_
+#else
+#define TRUESHADE_RASTER_DRAW_ORDER_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "raster/hidden-inl.h"
+#include "raster/visibility.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A cluster of a tile's list and its position there. Copies, so that they lie in the order in which they are drawn.
+struct ListedDraw {
+  ClusterDraw draw;
+  uint32_t position;
+};
+
+/// Nearest clusters first and last those of unknown depth, large ones near the eye that much of the rest hides: by 256
+/// steps of depth, which is order enough.
+inline std::vector<ListedDraw> nearest_first(const TileDraws& in) {
+  constexpr int kSteps = 256;
+  constexpr size_t kAhead = 16;
+  const size_t count = in.list.size();
+  std::vector<float> near(count);
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) hwy::Prefetch(&in.draws[in.list[i + kAhead]]);
+    near[i] = in.draws[in.list[i]].near_depth;
+    high = std::max(high, near[i]);
+    if (near[i] > -std::numeric_limits<float>::infinity()) low = std::min(low, near[i]);
+  }
+  const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
+  const auto step = [&](float z) { return z >= low ? std::min(int((z - low) * scale), kSteps - 2) : kSteps - 1; };
+  uint32_t next[kSteps + 1] = {};
+  for (const float z : near) ++next[step(z) + 1];
+  for (int k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
+  std::vector<ListedDraw> order(count);
+  for (size_t i = 0; i < count; ++i) order[next[step(near[i])]++] = {in.draws[in.list[i]], uint32_t(i)};
+  return order;
+}
+
+/// Asks memory for what is read of an instance.
+HWY_INLINE void fetch_instance(const TileDraws& in, const ClusterDraw& draw) {
+  hwy::Prefetch(&in.scene.instances[draw.instance]);
+  const InstanceTransform& transform = in.view.instances[draw.instance];
+  hwy::Prefetch(transform.clip);
+  hwy::Prefetch(transform.clip[3] + 3);
+}
+
+/// For the header, through which a cluster's streams are found.
+HWY_INLINE void fetch_header(const TileDraws& in, const ClusterDraw& draw) {
+  hwy::Prefetch(&in.clusters.meshes[in.scene.instances[draw.instance].mesh].clusters[draw.cluster]);
+}
+
+/// For the streams.
+HWY_INLINE void fetch_streams(const TileDraws& in, const ClusterDraw& draw) {
+  constexpr size_t kLine = 64, kNear = size_t(1) << 16;  // vertices that caches hold between tiles
+  const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
+  if (mesh.vertex.size() < kNear) return;
+  const Cluster& cluster = mesh.clusters[draw.cluster];
+  for (const auto& stream : mesh.position)
+    for (size_t i = 0; i < cluster.vertices; i += kLine / sizeof(float))
+      hwy::Prefetch(stream.data() + cluster.first_vertex + i);
+  for (const auto& stream : mesh.corner)
+    for (size_t i = 0; i < cluster.triangles; i += kLine) hwy::Prefetch(stream.data() + cluster.first_triangle + i);
+}
+
+/// Visits the clusters that their bounds do not hide, nearest first, each once what it needs was asked for some time
+/// ago.
+template <class Visit>
+HWY_INLINE void for_each_open(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
+                              const Visit& visit) {
+  constexpr size_t kHeader = 2, kStreams = 4, kDraw = 7;  // clusters after the one whose instance is asked for
+  std::vector<ListedDraw> order = nearest_first(in);
+  size_t open = 0;
+  const auto advance = [&](size_t i) {
+    if (i >= kHeader && i - kHeader < open) fetch_header(in, order[i - kHeader].draw);
+    if (i >= kStreams && i - kStreams < open) fetch_streams(in, order[i - kStreams].draw);
+    if (i >= kDraw) visit(order[i - kDraw]);
+  };
+  for (const ListedDraw& listed : order) {
+    if (cull && hidden_draw(tile, rect, listed.draw, in.view.window)) continue;
+    fetch_instance(in, listed.draw);
+    order[open++] = listed;
+    advance(open - 1);
+  }
+  for (size_t i = open; i < open + kDraw; ++i) advance(i);
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
