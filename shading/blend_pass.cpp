@@ -11,8 +11,7 @@
 
 #include "shading/blend-inl.h"
 #include "shading/blend_draw-inl.h"
-#include "shading/light_lists-inl.h"
-#include "shading/light_sum-inl.h"
+#include "shading/light_pairs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -25,14 +24,16 @@ constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the n
 /// be held to the largest code later.
 template <bool kCodes>
 struct AddedLight {
-  const BlendPlan& plan;
-  VF stored[4], largest[3];
+  const BlendPlan* plan;
+  float largest[3];
+  VF stored[4];
   hn::Vec<DI> lights;
   uint64_t evaluated = 0;
 
-  AddedLight(const BlendPlan& blend_plan, const StoredPixels& pixels) : plan(blend_plan), lights(pixels.lights) {
+  AddedLight() = default;
+  AddedLight(const BlendPlan& blend_plan, const StoredPixels& pixels) : plan(&blend_plan), lights(pixels.lights) {
     for (int c = 0; c < 4; ++c) stored[c] = pixels.stored[c];
-    for (int c = 0; c < 3; ++c) largest[c] = hn::Set(DF(), plan.largest(c));
+    for (int c = 0; c < 3; ++c) largest[c] = plan->largest(c);
   }
 
   template <class Terms>
@@ -42,20 +43,21 @@ struct AddedLight {
       for (int c = 0; c < 3; ++c) {
         const VF x = terms.tinted(px, term.color[c], c), unit = hn::Min(x, hn::Set(d, 1.0f));
         const MF counts = hn::And(term.adds, hn::Gt(x, hn::Zero(d)));  // and is a number
-        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(counts, hn::Round(hn::Mul(unit, largest[c]))));
+        const VF code = hn::Round(hn::Mul(unit, hn::Set(d, largest[c])));
+        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(counts, code));
       }
     } else {
       VF source[4], next[4] = {stored[0], stored[1], stored[2], stored[3]};
       for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
       source[3] = hn::Zero(d);
-      blend_out_of_line(plan, source, next);
+      blend_out_of_line(*plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
     }
   }
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
     if constexpr (kCodes)
-      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], largest[c]);
+      for (int c = 0; c < 3; ++c) stored[c] = lesser(stored[c], hn::Set(DF(), largest[c]));
   }
 };
 
@@ -124,6 +126,7 @@ struct TileBlend {
   const BlendMethod method;
   const int32_t* tied = nullptr;  ///< pixels that several fragments share; null where there are none
   TileRegions regions;
+  const BlockOrder order;
   RegionCull cull;
 
   TileBlend(const LightDraws& draws, const SurfaceTile& surface_tile, const TileRect& tile_rect,
@@ -243,6 +246,30 @@ void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, std::span
   t.counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
 }
 
+// The lights of a region, by pairs.
+template <bool kCodes, class Shape>
+void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
+  const DF d;
+  RegionPixels<AddedLight<kCodes>> in(r);
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    in.open[k] = 0;
+    if (r.covered[k] == 0) continue;
+    const int i = in.place(k, t.blocks());
+    in.px[k] = terms.load(t.surface, i);
+    leave_out_tied(t, in.px[k], i);
+    in.open[k] = uint16_t(mask_bits(in.px[k].covered));
+    in.sum[k] = AddedLight<kCodes>(t.add_plan, StoredPixels(t.out, i));
+  }
+  t.counts.evaluated_pairs +=
+      add_region_lights(terms, t.work.lights, t.work.region.light, t.cull, t.order, t.blocks(), t.work.pairs, in);
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    if (r.covered[k] == 0) continue;
+    const int i = in.place(k, t.blocks());
+    for (int c = 0; c < 3; ++c) hn::Store(in.sum[k].stored[c], d, t.out.plane[c] + i);
+    hn::Store(in.sum[k].lights, DI(), reinterpret_cast<int32_t*>(t.out.light_count) + i);
+  }
+}
+
 void draw_every_at(const TileBlend& t, std::span<const ListedLight> list, int i) {
   PixelVector px = t.terms.load(t.surface, i);
   leave_out_tied(t, px, i);
@@ -269,8 +296,17 @@ struct DrawRegions {
       const Region& r = t.regions.region[n];
       region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
       if (t.work.region.light.empty()) continue;
+      if constexpr (comes_by_pairs<Shape>()) {
+        if (t.method.adds) {
+          if (t.method.codes)
+            add_to_region<true>(t, terms, r);
+          else
+            add_to_region<false>(t, terms, r);
+          continue;
+        }
+      }
       for (int k = 0; k < r.wide * r.tall; ++k) {
-        const int block = (r.by + k / r.wide) * t.blocks() + r.bx + k % r.wide;
+        const int block = r.block(k, t.blocks());
         const std::span<const ListedLight> list =
             block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);
         for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))

@@ -15,6 +15,7 @@ struct BlendWork {
   TileLights lights, region;       ///< their draws, as many as are drawn at once
   std::vector<ListedLight> block;
   std::vector<uint16_t> counts;
+  PairScratch pairs;
 };
 
 /// Draws all lights over one tile, each blended and rounded to the target's format before the next.

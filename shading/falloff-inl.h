@@ -17,14 +17,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kLargestFalloff = 1e18f;
 
+// x86 has instructions that choose as these comparisons do, NaN and -0 included, behind Max and Min of more than a
+// lane; elsewhere these make other choices.
+constexpr bool kMaxTakesSecond = HWY_ARCH_X86 && hn::MaxLanes(DF()) > 1;
+
 HWY_INLINE VF positive(VF x) {
-  const DF d;
-  return hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+  const VF zero = hn::Zero(DF());
+  if constexpr (kMaxTakesSecond) return hn::Max(x, zero);
+  return hn::IfThenElseZero(hn::Gt(x, zero), x);
 }
 
 HWY_INLINE VF at_most(VF x, float most) {
-  const DF d;
-  const VF limit = hn::Set(d, most);
+  const VF limit = hn::Set(DF(), most);
+  if constexpr (kMaxTakesSecond) return hn::Min(limit, x);
   return hn::IfThenElse(hn::Gt(x, limit), limit, x);
 }
 

@@ -16,37 +16,15 @@
 #include <span>
 #include <vector>
 
-#include "raster/region.h"
 #include "raster/store-inl.h"
 #include "shading/light_groups.h"
 #include "shading/light_term-inl.h"
+#include "shading/regions-inl.h"
 #include "shading/tile_lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Least and largest of each component.
-struct Box {
-  float low[3], high[3];
-};
-
-/// A region of a tile: its first block, how many blocks it has each way, and what its surfaces are within: the very
-/// floats that the lights are tested against.
-struct Region {
-  int bx, by, wide, tall;
-  int pixels;  ///< with a surface
-  Box place, normal;
-};
-constexpr int kMostRegions = (kMaxTile / kRegionSize) * (kMaxTile / kRegionSize);
-
-/// Regions of a tile that have surfaces, and the box of them all.
-struct TileRegions {
-  Region region[kMostRegions];
-  int count = 0;
-  int pixels;
-  Box place;
-};
 
 /// Of a plane of a tile.
 inline uint64_t sum_of(const uint32_t* plane, int pixels) {
@@ -64,76 +42,6 @@ inline uint64_t sum_of(const uint32_t* plane, int pixels) {
   return total;
 }
 
-constexpr Box kNoBox = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-/// Components of a vector of boxes, a box a lane.
-struct BoxVector {
-  VF low[3], high[3];
-
-  BoxVector() {
-    for (int c = 0; c < 3; ++c) {
-      low[c] = hn::Set(DF(), kNoBox.low[c]);
-      high[c] = hn::Set(DF(), kNoBox.high[c]);
-    }
-  }
-  HWY_INLINE void add(const SurfaceTile& s, int plane, int i, MF covered) {
-    const DF d;
-    for (int c = 0; c < 3; ++c) {
-      const VF p = hn::Load(d, s.plane[plane + c] + i);
-      low[c] = hn::IfThenElse(hn::And(covered, hn::Lt(p, low[c])), p, low[c]);
-      high[c] = hn::IfThenElse(hn::And(covered, hn::Gt(p, high[c])), p, high[c]);
-    }
-  }
-  Box box() const {
-    const DF d;
-    alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
-    Box out;
-    for (int c = 0; c < 3; ++c) {
-      hn::Store(low[c], d, lane);
-      out.low[c] = *std::min_element(lane, lane + hn::Lanes(d));
-      hn::Store(high[c], d, lane);
-      out.high[c] = *std::max_element(lane, lane + hn::Lanes(d));
-    }
-    return out;
-  }
-};
-
-inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region& r) {
-  const DF d;
-  BoxVector place, normal;
-  r.pixels = 0;
-  for (int y = r.by; y < r.by + r.tall; ++y) {
-    const int end = (y * blocks + r.bx + r.wide) * kBlockPixels;
-    for (int i = (y * blocks + r.bx) * kBlockPixels; i < end; i += int(hn::Lanes(d))) {
-      const MF covered = hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), s.covered + i)));
-      r.pixels += int(hn::CountTrue(d, covered));
-      place.add(s, kPosition, i, covered);
-      if (normals) normal.add(s, kNormal, i, covered);
-    }
-  }
-  r.place = place.box();
-  if (normals) r.normal = normal.box();
-}
-
-inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileRegions& out) {
-  out.count = out.pixels = 0;
-  out.place = kNoBox;
-  for (int by = 0; by < blocks; by += kRegionBlocks)
-    for (int bx = 0; bx < blocks; bx += kRegionBlocks) {
-      Region& r = out.region[out.count];
-      r.bx = bx, r.by = by;
-      r.wide = std::min(kRegionBlocks, blocks - bx), r.tall = std::min(kRegionBlocks, blocks - by);
-      bound_region(s, blocks, normals, r);
-      if (r.pixels == 0) continue;
-      out.pixels += r.pixels;
-      for (int c = 0; c < 3; ++c) {
-        out.place.low[c] = std::min(out.place.low[c], r.place.low[c]);
-        out.place.high[c] = std::max(out.place.high[c], r.place.high[c]);
-      }
-      ++out.count;
-    }
-}
-
 /// What may keep a light from a region's pixels.
 struct RegionCull {
   bool distance;  ///< all of it is out of its reach
@@ -146,17 +54,6 @@ struct RegionCull {
 // are infinite (a half plane overflowed) every distance is, and ambient light is there too.
 HWY_INLINE VF greater_of(VF a, VF b) { return hn::IfThenElse(hn::Gt(a, b), a, b); }
 
-HWY_INLINE bool out_of_reach(const LightRow& light, const Box& box) {
-  float d2 = 0.0f;
-  for (int c = 0; c < 3; ++c) {
-    const float gap = std::max(std::max(box.low[c] - light.position[c], light.position[c] - box.high[c]), 0.0f);
-    d2 += gap * gap;
-  }
-  return (light.cut2 != std::numeric_limits<float>::infinity() && d2 * (1.0f - 0x1p-20f) >= light.cut2) ||
-         dark_over(light, box.low, box.high);
-}
-
-/// The same of a vector of lights; cones apart.
 HWY_INLINE MF within_reach(const float* const position[3], const float* cut2, size_t i, const Box& box) {
   const DF d;
   const VF zero = hn::Zero(d), slack = hn::Set(d, 1.0f - 0x1p-20f),
@@ -196,15 +93,6 @@ HWY_INLINE MF faced_away(const float* const position[3], size_t i, const Region&
     size = hn::Add(size, hn::Mul(reach, hn::Set(d, std::max(weight[c], most_weight * 0x1p-40f))));
   }
   return hn::Lt(bound, hn::Mul(size, hn::Set(d, -0x1p-20f)));
-}
-
-/// A bit for each lane of a mask.
-HWY_INLINE uint64_t mask_bits(MF mask) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(DF(), mask, bytes);
-  uint64_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
 }
 
 /// Calls found(first + k) for each bit k, ascending, as far as that is below `count`.

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <span>
 
-#include "shading/light_lists-inl.h"
-#include "shading/light_sum-inl.h"
+#include "shading/light_pairs-inl.h"
 #include "shading/many_lights-inl.h"
 #include "shading/settled_sum-inl.h"
 
@@ -31,24 +30,49 @@ struct TileWork {
   LightCounts& counts;
 };
 
+// Stores a vector's sum, or `clear` where there is no surface.
+template <class Shape>
+HWY_INLINE void store_sum(const TileWork& in, const LightTerms<Shape>& terms, const PixelVector& px,
+                          const LightSum& sum, int i) {
+  const DF d;
+  for (int c = 0; c < 3; ++c)
+    hn::Store(hn::IfThenElse(px.covered, terms.finished(px, sum.color[c], c), hn::Set(d, in.clear[c])), d,
+              in.out.plane[c] + i);
+  hn::Store(hn::IfThenElse(px.covered, terms.alpha(in.surface, i), hn::Set(d, in.clear[3])), d, in.out.plane[3] + i);
+  hn::Store(sum.lights, DI(), reinterpret_cast<int32_t*>(in.out.light_count) + i);
+}
+
 /// Colours of the vector of pixels at i: its sum over the lights of the region, or `clear`.
 template <class Shape>
 void light_vector(const TileWork& in, const LightTerms<Shape>& terms, std::span<const ListedLight> list, int i,
                   LightCounts& counts) {
-  const DF d;
-  const DI di;
   const PixelVector px = terms.load(in.surface, i);
   LightSum sum;
-  if (!hn::AllFalse(d, px.covered)) {
+  if (!hn::AllFalse(DF(), px.covered)) {
     for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
     add_lights(terms, px, list, VectorPlace(in.work.tile, in.tile / kBlockSize, i), sum);
-    for (int c = 0; c < 3; ++c) sum.color[c] = terms.finished(px, sum.color[c], c);
   }
-  for (int c = 0; c < 3; ++c)
-    hn::Store(hn::IfThenElse(px.covered, sum.color[c], hn::Set(d, in.clear[c])), d, in.out.plane[c] + i);
-  hn::Store(hn::IfThenElse(px.covered, terms.alpha(in.surface, i), hn::Set(d, in.clear[3])), d, in.out.plane[3] + i);
-  hn::Store(sum.lights, di, reinterpret_cast<int32_t*>(in.out.light_count) + i);
-  counts.evaluated_pairs += sum.evaluated * hn::Lanes(d);
+  store_sum(in, terms, px, sum, i);
+  counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
+}
+
+/// The same of a region, by pairs.
+template <class Shape>
+void light_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
+                  const BlockOrder& order) {
+  const int blocks = in.tile / kBlockSize;
+  RegionPixels<LightSum> pixels(r);
+  std::copy_n(r.covered, kRegionBlockCount, pixels.open);
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    if (r.covered[k] == 0) continue;
+    const int i = pixels.place(k, blocks);
+    pixels.px[k] = terms.load(in.surface, i);
+    for (int c = 0; c < 3; ++c) pixels.sum[k].color[c] = terms.start(in.surface, i, pixels.px[k], c);
+  }
+  in.counts.evaluated_pairs +=
+      add_region_lights(terms, in.work.tile, in.work.region.light, cull, order, blocks, in.work.pairs, pixels);
+  for (size_t k = 0; k < kRegionBlockCount; ++k)
+    if (r.covered[k] != 0) store_sum(in, terms, pixels.px[k], pixels.sum[k], pixels.place(k, blocks));
 }
 
 // Of pixels without a surface.
@@ -149,9 +173,13 @@ void settle_tile(const TileWork& in, const LightTerms<Shape>& terms, const TileR
   for (size_t g = 0; g + 1 < groups.first.size(); ++g) {
     const std::span<const uint16_t> group(groups.pixel + groups.first[g], groups.pixel + groups.first[g + 1]);
     pack_pixels(in.surface, group, kBlockPixels, *in.work.packed);
-    Region r{0, 0, 1, 1, 0, {}, {}};
-    bound_region(*in.work.packed, 1, true, r);
-    sort_lights(in.lights, plain, in.model, terms.form, RegionBalls(r, in.lights, in.model), least, in.work.plain);
+    BoxVector place, normal;
+    for (int i = 0; i < kBlockPixels; i += int(hn::Lanes(DF()))) {
+      place.add(*in.work.packed, kPosition, i, covered_lanes(*in.work.packed, i));
+      normal.add(*in.work.packed, kNormal, i, covered_lanes(*in.work.packed, i));
+    }
+    const RegionBalls balls(place.box(), normal.box(), in.lights, in.model);
+    sort_lights(in.lights, plain, in.model, terms.form, balls, least, in.work.plain);
     for (size_t i = 0; i < group.size(); i += hn::Lanes(DF()))
       settle_vector(in, terms, int(i), group.subspan(i, std::min(hn::Lanes(DF()), group.size() - i)));
   }
@@ -177,6 +205,7 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
       if (by_bounds) settle_tile(in, terms, regions);
     }
   }
+  const BlockOrder order;
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
     if (many) {
@@ -185,8 +214,12 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
     } else {
       region_lights(in.work.tile, r, blocks, cull, in.work.region);
     }
+    if constexpr (comes_by_pairs<Shape>()) {
+      light_region(in, terms, r, cull, order);
+      continue;
+    }
     for (int k = 0; k < r.wide * r.tall; ++k) {
-      const int block = (r.by + k / r.wide) * blocks + r.bx + k % r.wide;
+      const int block = r.block(k, blocks);
       const std::span<const ListedLight> list =
           block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);
       for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))

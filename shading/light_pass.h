@@ -32,6 +32,7 @@ struct LightLists {
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
   std::vector<ListedLight> block;
+  PairScratch pairs;
   PlainLists plain;
   PixelGroups groups;
   std::vector<uint16_t> open;           ///< pixels whose sums bounds have not settled

@@ -132,7 +132,7 @@ HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px,
     if (HWY_LIKELY(listed.placed)) {
       LightChain chain;
       terms.place(px, false, listed.position, chain);
-      terms.reach(px, false, listed.cut2, chain);
+      terms.reach(px.covered, false, listed.cut2, chain);
       adds = chain.term.adds;
     }
     if (HWY_UNLIKELY(listed.crossing != 0)) adds = at.covered(listed, adds);

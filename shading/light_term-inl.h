@@ -114,10 +114,10 @@ struct LightTerms {
     at.d2 = dot3(at.to_light, at.to_light);
   }
 
-  /// Which pixels a placed light adds something to, as far as the distance and N . D tell.
-  HWY_INLINE void reach(const PixelVector& px, bool directional, float cut2, LightChain& at) const {
+  /// Which of some pixels a placed light adds something to, as far as the distance and N . D tell.
+  HWY_INLINE void reach(MF pixels, bool directional, float cut2, LightChain& at) const {
     const DF d;
-    const MF in_range = directional ? px.covered : hn::And(px.covered, hn::Lt(at.d2, hn::Set(d, cut2)));
+    const MF in_range = directional ? pixels : hn::And(pixels, hn::Lt(at.d2, hn::Set(d, cut2)));
     at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
     at.term.adds = adds_unlit(form.shape) ? in_range : at.term.lit;
   }
@@ -233,7 +233,7 @@ struct LightTerms {
     LightChain at;
     at.light = &light;
     place(px, directional, at);
-    reach(px, directional, light.cut2, at);
+    reach(px.covered, directional, light.cut2, at);
     if (hn::AllFalse(d, at.term.adds)) return at.term;
     fall_off(directional, at);
     narrow_if(at);

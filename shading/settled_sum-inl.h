@@ -92,7 +92,8 @@ struct RegionBalls {
   Ball place, normal;
   float viewer[3], viewer_radius;
 
-  RegionBalls(const Region& r, const LightTable& lights, const LightModel& model) : place(r.place), normal(r.normal) {
+  RegionBalls(const Box& place_box, const Box& normal_box, const LightTable& lights, const LightModel& model)
+      : place(place_box), normal(normal_box) {
     if (model.renormalize) {  // unit vectors differ by at most twice the distance over the length of either
       const float length = std::sqrt((normal.center[0] * normal.center[0] + normal.center[1] * normal.center[1]) +
                                      normal.center[2] * normal.center[2]);

@@ -49,6 +49,11 @@ struct TileLights {
   }
 };
 
+/// Words for pairs of a light and a vector, one region at a time.
+struct PairScratch {
+  std::vector<uint32_t> pair, torn;
+};
+
 /// Of a tile's block, `blocks` of them a row: pixels that the light's geometry covers, bit by bit.
 inline unsigned cover_of_block(const TileLights& lights, const ListedLight& listed, int block, int blocks) {
   if (listed.crossing == 0) return 0xFFFF;

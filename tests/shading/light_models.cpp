@@ -202,6 +202,38 @@ TEST_CASE("the kernels compiled for a model's shape and the general kernel give 
   }
 }
 
+TEST_CASE("Lambert's lights over torn sheets of any size are culled block by block without changing a bit") {
+  Random random(62);
+  const std::vector<std::string_view> targets = simd_targets();
+  for (const int exponent : {-60, -20, 0, 0, 0, 30, 58}) {
+    const float scale = std::ldexp(1.0f, exponent);
+    Scene scene = sheet(random);
+    for (auto& stream : scene.meshes[0].normal)
+      for (float& value : stream) value = between(random, -1, 1);
+    for (int light = 0; light < 150; ++light) scene.lights.push_back(random_light(random));
+    for (int axis = 0; axis < 3; ++axis) scene.instances[0].world_from_object[axis][axis] = scale;
+    for (Light& light : scene.lights) light.position *= scale, light.range *= 0.3f * scale;
+    scene.camera.eye *= scale, scene.camera.near *= scale, scene.camera.far = 50 * scale;
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes})
+      for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+        Pipeline pipeline = loop_pipeline(format == Format::rgba16f ? "lecture" : "light-volumes");
+        pipeline.strategy = strategy;
+        pipeline.target = format;
+        const std::vector<std::string> aovs = {"light.count"};
+        const Frame expected = render_frame(scene, pipeline, on("scalar", false, false), aovs);
+        REQUIRE(expected.stats.lit_pixel_lights > 0);
+        for (const std::string_view simd : targets) {
+          const Frame frame = render_frame(scene, pipeline, on(simd, true), aovs);
+          INFO("2^" << exponent << ", " << simd << ", " << pipeline_json(pipeline));
+          CHECK(frame.color.texels == expected.color.texels);
+          CHECK(frame.aovs[0].image.texels == expected.aovs[0].image.texels);
+          CHECK(frame.stats.lit_pixel_lights == expected.stats.lit_pixel_lights);
+          CHECK(frame.stats.evaluated_pixel_lights < frame.stats.pixel_lights);
+        }
+      }
+  }
+}
+
 TEST_CASE("the light sums of all models are the real numbers' to within the bounds of their roundings") {
   Random random(61);
   for (int i = 0; i < 60; ++i) {
