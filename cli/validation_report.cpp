@@ -77,10 +77,15 @@ std::string counts_table(const StageVerdict& s) {
 
 std::string aggregates_table(const std::vector<AggregateTest>& tests) {
   std::string html = "<table class=wide><tr><th>test of the whole image<th>found<th>expected<th>sigma<th>\n";
-  for (const AggregateTest& t : tests)
+  for (const AggregateTest& t : tests) {
+    if (!t.tested) {
+      html += "<tr><td>" + escaped(t.name) + "<td><td><td><td>not tested: only the last of many blends is known\n";
+      continue;
+    }
     html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.6g") + "<td>" +
             (t.one_sided ? "at most " : "") + number(t.expected, "%.6g") + "<td>" + number(t.sigma, "%.3g") + "<td>" +
             (t.passes() ? "as chance makes it" : "<span class=bad>not what chance makes</span>") + '\n';
+  }
   return html + "</table>\n";
 }
 

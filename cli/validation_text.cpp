@@ -46,10 +46,15 @@ std::string class_rows(const StageVerdict& s) {
 
 std::string aggregate_rows(const std::vector<AggregateTest>& tests) {
   std::string lines;
-  for (const AggregateTest& t : tests)
+  for (const AggregateTest& t : tests) {
+    if (!t.tested) {
+      lines += "  " + left(t.name, 18) + " not tested: only the last of many blends is known\n";
+      continue;
+    }
     lines += "  " + left(t.name, 18) + " found " + real(t.observed) + (t.one_sided ? ", at most " : ", expected ") +
              real(t.expected) + " (sigma " + real(t.sigma, "%.3g") + ")" +
              (t.passes() ? "\n" : ", NOT what chance makes\n");
+  }
   return lines;
 }
 

@@ -67,7 +67,9 @@ std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
   }
   // Chances are upper bounds: the true drift lies between none and the predicted one.
   const double drift = std::clamp(bias, std::min(0.0, expected_bias), std::max(0.0, expected_bias));
-  return {other_surfaces(v), {"second neighbours", second, expected, sigma, true}, {"store bias", bias, drift, sigma, false}, clusters(v)};
+  std::vector<AggregateTest> tests = {other_surfaces(v), {"second neighbours", second, expected, sigma, true}, {"store bias", bias, drift, sigma, false}, clusters(v)};
+  for (size_t i = 1; i < tests.size(); ++i) tests[i].tested = v.stores_apart;
+  return tests;
 }
 
 }  // namespace trueshade::oracle

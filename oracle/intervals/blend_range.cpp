@@ -307,6 +307,23 @@ Texel blended_in_16_bits(const BlendState& state, const Profile& profile, const 
 
 }  // namespace
 
+Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
+                   const Texel& stored) {
+  if (profile.blend != BlendRule::any_precision) return blended_texel(state, format, profile, source, stored);
+  Profile likely = float_once(profile);
+  if (likely.half == HalfStore::either) likely.half = profile.likely_half;
+  likely.unorm_reach = likely.srgb_reach = 0.5;
+  std::array<Range, 4> loose = source;
+  const FormatInfo layout = info(format);
+  for (size_t k = 0; k < 4 && state.enabled && layout.small_float(); ++k) {
+    // One float more or less, as a fused or truncated sum has it; none where the source is lost in the sum anyway.
+    const double ulp = 0x1p-23 * std::max(std::fabs(source[k].value), std::fabs(stored[k].nominal));
+    Range& s = loose[k];
+    if (s.low < s.high && s.low - ulp > 0) s.low -= ulp, s.high += ulp;
+  }
+  return blended_texel(state, format, likely, loose, stored);
+}
+
 LegalTexel known_texel(double stored) {
   LegalTexel t;
   t.nominal = t.low = t.high = stored;

@@ -25,6 +25,11 @@ LegalTexel known_texel(double stored);
 Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                     const Texel& stored);
 
+/// What the nominal rule, float32 rounded once to the likelier neighbour, leaves, for the tests of the whole image:
+/// its second_chance is a bound of how often a driver of that rule stores another. Profiles that state their blend: theirs.
+Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
+                   const Texel& stored);
+
 /// What drivers' decoding of an sRGB code was found to be off at most (GL_RULES section 3), with room for its rounding.
 inline constexpr double kSrgbDecodeError = 1.3e-3;
 

@@ -79,7 +79,7 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
   } else {
     p.pixel_class = PixelClass::violation;
   }
-  m.choices.clear();
+  m.choices.clear();  // of many stores only the last one's result is known
   rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
 }
 
@@ -89,7 +89,9 @@ StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const P
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
   judge.find_layers(capture);
-  return judge.verdict("lighting", &capture.color);
+  StageVerdict v = judge.verdict("lighting", &capture.color);
+  v.stores_apart = false;
+  return v;
 }
 
 }  // namespace trueshade::oracle

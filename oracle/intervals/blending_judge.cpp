@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kBatchBytes = size_t(160) << 20;  // of targets that wait to be judged together
 constexpr int kMostLights = 64;                    // that do
+constexpr size_t kMostChoices = size_t(1) << 14;   // of a row that are kept: the first ones, whichever way they went
 
 Texel texel_of(const Image& image, int x, int y) {
   const PlaneView view(&image);
@@ -259,6 +260,30 @@ bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Ma
   return m.legal;
 }
 
+/// The roundings of a draw that went the nominal way: what its fragments make of a known texel by the nominal rule, and
+/// what was stored. Equal sources on equal texels are one choice; of codes that are added the source alone decides.
+void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn,
+                           const BlendState& blend, const PlaneView& view, Match& m) const {
+  m.choices.clear();
+  if (!view.quantised() || rows_[size_t(y)].choices.size() >= kMostChoices) return;
+  Texel t = before;
+  std::array<double, 4> value{};
+  for (const DrawnFragment& f : drawn)
+    for (int i = 0; i < f.nominal; ++i) {
+      t = likely_texel(blend, color_.image->format, profile_, f.output.nominal, t);
+      for (size_t k = 0; k < 4; ++k) value[k] = f.output.nominal[k].value;
+    }
+  const bool codes_add = view.unorm() && !view.layout.srgb && blend.rgb == kAccumulate;
+  for (size_t k = 0; k < size_t(view.channels); ++k) {
+    const double given = view.stored(x, y, int(k));
+    const auto taken = int8_t(given < t[k].nominal ? -1 : given > t[k].nominal ? 1 : 0);
+    if (taken == 0 && !(t[k].second_chance > 0)) continue;
+    const auto side = int8_t(t[k].second_chance > 0 ? t[k].second_side : taken);
+    const double choice = codes_add || !blend.enabled ? value[k] : value[k] + before[k].nominal;
+    m.choices.push_back({uint32_t(at(x, y)), float(choice), float(t[k].second_chance), side, taken});
+  }
+}
+
 void BlendingJudge::keep(int x, int y, PixelClass c, const Match& m, int light) {
   PixelState& p = pixels_[at(x, y)];
   if (worse(c, p.pixel_class)) p.pixel_class = c;
@@ -287,13 +312,15 @@ void BlendingJudge::judge(int x, int y, int light, const Image* before, const Im
     if (f.output.undefined && f.least > 0) return keep(x, y, PixelClass::undefined, {}, light);
     if (!f.output.undefined) known.push_back(f);
   }
-  const std::vector<Way> list =
-      ways_from(before != nullptr ? texel_of(*before, x, y) : Texel{}, known, blend, color_.image->format, profile_);
+  const Texel from = before != nullptr ? texel_of(*before, x, y) : Texel{};
+  const std::vector<Way> list = ways_from(from, known, blend, color_.image->format, profile_);
   const PlaneView view(given);
   Match closest;
   for (size_t i = 0; i < list.size(); ++i) {
     Match m;
     if (fits(list[i], view, x, y, m)) {
+      m.choices.clear();
+      if (i == 0) choose(x, y, from, known, blend, view, m);
       const PixelClass c =
           list[i].pixel_class == PixelClass::exact && m.second ? PixelClass::store_2 : list[i].pixel_class;
       return keep(x, y, c, m, light);

@@ -91,6 +91,8 @@ class BlendingJudge {
   void judge(int x, int y, int light, const Image* before, const Image* given, std::span<const DrawnFragment> fragments,
              const BlendState& blend);
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
+  void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,
+              const PlaneView& view, Match& m) const;
   void unchanged(int x, int y, size_t i);
   void judge_last(int x, int y, const Image& last);
   void cover(int x, int y);

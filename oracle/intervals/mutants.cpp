@@ -218,6 +218,10 @@ void one_off(const Pipeline&, Capture& c) {
 void alpha_wrong(const Pipeline&, Capture& c) {
   each_code(c.color, [](uint8_t v, size_t k) { return k == 3 && v > 0 ? uint8_t(v - 2) : v; });
 }
+/// A code next to one that stands for exactly 1.
+void alpha_short_of_one(const Pipeline&, Capture& c) {
+  each_code(c.color, [](uint8_t v, size_t k) { return k == 3 && v == 255 ? uint8_t(254) : v; });
+}
 
 /// A block keeps what another one shows.
 void tile_stale(const Pipeline& p, Capture& c) {
@@ -352,6 +356,7 @@ constexpr Mutant kMutants[] = {
     {"albedo channels swapped", kNone, nullptr, nullptr, albedo_swapped},
     {"two codes too bright", kNone, nullptr, nullptr, one_off},
     {"alpha two codes low", kNone, nullptr, nullptr, alpha_wrong},
+    {"alpha one code low", kNone, nullptr, nullptr, alpha_short_of_one},
     {"one tile stale", kNone, nullptr, nullptr, tile_stale},
     {"one pixel black", kNone, nullptr, nullptr, pixel_black},
     {"depth of 16 bits", kNone, nullptr, nullptr, depth_16_bits},

@@ -54,6 +54,7 @@ struct Profile {
   double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
   double srgb_reach = 1.0;   ///< the same of an encoded sRGB value; drivers approximate the power (GL_RULES section 3)
   HalfStore half = HalfStore::either;
+  HalfStore likely_half = HalfStore::toward_zero;  ///< the nominal one of either: resolved() has the pipeline's
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;

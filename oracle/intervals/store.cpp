@@ -53,7 +53,8 @@ void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   t.second_side = up >= down ? 1 : -1;
 }
 
-/// Codes within `reach` of the ends of a range of codes.
+/// Codes within `reach` of the ends of a range of codes. Less than one from a real number are the whole ones next to it,
+/// and a product rounded to a float is still between them: 1 and 0 have one code each.
 void set_reach(LegalTexel& t, double low, double high, double reach, double largest) {
   if (reach == 1.0) {
     t.low = std::max(0.0, std::floor(low));
@@ -67,7 +68,8 @@ void set_reach(LegalTexel& t, double low, double high, double reach, double larg
 LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   const auto scaled = [&](double x, double direction) {
     const double clamped = std::clamp(x, 0.0, 1.0) * largest;
-    return clamped * (1 + direction * 0x1p-24);  // the product is a float before it is rounded
+    const double rounding = profile.unorm_reach == 1.0 ? 0 : 0x1p-24;  // the product is a float before it is rounded
+    return clamped * (1 + direction * rounding);
   };
   // RNE(fl32(x * largest)) of a float x in [0, 1], as GL_RULES section 3 measured it.
   const auto nearest_code = [&](double x) {
@@ -130,7 +132,7 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
   if (!grid.has_sign()) r = {std::max(0.0, r.value), std::max(0.0, r.low), std::max(0.0, r.high)};
   LegalTexel t;
   if (profile.half == HalfStore::either) {
-    t = {grid.toward_zero(r.value), grid.below(r.low), grid.above(r.high)};
+    t = {grid.stored(r.value, profile.likely_half), grid.below(r.low), grid.above(r.high)};
     if (r.high > grid.largest()) t.high = HUGE_VAL;  // to the largest or to infinity
     if (r.low < -grid.largest()) t.low = -HUGE_VAL;
   } else {
@@ -141,7 +143,7 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
       if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
   if (!std::isfinite(r.value)) return t;
   const double spacing = grid.spacing(r.value);
-  const bool truncates = profile.half != HalfStore::nearest;
+  const bool truncates = (profile.half == HalfStore::either ? profile.likely_half : profile.half) != HalfStore::nearest;
   const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);
   const double above = truncates && t.nominal < 0 ? t.nominal : t.nominal + (truncates ? spacing : spacing / 2);
   set_chance(t, r, below, above);

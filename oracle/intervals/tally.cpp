@@ -144,8 +144,8 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
 
 Profile resolved(const Profile& profile, const Pipeline& pipeline) {
   Profile p = profile;
-  if (p.exact_planes)
-    p.half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  p.likely_half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.exact_planes) p.half = p.likely_half;
   return p;
 }
 

@@ -74,7 +74,7 @@ struct RowTally {
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 };
 
-/// The profile as it applies: `ideal` follows the pipeline's half_round.
+/// The profile as it applies: `ideal` follows the pipeline's half_round; of others that allow either, it is nominal.
 Profile resolved(const Profile& profile, const Pipeline& pipeline);
 
 StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,

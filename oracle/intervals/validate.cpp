@@ -43,6 +43,7 @@ std::string worst_json(const WorstPixel& w) {
 }
 
 std::string aggregate_json(const AggregateTest& t) {
+  if (!t.tested) return "{\"name\":" + quoted(t.name) + ",\"tested\":false}";
   return "{\"name\":" + quoted(t.name) + ",\"observed\":" + number(t.observed) + ",\"expected\":" + number(t.expected) +
          ",\"sigma\":" + number(t.sigma) + ",\"pass\":" + (t.passes() ? "true" : "false") + "}";
 }

@@ -33,7 +33,8 @@ struct Verdict {
 Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options = {});
 
 /// The verdict as JSON, fixed key order: scene, driver, profile, pass, suspicious, stages [{stage, width, height, counts by
-/// class name, covered, ambiguous, predicted_other, stored_values, worst_error, aggregates, worst [{x, y, class, plane,
+/// class name, covered, ambiguous, predicted_other, stored_values, worst_error, aggregates [{name, observed, expected, sigma,
+/// pass} or {name, tested: false}], worst [{x, y, class, plane,
 /// low, high, nominal, given, note}]}], inferred. x, y from the top left; infinite ends are null.
 std::string verdict_json(const Verdict& verdict);
 

@@ -62,6 +62,7 @@ struct StageVerdict {
   uint64_t stored_values = 0;                     ///< unorm and half channels judged
   std::vector<SurfaceChoice> surface_choices;     ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;               ///< those of them with two likely values, or that took a second one
+  bool stores_apart = true;                       ///< false: many stores, of which only the last one's result is known
   double worst_error = 0;                         ///< float planes: largest |given - value| / bound
   std::vector<WorstPixel> worst;                  ///< at most 32
 

@@ -1,4 +1,5 @@
 // Strategies that draw light by light: our own frames and a real driver's, every draw judged from the target before it.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 
@@ -168,4 +169,72 @@ TEST_CASE("Steps that are not each light's in turn are refused in one line") {
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(0, capture.color); }), Error);
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(-1, Image(8, 8, Format::rgba8)); }), Error);
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(-1, capture.color); }), Error);
+}
+
+namespace {
+
+const AggregateTest& named(const std::vector<AggregateTest>& tests, const char* name) {
+  return *std::find_if(tests.begin(), tests.end(), [&](const AggregateTest& t) { return t.name == name; });
+}
+
+/// So many lamps, each of its own colour and place, that together leave about 1.
+Scene many_lamps(int count) {
+  Scene scene = builtin_scene("cornell");
+  Pcg32 random(5);
+  const auto unit = [&random] { return float(random.below(1 << 16)) / 65536.0f; };
+  const Light one = scene.lights[0];
+  scene.lights.assign(size_t(count), one);
+  for (Light& l : scene.lights) {
+    l.position += glm::vec3(unit(), -unit(), unit()) * 0.2f;
+    l.color = glm::vec3(unit(), unit(), unit()) * (8.0f / float(count));
+  }
+  return scene;
+}
+
+}  // namespace
+
+// GL_RULES section 9: RTZ accumulation "must be detected even where each step is legal".
+TEST_CASE("Halves truncated after each of 256 lights are legal where they should be nearest, and not what chance makes") {
+  const Scene scene = many_lamps(256);
+  for (const HalfRound expected : {HalfRound::nearest, HalfRound::toward_zero})
+    for (const HalfRound stored : {HalfRound::nearest, HalfRound::toward_zero}) {
+      Pipeline pipeline, drawn;
+      drawn.width = 40, drawn.height = 30;
+      drawn.target = Format::rgba16f;
+      drawn.strategy = Strategy::deferred_volumes;
+      pipeline = drawn;
+      pipeline.gbuffer.half_round = expected, drawn.gbuffer.half_round = stored;
+      const Capture capture = captured(scene, drawn);
+      const Verdict v = validate_capture(scene, pipeline, capture, {of_8_bits("unknown"), false, steps_of(scene, drawn), {}});
+      CAPTURE(int(expected), int(stored), verdict_json(v));
+      REQUIRE(v.stages.back().stage == "blending");
+      CHECK(v.violations() == 0);
+      CHECK(v.suspicious() == (expected != stored));
+      const std::vector<AggregateTest>& tests = v.aggregates.back();
+      const AggregateTest& bias = named(tests, "store bias");
+      CHECK(bias.tested);
+      CHECK(bias.passes() == (expected == stored));
+      if (expected != stored) {  // toward zero lies below the nearest in half of all stores
+        CHECK((bias.observed < 0) == (stored == HalfRound::toward_zero));
+        CHECK_FALSE(named(tests, "second neighbours").passes());
+      }
+    }
+}
+
+TEST_CASE("Of lights blended into a file the rounding of one store is not told from the next one's, and the verdict says so") {
+  const Scene scene = builtin_scene("cornell");
+  Pipeline pipeline;
+  pipeline.width = 32, pipeline.height = 24;
+  pipeline.target = Format::rgba16f;
+  for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::deferred_loop}) {
+    pipeline.strategy = strategy;
+    const Verdict v = validate_capture(scene, pipeline, captured(scene, pipeline), {of_8_bits("unknown"), false, {}, {}});
+    const std::vector<AggregateTest>& tests = v.aggregates.back();
+    CHECK(named(tests, "other surfaces").tested);
+    for (const char* name : {"second neighbours", "store bias", "store clusters"}) {
+      CHECK(named(tests, name).tested == !blends_lights(strategy));
+      const std::string entry = std::string(R"({"name":")") + name + R"(","tested":false})";
+      CHECK((verdict_json(v).find(entry) != std::string::npos) == blends_lights(strategy));
+    }
+  }
 }
