@@ -130,6 +130,7 @@ void check_kind(const std::string& file, const std::vector<NamedImage>& planes) 
 oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::string& image_file) {
   oracle::Capture capture;
   capture.driver = "capture of " + gbuffer_file;
+  capture.name = gbuffer_file;
   std::vector<NamedImage> planes = read_planes(gbuffer_file);
   check_kind(gbuffer_file, planes);
   for (NamedImage& plane : planes) {

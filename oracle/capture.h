@@ -16,6 +16,7 @@ struct Capture {
   Image color;                     ///< the target; empty if none was captured
   std::vector<NamedImage> planes;  ///< named as `--aov` names them; any subset
   std::array<int, 2> drawn_at{};   ///< where its lower left pixel was in the driver's window: floats round there
+  std::string name = "capture";    ///< what errors call it: the file it is from
 
   const Image* plane(std::string_view name) const {
     for (const NamedImage& p : planes)

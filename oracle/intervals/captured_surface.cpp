@@ -28,15 +28,15 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
     depth_ = plane_of(capture, pipeline, "depth");
   }
   if (!object_ && !depth_)
-    throw Error(ErrorKind::bad_input, "capture", "does not say where a surface is", "capture id.object or depth");
+    throw Error(ErrorKind::bad_input, capture.name, "does not say where a surface is", "capture id.object or depth");
 }
 
 PlaneView CapturedSurface::required(const Capture& capture, std::string_view name) const {
   const PlaneView view = plane_of(capture, pipeline_, name);
   if (!view)
-    throw Error(ErrorKind::bad_input, "capture", "has no plane " + std::string(name), "lighting is judged from it");
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name), "is missing", "the lighting of the picture is judged from it");
   if (name == "specular" && view.channels < 4)
-    throw Error(ErrorKind::bad_input, "plane specular", "has no shininess", "capture it as specular.A");
+    throw Error(ErrorKind::bad_input, capture.name + ": plane specular", "has no shininess", "capture it as specular.A");
   return view;
 }
 

@@ -31,7 +31,7 @@ std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pip
     ++expected;
   });
   if (expected != int(scene.lights.size()))
-    throw Error(ErrorKind::bad_input, "capture", "ends after " + std::to_string(expected) + " lights",
+    throw Error(ErrorKind::bad_input, capture.name, "ends after " + std::to_string(expected) + " lights",
                 "hand over the target after each light");
   std::vector<StageVerdict> verdicts;
   for (const auto& judge : judges) verdicts.push_back(judge->verdict("blending", nullptr));

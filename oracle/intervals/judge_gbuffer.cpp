@@ -44,7 +44,7 @@ class GBufferJudge {
     for (const AttributePlane& p : all)
       if (p.view && !(g.position_from_depth && p.first == kPosition)) planes_.push_back(p);
     if (planes_.empty() && !depth_ && !object_ && !material_)
-      throw Error(ErrorKind::bad_input, "capture", "has no G-buffer plane",
+      throw Error(ErrorKind::bad_input, capture.name, "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
     candidates_ = find_candidates(projector_);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&

@@ -128,7 +128,7 @@ StageVerdict judge_transparency(const Scene& scene, const Pipeline& pipeline, co
   });
   for (size_t i = size_t(std::max(0, last + 1)); i < scene.instances.size(); ++i)
     if (scene.materials[scene.instances[i].material].transparent)
-      throw Error(ErrorKind::bad_input, "capture", "ends before transparent instance " + std::to_string(i),
+      throw Error(ErrorKind::bad_input, capture.name, "ends before transparent instance " + std::to_string(i),
                   "hand over the target after the last one");
   return judge.verdict();
 }

@@ -60,7 +60,7 @@ double PlaneView::stored(int x, int y, int channel) const {
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
   const PlaneView view(name == "color" ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
   if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
-    throw Error(ErrorKind::bad_input, "plane " + std::string(name),
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),
                 "is " + std::to_string(view.image->width) + "x" + std::to_string(view.image->height) + ", not " +
                     std::to_string(pipeline.width) + "x" + std::to_string(pipeline.height),
                 "capture it at the pipeline's size, or set the size");
@@ -69,7 +69,7 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
 
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline) {
   const PlaneView view = plane_of(capture, pipeline, "color");
-  if (!view) throw Error(ErrorKind::bad_input, "capture", "has no plane color", "lighting is judged from it");
+  if (!view) throw Error(ErrorKind::bad_input, capture.name + ": plane color", "is missing", "lighting is judged from it");
   return view;
 }
 

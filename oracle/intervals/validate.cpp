@@ -141,7 +141,7 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
     else
       judge_target(scene, pipeline, capture, options, v.stages);
   }
-  if (v.stages.empty()) throw Error(ErrorKind::bad_input, "capture", "has no planes", "capture the target or a G-buffer plane");
+  if (v.stages.empty()) throw Error(ErrorKind::bad_input, capture.name, "has no planes", "capture the target or a G-buffer plane");
   for (const StageVerdict& s : v.stages) v.aggregates.push_back(aggregate_tests(s));
   if (options.infer && geometry) v.inferred = infer_profile(scene, pipeline, capture);
   return v;

@@ -171,6 +171,27 @@ TEST_CASE("stores that lean are a remark where OpenGL allows them, in text and J
   }
 }
 
+TEST_CASE("a capture without what its picture's lights are judged from is refused by its file's name") {
+  const ScratchFolder folder;
+  const std::string where = "trueshade: error: few.exr: ";
+  const auto with = [&](const char* planes, const Arguments& more) {
+    REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x24", "-o", "few.exr", "--aov", planes}, folder.path("")).exit_code == 0);
+    Arguments options = {"--gbuffer", "few.exr", "--subpixel-bits", "8"};
+    options.insert(options.end(), more.begin(), more.end());
+    return judged(folder, options);
+  };
+  const auto refused = [&](const Outcome& outcome, const std::string& message) {
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 3);
+    CHECK(outcome.err.substr(0, message.size()) == message);
+    CHECK(outcome.out.empty());
+  };
+  refused(with("depth,position,albedo", {}), where + "plane normal: is missing (");
+  refused(with("depth,normal,albedo", {}), where + "plane position: is missing (");
+  refused(with("position,normal,albedo", {}), where + "does not say where a surface is (");
+  refused(with("depth,position,normal,albedo", {"--size", "64x48"}), where);
+}
+
 TEST_CASE("a post chain is not judged, and text, JSON and page say so") {
   const ScratchFolder folder;
   folder.write("p.json", R"({"target": "rgba16f", "post": {"tone_map": "reinhard", "encode": "srgb"}})");

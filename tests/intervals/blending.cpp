@@ -238,3 +238,22 @@ TEST_CASE("Of lights blended into a file the rounding of one store is not told f
     }
   }
 }
+
+TEST_CASE("light.count of random scenes is the same with every light tried on every pixel") {
+  Pcg32 random(11);
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = testing::random_scene(random);
+    Pipeline pipeline = testing::random_pipeline(random);
+    Execution all;
+    all.light_culling = false;
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
+      pipeline.strategy = strategy;
+      if (is_forward(strategy)) pipeline.transparency.mode = TransparencyMode::after_lights;
+      CAPTURE(i, name_of(strategy));
+      const std::vector<std::string> aovs = {"light.count"};
+      const Frame frame = render_frame(scene, pipeline, {}, aovs), slow = render_frame(scene, pipeline, all, aovs);
+      CHECK(frame.color.texels == slow.color.texels);
+      CHECK(frame.aovs[0].image.texels == slow.aovs[0].image.texels);
+    }
+  }
+}
