@@ -49,13 +49,16 @@ std::string pictures(const RenderedFrame& result) {
   const std::vector<NamedImage>& planes = result.frame.aovs;
   const Image& counts = plane_named(planes, "light.count");
   const uint32_t most = heat_scale(counts);
+  const int threads = result.execution.threads;
   return "<h2>G-buffer</h2>\n<div class=pictures>\n" +
-         figure(view_image(ImageView::normal, planes), "Normal", "world space, (N + 1) / 2") +
-         figure(view_image(ImageView::albedo, planes), "Albedo", "sRGB-encoded") +
-         figure(view_image(ImageView::depth, planes), "Depth", "distance along the view axis, near is bright") +
-         figure(view_image(ImageView::position, planes), "Position",
+         figure(view_image(ImageView::normal, threads, planes), "Normal", "world space, (N + 1) / 2") +
+         figure(view_image(ImageView::albedo, threads, planes), "Albedo", "sRGB-encoded") +
+         figure(view_image(ImageView::depth, threads, planes), "Depth",
+                "distance along the view axis, near is bright") +
+         figure(view_image(ImageView::position, threads, planes), "Position",
                 "world x, y, z as red, green, blue, each over its extent") +
-         figure(heat_image(counts, most), "Lights per pixel", "that reach and face it" + heat_ramp(most)) + "</div>\n";
+         figure(heat_image(counts, most, threads), "Lights per pixel", "that reach and face it" + heat_ramp(most)) +
+         "</div>\n";
 }
 
 std::string table(const std::vector<StatLine>& lines) {

@@ -88,7 +88,8 @@ void count_coverage(std::span<const ClipTriangle> triangles, const GeometryState
                     const Execution& execution, std::span<uint16_t> counts, NumericProfile profile) {
   const FpScope fp;
   const SimdScope simd(execution.simd);
-  HWY_DYNAMIC_DISPATCH(count_coverage_simd)(triangles, state, width, height, execution.tile, profile, counts);
+  const int tile = execution.tile == 0 ? kMaxTile : execution.tile;  // one thread: no need of smaller ones
+  HWY_DYNAMIC_DISPATCH(count_coverage_simd)(triangles, state, width, height, tile, profile, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

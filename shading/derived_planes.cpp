@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "core/fp_env.h"
+#include "core/image_rows.h"
 #include "scenes/light_shapes.h"
+#include "shading/light_planes.h"
 #include "shading/light_table.h"
 #include "shading/overlay.h"
 
@@ -32,6 +34,22 @@ void put(Image& image, int x, int y, const Value& value) {
   std::memcpy(image.texel(x, y), &value, sizeof value);
 }
 
+/// A row of three channels of a plane, and of id.object.
+struct VectorRow {
+  std::vector<float> values;
+  std::vector<uint32_t> object;  ///< 0: no surface
+
+  VectorRow(const Image& plane, const Image& objects, int y)
+      : values(3 * size_t(objects.width)), object(size_t(objects.width)) {
+    read_row(plane, y, 3, values.data());
+    read_row(objects, y, object.data());
+  }
+  glm::vec3 at(int x) const {
+    const float* p = values.data() + 3 * x;
+    return {p[0], p[1], p[2]};
+  }
+};
+
 /// Unit vector along which distance from the eye grows in depth: what divides x and y in a perspective, else z.
 glm::vec3 view_axis(const Scene& scene, const Pipeline& pipeline) {
   const Matrix4 m = clip_from_world(scene.camera, 1.0, pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
@@ -44,74 +62,84 @@ glm::vec3 view_axis(const Scene& scene, const Pipeline& pipeline) {
   return glm::vec3(0.0f);
 }
 
-Image view_distance(const Scene& scene, const Pipeline& pipeline, const Image& position, const Image& object) {
+/// Calls body(y) for every row of a plane.
+template <typename Body>
+void for_each_row(int height, int threads, const Body& body) {
+  parallel_for((height + kRowsOfBand - 1) / kRowsOfBand, threads, [&](int band) {
+    for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, height); ++y) body(y);
+  });
+}
+
+Image view_distance(const Scene& scene, const Pipeline& pipeline, int threads, const Image& position,
+                    const Image& object) {
   const glm::vec3 axis = view_axis(scene, pipeline), eye = scene.camera.eye;
   Image out(object.width, object.height, Format::d32f);
-  for (int y = 0; y < out.height; ++y)
+  for_each_row(out.height, threads, [&](int y) {
+    const VectorRow row(position, object, y);
     for (int x = 0; x < out.width; ++x) {
-      if (object.value(x, y, 0) == 0.0) continue;
-      float p[3];
-      for (int k = 0; k < 3; ++k) p[k] = float(position.value(x, y, k)) - eye[k];
-      put(out, x, y, (axis.x * p[0] + axis.y * p[1]) + axis.z * p[2]);
+      if (row.object[size_t(x)] == 0) continue;
+      const glm::vec3 p = row.at(x) - eye;
+      put(out, x, y, (axis.x * p.x + axis.y * p.y) + axis.z * p.z);
     }
+  });
   return out;
 }
 
-struct Square {
-  int x0, y0, x1, y1;  ///< y from the top, half open
-};
-
-/// Lights whose falloff is not sure to be 0 in the box of the square's positions, by the test of the light lists.
-uint32_t reaching_lights(const LightTable& lights, const Square& square, const Image& position, const Image& object) {
+/// Lights whose falloff is not sure to be 0 in the box of positions of pixels [x0, x1), by the test of the light lists.
+uint32_t reaching_lights(const LightTable& lights, std::span<const VectorRow> rows, int x0, int x1) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  float low[3] = {kInf, kInf, kInf}, high[3] = {-kInf, -kInf, -kInf};
+  glm::vec3 low(kInf), high(-kInf);
   bool any = false;
-  for (int y = square.y0; y < square.y1; ++y)
-    for (int x = square.x0; x < square.x1; ++x) {
-      if (object.value(x, y, 0) == 0.0) continue;
+  for (const VectorRow& row : rows)
+    for (int x = x0; x < x1; ++x) {
+      if (row.object[size_t(x)] == 0) continue;
       any = true;
+      const glm::vec3 p = row.at(x);
       for (int k = 0; k < 3; ++k) {
-        const float p = float(position.value(x, y, k));
-        low[k] = std::min(low[k], p);
-        high[k] = std::max(high[k], p);
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
       }
     }
   if (!any) return 0;
   uint32_t count = 0;
+  const float* const place[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
+  const float* const cut2 = lights.cut2.data();
   for (size_t light = 0; light < lights.size(); ++light) {
     float d2 = 0.0f;
     for (int k = 0; k < 3; ++k) {
-      const float place = lights.position[k][light];
-      const float gap = std::max(std::max(low[k] - place, place - high[k]), 0.0f);
+      const float gap = std::max(std::max(low[k] - place[k][light], place[k][light] - high[k]), 0.0f);
       d2 += gap * gap;
     }
-    const float cut2 = lights.cut2[light];
-    count += cut2 == kInf || !(d2 * (1.0f - 0x1p-20f) >= cut2);
+    const bool out_of_reach = d2 * (1.0f - 0x1p-20f) >= cut2[light];
+    count += unsigned(cut2[light] == kInf) | unsigned(!out_of_reach);
   }
   return count;
 }
 
 Image lights_by_tile(const LightTable& lights, int threads, const Image& position, const Image& object) {
   Image out(object.width, object.height, Format::r32ui);
-  const int rows = (out.height + kLightTile - 1) / kLightTile;
-  parallel_for(rows, threads, [&](int row) {
-    const int bottom = out.height - row * kLightTile;  // squares count from the window's lower left corner
+  parallel_for((out.height + kLightTile - 1) / kLightTile, threads, [&](int tile) {
+    const int bottom = out.height - tile * kLightTile;  // squares count from the window's lower left corner
+    std::vector<VectorRow> rows;
+    for (int y = std::max(bottom - kLightTile, 0); y < bottom; ++y) rows.emplace_back(position, object, y);
     for (int x = 0; x < out.width; x += kLightTile) {
-      const Square square{x, std::max(bottom - kLightTile, 0), std::min(x + kLightTile, out.width), bottom};
-      const uint32_t count = reaching_lights(lights, square, position, object);
-      for (int py = square.y0; py < square.y1; ++py)
-        for (int px = square.x0; px < square.x1; ++px) put(out, px, py, count);
+      const int end = std::min(x + kLightTile, out.width);
+      const uint32_t count = reaching_lights(lights, rows, x, end);
+      for (int y = bottom - int(rows.size()); y < bottom; ++y)
+        for (int px = x; px < end; ++px) put(out, px, y, count);
     }
   });
   return out;
 }
 
-Image intensities(const Image& target) {
+Image intensities(const Image& target, int threads) {
   Image out(target.width, target.height, Format::d32f);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      put(out, x, y,
-          luminance(float(target.value(x, y, 0)), float(target.value(x, y, 1)), float(target.value(x, y, 2))));
+  for_each_row(out.height, threads, [&](int y) {
+    std::vector<float> colors(3 * size_t(out.width));
+    read_row(target, y, 3, colors.data());
+    const float* c = colors.data();
+    for (int x = 0; x < out.width; ++x, c += 3) put(out, x, y, luminance(c[0], c[1], c[2]));
+  });
   return out;
 }
 
@@ -120,14 +148,14 @@ Image among_surfaces(const Scene& boxes, const Pipeline& pipeline, const Executi
   const Image &albedo = plane_named(drawn, "albedo"), &object = plane_named(drawn, "id.object");
   const Overlay over = overlay(boxes, pipeline, execution, plane_named(drawn, "depth"));
   Image out(object.width, object.height, Format::rgba32f);
-  for (int y = 0; y < out.height; ++y)
+  for_each_row(out.height, execution.threads, [&](int y) {
+    const VectorRow surface(albedo, object, y), box(over.albedo, over.object, y);
     for (int x = 0; x < out.width; ++x) {
-      const bool boxed = over.object.value(x, y, 0) != 0.0;
-      if (!boxed && object.value(x, y, 0) == 0.0) continue;
-      glm::vec4 value(0.0f, 0.0f, 0.0f, boxed ? 1.0f : 0.0f);
-      for (int k = 0; k < 3; ++k) value[k] = float((boxed ? over.albedo : albedo).value(x, y, k));
-      put(out, x, y, value);
+      const bool boxed = box.object[size_t(x)] != 0;
+      if (boxed || surface.object[size_t(x)] != 0)
+        put(out, x, y, glm::vec4((boxed ? box : surface).at(x), boxed ? 1.0f : 0.0f));
     }
+  });
   return out;
 }
 
@@ -148,14 +176,18 @@ std::vector<std::string> planes_to_draw(std::span<const std::string> asked) {
 
 Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                     const Image& target, std::span<const NamedImage> drawn) {
-  if (name == "light.intensity") return intensities(target);
+  if (name == "light.intensity") return intensities(target, execution.threads);
   if (name == "light.boxes") return among_surfaces(light_boxes(scene), pipeline, execution, drawn);
   if (name == "light.edges") return among_surfaces(light_box_edges(scene), pipeline, execution, drawn);
   const Image& object = plane_named(drawn, "id.object");
   const Image& position = plane_named(drawn, "position");
-  if (name == "Z") return view_distance(scene, pipeline, position, object);
+  if (name == "Z") return view_distance(scene, pipeline, execution.threads, position, object);
   return lights_by_tile(make_light_table(scene.lights, pipeline.light_model, scene.camera), execution.threads, position,
                         object);
+}
+
+bool shows_light(std::string_view plane) {
+  return plane == "light.count" || plane == "light.intensity" || light_of_plane(plane);
 }
 
 const Image& plane_named(std::span<const NamedImage> planes, std::string_view name) {

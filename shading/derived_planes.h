@@ -27,6 +27,9 @@ std::vector<std::string> planes_to_draw(std::span<const std::string> asked);
 Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                     const Image& target, std::span<const NamedImage> drawn);
 
+/// Whether lights must be drawn for this plane, asked for or derived; others do not depend on what they add.
+bool shows_light(std::string_view plane);
+
 /// The plane of that name, which must be there.
 const Image& plane_named(std::span<const NamedImage> planes, std::string_view name);
 

@@ -98,7 +98,7 @@ struct FrameWork {
   const LightGroups& groups;
   const LightMeshes meshes;
   const LightOutlines outlines;  ///< of strategies that blend
-  bool need_uv;
+  bool need_uv, lit;
   const LightPlanes light_planes;
   const TransparentPass transparent;
   Frame& out;
@@ -142,27 +142,10 @@ struct FrameWork {
     return transparent.active() ? s.transparent.get() : nullptr;
   }
 
-  void draw(int tile, TileScratch& s, TileCounts& counts) const {
-    const double start = now_ms();
-    const Scene& scene = prepared.scene();
-    const TileRect where = rect(tile);
-    const TileDraws all{prepared.clusters(),    scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile),
-                        execution.fast_geometry};
-    TransparentWork* const glass = transparent_work(s);
-    const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
-    draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
-    const GBufferState planes = surface_planes(pipeline);
-    resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
-    const bool tied = pipeline.strategy == Strategy::forward_multipass &&
-                      resolve_tied(draws, where, planes, pipeline.light_model, need_uv, execution.geometry_culling,
-                                   s.visible, s.vertices, s.tied);
-    counts.covered += uint64_t(s.surface.covered_pixels);
-    if (glass != nullptr) {
-      counts.transparent += transparent.find_fragments(all, where, execution.geometry_culling, s.visible, *glass);
-      if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
-    }
-    const double middle = now_ms();
-    const glm::vec4 clear_color = drawn_clear(scene.clear, target());
+  /// Lights, what is transparent after them, the store, and the planes light.<i>.
+  void light_and_store(const TileDraws& all, const TileRect& where, bool tied, TransparentWork* glass, TileScratch& s,
+                       TileCounts& counts) const {
+    const glm::vec4 clear_color = drawn_clear(prepared.scene().clear, target());
     const float* const clear = &clear_color[0];
     if (blends_lights(pipeline.strategy)) {
       const LightDraws lit = light_draws();
@@ -190,6 +173,29 @@ struct FrameWork {
     else
       light_planes.sum(s.surface, where, execution.light_culling, execution.compiled_models, s.lights, s.extra,
                        out.aovs);
+  }
+
+  void draw(int tile, TileScratch& s, TileCounts& counts) const {
+    const double start = now_ms();
+    const Scene& scene = prepared.scene();
+    const TileRect where = rect(tile);
+    const TileDraws all{prepared.clusters(),    scene, view, pipeline.geometry, bins.draws, bins.tile_list(tile),
+                        execution.fast_geometry};
+    TransparentWork* const glass = transparent_work(s);
+    const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
+    draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
+    const GBufferState planes = surface_planes(pipeline);
+    resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
+    const bool tied = pipeline.strategy == Strategy::forward_multipass &&
+                      resolve_tied(draws, where, planes, pipeline.light_model, need_uv, execution.geometry_culling,
+                                   s.visible, s.vertices, s.tied);
+    counts.covered += uint64_t(s.surface.covered_pixels);
+    if (glass != nullptr) {
+      counts.transparent += transparent.find_fragments(all, where, execution.geometry_culling, s.visible, *glass);
+      if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
+    }
+    const double middle = now_ms();
+    if (lit) light_and_store(all, where, tied, glass, s, counts);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
       if (aov.name == "specular" || aov.name == "emission") {
@@ -203,7 +209,7 @@ struct FrameWork {
     }
     counts.geometry_ms += middle - start;
     counts.light_ms += now_ms() - middle;
-    if (execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
+    if (lit && execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
       counts.lit_geometry += count_lit_geometry(light_draws(), s.surface, where, s.blend.counts, s.blend.lights);
   }
 };
@@ -290,7 +296,7 @@ int tile_for(int width, int height, int threads) {
 }
 
 Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& asked,
-                 std::span<const std::string> aovs, const Progress& progress) {
+                 std::span<const std::string> aovs, bool lit, const Progress& progress) {
   Execution execution = asked;
   if (execution.tile == 0) execution.tile = tile_for(pipeline.width, pipeline.height, execution.threads);
   check_memory(pipeline, execution, aovs);
@@ -299,7 +305,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   const double start = now_ms();
   const Scene& scene = prepared.scene();
   Frame frame;
-  frame.color = Image(pipeline.width, pipeline.height, pipeline.target);
+  if (lit) frame.color = Image(pipeline.width, pipeline.height, pipeline.target);
   for (const std::string& name : aovs)
     frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
 
@@ -313,23 +319,23 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads, lights);
   bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
   PlainLights plain;
-  if (execution.settled_sums && !blends_lights(pipeline.strategy))
+  if (lit && execution.settled_sums && !blends_lights(pipeline.strategy))
     plain = make_plain_lights(lights, pipeline.light_model);
   groups.group.clear();
-  if (execution.light_culling) make_light_groups(lights, execution.threads, groups);
+  if (lit && execution.light_culling) make_light_groups(lights, execution.threads, groups);
   LightMeshes meshes(pipeline.light_volumes);
   LightOutlines outlines;
-  if (blends_lights(pipeline.strategy))
+  if (lit && blends_lights(pipeline.strategy))
     outlines = outlines_of_draws(scene.lights, pipeline, meshes, view, execution.threads);
   LightPlanes light_planes(aovs, scene, pipeline, meshes, view);
   frame.stats.before_tiles_ms = now_ms() - start;
   frame.stats.loops_before_tiles = log->loops();
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
-  draw_tiles({prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, std::move(meshes),
-              std::move(outlines), need_uv, std::move(light_planes),
-              TransparentPass(scene, pipeline, execution), frame},
-             progress);
+  draw_tiles(
+      {prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, std::move(meshes),
+       std::move(outlines), need_uv, lit, std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
+      progress);
 
   FrameStats& stats = frame.stats;
   stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);

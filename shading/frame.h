@@ -33,7 +33,7 @@ struct GlCounts {
 struct FrameStats {
   uint64_t pixels = 0;                 ///< of the image
   uint64_t covered_pixels = 0;         ///< N: with an opaque surface
-  uint64_t lit_pixel_lights = 0;       ///< pairs of covered pixel and light that is in range and faces it
+  uint64_t lit_pixel_lights = 0;       ///< pairs of covered pixel and light in range that it faces; 0 if none is shown
   uint64_t pixel_lights = 0;           ///< covered pixels times lights
   uint64_t transparent_fragments = 0;  ///< blended: they pass the depth test
   uint64_t triangles = 0;              ///< submitted, over all instances

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/fp_env.h"
+#include "core/image_rows.h"
+
 namespace trueshade {
 namespace {
 
@@ -13,12 +16,6 @@ constexpr uint8_t kStop[kStops][3] = {{2, 8, 39},      {24, 15, 72},   {50, 15, 
                                       {143, 1, 121},   {173, 4, 114},  {205, 2, 102},  {230, 31, 83},  {247, 64, 59},
                                       {253, 99, 40},   {253, 132, 43}, {254, 158, 52}, {251, 184, 82}, {245, 209, 126},
                                       {242, 231, 173}, {247, 249, 218}};
-
-uint32_t count_at(const Image& counts, int x, int y) {
-  uint32_t count;
-  std::memcpy(&count, counts.texel(x, y), sizeof count);
-  return count;
-}
 
 }  // namespace
 
@@ -32,22 +29,33 @@ std::array<uint8_t, 3> heat_color(int step) {
 
 uint32_t heat_scale(const Image& counts) {
   uint32_t most = 1;
-  for (int y = 0; y < counts.height; ++y)
-    for (int x = 0; x < counts.width; ++x) most = std::max(most, count_at(counts, x, y));
+  std::vector<uint32_t> row(size_t(counts.width));
+  for (int y = 0; y < counts.height; ++y) {
+    read_row(counts, y, row.data());
+    for (const uint32_t count : row) most = std::max(most, count);
+  }
   uint32_t scale = 1;
   while (scale < most && scale < uint32_t(1) << 31) scale *= 2;
   return scale;
 }
 
-Image heat_image(const Image& counts, uint32_t scale) {
+Image heat_image(const Image& counts, uint32_t scale, int threads) {
+  std::array<std::array<uint8_t, 4>, 257> color;
+  for (size_t step = 0; step < color.size(); ++step) {
+    const std::array<uint8_t, 3> rgb = heat_color(int(step));
+    color[step] = {rgb[0], rgb[1], rgb[2], 255};
+  }
   Image out(counts.width, counts.height, Format::rgba8);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) {
-      const uint64_t step = uint64_t(256) * count_at(counts, x, y) / scale;
-      const std::array<uint8_t, 3> rgb = heat_color(int(std::min<uint64_t>(step, 256)));
-      std::copy(rgb.begin(), rgb.end(), out.texel(x, y));
-      out.texel(x, y)[3] = 255;
+  parallel_for((out.height + kRowsOfBand - 1) / kRowsOfBand, threads, [&](int band) {
+    std::vector<uint32_t> row(size_t(out.width));
+    for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, out.height); ++y) {
+      read_row(counts, y, row.data());
+      for (int x = 0; x < out.width; ++x) {
+        const uint64_t step = uint64_t(256) * row[size_t(x)] / scale;
+        std::memcpy(out.texel(x, y), color[size_t(std::min<uint64_t>(step, 256))].data(), 4);
+      }
     }
+  });
   return out;
 }
 

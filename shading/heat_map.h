@@ -14,7 +14,7 @@ std::array<uint8_t, 3> heat_color(int step);
 /// What the top of the colour map stands for: the least power of two that no count exceeds, at least 1.
 uint32_t heat_scale(const Image& counts);
 
-/// Counts (r32ui) in these colours: step floor(256 count / scale). rgba8.
-Image heat_image(const Image& counts, uint32_t scale);
+/// Counts (r32ui) in these colours: step floor(256 count / scale). rgba8, the same on any number of threads.
+Image heat_image(const Image& counts, uint32_t scale, int threads = 1);
 
 }  // namespace trueshade

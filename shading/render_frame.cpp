@@ -49,8 +49,12 @@ std::vector<std::string> planes_needed(const Pipeline& pipeline, std::span<const
   return names;
 }
 
+auto named(std::string_view name) {
+  return [name](const NamedImage& plane) { return plane.name == name; };
+}
+
 const Image* depth_of(std::span<const NamedImage> planes) {
-  const auto there = std::find_if(planes.begin(), planes.end(), [](const NamedImage& p) { return p.name == "depth"; });
+  const auto there = std::find_if(planes.begin(), planes.end(), named("depth"));
   return there == planes.end() ? nullptr : &there->image;
 }
 
@@ -59,7 +63,7 @@ Image finished_from_samples(const PreparedScene& prepared, const Pipeline& pipel
                             const Progress& progress) {
   std::vector<std::string> planes;
   if (pipeline.post.marker_radius > 0.0f) planes.emplace_back("depth");
-  const Frame large = draw_frame(prepared, pipeline_before_post(pipeline), execution, planes, progress);
+  const Frame large = draw_frame(prepared, pipeline_before_post(pipeline), execution, planes, true, progress);
   return finished_image(prepared.scene(), pipeline, execution, large.color, depth_of(large.aovs));
 }
 
@@ -77,7 +81,9 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   validate(execution);
   check_planes(aovs, prepared.scene());
   const std::vector<std::string> needed = planes_needed(pipeline, aovs);
-  Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), progress);
+  const bool lit = pipeline.view == ImageView::lit || execution.count_as_gl ||
+                   std::any_of(needed.begin(), needed.end(), shows_light);
+  Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), lit, progress);
   const FpScope fp;
   const bool post = pipeline.view == ImageView::lit && pipeline.post.active();
   Image finished;
@@ -85,19 +91,24 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
     finished = pipeline.post.samples > 1
                    ? finished_from_samples(prepared, pipeline, execution, progress)
                    : finished_image(prepared.scene(), pipeline, execution, frame.color, depth_of(frame.aovs));
-  const std::vector<NamedImage> drawn = std::move(frame.aovs);
-  std::vector<NamedImage> planes;
+  std::vector<NamedImage> drawn = std::move(frame.aovs), planes;
+  const auto place = [&](const std::string& name) { return std::find_if(drawn.begin(), drawn.end(), named(name)); };
   for (const std::string& name : needed) {
-    const auto there = std::find_if(drawn.begin(), drawn.end(), [&](const NamedImage& p) { return p.name == name; });
-    if (there != drawn.end())
-      planes.push_back(*there);
-    else
-      planes.push_back({name, derived_plane(name, prepared.scene(), pipeline, execution, frame.color, drawn)});
+    const bool derived = place(name) == drawn.end();
+    planes.push_back(
+        {name, derived ? derived_plane(name, prepared.scene(), pipeline, execution, frame.color, drawn) : Image()});
+  }
+  for (NamedImage& plane : planes) {  // what planes are derived from is taken when all are
+    const auto there = place(plane.name);
+    if (there == drawn.end()) continue;
+    const bool again = std::count_if(planes.begin(), planes.end(), named(plane.name)) > 1;
+    plane.image = again ? there->image : std::move(there->image);
   }
   if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
-    frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)));
+    frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)),
+                             execution.threads);
   else if (pipeline.view != ImageView::lit)
-    frame.color = view_image(pipeline.view, planes);
+    frame.color = view_image(pipeline.view, execution.threads, planes);
   if (post) frame.color = std::move(finished);
   planes.resize(aovs.size());
   frame.aovs = std::move(planes);

@@ -101,16 +101,64 @@ void write_tile(const ColorTile& color, bool encode, const TileRect& rect, HalfR
   });
 }
 
-struct Planes {
-  int first, count;
-  float fourth;  // where the format has more channels than the plane
+/// A channel of a plane: values of the tile, or one value where there are none.
+struct Channel {
+  const float* values;
+  float constant;
 };
 
-Planes planes_of(std::string_view name) {
-  if (name == "position") return {kPosition, 3, 1.0f};
-  if (name == "normal") return {kNormal, 3, 1.0f};
-  if (name == "albedo") return {kAlbedo, 4, 0.0f};
-  return {kUv, 2, 1.0f};
+/// Texels of a row of a block, of channels of one kind.
+template <int kChannels, typename Code, class Encode>
+void encode_channels(const float (&value)[4][kBlockSize], const Encode& encode, uint8_t* texels) {
+  Code codes[kBlockSize * kChannels];
+  for (int k = 0; k < kBlockSize; ++k)
+    for (int c = 0; c < kChannels; ++c) codes[k * kChannels + c] = encode(value[c][k]);
+  std::memcpy(texels, codes, sizeof codes);
+}
+
+void encode_run(const float (&value)[4][kBlockSize], Format format, HalfRound half_round, uint8_t* texels) {
+  const auto half = [half_round](float v) { return half_from_float(v, half_round); };
+  switch (format) {
+    case Format::rgba32f:
+      return encode_channels<4, float>(
+          value, [](float v) { return v; }, texels);
+    case Format::rgba16f:
+      return encode_channels<4, uint16_t>(value, half, texels);
+    case Format::rgb16f:
+      return encode_channels<3, uint16_t>(value, half, texels);
+    case Format::rgba8:
+      return encode_channels<4, uint8_t>(
+          value, [](float v) { return uint8_t(v * 255.0f + 0.5f); }, texels);
+    default:
+      for (int k = 0; k < kBlockSize; ++k) {
+        const float of_texel[4] = {value[0][k], value[1][k], value[2][k], value[3][k]};
+        write_channels(of_texel, format, half_round, texels + k * info(format).bytes_per_texel());
+      }
+  }
+}
+
+/// A plane's part of a tile, rows of blocks at a time; 0 without a surface. `halved`: (v + 1) / 2, of constants too.
+void store_channels(const Channel (&channels)[4], bool halved, const SurfaceTile& surface, const TileRect& rect,
+                    HalfRound half_round, Image& plane) {
+  const int width = std::min(rect.size, plane.width - rect.x), height = std::min(rect.size, plane.height - rect.y);
+  const size_t texel = size_t(info(plane.format).bytes_per_texel());
+  uint8_t texels[kBlockSize * 4 * sizeof(float)];
+  float constant[4][kBlockSize];
+  for (int c = 0; c < 4; ++c) std::fill_n(constant[c], kBlockSize, channels[c].constant);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; x += kBlockSize) {
+      const int first = tile_index(rect.size, x, y);
+      float value[4][kBlockSize];
+      for (int c = 0; c < 4; ++c) {
+        const float* const from = channels[c].values != nullptr ? channels[c].values + first : constant[c];
+        for (int k = 0; k < kBlockSize; ++k) value[c][k] = halved ? from[k] * 0.5f + 0.5f : from[k];
+        for (int k = 0; k < kBlockSize; ++k)
+          value[c][k] = std::bit_cast<float>(std::bit_cast<int32_t>(value[c][k]) & surface.covered[first + k]);
+      }
+      encode_run(value, plane.format, half_round, texels);
+      std::memcpy(plane.texel(rect.x + x, plane.height - 1 - (rect.y + y)), texels,
+                  texel * size_t(std::min(kBlockSize, width - x)));
+    }
 }
 
 }  // namespace
@@ -130,42 +178,40 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
                              : name == "light.count" || name == "overdraw" ? color.light_count
                                                                            : nullptr;
   if (integers != nullptr || name == "depth") {
-    for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
-      if (integers == nullptr)
-        std::memcpy(texel, visible.depth + i, 4);
-      else if (surface.covered[i] != 0 || name == "overdraw")
-        std::memcpy(texel, integers + i, 4);
-    });
+    uint32_t words[kMaxTilePixels];
+    for (int i = 0; i < rect.size * rect.size; ++i)
+      words[i] = integers == nullptr                             ? std::bit_cast<uint32_t>(visible.depth[i])
+                 : surface.covered[i] != 0 || name == "overdraw" ? integers[i]
+                                                                 : 0;
+    write_words(words, 0, 4, rect, plane);
     return;
   }
-  const Planes planes = planes_of(name);
-  const bool halved = name == "normal" && info(plane.format).number_class == NumberClass::unorm;  // (n + 1) / 2
-  for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
-    if (surface.covered[i] == 0) return;
-    float value[4] = {0.0f, 0.0f, 0.0f, planes.fourth};
-    for (int c = 0; c < planes.count; ++c) {
-      value[c] = surface.plane[planes.first + c][i];
-      if (halved) value[c] = value[c] * 0.5f + 0.5f;
-    }
-    write_channels(value, plane.format, half_round, texel);
-  });
+  const auto of = [&surface](int first, int c) { return Channel{surface.plane[first + c], 0.0f}; };
+  const Channel zero{nullptr, 0.0f}, one{nullptr, 1.0f};
+  const auto store = [&](const Channel(&channels)[4], bool halved) {
+    store_channels(channels, halved, surface, rect, half_round, plane);
+  };
+  if (name == "position") return store({of(kPosition, 0), of(kPosition, 1), of(kPosition, 2), one}, false);
+  if (name == "albedo") return store({of(kAlbedo, 0), of(kAlbedo, 1), of(kAlbedo, 2), of(kAlbedo, 3)}, false);
+  if (name == "uv") return store({of(kUv, 0), of(kUv, 1), zero, one}, false);
+  const bool halved = info(plane.format).number_class == NumberClass::unorm;
+  store({of(kNormal, 0), of(kNormal, 1), of(kNormal, 2), one}, halved);
 }
 
 void store_material_plane(std::string_view name, const SurfaceTile& surface, const LightModel& model,
                           const TileRect& rect, HalfRound half_round, Image& plane) {
   const bool emission = name == "emission", own = reads_specular_plane(model);
   const bool albedo = model.specular_source == SpecularSource::albedo;
-  for_each_texel(rect, plane, [&](int i, uint8_t* texel) {
-    if (surface.covered[i] == 0) return;
-    float value[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-    for (int c = 0; c < 3; ++c)
-      value[c] = emission ? (model.emission ? surface.plane[kEmission + c][i] : 0.0f)
-                 : own    ? surface.plane[kSpecular + c][i]
-                 : albedo ? surface.plane[kAlbedo + c][i]
-                          : model.specular_color[c];
-    if (!emission) value[3] = own ? surface.plane[kSpecular + 3][i] : model.shininess;
-    write_channels(value, plane.format, half_round, texel);
-  });
+  Channel channels[4];
+  for (int c = 0; c < 3; ++c)
+    channels[c] = emission ? Channel{model.emission ? surface.plane[kEmission + c] : nullptr, 0.0f}
+                  : own    ? Channel{surface.plane[kSpecular + c], 0.0f}
+                  : albedo ? Channel{surface.plane[kAlbedo + c], 0.0f}
+                           : Channel{nullptr, model.specular_color[c]};
+  channels[3] = emission ? Channel{nullptr, 1.0f}
+                : own    ? Channel{surface.plane[kSpecular + 3], 0.0f}
+                         : Channel{nullptr, model.shininess};
+  store_channels(channels, false, surface, rect, half_round, plane);
 }
 
 Format aov_format(std::string_view name, const GBufferState& planes) {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
-#include "core/srgb.h"
+#include "core/fp_env.h"
+#include "core/image_rows.h"
+#include "core/srgb_codes.h"
 #include "shading/derived_planes.h"
 
 namespace trueshade {
@@ -15,17 +18,35 @@ using Rgb = std::array<uint8_t, 3>;
 
 uint8_t code(double share) { return uint8_t((share > 0.0 ? std::min(share, 1.0) : 0.0) * 255.0 + 0.5); }
 
-/// A picture of color(x, y) where there is a surface, or the plane `also` has an alpha.
-template <typename Color>
-Image picture(const Image& object, const Color& color, const Image* also = nullptr) {
-  Image view(object.width, object.height, Format::rgba8);
-  for (int y = 0; y < view.height; ++y)
-    for (int x = 0; x < view.width; ++x) {
-      const bool shown = object.value(x, y, 0) != 0.0 || (also != nullptr && also->value(x, y, 3) != 0.0);
-      const Rgb rgb = shown ? color(x, y) : Rgb{kEmptyColor[0], kEmptyColor[1], kEmptyColor[2]};
-      std::copy(rgb.begin(), rgb.end(), view.texel(x, y));
-      view.texel(x, y)[3] = 255;
+/// Calls row(y, values, objects) for every row, bands of them at a time: values of `channels` channels of `shown`, and
+/// the plane id.object.
+template <typename Row>
+void for_each_row(const Image& shown, int channels, const Image& object, int threads, const Row& row) {
+  const size_t width = size_t(shown.width);
+  parallel_for((shown.height + kRowsOfBand - 1) / kRowsOfBand, threads, [&](int band) {
+    std::vector<float> values(width * size_t(channels));
+    std::vector<uint32_t> objects(width);
+    for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, shown.height); ++y) {
+      read_row(shown, y, channels, values.data());
+      read_row(object, y, objects.data());
+      row(y, values.data(), objects.data());
     }
+  });
+}
+
+/// A picture of color(the pixel's values of `shown`) where there is a surface, or, of four channels, an alpha.
+template <int kChannels, typename Color>
+Image picture(const Image& shown, const Image& object, int threads, const Color& color) {
+  Image view(object.width, object.height, Format::rgba8);
+  for_each_row(shown, kChannels, object, threads, [&](int y, const float* values, const uint32_t* objects) {
+    uint8_t* texel = view.texel(0, y);
+    for (int x = 0; x < view.width; ++x, values += kChannels, texel += 4) {
+      const bool drawn = objects[x] != 0 || (kChannels == 4 && values[kChannels - 1] != 0.0f);
+      const Rgb rgb = drawn ? color(values) : Rgb{kEmptyColor[0], kEmptyColor[1], kEmptyColor[2]};
+      const uint8_t rgba[4] = {rgb[0], rgb[1], rgb[2], 255};
+      std::memcpy(texel, rgba, sizeof rgba);
+    }
+  });
   return view;
 }
 
@@ -33,52 +54,55 @@ Image picture(const Image& object, const Color& color, const Image* also = nullp
 struct Extent {
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
-  Extent(const Image& plane, int channel, const Image& object) {
-    for (int y = 0; y < plane.height; ++y)
-      for (int x = 0; x < plane.width; ++x) {
-        const double value = plane.value(x, y, channel);
-        if (object.value(x, y, 0) == 0.0 || !std::isfinite(value)) continue;
-        least = std::min(least, value);
-        most = std::max(most, value);
-      }
+  void add(const Extent& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
   }
   double share(double value) const { return most > least ? (value - least) / (most - least) : 0.5; }
 };
 
-Image linear_colors(const Image& plane, const Image& object, const Image* also = nullptr) {
-  const auto color = [&](int x, int y) {
-    Rgb rgb;
-    for (int k = 0; k < 3; ++k) rgb[size_t(k)] = srgb8_from_linear(float(plane.value(x, y, k)));
-    return rgb;
-  };
-  return picture(object, color, also);
+template <int kChannels>
+std::array<Extent, kChannels> extents(const Image& plane, const Image& object, int threads) {
+  std::vector<std::array<Extent, kChannels>> of_row(size_t(plane.height));
+  for_each_row(plane, kChannels, object, threads, [&](int y, const float* values, const uint32_t* objects) {
+    std::array<Extent, kChannels> row;
+    for (int x = 0; x < plane.width; ++x)
+      for (size_t c = 0; c < kChannels; ++c) {
+        const float value = values[kChannels * size_t(x) + c];
+        if (objects[x] != 0 && std::isfinite(value)) row[c].add({value, value});
+      }
+    of_row[size_t(y)] = row;
+  });
+  std::array<Extent, kChannels> all;
+  for (const auto& row : of_row)
+    for (size_t c = 0; c < kChannels; ++c) all[c].add(row[c]);
+  return all;
 }
 
-Image directions(const Image& normal, const Image& object) {
-  const bool halved = info(normal.format).number_class == NumberClass::unorm;  // (n + 1) / 2 already
-  return picture(object, [&](int x, int y) {
-    Rgb rgb;
-    for (int k = 0; k < 3; ++k) {
-      const double value = normal.value(x, y, k);
-      rgb[size_t(k)] = code(halved ? value : 0.5 * value + 0.5);
-    }
-    return rgb;
+Rgb linear_color(const float* value) {
+  return {srgb8_code_of(value[0]), srgb8_code_of(value[1]), srgb8_code_of(value[2])};
+}
+
+Image directions(const Image& normal, const Image& object, int threads) {
+  if (info(normal.format).number_class == NumberClass::unorm)  // (n + 1) / 2 already
+    return picture<3>(normal, object, threads, [](const float* n) { return Rgb{code(n[0]), code(n[1]), code(n[2])}; });
+  const auto halved = [](float n) { return code(0.5 * double(n) + 0.5); };
+  return picture<3>(normal, object, threads, [&](const float* n) {
+    return Rgb{halved(n[0]), halved(n[1]), halved(n[2])};
   });
 }
 
-Image places(const Image& position, const Image& object) {
-  const Extent extent[3] = {{position, 0, object}, {position, 1, object}, {position, 2, object}};
-  return picture(object, [&](int x, int y) {
-    Rgb rgb;
-    for (int k = 0; k < 3; ++k) rgb[size_t(k)] = code(extent[k].share(position.value(x, y, k)));
-    return rgb;
+Image places(const Image& position, const Image& object, int threads) {
+  const auto extent = extents<3>(position, object, threads);
+  return picture<3>(position, object, threads, [&](const float* p) {
+    return Rgb{code(extent[0].share(p[0])), code(extent[1].share(p[1])), code(extent[2].share(p[2]))};
   });
 }
 
-Image distances(const Image& distance, const Image& object) {
-  const Extent extent(distance, 0, object);
-  return picture(object, [&](int x, int y) {
-    const uint8_t grey = code(1.0 - 0.875 * extent.share(distance.value(x, y, 0)));
+Image distances(const Image& distance, const Image& object, int threads) {
+  const Extent extent = extents<1>(distance, object, threads)[0];
+  return picture<1>(distance, object, threads, [&](const float* z) {
+    const uint8_t grey = code(1.0 - 0.875 * extent.share(z[0]));
     return Rgb{grey, grey, grey};
   });
 }
@@ -86,12 +110,11 @@ Image distances(const Image& distance, const Image& object) {
 /// What is past the last whole number below; a whole number counts as the end of its unit, but 0.
 double part(double x) { return x == 0.0 ? 0.0 : x - (std::ceil(x) - 1.0); }
 
-Image texture_places(const Image& uv, const Image& object) {
-  return picture(object, [&](int x, int y) {
-    const double u = uv.value(x, y, 0), v = uv.value(x, y, 1);
-    const bool odd = std::floor(8.0 * part(u)) - 2.0 * std::floor(4.0 * part(u)) !=
-                     std::floor(8.0 * part(v)) - 2.0 * std::floor(4.0 * part(v));
-    return Rgb{code(part(u)), code(part(v)), code(odd ? 0.4 : 0.0)};
+Image texture_places(const Image& uv, const Image& object, int threads) {
+  return picture<2>(uv, object, threads, [](const float* place) {
+    const double u = part(place[0]), v = part(place[1]);
+    const bool odd = std::floor(8.0 * u) - 2.0 * std::floor(4.0 * u) != std::floor(8.0 * v) - 2.0 * std::floor(4.0 * v);
+    return Rgb{code(u), code(v), code(odd ? 0.4 : 0.0)};
   });
 }
 
@@ -132,15 +155,15 @@ std::string_view heat_plane(ImageView view) {
   return "";
 }
 
-Image view_image(ImageView view, std::span<const NamedImage> planes) {
+Image view_image(ImageView view, int threads, std::span<const NamedImage> planes) {
   const Image& shown = plane_named(planes, planes_of_view(view)[0]);
   const Image& object = plane_named(planes, "id.object");
-  if (view == ImageView::depth) return distances(shown, object);
-  if (view == ImageView::normal) return directions(shown, object);
-  if (view == ImageView::position) return places(shown, object);
-  if (view == ImageView::uv) return texture_places(shown, object);
+  if (view == ImageView::depth) return distances(shown, object, threads);
+  if (view == ImageView::normal) return directions(shown, object, threads);
+  if (view == ImageView::position) return places(shown, object, threads);
+  if (view == ImageView::uv) return texture_places(shown, object, threads);
   const bool boxes = view == ImageView::light_boxes || view == ImageView::light_edges;
-  return linear_colors(shown, object, boxes ? &shown : nullptr);
+  return boxes ? picture<4>(shown, object, threads, linear_color) : picture<3>(shown, object, threads, linear_color);
 }
 
 }  // namespace trueshade

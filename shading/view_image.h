@@ -15,8 +15,8 @@ inline constexpr uint8_t kEmptyColor[3] = {24, 26, 31};
 std::vector<std::string> planes_of_view(ImageView view);
 
 /// Planes in colours to look at: rgba8, sRGB codes, alpha 255. docs/views.md has every formula (f64 of the stored
-/// values); equal planes are equal views. Not for `lit`, nor for heat maps (heat_map.h).
-Image view_image(ImageView view, std::span<const NamedImage> planes);
+/// values); equal planes are equal views, on any number of threads. Not for `lit`, nor for heat maps (heat_map.h).
+Image view_image(ImageView view, int threads, std::span<const NamedImage> planes);
 
 /// The plane that a view shows as a heat map; empty for other views.
 std::string_view heat_plane(ImageView view);

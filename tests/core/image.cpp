@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/half.h"
+#include "core/image_rows.h"
 #include "core/sha256.h"
 #include "tests/catch.hpp"
 
@@ -51,6 +52,29 @@ TEST_CASE("16-bit codes, sRGB codes and fixed-point depths stand for their value
   CHECK(one_texel<uint8_t>(Format::srgb8_a8, 188).value(0, 0, 3) == double(188.0f / 255.0f));
   CHECK(one_texel<uint32_t>(Format::d24, 0x800000).value(0, 0, 0) == double(8388608.0f / 16777215.0f));
   CHECK(one_texel<uint16_t>(Format::d16, 0x8000).value(0, 0, 0) == double(32768.0f / 65535.0f));
+}
+
+TEST_CASE("a row's values are those of its texels one by one, in every format and of any number of channels") {
+  uint32_t state = 1;
+  for (const Format format : kFormats) {
+    Image image(67, 3, format);
+    for (uint8_t& byte : image.texels) byte = uint8_t((state = state * 1664525u + 1013904223u) >> 24);
+    for (int channels = 1; channels <= info(format).channels && format != Format::r32ui; ++channels) {
+      std::vector<float> row(size_t(image.width * channels));
+      read_row(image, 1, channels, row.data());
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < channels; ++c) {
+          const auto expected = float(image.value(x, 1, c));
+          const float found = row[size_t(channels * x + c)];
+          INFO(info(format).name << " channel " << c << " of " << channels);
+          REQUIRE((found == expected || (found != found && expected != expected)));
+        }
+    }
+  }
+  const Image counts = one_texel<uint32_t>(Format::r32ui, 0xfffffffe);
+  uint32_t count = 0;
+  read_row(counts, 0, &count);
+  CHECK(count == 0xfffffffe);
 }
 
 TEST_CASE("an image is hashed as its bytes, rows from the top, without padding") {

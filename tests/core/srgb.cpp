@@ -1,7 +1,6 @@
-#include "core/srgb.h"
-
 #include <cmath>
 
+#include "core/srgb_codes.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {
@@ -24,6 +23,21 @@ TEST_CASE("sRGB codes are the nearest ones, to the float at which each begins") 
   for (int i = 0; i <= 1 << 18; ++i) {
     const float value = float(i) * 0x1p-18f;
     if (int(srgb8_from_linear(value)) != code_by_pow(value)) FAIL("at " << value);
+  }
+}
+
+TEST_CASE("sRGB codes by the table are those of the search, around each code's begin and each element's") {
+  const auto check_around = [](float value) {
+    for (int step = 0; step < 4; ++step) value = std::nextafter(value, -1.0f);
+    for (int step = 0; step < 8; ++step, value = std::nextafter(value, 2.0f))
+      if (srgb8_code_of(value) != srgb8_from_linear(value)) FAIL("at " << value);
+  };
+  for (const double start : kSrgbCodeStarts) check_around(float(start));
+  for (uint32_t bits = SrgbCodeTable::kLeast; bits <= SrgbCodeTable::kEnd; bits += 1u << SrgbCodeTable::kShift)
+    check_around(std::bit_cast<float>(bits));
+  for (uint64_t bits = 0; bits <= 0xFFFFFFFFu; bits += 4099) {  // infinities' and NaNs' too
+    const auto value = std::bit_cast<float>(uint32_t(bits));
+    if (srgb8_code_of(value) != srgb8_from_linear(value)) FAIL("at " << value);
   }
 }
 

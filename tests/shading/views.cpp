@@ -1,4 +1,5 @@
 // Planes beside the picture and views made of them, against formulas (docs/views.md).
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -556,6 +557,67 @@ TEST_CASE("Every view and plane has one set of bits, however it is drawn, and a 
         }
       }
   }
+}
+
+TEST_CASE("A view that shows nothing of the lights is the same without a light pass, and so are the planes beside it",
+          "[views]") {
+  const Scene scene = load_scene("builtin:circle");
+  const PreparedScene prepared(scene);
+  const std::vector<std::string> unlit{"normal", "depth", "Z", "overdraw", "light.tile", "normal"};
+  std::vector<std::string> lit = unlit;
+  lit.push_back("light.count");  // which makes the lights be drawn
+  for (size_t view = 1; view < std::size(kViewNames); ++view)
+    for (const char* preset : {"many-lights", "light-volumes"})
+      for (const int threads : {1, 3}) {
+        Pipeline pipeline = pipeline_of(preset, 70, 50);
+        pipeline.view = ImageView(view);
+        Execution execution;
+        execution.threads = threads;
+        const Frame with = render_frame(prepared, pipeline, {}, lit);
+        const Frame without = render_frame(prepared, pipeline, execution, unlit);
+        CAPTURE(kViewNames[view], preset, threads);
+        CHECK(with.stats.evaluated_pixel_lights > 0);
+        CHECK((without.stats.evaluated_pixel_lights > 0) == (pipeline.view == ImageView::light_count));
+        CHECK(with.color.texels == without.color.texels);
+        for (size_t i = 0; i < unlit.size(); ++i) CHECK(with.aovs[i].image.texels == without.aovs[i].image.texels);
+        CHECK(render_frame(prepared, pipeline, execution).color.texels == with.color.texels);
+      }
+}
+
+TEST_CASE("Views of stored planes are the formulas of each texel's value, whatever the formats of the planes",
+          "[views]") {
+  const Scene scene = load_scene("builtin:circle");
+  const auto code = [](double x) { return int(std::floor(255.0 * std::clamp(x, 0.0, 1.0) + 0.5)); };
+  const std::string planes[] = {"albedo", "normal", "position", "id.object"};
+  for (const char* preset : {"many-lights", "touchdesigner", "light-volumes", "redsdk"})
+    for (const Format packed : {Format::rgba32f, Format::rgba16f, Format::rgb10_a2}) {
+      Pipeline pipeline = pipeline_of(preset, 67, 49);
+      pipeline.gbuffer.normal.format = pipeline.gbuffer.albedo.format = packed;
+      CAPTURE(preset, info(packed).name);
+      Image views[3];
+      Frame frame;
+      for (size_t i = 0; i < 3; ++i) {
+        pipeline.view = std::array{ImageView::albedo, ImageView::normal, ImageView::position}[i];
+        frame = render_frame(scene, pipeline, {}, planes);
+        views[i] = frame.color;
+      }
+      double low[3] = {1e30, 1e30, 1e30}, high[3] = {-1e30, -1e30, -1e30};
+      for (int pass = 0; pass < 2; ++pass)
+        for (int y = 0; y < 49; ++y)
+          for (int x = 0; x < 67; ++x) {
+            if (at<uint32_t>(frame.aovs[3].image, x, y) == 0) continue;
+            for (int k = 0; k < 3; ++k) {
+              const double place = frame.aovs[2].image.value(x, y, k), n = frame.aovs[1].image.value(x, y, k);
+              low[k] = std::min(low[k], place);
+              high[k] = std::max(high[k], place);
+              if (pass == 0) continue;
+              const bool halved = info(frame.aovs[1].image.format).number_class == NumberClass::unorm;
+              REQUIRE(views[0].texel(x, y)[k] == srgb8_from_linear(float(frame.aovs[0].image.value(x, y, k))));
+              REQUIRE(int(views[1].texel(x, y)[k]) == code(halved ? n : (n + 1.0) / 2.0));
+              REQUIRE(int(views[2].texel(x, y)[k]) == code((place - low[k]) / (high[k] - low[k])));
+            }
+          }
+    }
 }
 
 TEST_CASE("Planes that are not there are refused by name", "[views]") {

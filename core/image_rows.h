@@ -1,0 +1,16 @@
+#pragma once
+#include "core/image.h"
+
+namespace trueshade {
+
+/// Rows that a thread reads or paints at a time.
+inline constexpr int kRowsOfBand = 16;
+
+/// Image::value() of `channels` channels of each texel of a row, as floats: out[channels * x + c]. The format is not
+/// r32ui, whose values floats do not hold; `y` counts from the top.
+void read_row(const Image& image, int y, int channels, float* out);
+
+/// Words of a row of r32ui.
+void read_row(const Image& image, int y, uint32_t* out);
+
+}  // namespace trueshade
