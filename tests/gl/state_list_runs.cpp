@@ -256,16 +256,22 @@ void check_listed(const GlContext& context, const Scene& scene, const Preset& pr
   run_gl_calls("glDisable(GL_SCISSOR_TEST); glDisable(GL_STENCIL_TEST); glDisable(GL_PRIMITIVE_RESTART)");
 }
 
-}  // namespace
-
-TEST_CASE("state.json carried out, call by call, draws the judge's own bytes under every preset and strategy") {
-  const GlContext* context = opened(GlDriver::llvmpipe);
-  if (context == nullptr) return;
+/// City, a third of whose materials are glass.
+Scene part_of_glass() {
   Scene scene = builtin_scene("city,objects=60,lights=6");
   for (size_t i = 0; i < scene.materials.size(); i += 3) {
     scene.materials[i].base_color.a = 0.5f;
     scene.materials[i].transparent = true;
   }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("state.json carried out, call by call, draws the judge's own bytes under every preset and strategy") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Scene scene = part_of_glass();
   for (const Preset& preset : presets())
     for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
       check_listed(*context, scene, preset, Strategy(strategy), "");
@@ -274,11 +280,7 @@ TEST_CASE("state.json carried out, call by call, draws the judge's own bytes und
 TEST_CASE("state.json carried out follows every value of the pipeline that is state") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  Scene scene = builtin_scene("city,objects=60,lights=6");
-  for (size_t i = 0; i < scene.materials.size(); i += 3) {
-    scene.materials[i].base_color.a = 0.5f;
-    scene.materials[i].transparent = true;
-  }
+  const Scene scene = part_of_glass();
   const Preset& preset = presets().front();
   const char* const changes[] = {
       R"(, "geometry": {"cull_face": "front", "front_face": "cw", "depth_func": "lequal", "depth_format": "d16", "depth_far": 0.75})",
