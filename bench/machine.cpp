@@ -20,9 +20,9 @@ std::string cpu_name() {
   return "unknown CPU";
 }
 
-/// Best of a few runs of 2 million multiplications of 32 bits, each of which waits three cycles for the one before, on every
-/// x86-64 core since Nehalem and Zen (Agner Fog's and uops.info's tables). Additions of a constant will not do: newer cores
-/// (Golden Cove) carry out six dependent ones a cycle while they rename registers.
+/// Best of a few runs of 2 million multiplications of 32 bits, each of which waits three cycles for the one before, on
+/// every x86-64 core since Nehalem and Zen (Agner Fog's and uops.info's tables). Additions of a constant will not do:
+/// newer cores (Golden Cove) carry out six dependent ones a cycle while they rename registers.
 double measured_clock_ghz() {
   using Clock = std::chrono::steady_clock;
   constexpr int kMultiplications = 2'000'000;
