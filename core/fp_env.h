@@ -57,7 +57,7 @@ class LoopLog {
   LoopLog* outer_;
 };
 
-/// Calls body(i) for i in [0, count), on `threads` threads (0: one a core), each under FpScope, in no promised order.
+/// Calls body(i) for i in [0, count), on `threads` threads (0: one a core), each under FpScope, started in this order.
 /// The first exception of a body reaches the caller.
 void parallel_for(int count, int threads, TaskRef body);
 

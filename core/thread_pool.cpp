@@ -2,14 +2,66 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
+#include <thread>
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif
 
+// Debian's TBB is not built for ThreadSanitizer, which then sees races that are none. Under it, plain threads serve.
+#if defined(__SANITIZE_THREAD__)
+#define TRUESHADE_PLAIN_THREADS 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define TRUESHADE_PLAIN_THREADS 1
+#endif
+#endif
+#ifndef TRUESHADE_PLAIN_THREADS
+#define TRUESHADE_PLAIN_THREADS 0
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <optional>
+#endif
+
 namespace trueshade {
 namespace {
+
+#if TRUESHADE_PLAIN_THREADS
+template <class Task>
+void start(int, const Task& task) {
+  std::thread(task).detach();
+}
+#else
+/// Where TBB's threads come to: room for the most helpers that any loop has asked for.
+class Arena {
+ public:
+  template <class Task>
+  void start(int helpers, const Task& task) {
+    const std::lock_guard lock(mutex_);
+    if (helpers > room_) {
+      room_ = helpers;
+      arena_.terminate();  // threads that are in it stay
+      // An arena holds the number down by itself; only more threads than cores need the process's limit raised.
+      if (helpers >= thread_count(0)) more_.emplace(tbb::global_control::max_allowed_parallelism, size_t(helpers) + 1);
+      arena_.initialize(helpers, 0);
+    }
+    arena_.enqueue(task);
+  }
+
+ private:
+  std::mutex mutex_;
+  int room_ = 0;
+  tbb::task_arena arena_;
+  std::optional<tbb::global_control> more_;
+};
+
+template <class Task>
+void start(int helpers, const Task& task) {
+  static Arena& arena = *new Arena;  // never destroyed, as the pool
+  arena.start(helpers, task);
+}
+#endif
 
 void pause_core() {
 #if defined(__x86_64__)
@@ -38,16 +90,10 @@ constexpr std::chrono::microseconds kLookForWork{100}, kLookForEnd{2000};
 
 }  // namespace
 
+// Never destroyed: TBB's threads may look in while the process ends.
 ThreadPool& ThreadPool::shared() {
-  static ThreadPool pool;
+  static ThreadPool& pool = *new ThreadPool;
   return pool;
-}
-
-ThreadPool::~ThreadPool() {
-  ended_ = true;
-  ++news_;
-  news_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
 }
 
 void ThreadPool::Loop::work() {
@@ -60,17 +106,10 @@ void ThreadPool::Loop::work() {
   }
 }
 
-void ThreadPool::start_threads(int helpers) {
-  while (int(threads_.size()) < helpers) threads_.emplace_back([this] { serve(); });
-}
-
 void ThreadPool::rouse(int helpers) {
-  {
-    const std::lock_guard lock(mutex_);
-    start_threads(helpers);
-  }
   ++news_;
-  for (int i = looking_; i < helpers; ++i) news_.notify_one();
+  for (int serving = serving_; serving < helpers;)
+    if (serving_.compare_exchange_weak(serving, serving + 1)) start(helpers, [this] { serve(); }), ++serving;
 }
 
 void ThreadPool::run(int count, int helpers, TaskRef body) {
@@ -79,7 +118,7 @@ void ThreadPool::run(int count, int helpers, TaskRef body) {
     const std::lock_guard lock(mutex_);
     loops_.push_back(&loop);
   }
-  rouse(helpers);
+  rouse(std::min(helpers, count - 1));
   loop.work();
   {
     const std::lock_guard lock(mutex_);
@@ -112,16 +151,15 @@ void ThreadPool::leave(Loop& loop) {
 void ThreadPool::serve() {
   while (true) {
     const uint32_t seen = news_;
-    if (ended_) return;
     if (Loop* const loop = join_loop()) {
       loop->work();
       leave(*loop);
       continue;
     }
-    ++looking_;
-    const bool more = wait_awake(kLookForWork, [&] { return news_ != seen; });
-    --looking_;
-    if (!more) news_.wait(seen);
+    if (wait_awake(kLookForWork, [&] { return news_ != seen; })) continue;
+    --serving_;
+    if (news_ == seen) return;
+    ++serving_;  // a loop came meanwhile and may have counted on this thread
   }
 }
 
