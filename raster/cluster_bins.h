@@ -13,8 +13,15 @@ struct ClusterBins {
   std::vector<ClusterDraw> draws;  ///< ascending by instance, then cluster
   std::vector<uint64_t> first;     ///< tiles_x * tiles_y + 1 offsets into `list`; tile (x, y) is y * tiles_x + x, y up
   std::vector<uint32_t> list;      ///< into `draws`, ascending in each tile
-  std::vector<std::vector<ClusterDraw>> chunk;  ///< scratch, kept from frame to frame like the rest
-  std::vector<uint64_t> next;                   ///< scratch
+  // Scratch, kept from frame to frame like the rest.
+  std::vector<uint32_t> row;        ///< instances that may be seen
+  std::vector<uint64_t> row_first;  ///< clusters of those before each, and of all
+  struct Piece {
+    std::vector<ClusterDraw> draws;
+    std::vector<uint64_t> next;  ///< of each tile: how many of them, then where in `list` they go
+    uint64_t first;              ///< of `draws` among all
+  };
+  std::vector<Piece> piece;
 
   std::span<const uint32_t> tile_list(int index) const {
     return {list.data() + first[size_t(index)], size_t(first[size_t(index) + 1] - first[size_t(index)])};

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -22,12 +23,12 @@ struct ClipRow {
   V64 middle, half[3];  ///< at the box's centre; from there to each pair of faces
   V64 slack;            ///< twice what rounding of the vertex stage may move it by
 
-  HWY_INLINE ClipRow(const float row[4], const V64 center[3], const V64 half_size[3]) {
+  HWY_INLINE ClipRow(const V64 row[4], const V64 center[3], const V64 half_size[3]) {
     const D64 d;
-    middle = hn::Set(d, double(row[3]));
-    V64 magnitude = hn::Set(d, std::abs(double(row[3])));
+    middle = row[3];
+    V64 magnitude = hn::Abs(row[3]);
     for (int i = 0; i < 3; ++i) {
-      const V64 m = hn::Set(d, double(row[i])), from_center = hn::Mul(m, center[i]);
+      const V64 m = row[i], from_center = hn::Mul(m, center[i]);
       half[i] = hn::Mul(m, half_size[i]);
       middle = hn::Add(middle, from_center);
       magnitude = hn::Add(magnitude, hn::Add(hn::Abs(from_center), hn::Abs(half[i])));
@@ -94,25 +95,64 @@ HWY_INLINE M64 pixel_spans(const Intervals& ndc, const WindowTransform& t, int a
   return hn::And(hn::Le(from, to), hn::And(hn::Ge(to, least), hn::Le(from, most)));
 }
 
-// Bounds of a vector of clusters.
-struct Bounds {
-  static constexpr int kMost = HWY_MAX_BYTES / sizeof(double);
-  alignas(64) int32_t x0[kMost], y0[kMost], x1[kMost], y1[kMost];
-  alignas(64) float near[kMost];
-  uint32_t seen, unknown, plain;  // a bit a lane: may be seen; somewhere in the viewport; needs no care
+constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(double);
 
-  HWY_INLINE void set(const ClusterBoxes& boxes, const InstanceTransform& instance, const WindowTransform& t,
-                      size_t i) {
+// A cluster of a run.
+struct BoxLane {
+  const ClusterRun* run;
+  uint32_t cluster;
+};
+
+// Boxes and the clip space they are seen in, a lane each.
+struct PlacedBoxes {
+  V64 row[4][4], center[3], half[3];
+
+  // An instance's boxes from the i-th on.
+  HWY_INLINE PlacedBoxes(const ClusterBoxes& boxes, const InstanceTransform& instance, size_t i) {
     const D64 d;
     const D32 df;
-    V64 center[3], half[3];
+    for (size_t r = 0; r < 4; ++r)
+      for (size_t c = 0; c < 4; ++c) row[r][c] = hn::Set(d, double(instance.clip[r][c]));
     for (size_t c = 0; c < 3; ++c) {
       center[c] = hn::PromoteTo(d, hn::LoadU(df, boxes.center[c].data() + i));
       half[c] = hn::PromoteTo(d, hn::LoadU(df, boxes.half_size[c].data() + i));
     }
+  }
+
+  // Boxes of any instances, one each.
+  HWY_INLINE explicit PlacedBoxes(const BoxLane* of) {
+    const D64 d;
+    const D32 df;
+    constexpr size_t kNumbers = 16 + 6;
+    alignas(64) float lane[kNumbers][kMostLanes];
+    for (size_t k = 0; k < hn::Lanes(d); ++k) {
+      const float* const clip = of[k].run->transform->clip[0];
+      const ClusterBoxes& boxes = *of[k].run->boxes;
+      for (size_t n = 0; n < 16; ++n) lane[n][k] = clip[n];
+      for (size_t c = 0; c < 3; ++c) {
+        lane[16 + c][k] = boxes.center[c][of[k].cluster];
+        lane[19 + c][k] = boxes.half_size[c][of[k].cluster];
+      }
+    }
+    const auto number = [&](size_t n) { return hn::PromoteTo(d, hn::Load(df, lane[n])); };
+    for (size_t n = 0; n < 16; ++n) row[n / 4][n % 4] = number(n);
+    for (size_t c = 0; c < 3; ++c) center[c] = number(16 + c), half[c] = number(19 + c);
+  }
+};
+
+// Bounds of a vector of clusters.
+struct Bounds {
+  static constexpr int kMost = kMostLanes;
+  alignas(64) int32_t x0[kMost], y0[kMost], x1[kMost], y1[kMost];
+  alignas(64) float near[kMost];
+  uint32_t seen, unknown, plain;  // a bit a lane: may be seen; somewhere in the viewport; needs no care
+
+  HWY_INLINE void set(const PlacedBoxes& in, const WindowTransform& t) {
+    const D64 d;
+    const D32 df;
     const ClipRow row[3] = {
-        {instance.clip[0], center, half}, {instance.clip[1], center, half}, {instance.clip[2], center, half}};
-    const ClipRow w_row(instance.clip[3], center, half);
+        {in.row[0], in.center, in.half}, {in.row[1], in.center, in.half}, {in.row[2], in.center, in.half}};
+    const ClipRow w_row(in.row[3], in.center, in.half);
     const Intervals w = sum_interval(w_row, row[2], 0.0), before_far = sum_interval(w_row, row[2], -1.0);
     const Intervals behind_near = t.zero_to_one ? sum_interval(row[2], w_row, 0.0) : sum_interval(w_row, row[2], 1.0);
     const V64 zero = hn::Zero(d);
@@ -162,26 +202,42 @@ struct Bounds {
   }
 };
 
-void append_seen_simd(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& t,
-                      uint32_t instance, uint32_t first, uint32_t last, std::vector<ClusterDraw>& out) {
-  const int lanes = int(hn::Lanes(D64()));
+ClusterDraw draw_of(const Bounds& b, int k, const WindowTransform& t, uint32_t instance, uint32_t cluster) {
+  if (((b.unknown >> k) & 1) == 0)
+    return {instance,          cluster,           b.near[k],         ((b.plain >> k) & 1) != 0,
+            uint16_t(b.x0[k]), uint16_t(b.y0[k]), uint16_t(b.x1[k]), uint16_t(b.y1[k])};
+  return {instance,
+          cluster,
+          -std::numeric_limits<float>::infinity(),
+          false,
+          uint16_t(t.x0),
+          uint16_t(t.y0),
+          uint16_t(t.x1 - 1),
+          uint16_t(t.y1 - 1)};
+}
+
+// A vector of clusters after the other: of one run where it has so many left, else of several.
+void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t, std::vector<ClusterDraw>& out) {
+  const auto lanes = uint32_t(hn::Lanes(D64()));
   Bounds b;
-  for (uint32_t i = first; i < last; i += uint32_t(lanes)) {
-    b.set(boxes, transform, t, i);
-    for (uint32_t bits = b.seen & range_bits(0, int(last - i) - 1, 0, lanes); bits != 0; bits &= bits - 1) {
+  BoxLane lane[kMostLanes];
+  uint32_t i = runs.empty() ? 0 : runs[0].first;
+  for (size_t at = 0; at < runs.size();) {
+    const ClusterRun& run = runs[at];
+    const bool alone = run.last - i >= lanes || at + 1 == runs.size();
+    if (alone) b.set(PlacedBoxes(*run.boxes, *run.transform, i), t);
+    uint32_t count = 0;
+    for (; count < lanes && at < runs.size(); ++count) {
+      lane[count] = {&runs[at], i};
+      if (++i == runs[at].last && ++at < runs.size()) i = runs[at].first;
+    }
+    if (!alone) {
+      std::fill(lane + count, lane + lanes, lane[count - 1]);
+      b.set(PlacedBoxes(lane), t);
+    }
+    for (uint32_t bits = b.seen & ((uint32_t(1) << count) - 1); bits != 0; bits &= bits - 1) {
       const int k = std::countr_zero(bits);
-      ClusterDraw draw{instance,
-                       i + uint32_t(k),
-                       -std::numeric_limits<float>::infinity(),
-                       false,
-                       uint16_t(t.x0),
-                       uint16_t(t.y0),
-                       uint16_t(t.x1 - 1),
-                       uint16_t(t.y1 - 1)};
-      if (((b.unknown >> k) & 1) == 0)
-        draw = {instance,          draw.cluster,      b.near[k],         ((b.plain >> k) & 1) != 0,
-                uint16_t(b.x0[k]), uint16_t(b.y0[k]), uint16_t(b.x1[k]), uint16_t(b.y1[k])};
-      out.push_back(draw);
+      out.push_back(draw_of(b, k, t, lane[k].run->instance, lane[k].cluster));
     }
   }
 }
@@ -189,7 +245,7 @@ void append_seen_simd(const ClusterBoxes& boxes, const InstanceTransform& transf
 bool may_be_seen_simd(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& t,
                       uint32_t index) {
   Bounds b;
-  b.set(boxes, transform, t, index);
+  b.set(PlacedBoxes(boxes, transform, index), t);
   return (b.seen & 1) != 0;
 }
 
@@ -201,9 +257,8 @@ namespace trueshade {
 HWY_EXPORT(append_seen_simd);
 HWY_EXPORT(may_be_seen_simd);
 
-void append_seen(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& window,
-                 uint32_t instance, uint32_t first, uint32_t last, std::vector<ClusterDraw>& out) {
-  HWY_DYNAMIC_DISPATCH(append_seen_simd)(boxes, transform, window, instance, first, last, out);
+void append_seen(std::span<const ClusterRun> runs, const WindowTransform& window, std::vector<ClusterDraw>& out) {
+  HWY_DYNAMIC_DISPATCH(append_seen_simd)(runs, window, out);
 }
 
 bool may_be_seen(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& window,

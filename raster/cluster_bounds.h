@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "raster/clusters.h"
@@ -8,10 +9,16 @@
 
 namespace trueshade {
 
-/// Appends the clusters [first, last) of an instance's mesh that may be seen, with the pixels they may touch,
-/// ascending. Conservative: bounds are wider than any rounding of the vertex stage.
-void append_seen(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& window,
-                 uint32_t instance, uint32_t first, uint32_t last, std::vector<ClusterDraw>& out);
+/// Clusters [first, last) of an instance's mesh, at least one.
+struct ClusterRun {
+  const ClusterBoxes* boxes;
+  const InstanceTransform* transform;
+  uint32_t instance, first, last;
+};
+
+/// Appends those clusters of the runs that may be seen, with the pixels they may touch, in the runs' order.
+/// Conservative: bounds are wider than any rounding of the vertex stage.
+void append_seen(std::span<const ClusterRun> runs, const WindowTransform& window, std::vector<ClusterDraw>& out);
 
 /// Whether a box of an instance, one of `boxes`, may be seen.
 bool may_be_seen(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& window,

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,25 @@ struct LightOutlines {
 
 /// State of the draws of light geometry.
 GeometryState light_geometry_state(const Pipeline& pipeline);
+
+/// Makes outlines in tasks that need nothing of each other. Its memory is kept, as that of the outlines is.
+class OutlineTasks {
+ public:
+  OutlineTasks();
+  ~OutlineTasks();
+  OutlineTasks(const OutlineTasks&) = delete;
+  OutlineTasks& operator=(const OutlineTasks&) = delete;
+
+  /// Returns how many tasks there are. All that is given must outlive them.
+  int start(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,
+            LightOutlines& out);
+  void run(int task);
+  void finish(int threads);  ///< after all tasks
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
 
 LightOutlines make_light_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
                                   const View& view, int threads);

@@ -17,7 +17,11 @@ class OutlineMaker {
     uint32_t edges = 0;                      ///< added to edges()
   };
 
-  OutlineMaker(const GeometryState& state, const WindowTransform& window) : state_(state), window_(window) {}
+  /// Begins anew: no edges.
+  void start(const GeometryState& state, const WindowTransform& window) {
+    state_ = state, window_ = window;
+    edges_.clear();
+  }
 
   /// `placed` holds the mesh's vertices in the window, relative to (0, 0).
   Outline outline(const LightMesh& mesh, const PlacedMesh& placed);
@@ -34,6 +38,7 @@ class OutlineMaker {
   };
   struct Side {
     Corner from, to;
+    bool operator==(const Side&) const = default;
   };
 
   Outline plain_outline(const LightMesh& mesh, const PlacedMesh& placed);
@@ -46,12 +51,15 @@ class OutlineMaker {
   OutlineKind add_edges();
 
   GeometryState state_;
-  WindowTransform window_;
+  WindowTransform window_{};
   std::vector<OutlineEdge> edges_;
-  std::vector<int8_t> drawn_;   // by triangle: on the side that is drawn, or without area
-  std::vector<uint32_t> next_;  // by vertex: where the outline goes on
-  std::vector<Side> sides_;     // of drawn triangles, the inside to the left
-  std::vector<Corner> loop_;    // the outline, counter-clockwise
+  std::vector<int8_t> drawn_;    // by triangle: on the side that is drawn, or without area; where some are clipped, the
+                                 // sign of those that are drawn whole
+  std::vector<uint32_t> next_;   // by vertex: where the outline goes on
+  std::vector<Side> sides_;      // of drawn triangles, the inside to the left
+  std::vector<uint32_t> place_;  // of a table of sides: which is there, from 1; 0: none
+  std::vector<int> upward_;      // of each: how often upward, less how often downward
+  std::vector<Corner> loop_;     // the outline, counter-clockwise
 };
 
 }  // namespace trueshade

@@ -59,6 +59,8 @@ struct FrameTables {
   LightTable lights;
   LightGroups groups;
   std::optional<LightMeshes> meshes;
+  LightOutlines outlines;
+  OutlineTasks outline_tasks;
 };
 
 // Tables that a frame has for its time, kept for the thread's next one.
@@ -98,7 +100,7 @@ struct FrameWork {
   const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
   const LightGroups& groups;
   const LightMeshes& meshes;
-  const LightOutlines outlines;  ///< of strategies that blend
+  const LightOutlines& outlines;  ///< of strategies that blend
   bool need_uv, lit;
   const LightPlanes light_planes;
   const TransparentPass transparent;
@@ -296,6 +298,55 @@ int tile_for(int width, int height, int threads) {
   return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
 }
 
+namespace {
+
+struct Tasks {
+  int count;
+  TaskRef run;
+};
+
+// Loops that need nothing of each other as one: each alone is too short to be shared well.
+void run_together(std::initializer_list<Tasks> loops, int threads) {
+  int count = 0;
+  for (const Tasks& loop : loops) count += loop.count;
+  parallel_for(count, threads, [&](int i) {
+    for (const Tasks& loop : loops) {
+      if (i < loop.count) return loop.run(i);
+      i -= loop.count;
+    }
+  });
+}
+
+// The picture and the planes, without content; the lights' rows, groups and outlines.
+void make_images_and_lights(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                            std::span<const std::string> aovs, bool lit, const View& view, FrameTables& tables,
+                            Frame& frame) {
+  if (!tables.meshes || !tables.meshes->fit(pipeline.light_volumes)) tables.meshes.emplace(pipeline.light_volumes);
+  for (const std::string& name : aovs) frame.aovs.push_back({name, Image()});
+  const auto make_image = [&](int i) {
+    if (i == 0 && !lit) return;
+    const Format format = i == 0 ? pipeline.target : aov_format(aovs[size_t(i - 1)], surface_planes(pipeline));
+    (i == 0 ? frame.color : frame.aovs[size_t(i - 1)].image) = Image(pipeline.width, pipeline.height, format);
+  };
+  LightTableUpdate rows(scene.lights, pipeline.light_model, pipeline.light_volumes,
+                        pipeline.strategy == Strategy::deferred_volumes, scene.camera, tables.lights);
+  const bool drawn = lit && blends_lights(pipeline.strategy);
+  const int outlines =
+      drawn ? start_outlines(scene.lights, pipeline, *tables.meshes, view, tables.outline_tasks, tables.outlines) : 0;
+  run_together({{int(aovs.size()) + 1, make_image},
+                {outlines, [&](int i) { tables.outline_tasks.run(i); }},
+                {rows.tasks(), [&](int i) { rows.run(i); }}},
+               execution.threads);
+  rows.finish();
+  if (drawn) tables.outline_tasks.finish(execution.threads);
+  if (lit && execution.light_culling)
+    make_light_groups(tables.lights, execution.threads, tables.groups);
+  else
+    tables.groups.group.clear(), tables.groups.made_of = 0;
+}
+
+}  // namespace
+
 Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& asked,
                  std::span<const std::string> aovs, bool lit, const Progress& progress) {
   Execution execution = asked;
@@ -307,38 +358,27 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   const double start = now_ms();
   const Scene& scene = prepared.scene();
   Frame frame;
-  if (lit) frame.color = Image(pipeline.width, pipeline.height, pipeline.target);
-  for (const std::string& name : aovs)
-    frame.aovs.push_back({name, Image(pipeline.width, pipeline.height, aov_format(name, surface_planes(pipeline)))});
-
   std::optional<LoopLog> log(std::in_place);
   View view = make_view(scene, pipeline, execution.threads);
   const TablesLoan loan;
-  auto& [bins, lights, groups, kept_meshes] = *loan.tables;
-  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads, bins);
+  FrameTables& tables = *loan.tables;
+  bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
+               tables.bins);
+  make_images_and_lights(scene, pipeline, execution, aovs, lit, view, tables, frame);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
-  const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
-  make_light_table(scene.lights, pipeline.light_model, scene.camera, execution.threads, lights);
-  bound_by_extents(lights, scene.lights, pipeline.light_volumes, meshes_drawn);
   PlainLights plain;
   if (lit && execution.settled_sums && !blends_lights(pipeline.strategy))
-    plain = make_plain_lights(lights, pipeline.light_model);
-  groups.group.clear();
-  if (lit && execution.light_culling) make_light_groups(lights, execution.threads, groups);
-  if (!kept_meshes || !kept_meshes->fit(pipeline.light_volumes)) kept_meshes.emplace(pipeline.light_volumes);
-  const LightMeshes& meshes = *kept_meshes;
-  LightOutlines outlines;
-  if (lit && blends_lights(pipeline.strategy))
-    outlines = outlines_of_draws(scene.lights, pipeline, meshes, view, execution.threads);
+    plain = make_plain_lights(tables.lights, pipeline.light_model);
+  const LightMeshes& meshes = *tables.meshes;
   LightPlanes light_planes(aovs, scene, pipeline, meshes, view);
   frame.stats.before_tiles_ms = now_ms() - start;
   frame.stats.loops_before_tiles = log->loops();
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
-  draw_tiles(
-      {prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, meshes,
-       std::move(outlines), need_uv, lit, std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
-      progress);
+  draw_tiles({prepared, pipeline, execution, std::move(view), tables.bins, tables.lights, std::move(plain),
+              tables.groups, meshes, tables.outlines, need_uv, lit, std::move(light_planes),
+              TransparentPass(scene, pipeline, execution), frame},
+             progress);
 
   FrameStats& stats = frame.stats;
   stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);

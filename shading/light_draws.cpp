@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/fp_env.h"
+
 namespace trueshade {
 namespace {
 
@@ -25,12 +27,21 @@ void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::
 
 }  // namespace
 
+int start_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,
+                   OutlineTasks& tasks, LightOutlines& out) {
+  if (pipeline.strategy != Strategy::forward_multipass) return tasks.start(lights, pipeline, meshes, view, out);
+  Pipeline drawn = pipeline;
+  drawn.light_volumes.point = drawn.light_volumes.spot = LightExtent::unbounded;
+  return tasks.start(lights, drawn, meshes, view, out);
+}
+
 LightOutlines outlines_of_draws(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
                                 const View& view, int threads) {
-  Pipeline drawn = pipeline;
-  if (pipeline.strategy == Strategy::forward_multipass)
-    drawn.light_volumes.point = drawn.light_volumes.spot = LightExtent::unbounded;
-  return make_light_outlines(lights, drawn, meshes, view, threads);
+  LightOutlines out;
+  OutlineTasks tasks;
+  parallel_for(start_outlines(lights, pipeline, meshes, view, tasks, out), threads, [&](int i) { tasks.run(i); });
+  tasks.finish(threads);
+  return out;
 }
 
 void list_draws(const LightDraws& in, const TileRect& rect, std::span<const uint32_t> lights,

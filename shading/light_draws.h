@@ -32,6 +32,8 @@ struct LightDraws {
 
 /// What the draws of lights cover under a strategy that blends: of forward-multipass every light is a draw of the
 /// scene, wherever it reaches.
+int start_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,
+                   OutlineTasks& tasks, LightOutlines& out);
 LightOutlines outlines_of_draws(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
                                 const View& view, int threads);
 

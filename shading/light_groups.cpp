@@ -136,6 +136,8 @@ void fill_cluster(size_t cluster, LightGroups& out) {
 
 void make_light_groups(const LightTable& lights, int threads, LightGroups& out) {
   constexpr size_t kGroup = LightGroups::kGroup;
+  if (out.made_of != 0 && out.made_of == lights.version) return;
+  out.made_of = lights.version;
   out.group.clear(), out.always.clear();
   if (lights.size() < LightGroups::kFewest) return;
   sort_along_curve(lights, threads, out);

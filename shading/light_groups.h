@@ -36,6 +36,8 @@ struct LightGroups {
   std::vector<uint32_t> cell, first;  ///< scratch, kept from frame to frame like the rest
   std::vector<SortedLight> sorted;    ///< scratch
 
+  uint64_t made_of = 0;  ///< the table's version; 0: none
+
   bool empty() const { return group.empty(); }
 };
 
@@ -47,7 +49,7 @@ struct FoundLights {
 };
 
 LightGroups make_light_groups(const LightTable& lights, int threads);
-/// The same in the memory of any other table's.
+/// The same in the memory of any other table's. Those of a table that has not changed stay as they are.
 void make_light_groups(const LightTable& lights, int threads, LightGroups& out);
 
 }  // namespace trueshade

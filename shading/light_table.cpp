@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "core/fp_env.h"
 #include "scenes/light_mesh.h"
@@ -87,33 +90,78 @@ LightRow row_of(const Light& light, const LightModel& model) {
   return row;
 }
 
+constexpr size_t kChunk = 512;
+static_assert(std::is_trivially_copyable_v<Light>);
+
+void set_viewer(const Camera& camera, LightTable& table) {
+  const glm::vec3 axis = view_axis(camera);
+  for (int c = 0; c < 3; ++c) table.eye[c] = camera.eye[c], table.view_axis[c] = axis[c];
+}
+
+void resize(LightTable& table, size_t lights) {
+  const size_t padded = (lights + 15) / 16 * 16;
+  for (auto& stream : table.position)
+    stream.resize(padded), std::fill(stream.begin() + long(lights), stream.end(), 0.0f);
+  table.cut2.resize(padded), std::fill(table.cut2.begin() + long(lights), table.cut2.end(), 0.0f);
+  table.row.resize(lights);
+}
+
+// Rows from `first` on.
+void make_rows(std::span<const Light> lights, const LightModel& model, size_t first, LightTable& table) {
+  float range = -1.0f, cut2 = kInfinity;  // of the light before
+  for (size_t k = 0; k < lights.size(); ++k) {
+    const Light& light = lights[k];
+    LightRow& row = table.row[first + k] = row_of(light, model);
+    if (ends(model.falloff) && placed(light.type)) {
+      if (light.range != range) range = light.range, cut2 = cut_distance2(model.falloff, range);
+      row.cut2 = cut2;
+    }
+    // No comparison with a NaN drops a light.
+    for (int c = 0; c < 3; ++c) table.position[c][first + k] = placed(light.type) ? row.position[c] : std::nanf("");
+    table.cut2[first + k] = row.cut2;
+  }
+}
+
+void bound_rows(std::span<const Light> lights, const LightVolumes& volumes, bool draws_meshes, size_t first,
+                LightTable& table) {
+  for (size_t k = 0; k < lights.size(); ++k) {
+    const LightExtent extent = drawn_extent(lights[k], volumes);
+    if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
+    LightRow& row = table.row[first + k];
+    const float range = lights[k].range;
+    row.extent2 = least_outside(range * range, [&](float d2) { return std::sqrt(d2) < range; });
+    row.cut2 = table.cut2[first + k] = std::min(row.cut2, row.extent2);
+  }
+}
+
+bool has_cones(std::span<const Light> lights, const LightModel& model) {
+  return model.cone != Cone::none &&
+         std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+}
+
+uint64_t next_version() {
+  static std::atomic<uint64_t> version{0};
+  return ++version;
+}
+
+std::span<const Light> chunk_of(std::span<const Light> lights, size_t first) {
+  return lights.subspan(first, std::min(kChunk, lights.size() - first));
+}
+
+int chunks(size_t lights) { return int((lights + kChunk - 1) / kChunk); }
+
 }  // namespace
 
 void make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads,
                       LightTable& table) {
-  constexpr size_t kChunk = 2048;
-  const glm::vec3 axis = view_axis(camera);
-  for (int c = 0; c < 3; ++c) table.eye[c] = camera.eye[c], table.view_axis[c] = axis[c];
-  const size_t padded = (lights.size() + 15) / 16 * 16;
-  for (auto& stream : table.position)
-    stream.resize(padded), std::fill(stream.begin() + long(lights.size()), stream.end(), 0.0f);
-  table.cut2.resize(padded), std::fill(table.cut2.begin() + long(lights.size()), table.cut2.end(), 0.0f);
-  table.row.resize(lights.size());
-  parallel_for(int((lights.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
-    float range = -1.0f, cut2 = kInfinity;  // of the light before
-    for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kChunk); ++i) {
-      LightRow& row = table.row[i] = row_of(lights[i], model);
-      if (ends(model.falloff) && placed(lights[i].type)) {
-        if (lights[i].range != range) range = lights[i].range, cut2 = cut_distance2(model.falloff, range);
-        row.cut2 = cut2;
-      }
-      // No comparison with a NaN drops a light.
-      for (int c = 0; c < 3; ++c) table.position[c][i] = placed(lights[i].type) ? row.position[c] : std::nanf("");
-      table.cut2[i] = row.cut2;
-    }
+  set_viewer(camera, table);
+  resize(table, lights.size());
+  parallel_for(chunks(lights.size()), threads, [&](int chunk) {
+    make_rows(chunk_of(lights, size_t(chunk) * kChunk), model, size_t(chunk) * kChunk, table);
   });
-  table.cones = model.cone != Cone::none &&
-                std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+  table.cones = has_cones(lights, model);
+  table.made_of.clear();
+  table.version = next_version();
 }
 
 LightTable make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads) {
@@ -124,14 +172,43 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
 
 void bound_by_extents(LightTable& table, std::span<const Light> lights, const LightVolumes& volumes,
                       bool draws_meshes) {
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const LightExtent extent = drawn_extent(lights[i], volumes);
-    if (extent == LightExtent::unbounded || (draws_meshes && is_mesh(extent))) continue;
-    LightRow& row = table.row[i];
-    row.extent2 =
-        least_outside(lights[i].range * lights[i].range, [&](float d2) { return std::sqrt(d2) < lights[i].range; });
-    row.cut2 = table.cut2[i] = std::min(row.cut2, row.extent2);
-  }
+  bound_rows(lights, volumes, draws_meshes, 0, table);
+  table.made_of.clear();
+  table.version = next_version();
+}
+
+LightTableUpdate::LightTableUpdate(std::span<const Light> lights, const LightModel& model, const LightVolumes& volumes,
+                                   bool draws_meshes, const Camera& camera, LightTable& table)
+    : lights_(lights),
+      table_(table),
+      kept_(0),
+      version_(std::exchange(table.version, 0)),  // until it is whole
+      changed_(version_ == 0 || lights.size() != table.made_of.size()) {
+  set_viewer(camera, table);
+  if (table.model == model && table.volumes == volumes && table.draws_meshes == draws_meshes)
+    kept_ = std::min(lights.size(), table.made_of.size());
+  table.model = model, table.volumes = volumes, table.draws_meshes = draws_meshes;
+  if (lights.size() == table.row.size() && lights.size() == table.made_of.size()) return;
+  resize(table, lights.size());
+  table.made_of.resize(lights.size());
+}
+
+int LightTableUpdate::tasks() const { return chunks(lights_.size()); }
+
+void LightTableUpdate::run(int task) {
+  const size_t first = size_t(task) * kChunk;
+  const std::span<const Light> lights = chunk_of(lights_, first);
+  Light* const made_of = table_.made_of.data() + first;
+  if (first + lights.size() <= kept_ && std::memcmp(made_of, lights.data(), lights.size_bytes()) == 0) return;
+  changed_ = true;
+  make_rows(lights, table_.model, first, table_);
+  bound_rows(lights, table_.volumes, table_.draws_meshes, first, table_);
+  std::memcpy(made_of, lights.data(), lights.size_bytes());
+}
+
+void LightTableUpdate::finish() {
+  if (changed_) table_.cones = has_cones(lights_, table_.model);
+  table_.version = changed_ ? next_version() : version_;
 }
 
 bool dark_over(const LightRow& light, const float low[3], const float high[3]) {

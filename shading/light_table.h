@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,14 @@ struct LightTable {
                                          ///< with lights that reach nothing
   bool cones = false;                    ///< some light's kind is `coned`
   float eye[3], view_axis[3];
+  uint64_t version = 0;  ///< another one wherever lights differ, of all tables; 0: empty
+
+  // What update_light_table() made the rows of.
+  std::vector<Light> made_of;
+  LightModel model;
+  LightVolumes volumes;
+  bool draws_meshes = false;
+
   size_t size() const { return row.size(); }
 };
 
@@ -59,5 +68,23 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
 /// The same in the memory of any other table.
 void make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads,
                       LightTable& out);
+
+/// The same, bounded by the lights' extents, in tasks that need nothing of each other. Rows of a table that this made
+/// stay where lights are the same as then, byte for byte.
+class LightTableUpdate {
+ public:
+  LightTableUpdate(std::span<const Light> lights, const LightModel& model, const LightVolumes& volumes,
+                   bool draws_meshes, const Camera& camera, LightTable& table);
+  int tasks() const;
+  void run(int task);
+  void finish();  ///< after all tasks
+
+ private:
+  std::span<const Light> lights_;
+  LightTable& table_;
+  size_t kept_;       // rows that may stay
+  uint64_t version_;  // of them
+  std::atomic<bool> changed_;
+};
 
 }  // namespace trueshade

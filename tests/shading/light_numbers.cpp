@@ -1,5 +1,6 @@
 // From no light to as many as the limit allows: culling changes no bit, and the sum is the naive one.
 #include <cmath>
+#include <thread>
 
 #include "core/error.h"
 #include "scenes/presets.h"
@@ -91,6 +92,57 @@ TEST_CASE("Tables that a thread keeps serve scenes of more lights, of fewer and 
   pipeline.width = 24, pipeline.height = 16;
   for (const PreparedScene& scene : scenes)
     CHECK(drawn(scene, pipeline, "best", true).texels == drawn(scene, pipeline, "best", false).texels);
+}
+
+TEST_CASE("Rows, groups and outlines that a thread keeps follow every number of a light, the model and the extents") {
+  Scene scene = under_lights(74, 5000);
+  for (Light& light : scene.lights)
+    if (std::isinf(light.range)) light.range = 0.5f;
+  Light& changed = scene.lights[4321];
+  changed = scene.lights[0];  // one that the sheet is seen to be lit by
+  changed.type = LightType::spot, changed.color *= 5000.0f, changed.range = 10.0f, changed.cone_rad = 0.6f;
+  const PreparedScene prepared(scene);
+  Pipeline pipeline = loop_pipeline(presets().front().name);
+  pipeline.target = Format::rgba32f, pipeline.width = 24, pipeline.height = 16;
+  size_t seen = 0;
+  Image before;
+  const auto follows = [&](const char* what) {
+    INFO(what);
+    Image fresh;  // by a thread that keeps nothing
+    std::thread([&] { fresh = drawn(prepared, pipeline, "best", true); }).join();
+    CHECK(drawn(prepared, pipeline, "best", true).texels == fresh.texels);
+    seen += fresh.texels != before.texels;
+    before = fresh;
+  };
+  for (const Preset& row : presets()) {
+    pipeline = loop_pipeline(row.name);
+    pipeline.target = Format::rgba32f, pipeline.width = 24, pipeline.height = 16;
+    for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
+      pipeline.strategy = Strategy(strategy);
+      follows("strategy");
+    }
+    follows("nothing");
+    changed.color.x *= 0.5f, follows("color");
+    changed.position.y += 0.25f, follows("position");
+    changed.range *= 0.75f, follows("range");
+    changed.cone_rad *= 0.9f, follows("cone");
+    changed.penumbra_rad += 0.05f, follows("penumbra");
+    changed.attenuation.y += 0.5f, follows("attenuation");
+    changed.ambient.z += 0.125f, follows("ambient");
+    changed.spot_exponent += 1.0f, follows("exponent");
+    changed.direction = -changed.direction, follows("direction");
+    changed.type = LightType::point, follows("type");
+    changed.type = LightType::ambient, follows("no place");
+    changed.type = LightType::spot, changed.direction = -changed.direction, follows("spot");
+    std::swap(changed, scene.lights[0]), follows("order");
+    std::swap(changed, scene.lights[0]), follows("order");
+    for (const LightExtent extent : {LightExtent::range, LightExtent::box, LightExtent::unbounded})
+      pipeline.light_volumes.point = pipeline.light_volumes.spot = extent, follows("extent");
+    pipeline.light_model.damping *= 0.5f, follows("model");
+    scene.camera.eye.x += 0.01f, follows("camera");
+    scene.lights.pop_back(), follows("one less");
+  }
+  CHECK(seen > 10 * std::size(presets()));
 }
 
 TEST_CASE("1,000,000 lights are the naive sum of 1,000,000 terms, bit for bit") {
