@@ -23,6 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Blocks of a tile, inclusive.
 struct BlockBox {
   int x0, y0, x1, y1;
+  int count() const { return (x1 - x0 + 1) * (y1 - y0 + 1); }
 };
 
 /// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Four rows at a time, the
@@ -44,6 +45,34 @@ HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const Bloc
   return true;
 }
 
+/// Those of a tile's blocks in a box that are not nearer than some depth: a bit a column for each row.
+struct OpenBlocks {
+  alignas(64) uint16_t row[32] = {};  ///< of 16, as vectors read them
+  bool all = true;                    ///< all of the box
+};
+
+/// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
+HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, OpenBlocks& out) {
+  const hn::ScalableTag<float> d;
+  constexpr int kRows = 4;
+  const int lanes = int(hn::Lanes(d));
+  const auto mine = hn::Set(d, near);
+  const uint32_t columns = range_bits(box.x0, box.x1, 0, blocks);
+  uint32_t any = 0, all = columns;
+  for (int y = box.y0; y <= box.y1; y += kRows)
+    for (int row = 0; row < kRows; ++row) {
+      const float* const far = tile.far + std::min(y + row, box.y1) * blocks;
+      uint32_t bits = 0;
+      for (int x = box.x0 / lanes * lanes; x <= box.x1; x += lanes)
+        bits |= lane_bits(d, hn::Not(hn::Gt(mine, hn::LoadU(d, far + x)))) << x;
+      bits &= columns;
+      out.row[y + row] = uint16_t(bits);
+      any |= bits, all &= bits;
+    }
+  out.all = all == columns;
+  return any != 0;
+}
+
 /// Box of a cluster's vertices or of a triangle's, from the snapped coordinates, and its least depth.
 struct WindowBox {
   int32_t x0, y0, x1, y1;
@@ -55,13 +84,11 @@ HWY_INLINE float near_bound(double near, const WindowTransform& t) {
   return t.depth.stored(std::min(std::max(float(near), t.depth_low), t.depth_high));
 }
 
-/// The same for a box in 1/256 pixel.
-HWY_INLINE bool hidden_box(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box,
-                           const WindowTransform& t) {
-  const int blocks = rect.size / kBlockSize, last = blocks - 1;
-  const BlockBox in_blocks{std::clamp(box.x0 >> 10, 0, last), std::clamp(box.y0 >> 10, 0, last),
-                           std::clamp(box.x1 >> 10, 0, last), std::clamp(box.y1 >> 10, 0, last)};
-  return hidden_blocks(tile, blocks, in_blocks, near_bound(box.near, t));
+/// The blocks of a box in 1/256 pixel.
+HWY_INLINE BlockBox blocks_of(const WindowBox& box, const TileRect& rect) {
+  const int last = rect.size / kBlockSize - 1;
+  return {std::clamp(box.x0 >> 10, 0, last), std::clamp(box.y0 >> 10, 0, last), std::clamp(box.x1 >> 10, 0, last),
+          std::clamp(box.y1 >> 10, 0, last)};
 }
 
 /// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
@@ -80,7 +107,7 @@ HWY_INLINE bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect
   const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
                       int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
                       std::min({w.z[0], w.z[1], w.z[2]})};
-  return hidden_box(tile, rect, box, t);
+  return hidden_blocks(tile, rect.size / kBlockSize, blocks_of(box, rect), near_bound(box.near, t));
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

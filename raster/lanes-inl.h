@@ -71,6 +71,42 @@ class FrontLanes<D, false> {
   decltype(hn::IndicesFromVec(D(), hn::Zero(I()))) order_;
 };
 
+/// Sixteen 16-bit words, found by vectors of indices below 16; other indices find anything.
+class SixteenWords {
+  using D = hn::ScalableTag<int16_t>;
+  using V = hn::Vec<D>;
+
+ public:
+#if HWY_TARGET == HWY_AVX3
+  HWY_INLINE explicit SixteenWords(const uint16_t words[32]) : words_(hn::BitCast(D(), hn::Load(DU(), words))) {}
+  HWY_INLINE V operator()(V index) const { return V{_mm512_permutexvar_epi16(index.raw, words_.raw)}; }
+
+ private:
+  using DU = hn::RebindToUnsigned<D>;
+  V words_;
+#else
+  HWY_INLINE explicit SixteenWords(const uint16_t words[32]) {
+    for (int i = 0; i < 16; ++i) low_[i] = uint8_t(words[i]), high_[i] = uint8_t(words[i] >> 8);
+  }
+  HWY_INLINE V operator()(V index) const {
+    const D d;
+#if HWY_TARGET == HWY_SCALAR
+    const int i = hn::GetLane(index) & 15;
+    return hn::Set(d, int16_t(low_[i] | high_[i] << 8));
+#else
+    const hn::Repartition<uint8_t, D> d8;
+    const auto twice = hn::BitCast(d8, hn::Or(index, hn::ShiftLeft<8>(index)));
+    const V low = hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, low_), twice)),
+            high = hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, high_), twice));
+    return hn::Or(hn::And(low, hn::Set(d, 0xFF)), hn::AndNot(hn::Set(d, 0xFF), high));
+#endif
+  }
+
+ private:
+  alignas(16) uint8_t low_[16], high_[16];
+#endif
+};
+
 /// Two vectors of floats as one; the lower where that is whole.
 template <class D, class V>
 HWY_INLINE hn::Vec<D> joined(D d, V lower, [[maybe_unused]] V upper) {

@@ -1,12 +1,6 @@
 // Triangles whose box holds at most 4x4 samples, a lane a triangle: rejected, covered and tested for depth many at a
 // time, with the bits of triangle_setup.h, coverage-inl.h and commit-inl.h. Included once per SIMD target.
 // docs/arithmetic.md sections 4 to 6.
-//
-// Corners are packed into 32 bits, y above x, both relative to the middle of the tile and below 2^14 in magnitude. So a
-// signed compare of two of them is the canonical order (y, x), a difference fits 16 bits, the difference of a corner
-// and a sample of the tile (at most 2^13 from its middle) is below 24,576, and with that every edge function and area,
-// a difference of two products, is below 2^31. Corners further away are held to that; as this lies outside the tile,
-// boxes keep their samples, but the triangles that have such corners are not small.
 #if defined(TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
 #undef TRUESHADE_RASTER_SMALL_TRIANGLES_INL_H_
@@ -16,8 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
-
+#include "raster/candidates-inl.h"
 #include "raster/commit-inl.h"
 #include "raster/fragment_list-inl.h"
 #include "raster/hidden-inl.h"
@@ -30,20 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DT = hn::ScalableTag<int32_t>;  // a lane is a triangle
-using VT = hn::Vec<DT>;
-
-inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
-// Lists are written a whole vector at a time, and are a multiple of every vector long.
-inline constexpr size_t kMostCandidates = 144;
-static_assert(kClusterTriangles + 16 <= kMostCandidates && (64 + 1) * 16 <= kMostFragments);
-
-/// A cluster's triangles that have a sample in their box and the tile: corners' vertices and triangle, a byte each.
-struct Candidates {
-  alignas(64) int32_t upto_2[kMostCandidates], more[kMostCandidates];  ///< those of at most 2x2 samples; the others
-  alignas(64) int32_t large[kMostCandidates];                          ///< of the others those of more than 4x4
-  int count_2 = 0, count_more = 0, count_large = 0;
-};
+static_assert((64 + 1) * 16 <= kMostFragments);
 
 /// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
 struct ClusterScratch {
@@ -51,37 +31,10 @@ struct ClusterScratch {
   AlphaTest alpha;  ///< of the cluster at work, where its material has one
   alignas(64) int32_t packed[kClusterVertices];
   alignas(64) uint8_t triangle[kMostCandidates];
+  OpenBlocks open;
   Candidates found;
   FragmentList fragments;
 };
-
-/// Packs the corners; `middle` is that of the tile, in 1/256 pixel from its first sample.
-HWY_INLINE void pack_corners(const WindowVertices& v, int count, int32_t middle, int32_t* packed) {
-  const DT d;
-  const VT shift = hn::Set(d, middle), most = hn::Set(d, kPackedLimit - 1), least = hn::Set(d, 1 - kPackedLimit);
-  for (int i = 0; i < count; i += int(hn::Lanes(d))) {
-    const VT x = hn::Min(hn::Max(hn::Sub(hn::Load(d, v.x + i), shift), least), most);
-    const VT y = hn::Min(hn::Max(hn::Sub(hn::Load(d, v.y + i), shift), least), most);
-    hn::Store(hn::Or(hn::ShiftLeft<16>(y), hn::Add(x, hn::Set(d, kPackedLimit))), d, packed + i);
-  }
-}
-
-/// packed[index] for indices below 64. Permutations of registers where 16 lanes make them possible: a gather is slower.
-HWY_INLINE VT corner_at(const int32_t* packed, VT index) {
-  const DT d;
-  if constexpr (hn::MaxLanes(d) == 16) {
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(d, 15)));
-    const auto in_odd = hn::Ne(hn::And(index, hn::Set(d, 16)), hn::Zero(d));
-    const auto in_upper = hn::Gt(index, hn::Set(d, 31));
-    const VT lower = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 16), lane),
-                                    hn::TableLookupLanes(hn::Load(d, packed), lane));
-    const VT upper = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 48), lane),
-                                    hn::TableLookupLanes(hn::Load(d, packed + 32), lane));
-    return hn::IfThenElse(in_upper, upper, lower);
-  } else {
-    return hn::GatherIndex(d, packed, index);
-  }
-}
 
 /// The same by the lowest byte of each lane.
 HWY_INLINE VT corner_of(const int32_t* packed, VT word) {
@@ -92,28 +45,6 @@ HWY_INLINE VT lower_half(VT packed) { return hn::And(packed, hn::Set(DT(), 0xFFF
 HWY_INLINE VT upper_half(VT packed) { return hn::ShiftRight<16>(packed); }
 HWY_INLINE VT least_of(VT a, VT b, VT c) { return hn::Min(hn::Min(a, b), c); }
 HWY_INLINE VT most_of(VT a, VT b, VT c) { return hn::Max(hn::Max(a, b), c); }
-
-/// The samples of a tile in packed coordinates: those of pixel column i are at (i + first_x) * 256.
-struct PackedLimits {
-  int first_x, first_y;  ///< what is added to a pixel's column and row
-  int low_x, low_y, last_x, last_y;
-
-  explicit PackedLimits(const TileRect& rect)
-      : first_x(kPackedLimit / 256 - rect.size / 2),
-        first_y(-rect.size / 2),
-        low_x(rect.limit[0] + first_x),
-        low_y(rect.limit[1] + first_y),
-        last_x(rect.limit[2] - 1 + first_x),
-        last_y(rect.limit[3] - 1 + first_y) {}
-};
-
-/// Appends words; returns how many there are then.
-HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
-  const DT d;
-  const uint32_t bits = lane_bits(d, which);
-  hn::StoreU(FrontLanes(d, bits)(word), d, out + count);
-  return count + std::popcount(bits);
-}
 
 /// The samples of the tile in the boxes of a vector of triangles.
 struct SampleBoxes {
@@ -144,32 +75,6 @@ struct SampleBoxes {
     return hn::And(few, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
   }
 };
-
-/// Lists a cluster's triangles by what their boxes hold: nothing, at most 2x2 samples, more.
-HWY_INLINE void find_candidates(const int32_t* packed, bool any_held, const ClusteredMesh& mesh, const Cluster& cluster,
-                                const PackedLimits& limit, Candidates& out) {
-  const DT d;
-  const hn::Rebind<uint8_t, DT> d8;
-  const uint8_t* corner[3];
-  for (size_t k = 0; k < 3; ++k) corner[k] = mesh.corner[k].data() + cluster.first_triangle;
-  VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
-  const VT next = hn::Set(d, int32_t(hn::Lanes(d)) << 24);
-  int count_2 = 0, count_more = 0;
-  for (int t = 0; t < cluster.triangles; t += int(hn::Lanes(d))) {
-    const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t)), i1 = hn::PromoteTo(d, hn::LoadU(d8, corner[1] + t)),
-             i2 = hn::PromoteTo(d, hn::LoadU(d8, corner[2] + t));
-    const SampleBoxes box(corner_at(packed, i0), corner_at(packed, i1), corner_at(packed, i2), limit);
-    const auto present = hn::FirstN(d, size_t(cluster.triangles - t));
-    const auto sampled = hn::And(present, hn::Gt(hn::Or(box.columns, box.rows), hn::Set(d, -1)));
-    const VT word = hn::Or(hn::Or(i0, hn::ShiftLeft<8>(i1)), hn::Or(hn::ShiftLeft<16>(i2), number));
-    number = hn::Add(number, next);
-    const auto upto_2 = hn::And(sampled, box.upto(2, any_held));
-    count_2 = append(out.upto_2, count_2, upto_2, word);
-    count_more = append(out.more, count_more, hn::AndNot(upto_2, sampled), word);
-  }
-  out.count_2 = count_2;
-  out.count_more = count_more;
-}
 
 /// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
 /// negative. A column on it is `across` less, a row on `up` more.
@@ -368,7 +273,8 @@ HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, 
 }
 
 /// Draws those of a cluster's triangles whose box holds few samples; the others that may cover any are left in
-/// `work.found.large`. Its vertices are in `work`, and none needs care; `box` is theirs. Not under polygon offset.
+/// `work.found.large`. Its vertices are in `work`, and none needs care; `box` is theirs, `work.open` says which blocks
+/// do not hide it. Not under polygon offset.
 inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const WindowBox& box,
                                  const GeometryState& state, bool upper_left, const TileRect& rect, uint32_t first_id,
                                  ClusterScratch& work, DepthCommit& commit) {
@@ -378,7 +284,7 @@ inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& clust
   const SmallCommit into{work.fragments, work.vertices.z, first_id, commit};
   Candidates& found = work.found;
   pack_corners(work.vertices, cluster.vertices, middle, work.packed);
-  find_candidates(work.packed, any_held, mesh, cluster, in.limit, found);
+  find_candidates(work.packed, any_held, mesh, cluster, in.limit, work.open, found);
   draw_upto<2>(in, found.upto_2, found.count_2, into, nullptr);
   const int larger = draw_upto<4>(in, found.more, found.count_more, into, found.upto_2);
   found.count_large = draw_upto_8(in, found.upto_2, larger, into, found.large);

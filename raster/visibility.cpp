@@ -146,7 +146,17 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& l
     const WindowBox box = window_box(v, cluster.vertices);
     const int size = rect.size * 256;
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
-    if (cull && hidden_box(commit.tile, rect, box, t)) return;
+    work.open.all = true;
+    if (cull) {
+      const BlockBox covered = blocks_of(box, rect);
+      const int blocks = rect.size / kBlockSize;
+      const float near = near_bound(box.near, t);
+      if (covered.count() > cluster.triangles) {
+        if (hidden_blocks(commit.tile, blocks, covered, near)) return;
+      } else if (!find_open(commit.tile, blocks, covered, near, work.open)) {
+        return;
+      }
+    }
     const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
     bool sorted = false;
     if constexpr (std::is_same_v<Commit, DepthCommit>) {
