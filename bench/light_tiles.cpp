@@ -65,7 +65,7 @@ struct Surfaces {
   LightDraws draws() const {
     return {scene.lights, lights, groups,         pipeline.light_model, pipeline.light_volumes,      meshes,
             outlines,     view,   pipeline.blend, {pipeline.target},    pipeline.light_volumes.base, false,
-            true,         true};
+            true,         true,     true};
   }
 };
 

@@ -138,7 +138,7 @@ struct Execution {
   bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
   bool fast_geometry = true;     ///< special paths for usual triangles and surfaces; otherwise the general ones for all
-  bool settled_sums = true;      ///< loops over lights without an end: codes by bounds, where these settle them
+  bool settled_sums = true;      ///< codes by bounds, where these settle them: of single lights' terms, and of sums
 };
 
 /// Throws Error(usage) naming the field and its range.

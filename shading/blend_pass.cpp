@@ -24,6 +24,7 @@ constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the n
 /// be held to the largest code later.
 template <bool kCodes>
 struct AddedLight {
+  static constexpr bool kAddsCodes = kCodes;
   const BlendPlan* plan;
   float largest[3];
   VF stored[4];
@@ -53,6 +54,10 @@ struct AddedLight {
       blend_out_of_line(*plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
     }
+  }
+  HWY_INLINE void add_codes(const SettledCodes& codes) {
+    for (int c = 0; c < 3; ++c) stored[c] = hn::Add(stored[c], codes.codes(c));
+    lights = hn::Add(lights, codes.lights());
   }
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
@@ -251,6 +256,8 @@ template <bool kCodes, class Shape>
 void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
   const DF d;
   RegionPixels<AddedLight<kCodes>> in(r);
+  in.settles = kCodes && t.in.settles;
+  for (int c = 0; c < 3; ++c) in.settles = in.settles && t.plan.largest(c) == 255.0f;
   for (size_t k = 0; k < kRegionBlockCount; ++k) {
     in.open[k] = 0;
     if (r.covered[k] == 0) continue;
@@ -258,6 +265,7 @@ void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Reg
     in.px[k] = terms.load(t.surface, i);
     leave_out_tied(t, in.px[k], i);
     in.open[k] = uint16_t(mask_bits(in.px[k].covered));
+    in.settles = in.settles && hn::AllFalse(d, hn::AndNot(plain_surfaces(in.px[k]), in.px[k].covered));
     in.sum[k] = AddedLight<kCodes>(t.add_plan, StoredPixels(t.out, i));
   }
   t.counts.evaluated_pairs +=

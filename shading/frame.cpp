@@ -121,7 +121,8 @@ struct FrameWork {
             multipass || pipeline.light_volumes.base,
             multipass,
             execution.light_culling,
-            execution.compiled_models};
+            execution.compiled_models,
+            execution.settled_sums};
   }
 
   TileRect rect(int tile) const {

@@ -28,6 +28,7 @@ struct LightDraws {
   bool first_base;  ///< and with light 0, which is in that draw: forward-multipass
   bool culling;     ///< leave out lights that are proved to add nothing; never changes a bit
   bool compiled;    ///< use kernels compiled for the model's shape; never changes a bit
+  bool settles;     ///< codes of terms by bounds (docs/arithmetic.md section 17); never changes a bit
 };
 
 /// What the draws of lights cover under a strategy that blends: of forward-multipass every light is a draw of the

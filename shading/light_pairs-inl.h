@@ -16,6 +16,7 @@
 
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
+#include "shading/settled_codes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -164,6 +165,7 @@ struct RegionPixels {
   uint16_t open[kRegionBlockCount];  ///< of each block, pixels that lights add to
   PixelVector px[kRegionBlockCount];
   Sum sum[kRegionBlockCount];
+  bool settles = false;  ///< terms are only wanted as codes of 8 bits, and bounds may settle them
 
   explicit RegionPixels(const Region& r) : region(r) {}
   /// Where a block begins in the planes of the tile, `blocks` a row.
@@ -209,6 +211,43 @@ HWY_NOINLINE size_t add_all_pairs(const LightTerms<Shape>& terms, const ListedLi
   return count;
 }
 
+/// Adds the codes that bounds settle; returns how many pairs are left, with the pixels whose codes are open.
+template <class Shape, class Sum>
+HWY_NOINLINE size_t settle_pairs(const LightTerms<Shape>& terms, std::span<const ListedLight> list, uint32_t* pair,
+                                 size_t count, RegionPixels<Sum>& in) {
+  static_assert(kPairedLights <= kCodesAtOnce);
+  SettledLight light[kPairedLights];
+  for (size_t i = 0; i < list.size(); ++i) light[i] = settled_light(list[i]);
+  SettledCodes codes[kRegionBlockCount];
+  for (SettledCodes& of : codes)
+    for (auto& sum : of.sum) sum = hn::Zero(DI());
+  constexpr size_t kTogether = 2;
+  if (count == 0) return 0;
+  for (size_t k = 0; k < kTogether; ++k) pair[count + k] = pair[count - 1] & ~kPairPixels;
+  size_t left = 0;
+  for (size_t first = 0; first < count; first += kTogether) {
+    SettledPairs<kTogether> some;
+    uint32_t word[kTogether];
+    SettledCodes* out[kTogether];
+    MF open[kTogether];
+    for (size_t k = 0; k < kTogether; ++k) {
+      word[k] = pair[first + k];
+      out[k] = codes + pair_block(word[k]);
+      some.px[k] = in.px + pair_block(word[k]), some.light[k] = light + pair_light(word[k]);
+      some.lit[k] = pair_pixels(word[k]);
+    }
+    some.settle(terms, out, open);
+    for (size_t k = 0; k < kTogether; ++k) {
+      const auto pixels = uint32_t(mask_bits(open[k]));
+      pair[left] = (word[k] & ~kPairPixels) | pixels;
+      left += pixels != 0;
+    }
+  }
+  for (size_t k = 0; k < kRegionBlockCount; ++k)
+    if (in.open[k] != 0) in.sum[k].add_codes(codes[k]);
+  return left;
+}
+
 // Adds the lights of a list, all of one kind that has a place, at most kPairedLights; returns the pairs computed.
 template <class Shape, class Sum>
 size_t add_placed_lights(const LightTerms<Shape>& terms, const TileLights& lights, std::span<const ListedLight> list,
@@ -231,6 +270,13 @@ size_t add_placed_lights(const LightTerms<Shape>& terms, const TileLights& light
     }
   }
   pairs = test_pairs(terms, in.px, list.data(), torn, torn_pairs, pair, pairs);
+  if constexpr (settles_codes<Shape>() && Sum::kAddsCodes) {
+    if (in.settles) {
+      const size_t open_pairs = settle_pairs(terms, list, pair, pairs, in);
+      add_all_pairs<false>(terms, list.data(), pair, open_pairs, in);
+      return pairs;
+    }
+  }
   if (Shape::shape.cone != Cone::none && list[0].light->kind == LightKind::coned)
     return add_all_pairs<Shape::shape.cone != Cone::none>(terms, list.data(), pair, pairs, in);
   return add_all_pairs<false>(terms, list.data(), pair, pairs, in);

@@ -65,7 +65,8 @@ void LightPlanes::blend(const LightDraws& frame, const SurfaceTile& surface, con
                            plane.outlines, frame.view,
                            kAddLight,      {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
                            false,          false,
-                           frame.culling,  frame.compiled};
+                           frame.culling,  frame.compiled,
+                           frame.settles};
     // What the first draw leaves is one fragment's, however many share the pixel.
     const bool in_first = frame.first_base && plane.light == 0;
     LightCounts uncounted;
