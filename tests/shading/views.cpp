@@ -4,6 +4,7 @@
 
 #include "core/srgb.h"
 #include "raster/simd_target.h"
+#include "scenes/light_shapes.h"
 #include "shading/frame.h"
 #include "shading/heat_map.h"
 #include "tests/catch.hpp"
@@ -152,6 +153,75 @@ TEST_CASE(
       }
     CHECK(unlike == 0);
   }
+}
+
+namespace {
+
+bool is_nearer(DepthFunc func, float z, float there) {
+  if (func == DepthFunc::less) return z < there;
+  if (func == DepthFunc::lequal) return z <= there;
+  return func == DepthFunc::greater ? z > there : z >= there;
+}
+
+/// Pixels at which a plane of boxes is not what a frame of the boxes alone shows where that passes the depth test
+/// against the frame's, and the frame's albedo elsewhere; and pixels that show a box.
+std::array<int, 2> unlike_and_boxed(const Scene& scene, const Scene& boxes, const Pipeline& pipeline,
+                                    const std::string& name, const Execution& execution) {
+  const std::string planes[] = {"depth", "id.object", "albedo"}, shown[] = {name};
+  Pipeline over = pipeline;
+  over.geometry.cull_face = CullFace::back;
+  over.gbuffer.albedo.format = Format::rgba32f;
+  const Frame there = render_frame(scene, pipeline, {}, planes), box = render_frame(boxes, over, {}, planes);
+  const Image plane = render_frame(scene, pipeline, execution, shown).aovs[0].image;
+  std::array<int, 2> count{};
+  for (int y = 0; y < plane.height; ++y)
+    for (int x = 0; x < plane.width; ++x) {
+      const bool boxed = at<uint32_t>(box.aovs[1].image, x, y) != 0 &&
+                         is_nearer(pipeline.geometry.depth_func, at<float>(box.aovs[0].image, x, y),
+                                   at<float>(there.aovs[0].image, x, y));
+      bool same = at<float>(plane, x, y, 3) == (boxed ? 1.0f : 0.0f);
+      for (int k = 0; k < 3; ++k) {
+        const double expected = boxed ? box.aovs[2].image.value(x, y, k) : there.aovs[2].image.value(x, y, k);
+        same = same && double(at<float>(plane, x, y, k)) == expected;
+      }
+      count[0] += !same, count[1] += boxed;
+    }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("Light volumes and their edges are those of a frame of them alone, where it passes the frame's depth test",
+          "[views]") {
+  for (const char* spec : {"builtin:circle", "builtin:city,lights=60", "builtin:sphere,lights=90"}) {
+    const Scene scene = load_scene(spec);
+    const Scene boxes = light_boxes(scene), edges = light_box_edges(scene);
+    int turn = 0;
+    for (const DepthFunc func : {DepthFunc::less, DepthFunc::lequal, DepthFunc::greater, DepthFunc::gequal})
+      for (const std::string_view simd : simd_targets()) {
+        Pipeline pipeline = pipeline_of("many-lights", 77, 51);
+        pipeline.geometry.depth_func = func;
+        if (func == DepthFunc::greater || func == DepthFunc::gequal) pipeline.geometry.clear_depth = 0.0f;
+        if (turn % 2 != 0) pipeline.geometry.viewport = {5, 3, 60, 44};
+        Execution execution;
+        execution.simd = simd;
+        execution.tile = ++turn % 3 == 0 ? 64 : 16;
+        execution.geometry_culling = turn % 4 < 2;
+        execution.fast_geometry = turn % 2 != 0;
+        CAPTURE(spec, int(func), simd, turn);
+        const auto of_boxes = unlike_and_boxed(scene, boxes, pipeline, "light.boxes", execution);
+        const auto of_edges = unlike_and_boxed(scene, edges, pipeline, "light.edges", execution);
+        CHECK(of_boxes[0] + of_edges[0] == 0);
+        CHECK(of_boxes[1] + of_edges[1] > 100);
+      }
+  }
+}
+
+TEST_CASE("Light volumes are drawn some thousands at a time: of more than that they are the same", "[views]") {
+  const Scene scene = load_scene("builtin:city,lights=5000");
+  const Pipeline pipeline = pipeline_of("many-lights", 67, 43);
+  CHECK(unlike_and_boxed(scene, light_boxes(scene), pipeline, "light.boxes", {})[0] == 0);
+  CHECK(unlike_and_boxed(scene, light_box_edges(scene), pipeline, "light.edges", {})[0] == 0);
 }
 
 TEST_CASE("Every view and plane has one set of bits, however it is drawn, and a view changes no plane", "[views]") {
