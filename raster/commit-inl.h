@@ -27,7 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Counts covered samples: for overdraw, and for tests of watertightness.
 struct CountCommit {
-  uint32_t* counts;  ///< in tile_index() order
+  uint32_t* counts;   ///< in tile_index() order
+  bool fast = false;  ///< triangles may take the paths for usual ones
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}

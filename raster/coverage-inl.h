@@ -13,6 +13,7 @@
 
 #include "raster/careful.h"
 #include "raster/commit-inl.h"
+#include "raster/count_blocks-inl.h"
 #include "raster/large_triangles-inl.h"
 #include "raster/triangle_setup.h"
 #include "raster/vertex_stage-inl.h"
@@ -78,6 +79,9 @@ template <class T, class Commit>
 HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
   if constexpr (std::is_same_v<Commit, DepthCommit>) {
     if (commit.fast && commit.alpha == nullptr && cover_large(s, rect, commit)) return;
+  }
+  if constexpr (std::is_same_v<Commit, CountCommit>) {
+    if (commit.fast && count_blocks(s, rect, commit.counts)) return;
   }
   cover_blocks(s, rect, commit);
 }

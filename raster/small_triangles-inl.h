@@ -223,8 +223,9 @@ struct ListedTriangles {
 };
 
 /// Draws the listed triangles of at most kSide x kSide samples; returns how many larger ones it listed in `larger`.
-template <int kSide>
-HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, const SmallCommit& into,
+/// `into`: a SmallCommit, or what else takes fragments.
+template <int kSide, class Into>
+HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, const Into& into,
                          [[maybe_unused]] int32_t* larger) {
   const DT d;
   const int lanes = int(hn::Lanes(d));
@@ -246,8 +247,8 @@ HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, co
 /// Draws the listed triangles of at most 8x8 samples where enough of a vector is, and lists the rest in `larger`:
 /// counter-clockwise ones first, as in a closed mesh they hide the others. Of held corners the sign is a guess, which
 /// will do.
-HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, const SmallCommit& into,
-                           int32_t* larger) {
+template <class Into>
+HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, const Into& into, int32_t* larger) {
   const DT d;
   const int lanes = int(hn::Lanes(d));
   alignas(64) int32_t back[kMostCandidates];

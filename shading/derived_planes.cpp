@@ -29,10 +29,16 @@ void add_once(std::vector<std::string>& names, std::string_view name) {
   if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
 }
 
+/// A row of an image whose texels are a Value each, to be written.
 template <typename Value>
-void put(Image& image, int x, int y, const Value& value) {
-  std::memcpy(image.texel(x, y), &value, sizeof value);
-}
+class TexelRow {
+ public:
+  TexelRow(Image& image, int y) : first_(image.texel(0, y)) {}
+  void put(int x, const Value& value) const { std::memcpy(first_ + sizeof value * size_t(x), &value, sizeof value); }
+
+ private:
+  uint8_t* first_;
+};
 
 /// A row of three channels of a plane, and of id.object.
 struct VectorRow {
@@ -76,10 +82,11 @@ Image view_distance(const Scene& scene, const Pipeline& pipeline, int threads, c
   Image out(object.width, object.height, Format::d32f);
   for_each_row(out.height, threads, [&](int y) {
     const VectorRow row(position, object, y);
+    const TexelRow<float> texels(out, y);
     for (int x = 0; x < out.width; ++x) {
       if (row.object[size_t(x)] == 0) continue;
       const glm::vec3 p = row.at(x) - eye;
-      put(out, x, y, (axis.x * p.x + axis.y * p.y) + axis.z * p.z);
+      texels.put(x, (axis.x * p.x + axis.y * p.y) + axis.z * p.z);
     }
   });
   return out;
@@ -125,8 +132,10 @@ Image lights_by_tile(const LightTable& lights, int threads, const Image& positio
     for (int x = 0; x < out.width; x += kLightTile) {
       const int end = std::min(x + kLightTile, out.width);
       const uint32_t count = reaching_lights(lights, rows, x, end);
-      for (int y = bottom - int(rows.size()); y < bottom; ++y)
-        for (int px = x; px < end; ++px) put(out, px, y, count);
+      for (int y = bottom - int(rows.size()); y < bottom; ++y) {
+        const TexelRow<uint32_t> texels(out, y);
+        for (int px = x; px < end; ++px) texels.put(px, count);
+      }
     }
   });
   return out;
@@ -138,7 +147,8 @@ Image intensities(const Image& target, int threads) {
     std::vector<float> colors(3 * size_t(out.width));
     read_row(target, y, 3, colors.data());
     const float* c = colors.data();
-    for (int x = 0; x < out.width; ++x, c += 3) put(out, x, y, luminance(c[0], c[1], c[2]));
+    const TexelRow<float> texels(out, y);
+    for (int x = 0; x < out.width; ++x, c += 3) texels.put(x, luminance(c[0], c[1], c[2]));
   });
   return out;
 }
@@ -146,14 +156,18 @@ Image intensities(const Image& target, int threads) {
 Image among_surfaces(const Scene& boxes, const Pipeline& pipeline, const Execution& execution,
                      std::span<const NamedImage> drawn) {
   const Image &albedo = plane_named(drawn, "albedo"), &object = plane_named(drawn, "id.object");
-  const Overlay over = overlay(boxes, pipeline, execution, plane_named(drawn, "depth"));
+  const Image box = overlay(boxes, pipeline, execution, plane_named(drawn, "depth"));
   Image out(object.width, object.height, Format::rgba32f);
   for_each_row(out.height, execution.threads, [&](int y) {
-    const VectorRow surface(albedo, object, y), box(over.albedo, over.object, y);
+    const VectorRow surface(albedo, object, y);
+    std::vector<uint32_t> boxed(size_t(out.width));
+    read_row(box, y, boxed.data());
+    const TexelRow<glm::vec4> texels(out, y);
     for (int x = 0; x < out.width; ++x) {
-      const bool boxed = box.object[size_t(x)] != 0;
-      if (boxed || surface.object[size_t(x)] != 0)
-        put(out, x, y, glm::vec4((boxed ? box : surface).at(x), boxed ? 1.0f : 0.0f));
+      if (boxed[size_t(x)] != 0)
+        texels.put(x, glm::vec4(overlay_color(boxes, boxed[size_t(x)]), 1.0f));
+      else if (surface.object[size_t(x)] != 0)
+        texels.put(x, glm::vec4(surface.at(x), 0.0f));
     }
   });
   return out;

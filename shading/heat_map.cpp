@@ -50,9 +50,11 @@ Image heat_image(const Image& counts, uint32_t scale, int threads) {
     std::vector<uint32_t> row(size_t(out.width));
     for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, out.height); ++y) {
       read_row(counts, y, row.data());
-      for (int x = 0; x < out.width; ++x) {
-        const uint64_t step = uint64_t(256) * row[size_t(x)] / scale;
-        std::memcpy(out.texel(x, y), color[size_t(std::min<uint64_t>(step, 256))].data(), 4);
+      uint8_t* texel = out.texel(0, y);
+      for (const uint32_t count : row) {
+        const uint64_t step = uint64_t(256) * count / scale;
+        std::memcpy(texel, color[size_t(std::min<uint64_t>(step, 256))].data(), 4);
+        texel += 4;
       }
     }
   });

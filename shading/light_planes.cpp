@@ -1,8 +1,8 @@
 #include "shading/light_planes.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cstring>
+
+#include "shading/texels.h"
 
 namespace trueshade {
 
@@ -22,12 +22,9 @@ namespace {
 constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
 
 void store(const ColorTile& color, const TileRect& rect, Image& image) {
-  for (int y = 0; y < std::min(rect.size, image.height - rect.y); ++y)
-    for (int x = 0; x < std::min(rect.size, image.width - rect.x); ++x) {
-      const int at = tile_index(rect.size, x, y);
-      const float value[3] = {color.plane[0][at], color.plane[1][at], color.plane[2][at]};
-      std::memcpy(image.texel(rect.x + x, image.height - 1 - (rect.y + y)), value, sizeof value);
-    }
+  TexelSource source;
+  for (int c = 0; c < 3; ++c) source.plane[c] = color.plane[c];
+  store_texels(source, rect, HalfRound::toward_zero, image);
 }
 
 }  // namespace

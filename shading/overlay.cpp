@@ -2,57 +2,70 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "core/fp_env.h"
-#include "core/image_rows.h"
-#include "shading/draw_frame.h"
+#include "raster/clusters.h"
+#include "raster/placed_scene.h"
+#include "raster/simd_target.h"
+#include "raster/view.h"
+#include "shading/frame.h"
+#include "shading/texels.h"
 
 namespace trueshade {
 namespace {
 
-bool passes(DepthFunc func, float z, float there) {
-  switch (func) {
-    case DepthFunc::never:
-      return false;
-    case DepthFunc::less:
-      return z < there;
-    case DepthFunc::equal:
-      return z == there;
-    case DepthFunc::lequal:
-      return z <= there;
-    case DepthFunc::greater:
-      return z > there;
-    case DepthFunc::notequal:
-      return z != there;
-    case DepthFunc::gequal:
-      return z >= there;
-    case DepthFunc::always:
-      return true;
+/// Puts words of an image's texels into a tile's plane; what lies beyond the image stays.
+template <class Word>
+void load(const Image& image, const TileRect& rect, Word* plane) {
+  static_assert(sizeof(Word) == 4);
+  const int width = std::min(rect.size, image.width - rect.x), height = std::min(rect.size, image.height - rect.y);
+  for (int y = 0; y < height; ++y) {
+    const uint8_t* const row = image.texel(rect.x, image.height - 1 - (rect.y + y));
+    Word* const to = plane + tile_index(rect.size, 0, y);
+    const int whole = width / kBlockSize;
+    for (int k = 0; k < whole; ++k) std::memcpy(to + k * kBlockPixels, row + k * 4 * kBlockSize, 4 * kBlockSize);
+    std::memcpy(to + whole * kBlockPixels, row + whole * 4 * kBlockSize, 4 * size_t(width % kBlockSize));
   }
-  return false;
 }
+
+void store(const void* plane, const TileRect& rect, Image& image) {
+  TexelSource source;
+  source.plane[0] = static_cast<const float*>(plane);
+  store_texels(source, rect, HalfRound::toward_zero, image);
+}
+
+constexpr uint32_t kInstances = 4096;  // drawn at a time: bounds what their triangles take
 
 }  // namespace
 
-Overlay overlay(const Scene& over, const Pipeline& pipeline, const Execution& execution, const Image& depth) {
+Image overlay(const Scene& over, const Pipeline& pipeline, const Execution& execution, const Image& depth) {
   Pipeline plain = pipeline;
   plain.geometry.cull_face = CullFace::back;
-  plain.gbuffer.albedo = {Format::rgba32f, Interpolation::smooth};
-  const std::string planes[] = {"depth", "albedo", "id.object"};
-  Frame frame = draw_frame(PreparedScene(over), plain, execution, planes, false, {});
-  Overlay out{std::move(frame.aovs[1].image), std::move(frame.aovs[2].image)};
-  const Image& near = frame.aovs[0].image;
-  parallel_for((depth.height + kRowsOfBand - 1) / kRowsOfBand, execution.threads, [&](int band) {
-    std::vector<float> z(size_t(depth.width)), there(size_t(depth.width));
-    for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, depth.height); ++y) {
-      read_row(near, y, 1, z.data());
-      read_row(depth, y, 1, there.data());
-      for (int x = 0; x < depth.width; ++x)
-        if (!passes(pipeline.geometry.depth_func, z[size_t(x)], there[size_t(x)]))
-          std::memset(out.object.texel(x, y), 0, 4);
-    }
-  });
-  return out;
+  const GeometryState& state = plain.geometry;
+  const SimdScope simd(execution.simd);
+  const ClusteredScene clusters = cluster_scene(over);
+  const View view = make_view(over, plain, execution.threads);
+  const int tile = execution.tile != 0 ? execution.tile : tile_for(depth.width, depth.height, execution.threads);
+  const auto instances = uint32_t(over.instances.size());
+  Image object(depth.width, depth.height, Format::r32ui);
+  Image after = instances > kInstances ? depth : Image();  // depths, where more is to be drawn upon them
+  for (uint32_t first = 0; first < instances; first += kInstances) {
+    const PlacedScene placed = place_scene(over, clusters, view, state, first, std::min(instances, first + kInstances),
+                                           tile, execution.threads);
+    parallel_for(placed.tiles(), execution.threads, [&](int i) {
+      if (placed.empty(i)) return;
+      const TileRect rect = tile_rect(view.window, placed.tile, placed.tiles_x, i);
+      VisibilityTile visible;
+      std::fill(std::begin(visible.depth), std::end(visible.depth), 0.0f);  // beyond the image nothing is drawn
+      load(instances > kInstances ? after : depth, rect, visible.depth);
+      load(object, rect, visible.id);
+      draw_placed(placed, view, state, i, execution.geometry_culling, execution.fast_geometry, visible);
+      store(visible.id, rect, object);
+      if (instances > kInstances) store(visible.depth, rect, after);
+    });
+  }
+  return object;
 }
 
 }  // namespace trueshade

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/image_rows.h"
 #include "scenes/light_shapes.h"
 #include "shading/overlay.h"
 #include "shading/post.h"
@@ -15,13 +16,18 @@ constexpr int kMostPixels = 65536, kMostCoordinate = 1 << 27;
 
 void draw_markers(const Scene& scene, const Pipeline& large, float radius, const Execution& execution,
                   const Image& depth, Picture& picture) {
-  const Overlay markers = overlay(light_markers(scene, radius), large, execution, depth);
-  for (int y = 0; y < picture.height; ++y)
+  const Scene markers = light_markers(scene, radius);
+  const Image object = overlay(markers, large, execution, depth);
+  std::vector<uint32_t> row(size_t(object.width));
+  for (int y = 0; y < picture.height; ++y) {
+    read_row(object, y, row.data());
     for (int x = 0; x < picture.width; ++x) {
-      if (markers.object.value(x, y, 0) == 0.0) continue;
-      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = float(markers.albedo.value(x, y, c));
+      if (row[size_t(x)] == 0) continue;
+      const glm::vec3 color = overlay_color(markers, row[size_t(x)]);
+      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = color[c];
       picture.at(x, y)[3] = 1.0f;
     }
+  }
 }
 
 }  // namespace

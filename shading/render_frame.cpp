@@ -3,10 +3,12 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "scenes/light_shapes.h"
 #include "shading/derived_planes.h"
 #include "shading/draw_frame.h"
 #include "shading/heat_map.h"
 #include "shading/light_planes.h"
+#include "shading/overlay.h"
 #include "shading/post_frame.h"
 #include "shading/view_image.h"
 
@@ -58,6 +60,13 @@ const Image* depth_of(std::span<const NamedImage> planes) {
   return there == planes.end() ? nullptr : &there->image;
 }
 
+Image boxes_view(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                 std::span<const NamedImage> planes) {
+  const Scene boxes = pipeline.view == ImageView::light_boxes ? light_boxes(scene) : light_box_edges(scene);
+  const Image boxed = overlay(boxes, pipeline, execution, plane_named(planes, "depth"));
+  return boxes_image(boxes, boxed, execution.threads, planes);
+}
+
 // The frame drawn at the size of its samples, and the chain upon that.
 Image finished_from_samples(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
                             const Progress& progress) {
@@ -107,6 +116,8 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
     frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)),
                              execution.threads);
+  else if (shows_boxes(pipeline.view))
+    frame.color = boxes_view(prepared.scene(), pipeline, execution, planes);
   else if (pipeline.view != ImageView::lit)
     frame.color = view_image(pipeline.view, execution.threads, planes);
   if (post) frame.color = std::move(finished);

@@ -10,6 +10,7 @@
 #include "core/image_rows.h"
 #include "core/srgb_codes.h"
 #include "shading/derived_planes.h"
+#include "shading/overlay.h"
 
 namespace trueshade {
 namespace {
@@ -27,24 +28,30 @@ void for_each_row(const Image& shown, int channels, const Image& object, int thr
     std::vector<float> values(width * size_t(channels));
     std::vector<uint32_t> objects(width);
     for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, shown.height); ++y) {
-      read_row(shown, y, channels, values.data());
+      if (channels != 0) read_row(shown, y, channels, values.data());
       read_row(object, y, objects.data());
       row(y, values.data(), objects.data());
     }
   });
 }
 
-/// A picture of color(the pixel's values of `shown`) where there is a surface, or, of four channels, an alpha.
+/// A picture of color(the pixel's values of `shown`) where there is a surface.
 template <int kChannels, typename Color>
 Image picture(const Image& shown, const Image& object, int threads, const Color& color) {
   Image view(object.width, object.height, Format::rgba8);
   for_each_row(shown, kChannels, object, threads, [&](int y, const float* values, const uint32_t* objects) {
     uint8_t* texel = view.texel(0, y);
+    const float* known = nullptr;  // values that `rgb` is the colour of: neighbours often have the same
+    Rgb rgb{};
     for (int x = 0; x < view.width; ++x, values += kChannels, texel += 4) {
-      const bool drawn = objects[x] != 0 || (kChannels == 4 && values[kChannels - 1] != 0.0f);
-      const Rgb rgb = drawn ? color(values) : Rgb{kEmptyColor[0], kEmptyColor[1], kEmptyColor[2]};
-      const uint8_t rgba[4] = {rgb[0], rgb[1], rgb[2], 255};
-      std::memcpy(texel, rgba, sizeof rgba);
+      const bool drawn = objects[x] != 0;
+      if (drawn && (known == nullptr || std::memcmp(known, values, kChannels * sizeof(float)) != 0)) {
+        rgb = color(values);
+        known = values;
+      }
+      const uint8_t surface[4] = {rgb[0], rgb[1], rgb[2], 255};
+      const uint8_t empty[4] = {kEmptyColor[0], kEmptyColor[1], kEmptyColor[2], 255};
+      std::memcpy(texel, drawn ? surface : empty, sizeof surface);
     }
   });
   return view;
@@ -125,9 +132,8 @@ std::vector<std::string> planes_of_view(ImageView view) {
     case ImageView::lit:
       return {};
     case ImageView::light_boxes:
-      return {"light.boxes", "id.object"};
     case ImageView::light_edges:
-      return {"light.edges", "id.object"};
+      return {"albedo", "id.object", "depth"};
     case ImageView::albedo:
       return {"albedo", "id.object"};
     case ImageView::specular:
@@ -162,8 +168,22 @@ Image view_image(ImageView view, int threads, std::span<const NamedImage> planes
   if (view == ImageView::normal) return directions(shown, object, threads);
   if (view == ImageView::position) return places(shown, object, threads);
   if (view == ImageView::uv) return texture_places(shown, object, threads);
-  const bool boxes = view == ImageView::light_boxes || view == ImageView::light_edges;
-  return boxes ? picture<4>(shown, object, threads, linear_color) : picture<3>(shown, object, threads, linear_color);
+  return picture<3>(shown, object, threads, linear_color);
+}
+
+Image boxes_image(const Scene& boxes, const Image& boxed, int threads, std::span<const NamedImage> planes) {
+  Image out = picture<3>(plane_named(planes, "albedo"), plane_named(planes, "id.object"), threads, linear_color);
+  std::vector<std::array<uint8_t, 4>> color(boxes.instances.size() + 1);
+  for (uint32_t object = 1; object < color.size(); ++object) {
+    const Rgb rgb = linear_color(&overlay_color(boxes, object)[0]);
+    color[object] = {rgb[0], rgb[1], rgb[2], 255};
+  }
+  for_each_row(boxed, 0, boxed, threads, [&](int y, const float*, const uint32_t* objects) {
+    uint8_t* const texels = out.texel(0, y);
+    for (int x = 0; x < out.width; ++x)
+      if (objects[x] != 0) std::memcpy(texels + 4 * x, color[objects[x]].data(), 4);
+  });
+  return out;
 }
 
 }  // namespace trueshade

@@ -1,0 +1,249 @@
+#include "raster/placed_scene.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/placed_scene.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fp_env.h"
+#include "raster/cluster_bounds.h"
+#include "raster/coverage-inl.h"
+#include "raster/hidden-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What placing a chunk reads and writes.
+struct Placing {
+  const View& view;
+  const GeometryState& state;
+  PlacedChunk& out;
+
+  bool keeps(int facing) const { return facing != 0 && !culled(state, (facing > 0) != view.window.upper_left); }
+};
+
+int facing_of(const WindowTriangle& t) {
+  const int64_t area = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
+  return (area > 0) - (area < 0);
+}
+
+void place_careful(const Placing& in, const ClipVertex v[3], uint32_t instance) {
+  const CarefulPieces fan = careful_pieces(v, in.view.window, 0, 0);
+  if (fan.count == 0 || !in.keeps(fan.facing)) return;
+  if (fan.turned) {
+    in.out.triangles.push_back({{}, instance, int32_t(in.out.turned.size())});
+    in.out.turned.push_back({v[0], v[1], v[2]});
+    return;
+  }
+  for (int i = 0; i < fan.count; ++i) in.out.triangles.push_back({fan.piece[i].triangle, instance, -1});
+}
+
+void place_cluster(const Placing& in, const ClusteredMesh& mesh, const Cluster& cluster, uint32_t instance,
+                   WindowVertices& v) {
+  const D32 df;
+  const InstanceTransform& transform = in.view.instances[instance];
+  window_vertices(mesh, cluster, transform, in.view.window, {0, 0}, false, v);
+  for (uint32_t i = 0; i < cluster.triangles; ++i) {
+    const size_t at = cluster.first_triangle + i;
+    const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
+    if (v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0) {
+      ClipVertex clip[3];
+      for (size_t k = 0; k < 3; ++k) {
+        V32 p[3];
+        for (size_t c = 0; c < 3; ++c) p[c] = hn::Set(df, mesh.position[c][cluster.first_vertex + corner[k]]);
+        for (int r = 0; r < 4; ++r) clip[k].c[r] = hn::GetLane(affine_row(transform.clip[r], p[0], p[1], p[2]));
+      }
+      place_careful(in, clip, instance);
+      continue;
+    }
+    PlacedTriangle placed{{}, instance, -1};
+    for (size_t k = 0; k < 3; ++k) {
+      placed.window.x[k] = v.x[corner[k]];
+      placed.window.y[k] = v.y[corner[k]];
+      placed.window.z[k] = v.z[corner[k]];
+    }
+    if (in.keeps(facing_of(placed.window))) in.out.triangles.push_back(placed);
+  }
+}
+
+void place_instances_simd(const Scene& scene, const ClusteredScene& clusters, const View& view,
+                          const GeometryState& state, uint32_t first, uint32_t end, PlacedChunk& out) {
+  const Placing in{view, state, out};
+  WindowVertices vertices;
+  for (uint32_t i = first; i < end; ++i) {
+    const ClusteredMesh& mesh = clusters.meshes[scene.instances[i].mesh];
+    if (!may_be_seen(mesh.boxes, view.instances[i], view.window, uint32_t(mesh.clusters.size()))) continue;
+    for (const Cluster& cluster : mesh.clusters) place_cluster(in, mesh, cluster, i, vertices);
+  }
+}
+
+void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const GeometryState& state,
+                   const TileRect& rect, bool cull, DepthCommit& commit) {
+  bool usual = true;
+  for (int k = 0; k < 3; ++k)
+    usual = usual && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
+  if (!usual) return draw_window_triangle(window, state, t.upper_left, rect, commit);
+  if (cull && hidden_triangle(commit.tile, rect, window, t)) return;
+  TriangleSetup<double> setup;
+  if (!set_up_triangle(window, state, t.upper_left, rect.limit, setup)) return;
+  if (setup.samples() <= 4)
+    cover_samples(setup, rect, commit);
+  else
+    cover(setup, rect, commit);
+}
+
+void draw_placed_simd(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
+                      bool fast_paths, VisibilityTile& out) {
+  const WindowTransform& t = view.window;
+  const TileRect rect = tile_rect(t, placed.tile, placed.tiles_x, tile);
+  const SampleOrigin origin = sample_origin(rect.x, rect.y);
+  const bool nearest_wins = state.depth_func == DepthFunc::less || state.depth_func == DepthFunc::lequal;
+  DepthCommit commit{out, state.depth_func, t.depth_low, t.depth_high, culling && nearest_wins, t.depth};
+  commit.fast = fast_paths && commit.skip_hidden;
+  const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
+  for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
+  for (const PlacedChunk& chunk : placed.chunks)
+    for (uint32_t i = chunk.first[size_t(tile)]; i < chunk.first[size_t(tile) + 1]; ++i) {
+      const PlacedTriangle& triangle = chunk.triangles[chunk.list[i]];
+      commit.id = triangle.instance + 1;
+      if (triangle.turned >= 0) {
+        draw_careful(chunk.turned[size_t(triangle.turned)].data(), t, origin, state, rect, commit);
+        continue;
+      }
+      WindowTriangle window = triangle.window;
+      for (int k = 0; k < 3; ++k) window.x[k] -= origin.x, window.y[k] -= origin.y;
+      draw_triangle(window, t, state, rect, cull, commit);
+    }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(place_instances_simd);
+HWY_EXPORT(draw_placed_simd);
+
+namespace {
+
+constexpr uint32_t kInstances = 64;  // of a chunk
+
+/// Pixels whose samples coordinates in [least, most] reach, of [low, high).
+struct PixelSpan {
+  int first, last;  ///< inclusive
+};
+PixelSpan pixel_span(int64_t least, int64_t most, int low, int high) {
+  const int64_t half = kSubpixels / 2;
+  return {int(std::clamp<int64_t>((least - half + kSubpixels - 1) >> kSubpixelBits, low, high)),
+          int(std::clamp<int64_t>((most - half) >> kSubpixelBits, low - 1, high - 1))};
+}
+
+/// Edge functions of a triangle in f64, turned so that they are positive inside: of samples of the window, in 1/256.
+class WindowEdges {
+ public:
+  explicit WindowEdges(const WindowTriangle& t) {
+    const double area =
+        double(t.x[1] - t.x[0]) * double(t.y[2] - t.y[0]) - double(t.x[2] - t.x[0]) * double(t.y[1] - t.y[0]);
+    for (int i = 0; i < 3; ++i) {
+      const int a = (i + 1) % 3, b = (i + 2) % 3;
+      const double sign = area < 0.0 ? -1.0 : 1.0;
+      x_[i] = double(t.x[a]), y_[i] = double(t.y[a]);
+      up_[i] = sign * double(t.x[b] - t.x[a]), across_[i] = -sign * double(t.y[b] - t.y[a]);
+    }
+  }
+
+  /// Whether all samples of a box lie outside of one edge, by more than all roundings.
+  bool beside(double x0, double y0, double x1, double y1) const {
+    for (int i = 0; i < 3; ++i) {
+      const double a = across_[i] * ((across_[i] > 0.0 ? x1 : x0) - x_[i]),
+                   b = up_[i] * ((up_[i] > 0.0 ? y1 : y0) - y_[i]);
+      if (a + b < -(std::abs(a) + std::abs(b)) * 0x1p-40) return true;
+    }
+    return false;
+  }
+
+ private:
+  double x_[3], y_[3], across_[3], up_[3];
+};
+
+/// Calls use(tile) for the tiles that a triangle may touch.
+template <class Use>
+void for_each_tile(const PlacedTriangle& triangle, const WindowTransform& t, const PlacedScene& grid, const Use& use) {
+  PixelSpan across{t.x0, t.x1 - 1}, up{t.y0, t.y1 - 1};
+  const WindowTriangle& w = triangle.window;
+  if (triangle.turned < 0) {
+    const auto [left, right] = std::minmax({w.x[0], w.x[1], w.x[2]});
+    const auto [bottom, top] = std::minmax({w.y[0], w.y[1], w.y[2]});
+    across = pixel_span(left, right, t.x0, t.x1), up = pixel_span(bottom, top, t.y0, t.y1);
+  }
+  if (across.first > across.last || up.first > up.last) return;
+  const int x0 = across.first / grid.tile, x1 = across.last / grid.tile;
+  const int y0 = up.first / grid.tile, y1 = up.last / grid.tile;
+  const WindowEdges edges(w);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) {
+      const double left = double(x * grid.tile) * 256.0, bottom = double(y * grid.tile) * 256.0;
+      const double side = double(grid.tile) * 256.0;
+      if (triangle.turned < 0 && (x0 != x1 || y0 != y1) && edges.beside(left, bottom, left + side, bottom + side))
+        continue;
+      use(uint32_t(y * grid.tiles_x + x));
+    }
+}
+
+/// Lists a chunk's triangles by tile.
+void list_by_tile(const WindowTransform& t, const PlacedScene& grid, PlacedChunk& chunk) {
+  struct Touch {
+    uint32_t tile, triangle;
+  };
+  std::vector<Touch> touches;
+  chunk.first.assign(size_t(grid.tiles()) + 1, 0);
+  for (uint32_t i = 0; i < chunk.triangles.size(); ++i)
+    for_each_tile(chunk.triangles[i], t, grid, [&](uint32_t tile) {
+      touches.push_back({tile, i});
+      ++chunk.first[tile + 1];
+    });
+  for (size_t tile = 1; tile < chunk.first.size(); ++tile) chunk.first[tile] += chunk.first[tile - 1];
+  chunk.list.resize(touches.size());
+  std::vector<uint32_t> next(chunk.first.begin(), chunk.first.end() - 1);
+  for (const Touch& touch : touches) chunk.list[next[touch.tile]++] = touch.triangle;
+}
+
+}  // namespace
+
+bool PlacedScene::empty(int tile) const {
+  return std::all_of(chunks.begin(), chunks.end(), [tile](const PlacedChunk& chunk) {
+    return chunk.first[size_t(tile)] == chunk.first[size_t(tile) + 1];
+  });
+}
+
+PlacedScene place_scene(const Scene& scene, const ClusteredScene& clusters, const View& view,
+                        const GeometryState& state, uint32_t first, uint32_t end, int tile, int threads) {
+  PlacedScene out{tile, (view.width + tile - 1) / tile, (view.height + tile - 1) / tile, {}};
+  out.chunks.resize((end - first + kInstances - 1) / kInstances);
+  parallel_for(int(out.chunks.size()), threads, [&](int i) {
+    const uint32_t from = first + uint32_t(i) * kInstances;
+    PlacedChunk& chunk = out.chunks[size_t(i)];
+    HWY_DYNAMIC_DISPATCH(place_instances_simd)
+    (scene, clusters, view, state, from, std::min(end, from + kInstances), chunk);
+    list_by_tile(view.window, out, chunk);
+  });
+  return out;
+}
+
+void draw_placed(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
+                 bool fast_paths, VisibilityTile& out) {
+  HWY_DYNAMIC_DISPATCH(draw_placed_simd)(placed, view, state, tile, culling, fast_paths, out);
+}
+
+TileRect tile_rect(const WindowTransform& window, int size, int tiles_x, int tile) {
+  const int x = tile % tiles_x * size, y = tile / tiles_x * size;
+  const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
+  return {x, y, size, {in_tile(window.x0 - x), in_tile(window.y0 - y), in_tile(window.x1 - x), in_tile(window.y1 - y)}};
+}
+
+}  // namespace trueshade
+#endif  // HWY_ONCE

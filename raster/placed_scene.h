@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raster/clip.h"
+#include "raster/clusters.h"
+#include "raster/triangle_setup.h"
+#include "raster/view.h"
+#include "raster/visibility.h"
+
+namespace trueshade {
+
+/// A triangle, or a piece of a clipped one, that face culling leaves; in the window, relative to its corner (0, 0).
+struct PlacedTriangle {
+  WindowTriangle window;
+  uint32_t instance;
+  int32_t turned;  ///< into PlacedChunk::turned: what to draw instead; -1: none
+};
+
+/// The triangles of some instances, and for each tile those that may touch it, in order of submission.
+struct PlacedChunk {
+  std::vector<PlacedTriangle> triangles;
+  std::vector<std::array<ClipVertex, 3>> turned;  ///< triangles of whose fan snapping has turned a piece over
+  std::vector<uint32_t> first, list;              ///< a tile's are list[first[tile]] to list[first[tile + 1]]
+};
+
+/// A scene of large opaque triangles that share tiles with few others: each is transformed, clipped, snapped and culled
+/// once, not once in each tile that its cluster touches. Untextured.
+struct PlacedScene {
+  int tile, tiles_x, tiles_y;
+  std::vector<PlacedChunk> chunks;  ///< of ascending instances
+
+  int tiles() const { return tiles_x * tiles_y; }
+  bool empty(int tile) const;  ///< no triangle touches it
+};
+
+/// Of the instances [first, end): some 100 bytes for each triangle and tile that it touches.
+PlacedScene place_scene(const Scene& scene, const ClusteredScene& clusters, const View& view,
+                        const GeometryState& state, uint32_t first, uint32_t end, int tile, int threads);
+
+/// Draws a tile upon what `out` holds: depths of surfaces drawn before, and as ids index + 1 of instances, 0 of other
+/// scenes. `culling`, `fast_paths`: as in draw_visibility() and TileDraws.
+void draw_placed(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
+                 bool fast_paths, VisibilityTile& out);
+
+/// A tile of a grid of tiles that begins at the window's (0, 0).
+TileRect tile_rect(const WindowTransform& window, int size, int tiles_x, int tile);
+
+}  // namespace trueshade
