@@ -288,7 +288,11 @@ bool wants_rgb16f(const GBufferState& g) {
 
 }  // namespace
 
-GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotation) : context_(&context) {
+KeptPrograms::KeptPrograms() = default;
+KeptPrograms::~KeptPrograms() = default;
+
+GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotation, KeptPrograms* kept)
+    : context_(&context), kept_(kept) {
   context.make_current();
   buffers_ = std::make_unique<SceneBuffers>(scene, rotation);
   rgb16f_ = renders_to(Format::rgb16f);
@@ -313,14 +317,17 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
 }
 
 const Programs& GlRenderer::programs(const GlslShaders& text) {
-  if (programs_ == nullptr || programs_->text != text)
-    programs_ = std::make_unique<Programs>(Programs{
-        text, make_program("geometry", text.geometry_vert, text.geometry_frag),
-        make_program("light", text.light_vert, text.light_frag),
-        text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag),
-        text.transparent_frag.empty() ? GlProgram{}
-                                      : make_program("transparent", text.transparent_vert, text.transparent_frag)});
-  return *programs_;
+  std::vector<std::unique_ptr<Programs>>& all = kept_ != nullptr ? kept_->all_ : own_.all_;
+  for (const std::unique_ptr<Programs>& p : all)
+    if (p->text == text) return *p;
+  if (kept_ == nullptr) all.clear();
+  all.push_back(std::make_unique<Programs>(Programs{
+      text, make_program("geometry", text.geometry_vert, text.geometry_frag),
+      make_program("light", text.light_vert, text.light_frag),
+      text.base_frag.empty() ? GlProgram{} : make_program("base", text.light_vert, text.base_frag),
+      text.transparent_frag.empty() ? GlProgram{}
+                                    : make_program("transparent", text.transparent_vert, text.transparent_frag)}));
+  return *all.back();
 }
 
 const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& options, const GlDraw& draw) {

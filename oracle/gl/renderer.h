@@ -39,12 +39,25 @@ class SceneBuffers;
 struct Targets;
 struct Programs;
 
+/// Compiled shaders by their text, for renderers of one context one after the other: a driver takes longer to compile than to draw
+/// a small frame. To be freed before the context, on its thread.
+class KeptPrograms {
+ public:
+  KeptPrograms();
+  ~KeptPrograms();
+
+ private:
+  friend class GlRenderer;
+  std::vector<std::unique_ptr<Programs>> all_;
+};
+
 /// A scene on a driver. Meshes are uploaded once, frames of any pipeline drawn from them.
 /// Borrows both, which must outlive it unchanged; to be used on one thread at a time.
 class GlRenderer {
  public:
   /// `rotation`: 0, 1 or 2, the vertex each triangle starts with. Changes what a flat attribute follows, nothing else.
-  GlRenderer(const GlContext& context, const Scene& scene, int rotation = 0);
+  /// `kept`: programs of other renderers, to which this one's are added; without it those of the last frame alone are kept.
+  GlRenderer(const GlContext& context, const Scene& scene, int rotation = 0, KeptPrograms* kept = nullptr);
   ~GlRenderer();
 
   /// The options whose shaders draw() makes for itself: all planes, or what the light pass reads alone.
@@ -60,7 +73,8 @@ class GlRenderer {
   const GlContext* context_;
   std::unique_ptr<SceneBuffers> buffers_;
   std::unique_ptr<Targets> targets_;    ///< of the last frame, kept while size and formats stay
-  std::unique_ptr<Programs> programs_;  ///< of the last frame, kept while the text stays
+  KeptPrograms own_;
+  KeptPrograms* kept_;  ///< null: own_
   bool rgb16f_, primitive_ids_;
 
   const Programs& programs(const GlslShaders& text);

@@ -24,6 +24,9 @@
 
 namespace trueshade::oracle {
 
+inline constexpr double kLargestRatio = 0x1p-6;  ///< k, where the chords end
+inline constexpr double kOurs = 1 + 0x1p-36;     ///< larger than the roundings of our own doubles
+
 /// Planes of lights, each as long as whole vectors of any SIMD target need.
 struct LightColumns {
   size_t count = 0;

@@ -377,11 +377,24 @@ bool differ(const Capture& a, const Capture& b) {
   return false;
 }
 
-Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer) {
-  Scene wrong_scene = scene;
-  Pipeline wrong_pipeline = pipeline;
-  if (mutant.input != nullptr) mutant.input(wrong_scene, wrong_pipeline);
-  Capture capture = renderer(wrong_scene, wrong_pipeline);
+bool same_surfaces(const Capture& a, const Capture& b) {
+  if (a.planes.size() != b.planes.size() || a.drawn_at != b.drawn_at) return false;
+  for (size_t i = 0; i < a.planes.size(); ++i) {
+    const NamedImage &p = a.planes[i], &q = b.planes[i];
+    if (p.name != q.name || p.image.format != q.image.format) return false;
+    if (p.name != "light.count" && p.image.texels != q.image.texels) return false;
+  }
+  return true;
+}
+
+Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer, const Capture& right) {
+  Capture capture = right;
+  if (mutant.input != nullptr) {
+    Scene wrong_scene = scene;
+    Pipeline wrong_pipeline = pipeline;
+    mutant.input(wrong_scene, wrong_pipeline);
+    capture = renderer(wrong_scene, wrong_pipeline);
+  }
   if (mutant.output != nullptr) mutant.output(pipeline, capture);
   capture.driver = "mutant: " + std::string(mutant.name);
   return capture;

@@ -28,13 +28,16 @@ struct Mutant {
   void (*output)(const Pipeline&, Capture&) = nullptr;  ///< what is done to what it drew
 };
 
-/// Fifty-six of them.
+/// Fifty-seven of them.
 std::span<const Mutant> mutants();
 
 /// Whether two captures of the same planes differ in any byte.
 bool differ(const Capture& a, const Capture& b);
 
-/// What the wrong renderer draws.
-Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer);
+/// Whether two captures agree in every byte that judge_gbuffer() reads: in all planes but light.count.
+bool same_surfaces(const Capture& a, const Capture& b);
+
+/// What the wrong renderer draws. `right`: what the right one does, which is not drawn again where the input is the same.
+Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer, const Capture& right);
 
 }  // namespace trueshade::oracle

@@ -21,48 +21,67 @@ std::vector<Profile> profiles_of(const GlContext& context) {
   return profiles;
 }
 
-/// The frame drawn again, watched.
-StepRenderer steps_by(const GlContext& context, StepSink GlDraw::*watcher) {
-  return [&context, watcher](const Scene& s, const Pipeline& p) -> LightSteps {
-    return [&s, p, &context, watcher](const StepSink& sink) {
-      GlDraw watched;
-      watched.*watcher = sink;
-      GlRenderer(context, s).draw(p, watched);
+/// llvmpipe, whose shaders are compiled once for all the pictures of a test.
+class Driver {
+ public:
+  explicit Driver(const GlContext& context) : context_(context) {}
+
+  Capture draw(const Scene& scene, const Pipeline& pipeline, const GlDraw& how = {}) {
+    return GlRenderer(context_, scene, 0, &programs_).draw(pipeline, how).capture;
+  }
+  Renderer renderer() {
+    return [this](const Scene& s, const Pipeline& p) { return draw(s, p); };
+  }
+  /// The frame drawn again, watched.
+  StepRenderer steps() {
+    return [this](const Scene& s, const Pipeline& p) -> LightSteps {
+      return [this, &s, p](const StepSink& sink) { draw(s, p, watched(sink, {})); };
     };
-  };
-}
+  }
+  static GlDraw watched(const StepSink& light, const StepSink& object) {
+    GlDraw how;
+    how.after_light = light, how.after_object = object;
+    return how;
+  }
+
+ private:
+  const GlContext& context_;
+  KeptPrograms programs_;
+};
 
 }  // namespace
 
 TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
+  Driver driver(*context);
   // How halves are rounded is the driver's own: no pipeline tells it.
   constexpr std::string_view kSame[] = {"half stores rounded to nearest"};
   // The same depths by other arithmetic: the driver's profile leaves that open, `ideal` does not.
   constexpr std::string_view kInside[] = {"clip depth zero to one"};
-  testing::try_mutants(profiles_of(*context), draw, 1, kSame, kInside);
+  testing::try_mutants(profiles_of(*context), driver.renderer(), 1, kSame, kInside);
 }
 
 TEST_CASE("llvmpipe's own wrong blends are rejected light by light, under its profile too") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
-  testing::try_blend_mutants(profiles_of(*context), draw, steps_by(*context, &GlDraw::after_light));
+  Driver driver(*context);
+  testing::try_blend_mutants(profiles_of(*context), driver.renderer(), driver.steps());
 }
 
 TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
-  testing::try_surface_mutants(profiles_of(*context), draw);
+  Driver driver(*context);
+  testing::try_surface_mutants(profiles_of(*context), driver.renderer());
 }
 
 TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
-  const Renderer draw = [&](const Scene& s, const Pipeline& p) { return GlRenderer(*context, s).draw(p).capture; };
-  testing::try_glass_mutants(profiles_of(*context), {draw, steps_by(*context, &GlDraw::after_light),
-                                                     steps_by(*context, &GlDraw::after_object)});
+  Driver driver(*context);
+  testing::try_glass_mutants(profiles_of(*context),
+                             {driver.renderer(), [&](const Scene& s, const Pipeline& p, const StepSink& light, const StepSink& object) {
+                                return driver.draw(s, p, Driver::watched(light, object));
+                              }});
 }

@@ -74,9 +74,10 @@ void check_density(const std::map<std::string, Others>& others) {
 TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by its profile and by any GPU's") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* spec : {"city,lights=20,objects=300", "cornell", "lecture"}) {
     const Scene scene = builtin_scene(spec);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     std::map<std::string, Others> others;
     for (const Preset& preset : presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {

@@ -11,6 +11,7 @@
 #include "scenes/builtin.h"
 #include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
+#include "tests/intervals/violations.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -83,11 +84,11 @@ void try_surface_mutants(std::span<const Profile> profiles, const Renderer& rend
         if (bases.count(mutant.base) == 0)
           bases[mutant.base] = right_picture(mutant, scene, pipeline, profiles, render);
         const RightPicture& right = bases[mutant.base];
-        const Capture wrong = mutated(mutant, right.scene, right.pipeline, render);
+        const Capture wrong = mutated(mutant, right.scene, right.pipeline, render, right.capture);
         if (!differ(right.capture, wrong)) continue;
         SurfaceScore& score = scores[mutant.name];
         for (const Profile& profile : profiles) {
-          const uint64_t found = surface_violations(right.scene, right.pipeline, profile, wrong);
+          const uint64_t found = violations(right.scene, right.pipeline, profile, wrong, &right.capture);
           CAPTURE(mutant.name, scene.spec, name_of(strategy), profile.name);
           ++score.changed;
           score.rejected += found > 0 ? 1 : 0;

@@ -7,25 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "oracle/intervals/judge.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/legal_by_formula.h"
+#include "tests/intervals/violations.h"
 
 namespace trueshade::testing {
 
 using namespace trueshade::oracle;
 
 namespace {
-
-uint64_t violations(const Scene& scene, const Pipeline& drawn, const Profile& profile, const Capture& capture) {
-  const Pipeline pipeline = with_surface_planes(drawn);
-  return judge_gbuffer(scene, pipeline, profile, capture).count(PixelClass::violation) +
-         judge_lighting(scene, pipeline, profile, capture).count(PixelClass::violation);
-}
 
 /// Rectangles whose edges go through samples, half transparent: fill rules and alpha show here. 96 x 72 pixels.
 ///   wide, tall: odd numbers of pixels; step: from one to the next
@@ -65,10 +59,16 @@ Scene balls() {
   return scene;
 }
 
-std::vector<Scene> scenes_of_mutants() {
-  std::vector<Scene> scenes = {rectangles("squares", 17, 17, 13), rectangles("bars", 23, 9, 14), balls()};
-  for (const char* name : {"city,lights=60,objects=300", "sphere,lights=40", "cornell", "circle"}) scenes.push_back(builtin_scene(name));
-  return scenes;
+/// A scene and how large a picture of it is drawn.
+struct Shown {
+  Scene scene;
+  int width = 64, height = 48;  ///< pixels
+};
+
+std::vector<Shown> scenes_of_mutants() {
+  std::vector<Shown> shown = {{rectangles("squares", 17, 17, 13), 96, 72}, {rectangles("bars", 23, 9, 14), 96, 72}, {balls()}};
+  for (const char* name : {"city,lights=60,objects=300", "sphere,lights=40", "cornell", "circle"}) shown.push_back({builtin_scene(name)});
+  return shown;
 }
 
 void try_mutant(const Mutant& mutant, const Scene& original, const Pipeline& preset, const Capture& usual,
@@ -77,11 +77,11 @@ void try_mutant(const Mutant& mutant, const Scene& original, const Pipeline& pre
   Pipeline pipeline = preset;
   if (mutant.base != nullptr) mutant.base(scene, pipeline);
   const Capture right = mutant.base != nullptr ? renderer(scene, pipeline) : usual;
-  const Capture wrong = mutated(mutant, scene, pipeline, renderer);
+  const Capture wrong = mutated(mutant, scene, pipeline, renderer, right);
   if (!differ(right, wrong)) return;
   std::optional<std::string> proof;
   for (const Profile& profile : profiles) {
-    const uint64_t found = violations(scene, pipeline, profile, wrong);
+    const uint64_t found = violations(scene, pipeline, profile, wrong, mutant.base == nullptr ? &right : nullptr);
     CAPTURE(mutant.name, scene.spec, preset.preset, profile.name, found);
     ++score.tries;
     score.pixels += found;
@@ -112,15 +112,15 @@ void check_score(const Mutant& mutant, const MutantScore& s, bool changes_nothin
 void try_mutants(std::span<const Profile> profiles, const Renderer& renderer, size_t presets_everywhere,
                  std::span<const std::string_view> same, std::span<const std::string_view> inside) {
   std::map<std::string_view, MutantScore> scores;
-  for (const Scene& scene : scenes_of_mutants())
+  for (const auto& [scene, width, height] : scenes_of_mutants())
     for (size_t i = 0; i < presets().size(); ++i) {
       if (i >= presets_everywhere && scene.spec != "builtin:cornell") continue;
       Pipeline pipeline = presets()[i].pipeline;
-      pipeline.width = 96, pipeline.height = 72;
+      pipeline.width = width, pipeline.height = height;
       const Capture right = renderer(scene, pipeline);
       for (const Profile& profile : profiles) {
         CAPTURE(scene.spec, pipeline.preset, profile.name);
-        CHECK(violations(scene, pipeline, profile, right) == 0);
+        CHECK(violations(scene, pipeline, profile, right, nullptr) == 0);
       }
       for (const Mutant& mutant : mutants()) try_mutant(mutant, scene, pipeline, right, profiles, renderer, scores[mutant.name]);
     }
