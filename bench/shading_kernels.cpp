@@ -114,7 +114,8 @@ struct LitTile {
                   true,
                   false,
                   true,
-                  compiled},
+                  compiled,
+                  true},
                  *surface, nullptr, {0, 0, kTile, {0, 0, kTile, kTile}}, kClear, blend, *color, counts);
     else
       light_tile(*surface, kTile, table, groups, pipeline.light_model, kClear,

@@ -71,7 +71,7 @@ void count_usual(const TileCount& t, const ClusteredMesh& mesh, const Cluster& c
   const SmallCount into{t.work.fragments, t.counts};
   Candidates& found = t.work.found;
   pack_corners(t.vertices(), cluster.vertices, rect.size * 128, t.work.packed);
-  find_candidates(t.work.packed, small.any_held, mesh, cluster, small.limit, found);
+  find_candidates(t.work.packed, small.any_held, mesh, cluster, small.limit, OpenBlocks(), found);
   draw_upto<2>(small, found.upto_2, found.count_2, into, nullptr);
   const int more = draw_upto<4>(small, found.more, found.count_more, into, found.upto_2);
   const int large = draw_upto_8(small, found.upto_2, more, into, found.large);
