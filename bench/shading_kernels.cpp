@@ -3,7 +3,8 @@
 //   sum, blended    a pixel-light of each preset's model, added in float or blended into rgba8; `general` by the kernel
 //                   that reads the model's shape when it runs
 //   left out        a pixel-light of lights that reach the tile's box and face away
-//   blend           a pixel of a light draw, ONE + ONE, by target format
+//   lists           a light of 100,000 that are looked up for a tile of 16 regions, most of which reach none
+//   blend           a pixel of a light draw by target format: ONE + ONE, and one of general factors
 //   table, groups, outlines   a light, before the tiles
 //   lookup          a texture lookup, by filter and format
 //   power           x^p of an exponent that is no integer
@@ -128,14 +129,28 @@ void light(benchmark::State& state, const Preset& preset, Strategy strategy, flo
   per_item(state, double(kPixels) * kLights, [&] { tile.draw(compiled); });
 }
 
-void blend(benchmark::State& state, Format format, std::string_view target) {
+void lists(benchmark::State& state, std::string_view target) {
+  constexpr int kMany = 100000;
+  const SimdScope simd(target);
+  LitTile tile(presets()[0], Strategy::deferred_loop, lights_at(4.0f, kMany));
+  for (int i = 0; i < kMany; ++i) {  // over a floor of 316 x 316 units, of which the tile is a corner
+    Light& l = tile.lights[size_t(i)];
+    l.position = {float(i % 316), float(i / 316), 1.0f};
+    l.range = 2.0f;
+  }
+  make_light_table(tile.lights, tile.pipeline.light_model, tile.scene.camera, 1, tile.table);
+  make_light_groups(tile.table, 1, tile.groups);
+  per_item(state, kMany, [&] { tile.draw(true); });
+}
+
+void blend(benchmark::State& state, Format format, const BlendState& blending, std::string_view target) {
   const SimdScope simd(target);
   alignas(64) static float source[4][kPixels], stored[4][kPixels];
   for (int i = 0; i < kPixels; ++i)
     for (auto& plane : source) plane[i] = float(i % 97) * 0x1p-12f;
   const float* const from[4] = {source[0], source[1], source[2], source[3]};
   float* const to[4] = {stored[0], stored[1], stored[2], stored[3]};
-  per_item(state, kPixels, [&] { blend_pixels(kAddLight, {format}, from, to, kPixels); });
+  per_item(state, kPixels, [&] { blend_pixels(blending, {format}, from, to, kPixels); });
 }
 
 void prepare(benchmark::State& state, const std::string& what) {
@@ -210,8 +225,14 @@ void register_target(std::string_view target) {
       *std::find_if(presets().begin(), presets().end(), [](const Preset& p) { return p.name == "light-volumes"; });
   row("left out, a pixel-light" + on,
       [=, &seldom](auto& s) { light(s, seldom, Strategy::deferred_volumes, -4.0f, true, target); });
-  for (const Format format : kTargetFormats)
-    row("blend, a pixel " + std::string(info(format).name) + on, [=](auto& s) { blend(s, format, target); });
+  row("lists, a light" + on, [=](auto& s) { lists(s, target); });
+  BlendState general = kAddLight;
+  general.rgb.src = BlendFactor::src_alpha, general.rgb.dst = BlendFactor::one_minus_src_alpha;
+  for (const Format format : kTargetFormats) {
+    const std::string of = std::string(info(format).name) + on;
+    row("blend, a pixel " + of, [=](auto& s) { blend(s, format, kAddLight, target); });
+    row("blend by alpha, a pixel " + of, [=](auto& s) { blend(s, format, general, target); });
+  }
   for (const auto& [format, name] :
        {std::pair(TextureFormat::rgba8, "rgba8"), std::pair(TextureFormat::srgb8_a8, "srgb8_a8"),
         std::pair(TextureFormat::rgba16f, "rgba16f")})
