@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "raster/hidden-inl.h"
@@ -28,12 +29,14 @@ struct ListedDraw {
 };
 
 /// Nearest clusters first and last those of unknown depth, large ones near the eye that much of the rest hides: by 256
-/// steps of depth, which is order enough.
-inline std::vector<ListedDraw> nearest_first(const TileDraws& in) {
+/// steps of depth, which is order enough. In memory of the thread, until its next call.
+inline std::span<ListedDraw> nearest_first(const TileDraws& in) {
   constexpr int kSteps = 256;
   constexpr size_t kAhead = 16;
   const size_t count = in.list.size();
-  std::vector<float> near(count);
+  thread_local std::vector<float> nearest;
+  nearest.resize(std::max(nearest.size(), count));
+  const std::span<float> near = std::span(nearest).first(count);
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (size_t i = 0; i < count; ++i) {
     if (i + kAhead < count) hwy::Prefetch(&in.draws[in.list[i + kAhead]]);
@@ -46,7 +49,9 @@ inline std::vector<ListedDraw> nearest_first(const TileDraws& in) {
   uint32_t next[kSteps + 1] = {};
   for (const float z : near) ++next[step(z) + 1];
   for (int k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
-  std::vector<ListedDraw> order(count);
+  thread_local std::vector<ListedDraw> listed;
+  listed.resize(std::max(listed.size(), count));
+  const std::span<ListedDraw> order = std::span(listed).first(count);
   for (size_t i = 0; i < count; ++i) order[next[step(near[i])]++] = {in.draws[in.list[i]], uint32_t(i)};
   return order;
 }
@@ -83,7 +88,7 @@ template <class Visit>
 HWY_INLINE void for_each_open(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
                               const Visit& visit) {
   constexpr size_t kHeader = 2, kStreams = 4, kDraw = 7;  // clusters after the one whose instance is asked for
-  std::vector<ListedDraw> order = nearest_first(in);
+  const std::span<ListedDraw> order = nearest_first(in);
   size_t open = 0;
   const auto advance = [&](size_t i) {
     if (i >= kHeader && i - kHeader < open) fetch_header(in, order[i - kHeader].draw);

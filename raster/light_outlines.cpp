@@ -281,7 +281,7 @@ int count_light_mesh(const LightMesh& mesh, const Light& light, const LightOutli
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
   std::fill_n(counts, pixels, uint16_t(0));
   const int sample[2] = {rect.x * 256 + 128, rect.y * 256 + 128};
-  PlacedMesh placed;
+  thread_local PlacedMesh placed;
   HWY_DYNAMIC_DISPATCH(place_mesh_simd)(mesh, light, view, outlines.window, sample, placed);
   HWY_DYNAMIC_DISPATCH(count_mesh_simd)(mesh, placed, outlines.state, outlines.window, rect, counts);
   return *std::max_element(counts, counts + pixels);

@@ -126,7 +126,8 @@ struct BlockInterpolation {
         value[kRecordStream[c]][k] = vertex_at(seen.record.data(), vertex).value[c];
       for (int c = 0; c < 4 && wanted.color; ++c) value[kAlbedo + c][k] = vertex_at(seen.color.data(), vertex).value[c];
     }
-    std::vector<CarefulSurface> pieces;
+    thread_local std::vector<CarefulSurface> pieces;
+    pieces.clear();
     add_careful_surfaces(in, rect, group, groups, id_of(seen.run[first]), value, pieces);
     for (const CarefulSurface& piece : pieces) {
       const CarefulRun set_up(piece, wanted);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "core/fp_env.h"
 #include "scenes/camera.h"
@@ -138,16 +139,12 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   return out;
 }
 
-View make_view(const Scene& scene, const Pipeline& pipeline, int threads) {
+View make_view(const Scene& scene, const Pipeline& pipeline, int threads, std::vector<InstanceTransform> memory) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
-  View view{pipeline.width,
-            pipeline.height,
-            pipeline.profile,
-            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
-            {},
-            inverse_rows(clip),
-            rounded_rows(clip),
-            scene_maps(scene, pipeline)};
+  View view{pipeline.width,     pipeline.height,
+            pipeline.profile,   window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
+            std::move(memory),  inverse_rows(clip),
+            rounded_rows(clip), scene_maps(scene, pipeline)};
   constexpr size_t kChunk = 256;
   const size_t instances = scene.instances.size();
   view.instances.resize(instances);

@@ -61,6 +61,8 @@ struct View {
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,
                                  NumericProfile profile = NumericProfile::ideal);
-View make_view(const Scene& scene, const Pipeline& pipeline, int threads = 1);
+/// `memory`: of the instances of any view before, to be used again.
+View make_view(const Scene& scene, const Pipeline& pipeline, int threads = 1,
+               std::vector<InstanceTransform> memory = {});
 
 }  // namespace trueshade

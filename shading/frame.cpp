@@ -55,6 +55,7 @@ TileScratch& thread_scratch() {
 
 // What a frame fills before its tiles, in memory that stays touched: pages are dear.
 struct FrameTables {
+  std::vector<InstanceTransform> transforms;  ///< of the view
   ClusterBins bins;
   LightTable lights;
   LightGroups groups;
@@ -94,7 +95,7 @@ struct FrameWork {
   const PreparedScene& prepared;
   const Pipeline& pipeline;
   const Execution& execution;
-  const View view;
+  const View& view;
   const ClusterBins& bins;
   const LightTable& lights;
   const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
@@ -281,6 +282,7 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
   });
   add_up(counts, work.out.stats);
+  work.out.stats.tile_ms.reserve(order.size());
   for (const int tile : order) {
     const TileCounts& t = counts[size_t(tile)];
     work.out.stats.tile_ms.push_back(t.geometry_ms + t.light_ms);
@@ -360,9 +362,9 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   const Scene& scene = prepared.scene();
   Frame frame;
   std::optional<LoopLog> log(std::in_place);
-  View view = make_view(scene, pipeline, execution.threads);
   const TablesLoan loan;
   FrameTables& tables = *loan.tables;
+  View view = make_view(scene, pipeline, execution.threads, std::move(tables.transforms));
   bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads,
                tables.bins);
   make_images_and_lights(scene, pipeline, execution, aovs, lit, view, tables, frame);
@@ -376,11 +378,12 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   frame.stats.loops_before_tiles = log->loops();
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
-  draw_tiles({prepared, pipeline, execution, std::move(view), tables.bins, tables.lights, std::move(plain),
-              tables.groups, meshes, tables.outlines, need_uv, lit, std::move(light_planes),
-              TransparentPass(scene, pipeline, execution), frame},
-             progress);
+  draw_tiles(
+      {prepared, pipeline, execution, view, tables.bins, tables.lights, std::move(plain), tables.groups, meshes,
+       tables.outlines, need_uv, lit, std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
+      progress);
 
+  tables.transforms = std::move(view.instances);
   FrameStats& stats = frame.stats;
   stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
   stats.lights = scene.lights.size();
