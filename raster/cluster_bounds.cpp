@@ -134,7 +134,10 @@ struct Bounds {
     quotients(row, w_row, w.low, ndc);
     const MWF across = pixel_spans(ndc[0], t, 0, t.x0, t.x1, x0, x1),
               up = pixel_spans(ndc[1], t, 1, t.y0, t.y1, y0, y1);
-    const uint32_t somewhere = lane_bits(d, hn::Or(hn::Not(finite), hn::AndNot(gone, clipped)));
+    VWF beyond = zero;  // of floats
+    for (const Intervals& quotient : ndc) beyond = hn::Add(beyond, difference(quotient));
+    const MWF unbounded = hn::Or(clipped, hn::Not(hn::Eq(beyond, zero)));
+    const uint32_t somewhere = lane_bits(d, hn::Or(hn::Not(finite), hn::AndNot(gone, unbounded)));
     const uint32_t here = lane_bits(d, hn::And(hn::And(finite, hn::Not(gone)), hn::And(across, up)));
     seen = somewhere | here;
     unknown = somewhere;
