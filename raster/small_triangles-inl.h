@@ -95,8 +95,10 @@ HWY_INLINE VT pair_cross(VT a, VT b) {
   const hn::RebindToUnsigned<DT> du;
   const VT swapped = hn::Or(hn::ShiftLeft<16>(b), hn::BitCast(d, hn::ShiftRight<16>(hn::BitCast(du, b))));
   const VT turned = hn::Add(hn::Xor(swapped, hn::Set(d, -0x10000)), hn::Set(d, 0x10000));  // -x above y
-  VT unused = hn::Zero(d);
-  return hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), turned), hn::Zero(d), unused);
+  VT others = hn::Zero(d);
+  const VT some =
+      hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), turned), hn::Zero(d), others);
+  return hn::RearrangeToOddPlusEven(some, others);
 #endif
 }
 
