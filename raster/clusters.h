@@ -53,13 +53,13 @@ struct alignas(64) VertexLine {
 
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
-  ClusterBoxes boxes;                          ///< of each cluster, then of the mesh
+  ClusterBoxes boxes;                           ///< of each cluster, then of the mesh
   std::array<StreamVector<float>, 3> position;  ///< object space, a cluster's vertices side by side
   /// Of each 16 vertices `surface_lines` lines side by side: normal x, y, z in object space and, where the mesh has
   /// colours, r, g, b, a. What is read of a cluster lies in one place, not at one place of seven streams.
   StreamVector<VertexLine> surface;
   int surface_lines;
-  std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
+  std::vector<uint32_t> vertex;                 ///< the mesh's vertex that each of them is
   std::array<StreamVector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };
 

@@ -76,21 +76,46 @@ struct SampleBoxes {
   }
 };
 
+/// a - b of packed words, both halves apart.
+HWY_INLINE VT pair_difference(VT a, VT b) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Or(hn::ShiftLeft<16>(hn::Sub(upper_half(a), upper_half(b))), lower_half(hn::Sub(a, b)));
+#else
+  return hn::BitCast(DT(), hn::Sub(hn::BitCast(DP(), a), hn::BitCast(DP(), b)));
+#endif
+}
+
+/// a.x b.y - a.y b.x of packed differences, y above x.
+HWY_INLINE VT pair_cross(VT a, VT b) {
+#if HWY_TARGET == HWY_SCALAR
+  const auto x = [](VT v) { return upper_half(hn::ShiftLeft<16>(v)); };
+  return hn::Sub(hn::Mul(x(a), upper_half(b)), hn::Mul(upper_half(a), x(b)));
+#else
+  const DT d;
+  const hn::RebindToUnsigned<DT> du;
+  const VT swapped = hn::Or(hn::ShiftLeft<16>(b), hn::BitCast(d, hn::ShiftRight<16>(hn::BitCast(du, b))));
+  const VT turned = hn::Add(hn::Xor(swapped, hn::Set(d, -0x10000)), hn::Set(d, 0x10000));  // -x above y
+  VT others = hn::Zero(d);
+  const VT some =
+      hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), turned), hn::Zero(d), others);
+  return hn::RearrangeToOddPlusEven(some, others);
+#endif
+}
+
 /// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
 /// negative. A column on it is `across` less, a row on `up` more.
 struct SmallEdge {
   VT first, across, up, not_owned;  ///< the last 0 or 1
 
-  HWY_INLINE void set(VT ax, VT ay, VT bx, VT by, VT sign, VT sample_x, VT sample_y, bool upper_left) {
+  /// Of an edge function whose edge goes `along` from its first corner to its last.
+  HWY_INLINE void set(VT along, VT e, bool upper_left) {
     const DT d;
-    const VT dx = hn::Sub(hn::Xor(hn::Sub(bx, ax), sign), sign), dy = hn::Sub(hn::Xor(hn::Sub(by, ay), sign), sign);
-    // Negative for dy < 0, and for dy = 0 where dx has the owning sign.
-    const VT slope = hn::ShiftLeft<16>(dy);
-    not_owned = hn::Add(hn::BroadcastSignBit(upper_left ? hn::Add(slope, dx) : hn::Sub(slope, dx)), hn::Set(d, 1));
-    const VT e = hn::Sub(hn::Mul(dx, hn::Sub(sample_y, ay)), hn::Mul(dy, hn::Sub(sample_x, ax)));
+    // Owned where dy < 0, and where dy = 0 and dx has the owning sign: then the word is positive and below 2^15.
+    const VT word = upper_left ? hn::Xor(along, hn::Set(d, 1 << 15)) : along;
+    not_owned = hn::IfThenElseZero(hn::Gt(word, hn::Set(d, (1 << 15) - 1)), hn::Set(d, 1));
     first = hn::Sub(e, not_owned);
-    across = hn::ShiftLeft<8>(dy);
-    up = hn::ShiftLeft<8>(dx);
+    across = hn::ShiftLeft<8>(upper_half(along));
+    up = hn::ShiftRight<8>(hn::ShiftLeft<16>(along));
   }
 };
 
@@ -145,23 +170,24 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
   const PackedLimits& limit = in.limit;
   const bool drop_positive = culled(in.state, !in.upper_left), drop_negative = culled(in.state, in.upper_left);
   const VT q0 = triangles.q0, q1 = triangles.q1, q2 = triangles.q2;
-  const VT x0 = lower_half(q0), x1 = lower_half(q1), x2 = lower_half(q2);
-  const VT y0 = upper_half(q0), y1 = upper_half(q1), y2 = upper_half(q2);
-  const VT area = hn::Sub(hn::Mul(hn::Sub(x1, x0), hn::Sub(y2, y0)), hn::Mul(hn::Sub(x2, x0), hn::Sub(y1, y0)));
-  const VT sign = hn::BroadcastSignBit(area);
+  const VT from_q2 = pair_difference(q0, q2), from_q0 = pair_difference(q1, q0);
+  const VT area = pair_cross(from_q2, from_q0), size = hn::Abs(area), sign = hn::BroadcastSignBit(area);
   auto drawn = hn::And(which, hn::Ne(area, zero));
   if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
   if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
 
   const VT column = box.column, row = box.row;
-  const VT sample_x = hn::ShiftLeft<8>(column), sample_y = hn::ShiftLeft<8>(row);
-  SmallEdge e0, e1, e2;
-  e0.set(x1, y1, x2, y2, sign, sample_x, sample_y, in.upper_left);
-  e1.set(x2, y2, x0, y0, sign, sample_x, sample_y, in.upper_left);
-  e2.set(x0, y0, x1, y1, sign, sample_x, sample_y, in.upper_left);
+  const VT sample = hn::Add(hn::ShiftLeft<24>(row), hn::ShiftLeft<8>(column));
+  const auto turned = [sign](VT along) { return pair_difference(hn::Xor(along, sign), sign); };
+  const VT along_0 = turned(pair_difference(q2, q1)), along_1 = turned(from_q2), along_2 = turned(from_q0);
+  const VT at_1 = pair_cross(along_1, pair_difference(sample, q2)),
+           at_2 = pair_cross(along_2, pair_difference(sample, q0));
+  SmallEdge e0, e1, e2;  // whose sum is the area
+  e0.set(along_0, hn::Sub(size, hn::Add(at_1, at_2)), in.upper_left);
+  e1.set(along_1, at_1, in.upper_left);
+  e2.set(along_2, at_2, in.upper_left);
   const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
-  const VT size = hn::Sub(hn::Xor(area, sign), sign), past_x = hn::Set(d, limit.last_x + 1),
-           past_y = hn::Set(d, limit.last_y + 1);
+  const VT past_x = hn::Set(d, limit.last_x + 1), past_y = hn::Set(d, limit.last_y + 1);
   VT at_x[kSide];
   for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
   for (int y = 0; y < kSide; ++y) {

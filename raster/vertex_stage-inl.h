@@ -26,8 +26,9 @@ using V64 = hn::Vec<D64>;
 using V32 = hn::Vec<D32>;
 
 /// Row `m` of an affine transform: ((m0 x + m1 y) + m2 z) + m3.
-HWY_INLINE V32 affine_row(const float m[4], V32 x, V32 y, V32 z) {
-  const D32 d;
+template <class V>
+HWY_INLINE V affine_row(const float m[4], V x, V y, V z) {
+  const hn::DFromV<V> d;
   return hn::Add(
       hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0]), x), hn::Mul(hn::Set(d, m[1]), y)), hn::Mul(hn::Set(d, m[2]), z)),
       hn::Set(d, m[3]));
@@ -156,11 +157,33 @@ class PlainVertices {
   /// Places one vector of object-space positions at out[i...]; with their depths or without.
   template <bool kDepth = true>
   HWY_INLINE void place(V32 px, V32 py, V32 pz, size_t i, WindowVertices& out) const {
+    place_clip<kDepth>(affine_row(clip_[0], px, py, pz), affine_row(clip_[1], px, py, pz),
+                       kDepth ? affine_row(clip_[2], px, py, pz) : px, affine_row(clip_[3], px, py, pz), i, out);
+  }
+
+  /// The same for vectors of twice as many, whose sums fill a vector then.
+  HWY_INLINE void place_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out) const {
+    const hn::ScalableTag<float> d;
+    const auto px = hn::LoadU(d, x + i), py = hn::LoadU(d, y + i), pz = hn::LoadU(d, z + i);
+    hn::Vec<decltype(d)> clip[4];
+    for (int r = 0; r < 4; ++r) clip[r] = affine_row(clip_[r], px, py, pz);
+#if HWY_TARGET == HWY_SCALAR
+    place_clip<true>(clip[0], clip[1], clip[2], clip[3], i, out);
+#else
+    const D32 half;
+    place_clip<true>(hn::LowerHalf(half, clip[0]), hn::LowerHalf(half, clip[1]), hn::LowerHalf(half, clip[2]),
+                     hn::LowerHalf(half, clip[3]), i, out);
+    place_clip<true>(hn::UpperHalf(half, clip[0]), hn::UpperHalf(half, clip[1]), hn::UpperHalf(half, clip[2]),
+                     hn::UpperHalf(half, clip[3]), i + hn::Lanes(half), out);
+#endif
+  }
+
+ private:
+  template <bool kDepth>
+  HWY_INLINE void place_clip(V32 cx, V32 cy, [[maybe_unused]] V32 cz, V32 cw, size_t i, WindowVertices& out) const {
     const D64 d;
     const I32 di;
-    const V64 wx = hn::PromoteTo(d, affine_row(clip_[0], px, py, pz)),
-              wy = hn::PromoteTo(d, affine_row(clip_[1], px, py, pz)),
-              ww = hn::PromoteTo(d, affine_row(clip_[3], px, py, pz));
+    const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), ww = hn::PromoteTo(d, cw);
     const V64 u = hn::Div(hn::Set(d, 1.0), ww);
     const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, scale_[0])), y = hn::Mul(hn::Mul(wy, u), hn::Set(d, scale_[1]));
     V64 x_fx = hn::Round(x), y_fx = hn::Round(y);
@@ -173,12 +196,11 @@ class PlainVertices {
     hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, offset_[1]))), di, out.y + i);
     hn::Store(u, d, out.u + i);
     if constexpr (kDepth) {
-      const V64 wz = hn::PromoteTo(d, affine_row(clip_[2], px, py, pz));
+      const V64 wz = hn::PromoteTo(d, cz);
       hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_)), d, out.z + i);
     }
   }
 
- private:
   float clip_[4][4];
   int64_t snap_scale_[2];
   double scale_[2], offset_[2], z_scale_, z_offset_;
@@ -194,7 +216,8 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
   const auto at = [&](size_t axis, size_t i) { return hn::LoadU(df, position[axis] + i); };
   if (plain) {
     const PlainVertices vertices(instance, t, origin);
-    for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) vertices.place(at(0, i), at(1, i), at(2, i), i, out);
+    for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(hn::ScalableTag<float>()))
+      vertices.place_two(position[0], position[1], position[2], i, out);
     return;
   }
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
