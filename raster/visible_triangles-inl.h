@@ -247,7 +247,7 @@ inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams 
     work.placed.resize(2 * vertices + kSlack);
     work.record.resize(2 * vertices + kSlack);
   }
-  if (wanted.color && work.color.size() < vertices + kSlack) work.color.resize(2 * vertices + kSlack);
+  if (wanted.rest() && work.rest.size() < vertices + kSlack) work.rest.resize(2 * vertices + kSlack);
   UsedVertices scratch;
   constexpr uint32_t kAhead = 3;
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {

@@ -25,6 +25,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Attributes that are interpolated beside position and normal.
 struct WantedStreams {
   bool uv, color;
+
+  const int* order() const { return kRecordStream[uv ? 1 : 0]; }
+  int count() const { return kAlbedo + (uv ? 2 : 0) + (color ? 4 : 0); }
+  bool rest() const { return count() > VertexRecord::kValues; }
 };
 
 /// World position and unit world normal of object-space ones.
@@ -135,16 +139,14 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, const Visi
     VWF s[6], world[6];
     for (int c = 0; c < 6; ++c) s[c] = hn::Load(d, used.stream[c] + i);
     to_world(in.view.instances[draw.instance], s, s + 3, world);
-    const auto rest = [&](int stream) { return hn::Load(d, used.stream[stream] + i); };
+    const auto value = [&](int k) { return hn::Load(d, used.stream[wanted.order()[k]] + i); };
     const size_t at = first + size_t(i);
     hn::StoreInterleaved4(world[0], world[1], world[2], world[3], d, half[0]);
-    hn::StoreInterleaved4(world[4], world[5], rest(kUv), rest(kUv + 1), d, half[1]);
+    hn::StoreInterleaved4(world[4], world[5], value(6), value(7), d, half[1]);
     VertexRecord* const record = work.record.data() + at;
     for (int k = 0; k < lanes; ++k)
       for (int h = 0; h < 2; ++h) std::memcpy(record[k].value + 4 * h, half[h] + 4 * k, 16);
-    if (wanted.color)
-      hn::StoreInterleaved4(rest(kAlbedo), rest(kAlbedo + 1), rest(kAlbedo + 2), rest(kAlbedo + 3), d,
-                            work.color[at].value);
+    if (wanted.rest()) hn::StoreInterleaved4(value(8), value(9), value(10), value(11), d, work.rest[at].value);
   }
 }
 
