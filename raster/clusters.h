@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -31,14 +32,14 @@ struct alignas(64) VertexLine {
 
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
-  ClusterBoxes boxes;                          ///< of each cluster, then of the mesh
-  std::array<std::vector<float>, 3> position;  ///< object space, a cluster's vertices side by side
+  ClusterBoxes boxes;                         ///< of each cluster, then of the mesh
+  std::array<HugeVector<float>, 3> position;  ///< object space, a cluster's vertices side by side
   /// Of each 16 vertices `surface_lines` lines side by side: normal x, y, z in object space and, where the mesh has
   /// colours, r, g, b, a. What is read of a cluster lies in one place, not at one place of seven streams.
-  std::vector<VertexLine> surface;
+  HugeVector<VertexLine> surface;
   int surface_lines;
-  std::vector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
-  std::array<std::vector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
+  HugeVector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
+  std::array<HugeVector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
 };
 
 /// Where the lines of the 16 vertices from `vertex` on begin.
