@@ -16,8 +16,11 @@ class Builder {
   explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
     out_.surface_lines = mesh.has_color() ? 7 : 3;
     const size_t triangles = mesh.triangle_count();
-    for (auto& stream : out_.corner) stream.reserve(triangles);
-    out_.vertex.reserve(mesh.vertex_count() + mesh.vertex_count() / 2);
+    for (auto& stream : out_.corner) stream.reserve(triangles + kCornerSlack);
+    const size_t vertices = mesh.vertex_count() + mesh.vertex_count() / 2;
+    out_.vertex.reserve(vertices);
+    for (auto& stream : out_.position) stream.reserve(vertices);
+    out_.surface.reserve(vertices / 16 * size_t(out_.surface_lines));
   }
 
   ClusteredMesh build() {
