@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "core/fp_env.h"
 
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
-
 namespace trueshade {
 namespace {
-
-constexpr size_t kLargePage = size_t(1) << 21;
-
-std::align_val_t stream_alignment(size_t bytes) { return std::align_val_t(bytes >= 2 * kLargePage ? kLargePage : 64); }
 
 // Greedy: triangles in submission order until a vertex or triangle too many. Order inside a mesh is thus kept, which
 // makes (cluster, triangle) order the submission order.
@@ -123,17 +114,6 @@ class Builder {
 };
 
 }  // namespace
-
-void* allocate_stream(size_t bytes) {
-  const std::align_val_t alignment = stream_alignment(bytes);
-  void* const memory = ::operator new(bytes, alignment);
-#ifdef MADV_HUGEPAGE
-  if (size_t(alignment) == kLargePage) madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: nothing depends on it
-#endif
-  return memory;
-}
-
-void free_stream(void* memory, size_t bytes) { ::operator delete(memory, stream_alignment(bytes)); }
 
 ClusteredMesh cluster_mesh(const Mesh& mesh) { return Builder(mesh).build(); }
 

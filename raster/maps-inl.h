@@ -8,10 +8,6 @@
 
 #include <hwy/highway.h>
 
-#include <cmath>
-#include <glm/vec3.hpp>
-#include <tuple>
-
 #include "raster/interpolate-inl.h"
 #include "raster/surfaces.h"
 #include "raster/texture-inl.h"
@@ -20,87 +16,122 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The directions along which u and v grow on a triangle, in world space, of any length; zero where uv has no area.
-struct TangentFrame {
-  glm::dvec3 u{0.0}, v{0.0};
+/// Three numbers a pixel.
+struct Vector3 {
+  V64 x, y, z;
 };
-
-HWY_INLINE double dot3(const glm::dvec3& a, const glm::dvec3& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-
-inline TangentFrame tangent_frame(const VisibleVertices& work, const uint32_t corner[3]) {
-  glm::dvec3 p[3];
-  double u[3], v[3];
-  const auto key = [&](size_t k) { return std::tuple(p[k].x, p[k].y, p[k].z, u[k], v[k]); };
-  for (size_t k = 0; k < 3; ++k) {
-    for (int c = 0; c < 3; ++c) p[k][c] = double(work.stream[size_t(kPosition + c)][corner[k]]);
-    u[k] = double(work.stream[size_t(kUv)][corner[k]]);
-    v[k] = double(work.stream[size_t(kUv) + 1][corner[k]]);
-  }
-  // The least corner first: the frame does not depend on which one a triangle was submitted with.
-  size_t first = 0;
-  for (size_t k = 1; k < 3; ++k)
-    if (key(k) < key(first)) first = k;
-  const size_t i = first, j = (first + 1) % 3, k = (first + 2) % 3;
-  const glm::dvec3 e1 = p[j] - p[i], e2 = p[k] - p[i];
-  const double a1 = u[j] - u[i], b1 = v[j] - v[i], a2 = u[k] - u[i], b2 = v[k] - v[i];
-  const double det = a1 * b2 - a2 * b1;
-  if (det == 0.0) return {};
-  const double sign = det < 0.0 ? -1.0 : 1.0;
-  return {(e1 * b2 - e2 * b1) * sign, (e2 * a1 - e1 * a2) * sign};
+HWY_INLINE Vector3 operator-(const Vector3& a, const Vector3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vector3 scaled(const Vector3& a, V64 by) { return {hn::Mul(a.x, by), hn::Mul(a.y, by), hn::Mul(a.z, by)}; }
+HWY_INLINE V64 dot3(const Vector3& a, const Vector3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Vector3 where(Mask64 mask, const Vector3& a) {
+  return {hn::IfThenElseZero(mask, a.x), hn::IfThenElseZero(mask, a.y), hn::IfThenElseZero(mask, a.z)};
 }
 
-/// The normal that a texel of a normal map makes of n, both not of unit length; n itself where there is no frame.
-inline void bend_normal(const TangentFrame& frame, const float texel[3], double scale, float n[3]) {
-  const glm::dvec3 normal{double(n[0]), double(n[1]), double(n[2])};
-  const double n2 = dot3(normal, normal);
-  if (!(n2 > 0.0)) return;
-  const glm::dvec3 along = frame.u - normal * (dot3(normal, frame.u) / n2);
-  const double t2 = dot3(along, along);
-  if (!(t2 > 0.0)) return;
-  const glm::dvec3 t = along * (1.0 / std::sqrt(t2));
-  const glm::dvec3 c(normal.y * t.z - normal.z * t.y, normal.z * t.x - normal.x * t.z, normal.x * t.y - normal.y * t.x);
-  const double length = 1.0 / std::sqrt(n2);
-  const glm::dvec3 b = c * (dot3(c, frame.v) < 0.0 ? -length : length);
-  const double x = (2.0 * double(texel[0]) - 1.0) * scale, y = (2.0 * double(texel[1]) - 1.0) * scale;
-  const double z = 2.0 * double(texel[2]) - 1.0;
-  for (int k = 0; k < 3; ++k) n[k] = float((t[k] * x + b[k] * y) + normal[k] * z);
+/// A corner of each pixel's triangle: world position and texture coordinates.
+struct MapCorner {
+  static constexpr int kValues = 5;
+  static constexpr int kStream[kValues] = {kPosition, kPosition + 1, kPosition + 2, kUv, kUv + 1};
+  V64 value[kValues];
+
+  HWY_INLINE void load(const VisibleVertices& work, const uint32_t* corner) {
+    const auto at = hn::LoadU(I32(), reinterpret_cast<const int32_t*>(corner));
+    for (int k = 0; k < kValues; ++k)
+      value[k] = hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[kStream[k]].data(), at));
+  }
+  HWY_INLINE Vector3 position() const { return {value[0], value[1], value[2]}; }
+
+  /// Before another in the order of values.
+  HWY_INLINE Mask64 before(const MapCorner& other) const {
+    Mask64 less = hn::Lt(value[kValues - 1], other.value[kValues - 1]);
+    for (int k = kValues - 2; k >= 0; --k)
+      less = hn::Or(hn::Lt(value[k], other.value[k]), hn::And(hn::Eq(value[k], other.value[k]), less));
+    return less;
+  }
+};
+
+/// The directions along which u and v grow on a triangle, in world space, of any length; zero where uv has no area.
+struct TangentFrame {
+  Vector3 u, v;
+};
+
+HWY_INLINE TangentFrame tangent_frame(const VisibleVertices& work, int at) {
+  const D64 d;
+  MapCorner corner[3], turned[3];
+  for (size_t k = 0; k < 3; ++k) corner[k].load(work, work.corner[k].data() + at);
+  // The least corner first: the frame does not depend on which one a triangle was submitted with.
+  const auto from_1 = corner[1].before(corner[0]);
+  const auto from_2 =
+      hn::Or(hn::And(from_1, corner[2].before(corner[1])), hn::AndNot(from_1, corner[2].before(corner[0])));
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < MapCorner::kValues; ++c)
+      turned[k].value[c] = hn::IfThenElse(from_2, corner[(k + 2) % 3].value[c],
+                                          hn::IfThenElse(from_1, corner[(k + 1) % 3].value[c], corner[k].value[c]));
+  const Vector3 e1 = turned[1].position() - turned[0].position(), e2 = turned[2].position() - turned[0].position();
+  const auto along = [&](int k, int c) { return hn::Sub(turned[k].value[c], turned[0].value[c]); };
+  const V64 a1 = along(1, 3), b1 = along(1, 4), a2 = along(2, 3), b2 = along(2, 4);
+  const V64 area = hn::Sub(hn::Mul(a1, b2), hn::Mul(a2, b1)), zero = hn::Zero(d);
+  const V64 sign = hn::IfThenElse(hn::Lt(area, zero), hn::Set(d, -1.0), hn::Set(d, 1.0));
+  const Mask64 any = hn::Not(hn::Eq(area, zero));
+  return {where(any, scaled(scaled(e1, b2) - scaled(e2, b1), sign)),
+          where(any, scaled(scaled(e2, a1) - scaled(e1, a2), sign))};
+}
+
+/// The normals that texels of a normal map make of n, both not of unit length; n itself where there is no frame.
+HWY_INLINE void bend_normals(const TangentFrame& frame, const V32 texel[3], double scale, V32 n[3]) {
+  const D64 d;
+  const D32 df;
+  const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
+  const Vector3 normal{hn::PromoteTo(d, n[0]), hn::PromoteTo(d, n[1]), hn::PromoteTo(d, n[2])};
+  const V64 n2 = dot3(normal, normal);
+  const Vector3 along = frame.u - scaled(normal, hn::Div(dot3(normal, frame.u), n2));
+  const V64 t2 = dot3(along, along);
+  const auto bends = hn::And(hn::Gt(n2, zero), hn::Gt(t2, zero));
+  const Vector3 t = scaled(along, hn::Div(one, hn::Sqrt(t2)));
+  const Vector3 c{hn::Sub(hn::Mul(normal.y, t.z), hn::Mul(normal.z, t.y)),
+                  hn::Sub(hn::Mul(normal.z, t.x), hn::Mul(normal.x, t.z)),
+                  hn::Sub(hn::Mul(normal.x, t.y), hn::Mul(normal.y, t.x))};
+  const V64 length = hn::Div(one, hn::Sqrt(n2));
+  const Vector3 b = scaled(c, hn::IfThenElse(hn::Lt(dot3(c, frame.v), zero), hn::Neg(length), length));
+  const auto moved = [&](int k) { return hn::Sub(hn::Mul(two, hn::PromoteTo(d, texel[k])), one); };
+  const V64 x = hn::Mul(moved(0), hn::Set(d, scale)), y = hn::Mul(moved(1), hn::Set(d, scale)), z = moved(2);
+  const auto sum = [&](V64 t_k, V64 b_k, V64 n_k) {
+    return hn::Add(hn::Add(hn::Mul(t_k, x), hn::Mul(b_k, y)), hn::Mul(n_k, z));
+  };
+  const V64 bent[3] = {sum(t.x, b.x, normal.x), sum(t.y, b.y, normal.y), sum(t.z, b.z, normal.z)};
+  const auto here = float_mask(bends);
+  for (int k = 0; k < 3; ++k) n[k] = hn::IfThenElse(here, hn::DemoteTo(df, bent[k]), n[k]);
 }
 
 /// Lanes of one material: colour times texel, normal bent; the specular texel waits for the material's own colour.
-inline void apply_material(const MaterialMaps& maps, const UvPoint& at, Mask64 owned, const double* mine, int i,
-                           const VisibleVertices& work, SurfaceTile& out) {
-  const D64 d;
+inline void apply_material(const MaterialMaps& maps, const UvPoint& at, Mask64 mine, int i, const VisibleVertices& work,
+                           SurfaceTile& out) {
   const D32 df;
   V32 rgba[4];
-  const auto ours = hn::Gt(hn::DemoteTo(df, hn::Load(d, mine)), hn::Zero(df));
+  const auto ours = float_mask(mine);
+  const auto put = [&](int plane, V32 there, V32 value) {
+    hn::Store(hn::IfThenElse(ours, value, there), df, out.plane[plane] + i);
+  };
   if (maps.color) {
-    sample(*maps.color, at, owned, rgba);
+    sample(*maps.color, at, mine, rgba);
     for (int c = 0; c < 4; ++c) {
       const V32 there = hn::Load(df, out.plane[kAlbedo + c] + i);
-      hn::Store(hn::IfThenElse(ours, hn::Mul(there, rgba[c]), there), df, out.plane[kAlbedo + c] + i);
+      put(kAlbedo + c, there, hn::Mul(there, rgba[c]));
     }
   }
   if (maps.specular) {
-    sample(*maps.specular, at, owned, rgba);
-    for (int c = 0; c < 3; ++c) {
-      const V32 there = hn::Load(df, out.plane[kSpecular + c] + i);
-      hn::Store(hn::IfThenElse(ours, rgba[c], there), df, out.plane[kSpecular + c] + i);
-    }
+    sample(*maps.specular, at, mine, rgba);
+    for (int c = 0; c < 3; ++c) put(kSpecular + c, hn::Load(df, out.plane[kSpecular + c] + i), rgba[c]);
   }
   if (!maps.normal) return;
-  sample(*maps.normal, at, owned, rgba);
-  alignas(64) float texel[3][kMostLanes];
-  for (size_t c = 0; c < 3; ++c) hn::Store(rgba[c], df, texel[c]);
-  for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    if (mine[lane] == 0.0) continue;
-    const size_t pixel = size_t(i) + lane;
-    const uint32_t corner[3] = {work.corner[0][pixel], work.corner[1][pixel], work.corner[2][pixel]};
-    const float t[3] = {texel[0][lane], texel[1][lane], texel[2][lane]};
-    float n[3];
-    for (int c = 0; c < 3; ++c) n[c] = out.plane[kNormal + c][pixel];
-    bend_normal(tangent_frame(work, corner), t, double(maps.normal_scale), n);
-    for (int c = 0; c < 3; ++c) out.plane[kNormal + c][pixel] = n[c];
-  }
+  sample(*maps.normal, at, mine, rgba);
+  V32 n[3], there[3];
+  for (int c = 0; c < 3; ++c) n[c] = there[c] = hn::Load(df, out.plane[kNormal + c] + i);
+  bend_normals(tangent_frame(work, i), rgba, double(maps.normal_scale), n);
+  for (int c = 0; c < 3; ++c) put(kNormal + c, there[c], n[c]);
 }
 
 /// The lanes of `owned` at pixel i and on, whose texture coordinates are in the uv planes; of `at` the derivatives.
@@ -108,20 +139,17 @@ inline void apply_maps(const SceneMaps& maps, UvPoint at, Mask64 owned, int i, c
                        SurfaceTile& out) {
   const D64 d;
   const D32 df;
-  const size_t lanes = hn::Lanes(d);
   for (int k = 0; k < 2; ++k) at.uv[k] = hn::PromoteTo(d, hn::Load(df, out.plane[kUv + k] + i));
-  alignas(64) double open[kMostLanes], mine[kMostLanes];
-  hn::Store(hn::IfThenElseZero(owned, hn::Set(d, 1.0)), d, open);
-  for (size_t lane = 0; lane < lanes; ++lane) {
-    if (open[lane] == 0.0) continue;
-    const uint32_t material = out.material[size_t(i) + lane];
-    for (size_t k = 0; k < lanes; ++k) {
-      const bool same = open[k] != 0.0 && out.material[size_t(i) + k] == material;
-      mine[k] = same ? 1.0 : 0.0;
-      if (same) open[k] = 0.0;
-    }
-    const MaterialMaps& here = maps.material[material - 1];
-    if (here.any()) apply_material(here, at, hn::Gt(hn::Load(d, mine), hn::Zero(d)), mine, i, work, out);
+  const V64 material =
+      hn::PromoteTo(d, hn::Load(I32(), reinterpret_cast<const int32_t*>(out.material) + i));  // of 2^31 at most
+  for (Mask64 open = owned;;) {
+    const intptr_t lane = hn::FindFirstTrue(d, open);
+    if (lane < 0) return;
+    const uint32_t first = out.material[i + lane];
+    const Mask64 same = hn::Eq(material, hn::Set(d, double(first)));
+    const MaterialMaps& here = maps.material[first - 1];
+    if (here.any()) apply_material(here, at, hn::And(open, same), i, work, out);
+    open = hn::AndNot(same, open);
   }
 }
 

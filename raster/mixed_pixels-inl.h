@@ -124,67 +124,149 @@ struct MixedPixels {
     hn::Store(w.b2, d, b2 + h * kHalf);
   }
 
-  /// Everything wanted of four pixels from `first` on: a row of the block at `at_block`, or from anywhere.
+  /// Everything wanted of four pixels from `first` on: a row of the block at `at_block`, or from anywhere. The usual
+  /// cases ask no question an attribute and know its plane.
   template <bool kAnywhere>
   HWY_INLINE void set_rows(const VisibleTriangles& in, WantedValues wanted, int first, int at_block,
                            SurfaceTile& out) const {
-    constexpr int kValues = VertexRecord::kValues, kColor = std::min(kGroup, 4);
-    for (int g = 0; g < kValues; g += kGroup) {
-      if (wanted.first == 0 && wanted.last == kRecordUv)  // the usual case without a question an attribute
-        set_group<kGroup, kAnywhere>(in.record.data(), g, 0, 0, kRecordUv, first, at_block, out);
-      else
-        set_group<kGroup, kAnywhere>(in.record.data(), g, 0, wanted.first, wanted.last, first, at_block, out);
-    }
-    for (int g = 0; g < 4 && wanted.color; g += kColor)
-      set_group<kColor, kAnywhere>(in.color.data(), g, kValues, 0, 4, first, at_block, out);
+    constexpr const int* kNoUv = kRecordStream[0];
+    if (wanted.first == 0 && wanted.last == kAlbedo)
+      set_values<kAnywhere>(in, kNoUv, 0, kAlbedo, first, at_block, out);
+    else if (wanted.first == 0 && wanted.stream == kNoUv)
+      set_values<kAnywhere>(in, kNoUv, 0, kUv, first, at_block, out);
+    else
+      set_values<kAnywhere>(in, wanted.stream, wanted.first, wanted.last, first, at_block, out);
   }
 
-  /// kCount attributes from place `from` on of those in [first, last), `shift` further in kRecordStream.
-  template <int kCount, bool kAnywhere, class Record>
-  HWY_INLINE void set_group(const Record* records, int from, int shift, int first, int last, int pixel, int at_block,
+  /// Those in [from, to).
+  template <bool kAnywhere>
+  HWY_INLINE void set_values(const VisibleTriangles& in, const int* stream, int from, int to, int first, int at_block,
+                             SurfaceTile& out) const {
+    constexpr int kValues = VertexRecord::kValues, kRest = std::min(kGroup, VertexRest::kValues);
+    set_record<kAnywhere, 0>(in, stream, from, to, first, at_block, out);
+    const D32 d;
+    if constexpr (hn::MaxLanes(d) == 2 * kBlockSize)
+      if (to == kValues + 2) return set_pairs<kAnywhere>(d, in, stream + kValues, first, at_block, out);
+    for (int g = 0; g < to - kValues; g += kRest)
+      set_group<kRest, kAnywhere>(in.rest.data(), g, stream + kValues, 0, to - kValues, first, at_block, out);
+  }
+
+  /// Those of a record, from kPlace on: no loop, as what is known of each place is worth knowing.
+  template <bool kAnywhere, int kPlace>
+  HWY_INLINE void set_record(const VisibleTriangles& in, const int* stream, int from, int to, int first, int at_block,
+                             SurfaceTile& out) const {
+    set_group<kGroup, kAnywhere>(in.record.data(), kPlace, stream, from, to, first, at_block, out);
+    if constexpr (kPlace + kGroup < VertexRecord::kValues)
+      if (kPlace + kGroup < to) set_record<kAnywhere, kPlace + kGroup>(in, stream, from, to, first, at_block, out);
+  }
+
+  /// Two attributes of the four pixels from `pixel` on, in one vector of doubles: a pixel's behind those of the one
+  /// before.
+  template <bool kAnywhere, class D>
+  HWY_INLINE void set_pairs(D d, const VisibleTriangles& in, const int* stream, int pixel, int at_block,
                             SurfaceTile& out) const {
+    const hn::Half<D> dq;
+    const hn::Vec<D> pairs = pair_values(d, in.rest.data(), pixel);
+    const auto lower = LowerHalf(dq, pairs), upper = UpperHalf(dq, pairs);
+    const hn::Vec<decltype(dq)> of[2] = {ConcatEven(dq, upper, lower), ConcatOdd(dq, upper, lower)};
+    for (int k = 0; k < 2; ++k) {
+      float* const plane = out.plane[stream[k]];
+      if constexpr (kAnywhere) {
+        alignas(64) float value[kBlockSize];
+        hn::Store(of[k], dq, value);
+        for (int i = 0; i < kBlockSize && pixel + i < count; ++i) plane[at[pixel + i]] = value[i];
+      } else {
+        hn::Store(of[k], dq, plane + at_block + pixel);
+      }
+    }
+  }
+  template <class D>
+  HWY_INLINE hn::Vec<D> pair_values(D d, const VertexRest* rest, int pixel) const {
+    const hn::Rebind<double, D> wide;
+    alignas(64) static constexpr uint64_t kTwice[2 * kBlockSize] = {0, 0, 1, 1, 2, 2, 3, 3};
+    const auto twice = hn::SetTableIndices(wide, kTwice);
+    const auto w1 = hn::TableLookupLanes(repeated(wide, b1 + pixel), twice),
+               w2 = hn::TableLookupLanes(repeated(wide, b2 + pixel), twice);
+    const hn::Vec<D> a0 = pairs_at(d, rest, pixel, 0), a1 = pairs_at(d, rest, pixel, 1),
+                     a2 = pairs_at(d, rest, pixel, 2);
+    const auto wider = [&](hn::Vec<D> a) { return hn::PromoteTo(wide, a); };
+    return held(hn::DemoteTo(d, plane_at(w1, w2, wider(a0), wider(a1), wider(a2))), a0, a1, a2);
+  }
+  /// Half a vector, twice: no load spans what two stores wrote.
+  template <class D>
+  static HWY_INLINE hn::Vec<D> repeated(D d, const double* from) {
+    const auto half = hn::LoadU(hn::Half<D>(), from);
+    return Combine(d, half, half);
+  }
+  /// Corner k's first two values of the pixels from `pixel` on.
+  template <class D>
+  HWY_INLINE hn::Vec<D> pairs_at(D d, const VertexRest* rest, int pixel, int k) const {
+    if constexpr (hn::MaxLanes(D()) == 2) {
+      return hn::Load(d, vertex_at(rest, uint16_t(vertices[pixel] >> (16 * k))).value);
+    } else {
+      const hn::Half<D> half;
+      return Combine(d, pairs_at(half, rest, pixel + int(hn::MaxLanes(half)) / 2, k), pairs_at(half, rest, pixel, k));
+    }
+  }
+
+  /// kCount attributes from place `from` on of those in [first, last).
+  template <int kCount, bool kAnywhere, class Record>
+  HWY_INLINE void set_group(const Record* records, int from, const int* stream, int first, int last, int pixel,
+                            int at_block, SurfaceTile& out) const {
     using D = hn::CappedTag<float, size_t(kCount)>;
     const D d;
     const hn::CappedTag<float, kBlockSize> dq;
-    hn::Vec<D> v[kBlockSize];
-    for (int i = 0; i < kBlockSize; ++i) {
-      uint16_t vertex[3];
-      std::memcpy(vertex, vertices + pixel + i, sizeof(vertex));
-      v[i] = values(d, vertex_at(records, vertex[0]).value + from, vertex_at(records, vertex[1]).value + from,
-                    vertex_at(records, vertex[2]).value + from, pixel + i);
-    }
-    alignas(64) float value[kBlockSize][kCount];
-    if constexpr (kAnywhere || kCount == 1)
+    hn::Vec<D> v[kBlockSize] = {values(d, records, from, pixel), values(d, records, from, pixel + 1),
+                                values(d, records, from, pixel + 2), values(d, records, from, pixel + 3)};
+    const auto is_wanted = [&](int k) { return from + k >= first && from + k < last; };
+    if constexpr (kAnywhere || kCount == 1) {
+      alignas(64) float value[kBlockSize][kCount];
       for (int i = 0; i < kBlockSize; ++i) hn::Store(v[i], d, value[i]);
-    else
+      for (int k = 0; k < kCount; ++k) {
+        if (!is_wanted(k)) continue;
+        float* const plane = out.plane[stream[from + k]];
+        for (int i = 0; i < kBlockSize; ++i) {
+          if constexpr (!kAnywhere)
+            plane[at_block + pixel + i] = value[i][k];
+          else if (pixel + i < count)
+            plane[at[pixel + i]] = value[i][k];
+        }
+      }
+    } else {
       transpose(d, v);
-    for (int k = 0; k < kCount; ++k) {
-      if (from + k < first || from + k >= last) continue;
-      float* const plane = out.plane[kRecordStream[shift + from + k]];
-      if constexpr (kAnywhere)
-        for (int i = 0; i < kBlockSize && pixel + i < count; ++i) plane[at[pixel + i]] = value[i][k];
-      else if constexpr (kCount == 1)
-        for (int i = 0; i < kBlockSize; ++i) plane[at_block + pixel + i] = value[i][k];
-      else
-        hn::Store(quarter_row(d, v[k % 4], k / 4), dq, plane + at_block + pixel);
+      for (int k = 0; k < kCount; ++k)
+        if (is_wanted(k))
+          hn::Store(quarter_row(d, v[k % 4], k / 4), dq, out.plane[stream[from + k]] + at_block + pixel);
     }
   }
 
-  /// Attributes of pixel i side by side.
-  template <class D>
-  HWY_INLINE hn::Vec<D> values(D d, const float* at_0, const float* at_1, const float* at_2, int i) const {
+  /// Attributes of pixel i side by side, from place `from` on.
+  template <class D, class Record>
+  HWY_INLINE hn::Vec<D> values(D d, const Record* records, int from, int i) const {
+    const uint64_t vertex = vertices[i];
+    const float* const at_0 = vertex_at(records, uint16_t(vertex)).value + from;
+    const float* const at_1 = vertex_at(records, uint16_t(vertex >> 16)).value + from;
+    const float* const at_2 = vertex_at(records, uint16_t(vertex >> 32)).value + from;
     const hn::CappedTag<double, hn::MaxLanes(D())> wide;
     const hn::Rebind<float, decltype(wide)> df;
     const auto w1 = hn::Set(wide, b1[i]), w2 = hn::Set(wide, b2[i]);
     const auto part = [&](size_t k) {
       const auto a0 = hn::PromoteTo(wide, hn::LoadU(df, at_0 + k)), a1 = hn::PromoteTo(wide, hn::LoadU(df, at_1 + k)),
                  a2 = hn::PromoteTo(wide, hn::LoadU(df, at_2 + k));
-      return hn::DemoteTo(df, hn::Add(a0, hn::Add(hn::Mul(w1, hn::Sub(a1, a0)), hn::Mul(w2, hn::Sub(a2, a0)))));
+      return hn::DemoteTo(df, plane_at(w1, w2, a0, a1, a2));
     };
-    const auto plane = joined(d, part(0), part(hn::MaxLanes(d) - hn::MaxLanes(wide)));
-    const auto a0 = hn::LoadU(d, at_0), a1 = hn::LoadU(d, at_1), a2 = hn::LoadU(d, at_2);
-    const auto low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
-    return lesser(greater(plane, low), high);
+    return held(joined(d, part(0), part(hn::MaxLanes(d) - hn::MaxLanes(wide))), hn::LoadU(d, at_0), hn::LoadU(d, at_1),
+                hn::LoadU(d, at_2));
+  }
+
+  template <class V>
+  static HWY_INLINE V plane_at(V w1, V w2, V a0, V a1, V a2) {
+    return hn::Add(a0, hn::Add(hn::Mul(w1, hn::Sub(a1, a0)), hn::Mul(w2, hn::Sub(a2, a0))));
+  }
+  template <class V>
+  static HWY_INLINE V held(V value, V a0, V a1, V a2) {
+    const V low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
+    return lesser(greater(value, low), high);
   }
 
   /// From four vectors of attributes to vectors of four pixels' attributes k and k + 4.
@@ -198,7 +280,7 @@ struct MixedPixels {
     v[3] = InterleaveUpper(d, high_02, high_13);
   }
   template <class D>
-  HWY_INLINE auto quarter_row([[maybe_unused]] D d, hn::Vec<D> v, [[maybe_unused]] int half) const {
+  static HWY_INLINE auto quarter_row([[maybe_unused]] D d, hn::Vec<D> v, [[maybe_unused]] int half) {
     if constexpr (hn::MaxLanes(D()) == 4) {
       return v;
     } else {

@@ -41,15 +41,12 @@ struct BlockPlace {
   }
 };
 
-/// Attributes that are interpolated, by their places in a vertex: [first, last), and [8, 12) for its colour.
+/// Attributes that are interpolated, by their places in a vertex: [first, last), and the streams that all places have.
 struct WantedValues {
   int first, last;
-  bool color;
+  const int* stream;
 
-  uint32_t bits() const {
-    const uint32_t colors = color ? (1u << kStreams) - (1u << VertexRecord::kValues) : 0;
-    return colors | ((1u << last) - (1u << first));
-  }
+  uint32_t bits() const { return (1u << last) - (1u << first); }
 };
 
 /// Weights of vertices 1 and 2 at the pixels of a block.
@@ -70,6 +67,7 @@ template <class Hull>
 struct RunAttributes {
   static constexpr int kRoom = 16;  ///< whole vectors
   static_assert(kRoom >= kStreams);
+  const int* stream;           ///< of each
   uint32_t varying, constant;  ///< a bit each
   alignas(64) double a0[kRoom], to_1[kRoom] = {}, to_2[kRoom] = {};
   alignas(64) Hull low[kRoom], high[kRoom];
@@ -94,7 +92,7 @@ struct RunAttributes {
     for (uint32_t bits = constant; bits != 0; bits &= bits - 1) {
       const int k = std::countr_zero(bits);
       const auto value = hn::Set(d, float(a0[k]) + 0.0f);
-      float* const plane = out.plane[kRecordStream[k]] + at;
+      float* const plane = out.plane[stream[k]] + at;
       for (int p = 0; p < kBlockPixels; p += kTogether)
         if (whole)
           hn::Store(value, d, plane + p);
@@ -108,7 +106,7 @@ struct RunAttributes {
   static constexpr int kTogether = int(hn::MaxLanes(DF()));
 
   /// Sorts the attributes `wanted` into varying ones and constant ones, from the differences set.
-  HWY_INLINE void sort(uint32_t wanted) {
+  HWY_INLINE void sort(WantedValues wanted) {
     const D64 d;
     uint32_t same = 0;
     for (int k = 0; k < kStreams; k += kHalf) {
@@ -116,8 +114,9 @@ struct RunAttributes {
           hn::And(hn::Eq(hn::LoadU(d, to_1 + k), hn::Zero(d)), hn::Eq(hn::LoadU(d, to_2 + k), hn::Zero(d)));
       same |= lane_bits(d, none) << k;
     }
-    varying = wanted & ~same;
-    constant = wanted & same;
+    stream = wanted.stream;
+    varying = wanted.bits() & ~same;
+    constant = wanted.bits() & same;
   }
 
  private:
@@ -130,7 +129,7 @@ struct RunAttributes {
       const V64 from = hn::Set(D64(), a0[k]), d1 = hn::Set(D64(), to_1[k]), d2 = hn::Set(D64(), to_2[k]);
       const auto plane = [&](V64 w1, V64 w2) { return hn::Add(from, hn::Add(hn::Mul(w1, d1), hn::Mul(w2, d2))); };
       const auto value = held(d, plane(b1, b2), plane(upper_b1, upper_b2), low[k], high[k]);
-      float* const to = out.plane[kRecordStream[k]] + at;
+      float* const to = out.plane[stream[k]] + at;
       if (all)
         hn::Store(value, d, to);
       else
@@ -173,8 +172,9 @@ struct RunTriangle : RunAttributes<float> {
       sy[k] = (x[b] - x[a]) * 256.0;
     }
     set_corners(in.record.data(), vertex, 0, VertexRecord::kValues);
-    if (wanted.color) set_corners(in.color.data(), vertex, VertexRecord::kValues, 4);
-    sort(wanted.bits());
+    if (wanted.last > VertexRecord::kValues)
+      set_corners(in.rest.data(), vertex, VertexRecord::kValues, VertexRest::kValues);
+    sort(wanted);
   }
 
   /// The pixels of a run of its; `whole`: the block's others are anyone's.

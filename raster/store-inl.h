@@ -84,9 +84,22 @@ HWY_INLINE VF rounded_magnitude(VF magnitude, bool nearest) {
   return hn::IfThenElse(hn::Eq(magnitude, inf), inf, result);
 }
 
+/// The same of a half float's normal magnitudes, or 0, with their signs.
+HWY_INLINE VF usual_half(VF x, HalfRound mode) {
+  const DU du;
+  auto bits = hn::BitCast(du, x);
+  if (mode == HalfRound::nearest)
+    bits = hn::Add(bits, hn::Add(hn::And(hn::ShiftRight<13>(bits), hn::Set(du, 1u)), hn::Set(du, 0xFFFu)));
+  return hn::BitCast(DF(), hn::And(bits, hn::Set(du, 0xFFFFE000u)));
+}
+
 /// The float a half float holds after storing x.
 HWY_INLINE VF rounded_to_half(VF x, HalfRound mode) {
+  const DF d;
   const DU du;
+  const VF size = hn::Abs(x);
+  const auto usual = hn::And(hn::Ge(size, hn::Set(d, 0x1p-14f)), hn::Le(size, hn::Set(d, 65504.0f)));
+  if (HWY_LIKELY(hn::AllTrue(d, hn::Or(usual, hn::Eq(size, hn::Zero(d)))))) return usual_half(x, mode);
   const auto sign = hn::And(hn::BitCast(du, x), hn::Set(du, 0x80000000u));
   const VF result = rounded_magnitude<10>(hn::Abs(x), mode == HalfRound::nearest);
   return hn::IfThenElse(hn::Eq(x, x), hn::BitCast(DF(), hn::Or(hn::BitCast(du, result), sign)), one_nan());

@@ -29,11 +29,12 @@ struct CarefulRun : RunAttributes<double> {
 
   CarefulRun(const CarefulSurface& of, WantedValues wanted) : piece(of) {
     for (int k = 0; k < kStreams; ++k) {
-      const double* const a = of.attribute[kRecordStream[k]];
+      const int from = wanted.stream[k];
+      const double* const a = of.attribute[from];
       a0[k] = a[0], to_1[k] = a[1] - a[0], to_2[k] = a[2] - a[0];
-      low[k] = of.low[kRecordStream[k]], high[k] = of.high[kRecordStream[k]];
+      low[k] = of.low[from], high[k] = of.high[from];
     }
-    sort(wanted.bits());
+    sort(wanted);
   }
 
   /// Those of the pixels `open` that the piece has; returns them. `whole`: the block's others are anyone's.
@@ -60,8 +61,7 @@ struct CarefulRun : RunAttributes<double> {
 };
 
 inline WantedValues wanted_values(const StreamGroup* group, WantedStreams streams) {
-  return {group[0].first == kPosition ? 0 : int(kNormal), streams.uv ? VertexRecord::kValues : kRecordUv,
-          streams.color};
+  return {group[0].first == kPosition ? 0 : int(kNormal), streams.count(), streams.order()};
 }
 
 /// Fills the planes of a tile whose attributes are all smooth, from the triangles found and placed.
@@ -122,9 +122,10 @@ struct BlockInterpolation {
     float value[kStreams][3] = {};
     for (int k = 0; k < 3; ++k) {
       const uint32_t vertex = vertices.vertex[k];
-      for (int c = 0; c < VertexRecord::kValues; ++c)
-        value[kRecordStream[c]][k] = vertex_at(seen.record.data(), vertex).value[c];
-      for (int c = 0; c < 4 && wanted.color; ++c) value[kAlbedo + c][k] = vertex_at(seen.color.data(), vertex).value[c];
+      const float* const record = vertex_at(seen.record.data(), vertex).value;
+      const float* const rest = vertex_at(seen.rest.data(), vertex).value;
+      for (int c = 0; c < wanted.last; ++c)
+        value[wanted.stream[c]][k] = c < VertexRecord::kValues ? record[c] : rest[c - VertexRecord::kValues];
     }
     thread_local std::vector<CarefulSurface> pieces;
     pieces.clear();

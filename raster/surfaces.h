@@ -24,10 +24,9 @@ struct SurfaceTile {
   int covered_pixels;
 };
 
-/// Streams in the order of attribute quads: what most pixels want comes first, so that a prefix can be interpolated
-/// alone: position and normal, uv, albedo.
-inline constexpr int kRecordStream[kStreams] = {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9};
-inline constexpr int kRecordUv = 6;  ///< where uv begins
+/// Streams in the order in which a vertex's values lie, without uv and with it: what is wanted comes first.
+inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
+                                                   {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
 
 /// A cluster of which a pixel was seen.
 struct SeenCluster {

@@ -22,6 +22,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Mask64 = hn::Mask<D64>;
 inline constexpr size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
 
+/// The same lanes of as many floats.
+HWY_INLINE hn::Mask<D32> float_mask(Mask64 mask) {
+  return hn::Gt(hn::DemoteTo(D32(), hn::IfThenElseZero(mask, hn::Set(D64(), 1.0))), hn::Zero(D32()));
+}
+
 /// Texture coordinates of pixels, floats held in f64, and their derivatives from pixel to pixel.
 struct UvPoint {
   V64 uv[2], x[2], y[2];
@@ -109,7 +114,7 @@ HWY_INLINE AxisTexels axis_texels(Wrap wrap, V64 coordinate, V64 n, Mask64 linea
   return {wrapped(wrap, below, n), wrapped(wrap, next, n), hn::IfThenElseZero(linear, hn::Sub(place, below))};
 }
 
-/// One texel's RGBA.
+/// One texel's RGBA, of a format of floats.
 HWY_INLINE void fetch(TextureFormat format, const TextureView::Level& level, int x, int y, const float border[4],
                       size_t lane, float out[4][kMostLanes]) {
   if (x < 0 || y < 0 || x >= level.width || y >= level.height) {
@@ -117,21 +122,31 @@ HWY_INLINE void fetch(TextureFormat format, const TextureView::Level& level, int
     return;
   }
   const uint8_t* at = level.bytes + (size_t(y) * size_t(level.width) + size_t(x)) * size_t(bytes_per_texel(format));
-  switch (format) {
-    case TextureFormat::rgba8:
-      for (size_t c = 0; c < 4; ++c) out[c][lane] = float(at[c]) / 255.0f;
-      break;
-    case TextureFormat::srgb8_a8:
-      for (size_t c = 0; c < 3; ++c) out[c][lane] = kLinearOfSrgb8[at[c]];
-      out[3][lane] = float(at[3]) / 255.0f;
-      break;
-    case TextureFormat::rgba16f:
-      for (size_t c = 0; c < 4; ++c) out[c][lane] = float_from_half(uint16_t(at[2 * c] | at[2 * c + 1] << 8));
-      break;
-    case TextureFormat::rgba32f:
-      for (size_t c = 0; c < 4; ++c) std::memcpy(&out[c][lane], at + 4 * c, sizeof(float));
-      break;
+  for (size_t c = 0; c < 4; ++c) {
+    if (format == TextureFormat::rgba16f)
+      out[c][lane] = float_from_half(uint16_t(at[2 * c] | at[2 * c + 1] << 8));
+    else
+      std::memcpy(&out[c][lane], at + 4 * c, sizeof(float));
   }
+}
+
+/// Texels of four bytes, a lane each: the word at place[lane] of bytes[lane].
+HWY_INLINE void fetch_words(TextureFormat format, const uint8_t* const* bytes, V64 place, V32 out[4]) {
+  const D32 df;
+  const I32 di;
+  alignas(64) int32_t at[kMostLanes];
+  alignas(64) int32_t word[kMostLanes];
+  hn::Store(hn::DemoteTo(di, place), di, at);
+  for (size_t lane = 0; lane < hn::Lanes(df); ++lane) {
+    const uint8_t* const texel = bytes[lane] + 4 * size_t(at[lane]);
+    word[lane] = int32_t(texel[0] | uint32_t(texel[1]) << 8 | uint32_t(texel[2]) << 16 | uint32_t(texel[3]) << 24);
+  }
+  const auto words = hn::Load(di, word), byte = hn::Set(di, 255);
+  const hn::Vec<I32> code[4] = {hn::And(words, byte), hn::And(hn::ShiftRight<8>(words), byte),
+                                hn::And(hn::ShiftRight<16>(words), byte), hn::And(hn::ShiftRight<24>(words), byte)};
+  for (int c = 0; c < 4; ++c)
+    out[c] = format == TextureFormat::srgb8_a8 && c < 3 ? hn::GatherIndex(df, kLinearOfSrgb8.data(), code[c])
+                                                        : hn::Div(hn::ConvertTo(df, code[c]), hn::Set(df, 255.0f));
 }
 
 /// a + (b - a) weight, as (1 - w) a + w b: relative precision where a, b >= 0, and a, b themselves at both ends.
@@ -146,12 +161,14 @@ HWY_INLINE void sample_level(const TextureView& texture, V64 levels, const V64 u
   const D32 df;
   const size_t lanes = hn::Lanes(d);
   alignas(64) double level[kMostLanes], width[kMostLanes], height[kMostLanes], used[kMostLanes];
+  const uint8_t* bytes[kMostLanes];
   hn::Store(levels, d, level);
   hn::Store(hn::IfThenElseZero(valid, hn::Set(d, 1.0)), d, used);
   for (size_t i = 0; i < lanes; ++i) {
     const TextureView::Level& l = texture.level[used[i] != 0.0 ? int(level[i]) : 0];
     width[i] = l.width;
     height[i] = l.height;
+    bytes[i] = l.bytes;
   }
   const Sampler& s = texture.sampler;
   const AxisTexels u = axis_texels(s.wrap[0], uv[0], hn::Load(d, width), linear),
@@ -163,10 +180,22 @@ HWY_INLINE void sample_level(const TextureView& texture, V64 levels, const V64 u
   hn::Store(v.second, d, y[1]);
   const float border[4] = {s.border.r, s.border.g, s.border.b, s.border.a};
   const bool nearest = s.mag_filter == Filter::nearest && s.min_filter == Filter::nearest;
+  const bool of_words = bytes_per_texel(texture.format) == 4;
   V64 row[2][4];
   for (int j = 0; j < (nearest ? 1 : 2); ++j) {
     V64 side[2][4];
     for (int i = 0; i < (nearest ? 1 : 2); ++i) {
+      if (of_words) {
+        const V64 column = i == 0 ? u.first : u.second, line = j == 0 ? v.first : v.second, zero = hn::Zero(d);
+        const V64 wide = hn::Load(d, width), high = hn::Load(d, height);
+        const auto inside = hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, wide)),
+                                    hn::And(hn::Ge(line, zero), hn::Lt(line, high)));
+        V32 color[4];
+        fetch_words(texture.format, bytes, hn::IfThenElseZero(inside, hn::Add(hn::Mul(line, wide), column)), color);
+        for (size_t c = 0; c < 4; ++c)
+          side[i][c] = hn::IfThenElse(inside, hn::PromoteTo(d, color[c]), hn::Set(d, double(border[c])));
+        continue;
+      }
       alignas(64) float texel[4][kMostLanes] = {};
       for (size_t lane = 0; lane < lanes; ++lane)
         if (used[lane] != 0.0)

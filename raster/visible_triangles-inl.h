@@ -247,13 +247,16 @@ inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams 
     work.placed.resize(2 * vertices + kSlack);
     work.record.resize(2 * vertices + kSlack);
   }
-  if (wanted.color && work.color.size() < vertices + kSlack) work.color.resize(2 * vertices + kSlack);
-  UsedVertices scratch;
-  constexpr uint32_t kAhead = 3;
+  if (wanted.rest() && work.rest.size() < vertices + kSlack) work.rest.resize(2 * vertices + kSlack);
+  UsedVertices some;
+  constexpr uint32_t kAhead = 6;
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {
     if (slot + kAhead < work.clusters) fetch_used(in, cluster[slot + kAhead], wanted);
-    transform_used(in, rect, cluster[slot], wanted, scratch, work);
+    const VisibleCluster& seen = cluster[slot];
+    if (some.count > 0 && !some.takes(in.draws[in.list[seen.position]])) transform_used(in, rect, wanted, some, work);
+    some.add(in, seen, wanted);
   }
+  if (some.count > 0) transform_used(in, rect, wanted, some, work);
 }
 
 /// Vertices of a seen triangle, for vertex_at(): as submitted.

@@ -20,13 +20,14 @@ struct alignas(16) PlacedVertex {
   double y() const { return double(int32_t(uint32_t(key >> 32) ^ kBias)); }
 };
 
-/// What is interpolated of a vertex, in the order of kRecordStream (surfaces.h): what all pixels want, and its colour.
+/// What is interpolated of a vertex, in the order of kRecordStream (surfaces.h), and what finds no place there.
 struct alignas(32) VertexRecord {
   static constexpr int kValues = 8;
   float value[kValues];
 };
-struct alignas(16) VertexColor {
-  float value[4];
+struct alignas(16) VertexRest {
+  static constexpr int kValues = 4;
+  float value[kValues];
 };
 
 /// Vertices are named by four times their place, so that the place of what they have is one address.
@@ -69,7 +70,7 @@ struct VisibleTriangles {
   std::vector<uint8_t> used;  ///< kClusterVertices a cluster: 1 where a vertex is used. All 0 between tiles
   std::vector<PlacedVertex> placed;
   std::vector<VertexRecord> record;
-  std::vector<VertexColor> color;
+  std::vector<VertexRest> rest;
 
   uint16_t covered[kMaxTilePixels / kBlockPixels];  ///< of each block, a bit a pixel
   SeenRun run[kMaxTilePixels];                      ///< of blocks that see few triangles
