@@ -55,9 +55,9 @@ struct AddedLight {
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
     }
   }
-  HWY_INLINE void add_codes(const SettledCodes& codes) {
+  HWY_INLINE void add_codes(const SettledCodes& codes, bool all_light) {
     for (int c = 0; c < 3; ++c) stored[c] = hn::Add(stored[c], codes.codes(c));
-    lights = hn::Add(lights, codes.lights());
+    lights = hn::Add(lights, codes.lights(all_light));
   }
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
@@ -251,9 +251,9 @@ void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, std::span
   t.counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
 }
 
-// The lights of a region, by pairs.
+// The lights of a region, by pairs; false where these are no gain, and nothing is added.
 template <bool kCodes, class Shape>
-void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
+bool add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
   const DF d;
   RegionPixels<AddedLight<kCodes>> in(r);
   in.settles = kCodes && t.in.settles;
@@ -265,7 +265,10 @@ void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Reg
     in.px[k] = terms.load(t.surface, i);
     leave_out_tied(t, in.px[k], i);
     in.open[k] = uint16_t(mask_bits(in.px[k].covered));
-    in.settles = in.settles && hn::AllFalse(d, hn::AndNot(plain_surfaces(in.px[k]), in.px[k].covered));
+    MF plain = plain_surfaces(in.px[k]);
+    if constexpr (settles_phong<Shape>()) plain = hn::And(plain, plain_views(in.px[k]));
+    in.settles = in.settles && hn::AllFalse(d, hn::AndNot(plain, in.px[k].covered));
+    if (settles_phong<Shape>() && !in.settles) return false;
     in.sum[k] = AddedLight<kCodes>(t.add_plan, StoredPixels(t.out, i));
   }
   t.counts.evaluated_pairs +=
@@ -276,6 +279,7 @@ void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Reg
     for (int c = 0; c < 3; ++c) hn::Store(in.sum[k].stored[c], d, t.out.plane[c] + i);
     hn::Store(in.sum[k].lights, DI(), reinterpret_cast<int32_t*>(t.out.light_count) + i);
   }
+  return true;
 }
 
 void draw_every_at(const TileBlend& t, std::span<const ListedLight> list, int i) {
@@ -304,15 +308,10 @@ struct DrawRegions {
       const Region& r = t.regions.region[n];
       region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
       if (t.work.region.light.empty()) continue;
-      if constexpr (comes_by_pairs<Shape>()) {
-        if (t.method.adds) {
-          if (t.method.codes)
-            add_to_region<true>(t, terms, r);
-          else
-            add_to_region<false>(t, terms, r);
-          continue;
-        }
-      }
+      if constexpr (comes_by_pairs<Shape>() || settles_phong<Shape>())
+        if (t.method.adds && t.method.codes && add_to_region<true>(t, terms, r)) continue;
+      if constexpr (comes_by_pairs<Shape>())
+        if (t.method.adds && add_to_region<false>(t, terms, r)) continue;
       for (int k = 0; k < r.wide * r.tall; ++k) {
         const int block = r.block(k, t.blocks());
         const std::span<const ListedLight> list =

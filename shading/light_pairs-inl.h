@@ -17,6 +17,7 @@
 #include "shading/light_lists-inl.h"
 #include "shading/light_sum-inl.h"
 #include "shading/settled_codes-inl.h"
+#include "shading/settled_phong-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -135,9 +136,10 @@ inline size_t cover_pairs(const TileLights& lights, const ListedLight& listed, c
                           uint32_t* pair, size_t first, size_t count) {
   size_t left = first;
   for (size_t k = first; k < count; ++k) {
-    const unsigned cover = cover_of_block(lights, listed, r.block(int(pair_block(pair[k])), blocks), blocks);
-    pair[left] = pair[k] & ~(kPairPixels & ~cover);
-    left += (pair[left] & kPairPixels) != 0;
+    const VectorPlace at(lights, blocks, r.block(int(pair_block(pair[k])), blocks) * kBlockPixels);
+    const auto pixels = uint32_t(mask_bits(at.covered(listed, pair_pixels(pair[k]))));
+    pair[left] = (pair[k] & ~kPairPixels) | pixels;
+    left += pixels != 0;
   }
   return left;
 }
@@ -217,12 +219,11 @@ HWY_NOINLINE size_t settle_pairs(const LightTerms<Shape>& terms, std::span<const
                                  size_t count, RegionPixels<Sum>& in) {
   static_assert(kPairedLights <= kCodesAtOnce);
   SettledLight light[kPairedLights];
-  for (size_t i = 0; i < list.size(); ++i) light[i] = settled_light(list[i]);
-  SettledCodes codes[kRegionBlockCount];
-  for (SettledCodes& of : codes)
-    for (auto& sum : of.sum) sum = hn::Zero(DI());
   constexpr size_t kTogether = 2;
   if (count == 0) return 0;
+  for (size_t i = 0; i < list.size(); ++i) make_settled_light(list[i], light[i]);
+  SettledCodes codes[kRegionBlockCount];
+  for (SettledCodes& of : codes) of.clear();
   for (size_t k = 0; k < kTogether; ++k) pair[count + k] = pair[count - 1] & ~kPairPixels;
   size_t left = 0;
   for (size_t first = 0; first < count; first += kTogether) {
@@ -244,8 +245,60 @@ HWY_NOINLINE size_t settle_pairs(const LightTerms<Shape>& terms, std::span<const
     }
   }
   for (size_t k = 0; k < kRegionBlockCount; ++k)
-    if (in.open[k] != 0) in.sum[k].add_codes(codes[k]);
+    if (in.open[k] != 0) in.sum[k].add_codes(codes[k], true);
   return left;
+}
+
+/// The same of Phong terms.
+template <bool kCone, class Shape, class Sum>
+HWY_NOINLINE size_t settle_phong_pairs(const LightTerms<Shape>& terms, std::span<const ListedLight> list,
+                                       uint32_t* pair, size_t count, RegionPixels<Sum>& in) {
+  constexpr size_t kTogether = 4;
+  if (count == 0) return 0;
+  SettledSpot light[kPairedLights];
+  for (size_t i = 0; i < list.size(); ++i) light[i] = settled_spot(list[i]);
+  SettledCodes codes[kRegionBlockCount];
+  VF facing2[kRegionBlockCount];
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    codes[k].clear();
+    if (in.open[k] != 0) facing2[k] = twice_facing(in.px[k]);
+  }
+  for (size_t k = 0; k < kTogether; ++k) pair[count + k] = pair[count - 1] & ~kPairPixels;
+  size_t left = 0;
+  for (size_t first = 0; first < count; first += kTogether) {
+    PhongPairs<kTogether> some;
+    uint32_t word[kTogether];
+    SettledCodes* out[kTogether];
+    for (size_t k = 0; k < kTogether; ++k) {
+      word[k] = pair[first + k];
+      const size_t block = pair_block(word[k]);
+      out[k] = codes + block;
+      some.px[k] = in.px + block, some.facing2[k] = facing2 + block, some.light[k] = light + pair_light(word[k]);
+      some.open[k] = pair_pixels(word[k]);
+    }
+    some.template settle<kCone>(terms, out);
+    for (size_t k = 0; k < kTogether; ++k) {
+      const auto pixels = uint32_t(mask_bits(some.open[k]));
+      pair[left] = (word[k] & ~kPairPixels) | pixels;
+      left += pixels != 0;
+    }
+  }
+  for (size_t k = 0; k < kRegionBlockCount; ++k)
+    if (in.open[k] != 0) in.sum[k].add_codes(codes[k], false);
+  return left;
+}
+
+/// Pairs one after the other, by the terms themselves.
+template <class Shape, class Sum>
+HWY_NOINLINE void add_open_pairs(const LightTerms<Shape>& terms, std::span<const ListedLight> list,
+                                 const uint32_t* pair, size_t count, RegionPixels<Sum>& in) {
+  for (size_t k = 0; k < count; ++k) {
+    const PixelVector& px = in.px[pair_block(pair[k])];
+    LightTerm term = terms(px, *list[pair_light(pair[k])].light);
+    term.adds = hn::And(term.adds, pair_pixels(pair[k]));
+    term.lit = hn::And(term.lit, pair_pixels(pair[k]));
+    add_term(terms, px, term, in.sum[pair_block(pair[k])]);
+  }
 }
 
 // Adds the lights of a list, all of one kind that has a place, at most kPairedLights; returns the pairs computed.
@@ -270,6 +323,14 @@ size_t add_placed_lights(const LightTerms<Shape>& terms, const TileLights& light
     }
   }
   pairs = test_pairs(terms, in.px, list.data(), torn, torn_pairs, pair, pairs);
+  if constexpr (settles_phong<Shape>()) {
+    size_t open_pairs = pairs;
+    if constexpr (Sum::kAddsCodes)
+      open_pairs = list[0].light->kind == LightKind::coned ? settle_phong_pairs<true>(terms, list, pair, pairs, in)
+                                                           : settle_phong_pairs<false>(terms, list, pair, pairs, in);
+    add_open_pairs(terms, list, pair, open_pairs, in);
+    return pairs;
+  }
   if constexpr (settles_codes<Shape>() && Sum::kAddsCodes) {
     if (in.settles) {
       const size_t open_pairs = settle_pairs(terms, list, pair, pairs, in);

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+
 #include "shading/light_term-inl.h"
 #include "shading/regions-inl.h"
 #include "shading/tile_lights.h"
@@ -29,31 +31,33 @@ static_assert(kCodesAtOnce * 511 < 65536);
 /// A light as its codes are estimated: one cache line.
 struct alignas(64) SettledLight {
   float position[3], cut2;
-  float half_share;  ///< 0.5 / range
   float color[3];    ///< times 255 / 512
-  int32_t bias[3];   ///< 2 + 1 / 512 + e / 2^22, a float
-  int32_t clear[3];  ///< bits of t, one of which is set where no border is near; 0: nothing is settled
+  float half_share;  ///< 0.5 / range
+  int32_t bias[4];   ///< 2 + 1 / 512 + e / 2^22, a float
+  int32_t clear[4];  ///< bits of t, one of which is set where no border is near; 0: nothing is settled
 };
 
 /// The least e, a power of two from 2 on, for a light of each colour up to these over plain_surfaces(): section 17.
 constexpr float kWindowColors[] = {0.23f, 0.54f, 1.15f, 1.9f};
 
-inline SettledLight settled_light(const ListedLight& listed) {
-  const LightRow& row = *listed.light;
-  SettledLight out;
-  for (int c = 0; c < 3; ++c) out.position[c] = listed.position[c];
-  out.cut2 = listed.cut2;
-  out.half_share = 0.5f / row.range;
-  const bool plain = listed.cut2 <= 0x1p100f;
-  for (int c = 0; c < 3; ++c) {  // without branches: lights' colours are not foreseen
-    const float color = row.color[c];
-    const int window = 2 << (int(color > kWindowColors[0]) + int(color > kWindowColors[1]) + int(color > kWindowColors[2]));
-    const bool bounded = plain & (color >= 0.0f) & (color <= kWindowColors[3]);
-    out.color[c] = color * (255.0f / 512.0f);
-    out.bias[c] = (1 << 30) + (1 << (kBelowCode - 1)) + window;
-    out.clear[c] = -int(bounded) & ((1 << kBelowCode) - 2 * window);
-  }
-  return out;
+// The three channels as lanes.
+HWY_INLINE void make_settled_light(const ListedLight& listed, SettledLight& out) {
+  static_assert(offsetof(LightRow, range) == offsetof(LightRow, color) + 3 * sizeof(float) &&
+                offsetof(ListedLight, cut2) == offsetof(ListedLight, position) + 3 * sizeof(float));
+  const hn::CappedTag<float, 4> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const auto color = hn::LoadU(d, listed.light->color);
+  auto window = hn::Set(di, 2);
+  for (int k = 0; k < 3; ++k)
+    window = hn::IfThenElse(hn::RebindMask(di, hn::Gt(color, hn::Set(d, kWindowColors[k]))), hn::Set(di, 4 << k), window);
+  const auto bounded = hn::And(hn::And(hn::Ge(color, hn::Zero(d)), hn::Le(color, hn::Set(d, kWindowColors[3]))),
+                               hn::Le(hn::Set(d, listed.cut2), hn::Set(d, 0x1p100f)));
+  const auto clear = hn::Sub(hn::Set(di, 1 << kBelowCode), hn::Add(window, window));
+  hn::StoreU(hn::LoadU(d, listed.position), d, out.position);
+  hn::StoreU(hn::Mul(color, hn::Set(d, 255.0f / 512.0f)), d, out.color);
+  out.half_share = 0.5f / listed.light->range;
+  hn::StoreU(hn::Add(window, hn::Set(di, (1 << 30) + (1 << (kBelowCode - 1)))), di, out.bias);
+  hn::StoreU(hn::IfThenElseZero(hn::RebindMask(di, bounded), clear), di, out.clear);
 }
 
 /// Pixels whose normals and albedo are in the ranges of section 17.
@@ -70,15 +74,17 @@ HWY_INLINE MF plain_surfaces(const PixelVector& px) {
 /// Codes of a block's pixels, as the upper bits of t add up.
 struct SettledCodes {
   hn::Vec<DI> sum[3];
+  hn::Vec<DI> lit;  ///< where lights may add to pixels that they do not light: those that light each
 
-  HWY_INLINE hn::Vec<DI> lights() const { return hn::ShiftRight<16>(sum[0]); }
+  HWY_INLINE void clear() { sum[0] = sum[1] = sum[2] = lit = hn::Zero(DI()); }
+  HWY_INLINE hn::Vec<DI> lights(bool all_light) const { return all_light ? hn::ShiftRight<16>(sum[0]) : lit; }
   HWY_INLINE VF codes(int c) const { return hn::ConvertTo(DF(), hn::And(sum[c], hn::Set(DI(), 0xFFFF))); }
 };
 
 /// Whether codes of lights of this shape can be settled: Lambert with a linear window.
 template <class Shape>
 constexpr bool settles_codes() {
-  if constexpr (Shape::compiled)
+  if constexpr (Shape::compiled && kLanes == kBlockPixels)
     return Shape::shape.falloff == Falloff::linear_range && Shape::shape.order == TermOrder::factored &&
            Shape::shape.cone == Cone::none && Shape::shape.diffuse == Diffuse::clamped &&
            Shape::shape.specular == Specular::none && !Shape::shape.renormalize;
@@ -91,6 +97,14 @@ HWY_INLINE MF has_any(MF mask, hn::Vec<DI> a, hn::Vec<DI> bits) {
   return MF{_mm512_mask_test_epi32_mask(mask.raw, a.raw, bits.raw)};
 #else
   return hn::And(mask, hn::RebindMask(DF(), hn::Ne(hn::And(a, bits), hn::Zero(DI()))));
+#endif
+}
+/// Lanes of `mask` in which a > b.
+HWY_INLINE MF greater_within(MF mask, hn::Vec<DI> a, hn::Vec<DI> b) {
+#if HWY_TARGET <= HWY_AVX3
+  return MF{_mm512_mask_cmpgt_epi32_mask(mask.raw, a.raw, b.raw)};
+#else
+  return hn::And(mask, hn::RebindMask(DF(), hn::Gt(a, b)));
 #endif
 }
 /// Lanes of `mask` in which a < b.

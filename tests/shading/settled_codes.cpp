@@ -17,7 +17,7 @@ Pipeline blending_pipeline(std::string_view preset, Format target) {
   Pipeline p = *preset_pipeline(preset);
   p.width = 57, p.height = 43;
   p.target = target;
-  p.light_volumes.cull_face = CullFace::none;
+  p.light_volumes.cull_face = CullFace::front;  // once, wherever the camera is
   return p;
 }
 
@@ -53,7 +53,8 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
   const auto with_albedo = [&](const glm::vec3& albedo, Format target, const Execution& e) {
     for (int k = 0; k < 3; ++k) std::fill(scene.meshes[0].color[k].begin(), scene.meshes[0].color[k].end(), albedo[k]);
     Pipeline p = blending_pipeline(preset, target);
-    p.gbuffer.albedo.format = Format::rgba32f;
+    for (PlaneState* plane : {&p.gbuffer.position, &p.gbuffer.normal, &p.gbuffer.albedo})
+      plane->format = Format::rgba32f;
     return render_frame(scene, p, e).color;
   };
   const Image one = with_albedo(glm::vec3(1.0f), Format::rgba32f, {});
@@ -75,10 +76,9 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
         high += terms.code(x, y, k) == uint32_t(code[k]) + 1;
       }
   INFO(low << " below, " << high << " above");
-  CHECK(low + high == 3 * terms.width * terms.height);
   for (const std::string_view simd : simd_targets())
     CHECK(image_hash(with_albedo(albedo, Format::rgba8, {.simd = simd})) == image_hash(terms));
-  return low > 0 && high > 0;
+  return low > 0 && high > 0 && low + high > terms.width * terms.height;  // a highlight may vary by more
 }
 
 Light far_light(Random& random, double brightest) {
@@ -87,6 +87,19 @@ Light far_light(Random& random, double brightest) {
   const glm::vec3 at = light.position;
   light.range = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z) * between(random, 1.2, 4.0);
   light.color = glm::vec3(between(random, 0.2, brightest), between(random, 0.2, brightest), between(random, 0.2, brightest));
+  return light;
+}
+
+// In the highlight or beside it; the sheet in the cone, in its penumbra or where a point shines.
+Light phong_light(Random& random) {
+  Light light = far_light(random, 0.95);
+  if (random() % 2 == 0) light.position.x += light.position.z * between(random, 0, 0.6);
+  light.range = 3.0f * light.position.z;
+  if (random() % 4 == 0) return light;
+  light.type = LightType::spot;
+  light.cone_rad = 0.45f, light.penumbra_rad = 0.2f;
+  const double away = between(random, 0, 0.58) + std::atan2(double(light.position.x), double(light.position.z));
+  light.direction = glm::vec3(float(-std::sin(away)), 0.0f, float(-std::cos(away)));
   return light;
 }
 
@@ -113,7 +126,7 @@ TEST_CASE("Codes of lights that bounds settle are those of their terms, and so a
     if (i % 4 == 3)
       for (size_t v = 0; v < mesh.color[0].size(); v += 7) mesh.color[random() % 3][v] = between(random, -2, 8);
     constexpr Format kTargets[] = {Format::rgba8, Format::rgba8, Format::rgb10_a2, Format::rgba16f};
-    Pipeline p = blending_pipeline("light-volumes", kTargets[i % 4]);
+    Pipeline p = blending_pipeline(i % 8 < 4 ? "light-volumes" : "redsdk", kTargets[i % 4]);
     if (i % 2 == 1) p.gbuffer.albedo.format = Format::rgba32f;
     check_ways(scene, p);
   }
@@ -125,6 +138,7 @@ TEST_CASE("So are codes of terms that lie on the edge between two of them, all o
   for (int i = 0; i < 200; ++i) {
     INFO("light " << i);
     crossed += check_edges(random, "light-volumes", far_light(random, i % 2 == 0 ? 1.1 : 1.8), sheet(random));
+    crossed += check_edges(random, "redsdk", phong_light(random), sheet(random));
   }
-  CHECK(crossed > 100);
+  CHECK(crossed > 200);
 }
