@@ -9,6 +9,13 @@
 namespace trueshade {
 namespace {
 
+/// RN(code / 255).
+constexpr std::array<float, 256> kOfCode = [] {
+  std::array<float, 256> values{};
+  for (size_t code = 0; code < values.size(); ++code) values[code] = float(code) / 255.0f;
+  return values;
+}();
+
 template <typename Code, typename Value>
 void read_codes(const Image& image, int y, int channels, const Value& value, float* out) {
   const int step = info(image.format).channels;
@@ -39,8 +46,8 @@ void read_row(const Image& image, int y, int channels, float* out) {
     return read_codes<uint16_t>(
         image, y, channels, [](uint16_t half, int) { return float_from_half(half); }, out);
   if (layout.bytes_per_channel == 1 && !layout.srgb) {
-    const auto unorm = [](uint8_t code, int) { return float(code) / 255.0f; };
-    return read_codes<uint8_t>(image, y, channels, unorm, out);
+    return read_codes<uint8_t>(
+        image, y, channels, [](uint8_t code, int) { return kOfCode[code]; }, out);
   }
   for (int x = 0; x < image.width; ++x)
     for (int c = 0; c < channels; ++c) out[channels * x + c] = float(image.value(x, y, c));

@@ -12,6 +12,7 @@
 #include "core/llvmpipe_srgb.h"
 #include "core/numeric_profile.h"
 #include "core/srgb.h"
+#include "core/srgb_codes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -33,16 +34,21 @@ HWY_INLINE VF clamped_unit(VF x) {
 HWY_INLINE VF unorm_code(VF x, float largest) { return hn::Round(hn::Mul(clamped_unit(x), hn::Set(DF(), largest))); }
 HWY_INLINE VF unorm8_code(VF x) { return unorm_code(x, 255.0f); }
 
-/// The nearest sRGB code of a linear value: how many codes begin at or below it. NaN gives 0.
+/// The nearest sRGB code of a linear value: srgb8_code_of(). NaN gives 0.
 HWY_INLINE VF srgb8_code(VF x) {
+  using Table = SrgbCodeTable;
   const DF d;
   const DI di;
-  auto code = hn::Zero(di);
-  for (int step = 128; step > 0; step /= 2) {
-    const VF start = hn::GatherIndex(d, kSrgbCodeFloats.data(), hn::Add(code, hn::Set(di, step - 1)));
-    code = hn::Add(code, hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(x, start)), hn::Set(di, step)));
-  }
-  return hn::ConvertTo(d, code);
+  const auto bits = hn::BitCast(di, x);
+  const auto above = hn::Ge(x, hn::Set(d, 1.0f)), in_table = hn::AndNot(above, hn::Ge(x, hn::Set(d, 0x1p-13f)));
+  const auto index = hn::ShiftRight<Table::kShift>(hn::Sub(bits, hn::Set(di, int32_t(Table::kLeast))));
+  const auto element =
+      hn::GatherIndex(di, kSrgbCodeTable.element.data(), hn::IfThenElseZero(hn::RebindMask(di, in_table), index));
+  const auto low = hn::And(bits, hn::Set(di, int32_t(Table::kLow)));
+  const auto next = hn::Not(hn::Lt(low, hn::And(element, hn::Set(di, int32_t(Table::kRest)))));
+  const auto code = hn::Add(hn::ShiftRight<Table::kCode>(element), hn::IfThenElseZero(next, hn::Set(di, 1)));
+  const VF inside = hn::IfThenElseZero(in_table, hn::ConvertTo(d, code));
+  return hn::IfThenElse(above, hn::Set(d, 255.0f), inside);
 }
 
 /// llvmpipe's code of a linear value: the one after the last step at or below it. NaN gives 0.

@@ -82,6 +82,7 @@ struct BlendPlan {
   std::array<bool, 4> written;    ///< by channel: the format has it, and the mask lets it through
   std::array<float, 4> constant;  ///< as equations read it: clamped for unorm, or in codes
   bool wide = false;              ///< codes of 16 bits for those of 10 and 2
+  bool sums_values = false;       ///< R, G and B: the source's values and the pixels', and nothing else
 
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
@@ -131,6 +132,8 @@ inline BlendPlan blend_plan(const BlendState& state, const BlendTarget& target) 
     group->drop_source = term.src == BlendFactor::zero;
     group->drop_destination = term.dst == BlendFactor::zero;
   }
+  plan.sums_values =
+      plan.enabled && target.profile == NumericProfile::ideal && plan.rgb.term == kAccumulate && !plan.adds_codes(0);
   if (target.profile == NumericProfile::ideal) return plan;
   plan.flushes = target.format == Format::rgba32f;  // llvmpipe turns flushing off for targets of small floats
   // llvmpipe works on whole RGBA vectors: it leaves a product out, or factors, only where both groups allow it.
@@ -218,6 +221,16 @@ HWY_INLINE VF encoded_alone(const BlendPlan& plan, VF x, int c) {
   if (plan.layout.srgb_channel(c) && plan.target.profile != NumericProfile::ideal) return llvmpipe_srgb8_code(x);
   const VF held = encoded(x, plan.target.format, c, plan.target.half_round);
   return plan.unorm() ? held : hn::IfThenElse(hn::Eq(held, held), held, one_nan());
+}
+
+/// blend_vectors() of channel c below 3 where the plan sums values.
+HWY_INLINE VF summed_values(const BlendPlan& plan, VF source, VF stored, int c) {
+  if (!plan.unorm()) {
+    const VF sum = encoded(hn::Add(source, stored), plan.target.format, c, plan.target.half_round);
+    return hn::IfThenElse(hn::Eq(sum, sum), sum, one_nan());
+  }
+  const VF held = decoded(stored, plan.target.format, c, NumericProfile::ideal);
+  return encoded(hn::Add(clamped_unit(source), held), plan.target.format, c, plan.target.half_round);
 }
 
 HWY_INLINE void set_inputs(const BlendPlan& plan, const VF source[4], const VF stored[4], BlendInputs& in) {

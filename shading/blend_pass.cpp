@@ -51,7 +51,10 @@ struct AddedLight {
       VF source[4], next[4] = {stored[0], stored[1], stored[2], stored[3]};
       for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
       source[3] = hn::Zero(d);
-      blend_out_of_line(*plan, source, next);
+      if (plan->sums_values)
+        for (int c = 0; c < 3; ++c) next[c] = summed_values(*plan, source[c], stored[c], c);
+      else
+        blend_out_of_line(*plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
     }
   }

@@ -92,36 +92,40 @@ Image view_distance(const Scene& scene, const Pipeline& pipeline, int threads, c
   return out;
 }
 
-/// Lights whose falloff is not sure to be 0 in the box of positions of pixels [x0, x1), by the test of the light lists.
-uint32_t reaching_lights(const LightTable& lights, std::span<const VectorRow> rows, int x0, int x1) {
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  glm::vec3 low(kInf), high(-kInf);
+/// The box of some positions.
+struct PositionBox {
+  static constexpr float kInf = std::numeric_limits<float>::infinity();
+  glm::vec3 low{kInf}, high{-kInf};
   bool any = false;
-  for (const VectorRow& row : rows)
-    for (int x = x0; x < x1; ++x) {
-      if (row.object[size_t(x)] == 0) continue;
-      any = true;
-      const glm::vec3 p = row.at(x);
-      for (int k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], p[k]);
-        high[k] = std::max(high[k], p[k]);
+
+  /// Of the pixels [x0, x1) that have a surface.
+  PositionBox(std::span<const VectorRow> rows, int x0, int x1) {
+    for (const VectorRow& row : rows)
+      for (int x = x0; x < x1; ++x) {
+        if (row.object[size_t(x)] == 0) continue;
+        any = true;
+        const glm::vec3 p = row.at(x);
+        for (int k = 0; k < 3; ++k) {
+          low[k] = std::min(low[k], p[k]);
+          high[k] = std::max(high[k], p[k]);
+        }
       }
-    }
-  if (!any) return 0;
-  uint32_t count = 0;
-  const float* const place[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
-  const float* const cut2 = lights.cut2.data();
-  for (size_t light = 0; light < lights.size(); ++light) {
+  }
+
+  /// Whether a light's falloff is not sure to be 0 in the box, by the test of the light lists. Roundings rise with what
+  /// they round: no light reaches a box that does not reach a larger one.
+  bool reached_by(const LightTable& lights, size_t light) const {
+    if (!any) return false;
     float d2 = 0.0f;
     for (int k = 0; k < 3; ++k) {
-      const float gap = std::max(std::max(low[k] - place[k][light], place[k][light] - high[k]), 0.0f);
+      const float place = lights.position[k].data()[light];
+      const float gap = std::max(std::max(low[k] - place, place - high[k]), 0.0f);
       d2 += gap * gap;
     }
-    const bool out_of_reach = d2 * (1.0f - 0x1p-20f) >= cut2[light];
-    count += unsigned(cut2[light] == kInf) | unsigned(!out_of_reach);
+    const float cut2 = lights.cut2.data()[light];
+    return cut2 == kInf || !(d2 * (1.0f - 0x1p-20f) >= cut2);
   }
-  return count;
-}
+};
 
 Image lights_by_tile(const LightTable& lights, int threads, const Image& position, const Image& object) {
   Image out(object.width, object.height, Format::r32ui);
@@ -129,9 +133,15 @@ Image lights_by_tile(const LightTable& lights, int threads, const Image& positio
     const int bottom = out.height - tile * kLightTile;  // squares count from the window's lower left corner
     std::vector<VectorRow> rows;
     for (int y = std::max(bottom - kLightTile, 0); y < bottom; ++y) rows.emplace_back(position, object, y);
+    const PositionBox strip(rows, 0, out.width);
+    std::vector<size_t> near;
+    for (size_t light = 0; light < lights.size(); ++light)
+      if (strip.reached_by(lights, light)) near.push_back(light);
     for (int x = 0; x < out.width; x += kLightTile) {
       const int end = std::min(x + kLightTile, out.width);
-      const uint32_t count = reaching_lights(lights, rows, x, end);
+      const PositionBox square(rows, x, end);
+      uint32_t count = 0;
+      for (const size_t light : near) count += square.reached_by(lights, light) ? 1 : 0;
       for (int y = bottom - int(rows.size()); y < bottom; ++y) {
         const TexelRow<uint32_t> texels(out, y);
         for (int px = x; px < end; ++px) texels.put(px, count);

@@ -59,7 +59,8 @@ Image overlay(const Scene& over, const Pipeline& pipeline, const Execution& exec
       VisibilityTile visible;
       std::fill(std::begin(visible.depth), std::end(visible.depth), 0.0f);  // beyond the image nothing is drawn
       load(instances > kInstances ? after : depth, rect, visible.depth);
-      load(object, rect, visible.id);
+      std::fill(std::begin(visible.id), std::end(visible.id), 0u);
+      if (first > 0) load(object, rect, visible.id);
       draw_placed(placed, view, state, i, execution.geometry_culling, execution.fast_geometry, visible);
       store(visible.id, rect, object);
       if (instances > kInstances) store(visible.depth, rect, after);

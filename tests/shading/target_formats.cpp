@@ -54,6 +54,35 @@ TEST_CASE("A frame in any format is the rgba32f frame rounded once, texel by tex
   }
 }
 
+TEST_CASE(
+    "Light added to a target of any format is what blending leaves that writes alpha too, which is computed in "
+    "general") {
+  const Scene scene = builtin_scene("sphere,lights=40");
+  const PreparedScene prepared(scene);
+  for (const char* preset : {"light-volumes", "redsdk"})
+    for (const HalfRound round : {HalfRound::toward_zero, HalfRound::nearest})
+      for (const Format format : kTargetFormats)
+        for (const std::string_view simd : simd_targets()) {
+          Pipeline p = *preset_pipeline(preset);
+          p.width = 61, p.height = 47;
+          p.target = format;
+          p.gbuffer.half_round = round;
+          p.blend = kAddLight;
+          Execution execution;
+          execution.simd = simd;
+          const Image added = render_frame(prepared, p, execution).color;
+          p.blend.mask[3] = true;
+          p.blend.alpha = {BlendEquation::add, BlendFactor::zero, BlendFactor::one};
+          const Image blended = render_frame(prepared, p, execution).color;
+          CAPTURE(preset, info(format).name, int(round), simd);
+          int unlike = 0;
+          for (int y = 0; y < p.height; ++y)
+            for (int x = 0; x < p.width; ++x)
+              for (int c = 0; c < 3; ++c) unlike += added.code(x, y, c) != blended.code(x, y, c);
+          CHECK(unlike == 0);
+        }
+}
+
 TEST_CASE("Normals in rgb10_a2 are (n + 1) / 2, rounded to 10 bits, and light sees them so") {
   const Scene scene = builtin_scene("sphere,lights=20");
   Pipeline p = *preset_pipeline("many-lights");
