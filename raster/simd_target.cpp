@@ -54,7 +54,7 @@ SimdScope::SimdScope(std::string_view name) : chosen_(name != "best") {
 SimdScope::~SimdScope() {
   if (!chosen_) return;
   hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  hwy::GetChosenTarget().Update(runnable());  // not asked of the CPU again: CPUID leaves a virtual machine
 }
 
 }  // namespace trueshade

@@ -3,6 +3,7 @@
 
 #include "oracle/intervals/glass_mutants.h"
 #include "oracle/intervals/profile.h"
+#include "tests/intervals/tries.h"
 
 namespace trueshade::testing {
 
@@ -17,6 +18,6 @@ struct GlassRenderer {
 /// under each profile, judged object by object and by the last image alone; wrong ones be rejected on two scenes by each
 /// profile. A wrong one is judged object by object too where the last image does not reject it, and under deferred-loop,
 /// and must be rejected so. Prints the counts.
-void try_glass_mutants(std::span<const oracle::Profile> profiles, const GlassRenderer& renderer);
+void try_glass_mutants(std::span<const oracle::Profile> profiles, const GlassRenderer& renderer, Tries tries);
 
 }  // namespace trueshade::testing

@@ -8,13 +8,20 @@
 using namespace trueshade;
 using namespace trueshade::oracle;
 
-TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") {
+namespace {
+
+void try_ours(testing::Tries tries) {
   std::vector<Profile> profiles;
   for (const char* name : {"ideal", "d3d-class", "unknown"}) {
     profiles.push_back(*profile_named(name));
     profiles.back().subpixel_bits = 8;
   }
   const Renderer renderer = [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); };
-  testing::try_mutants(profiles, renderer, 2, {}, {});
+  testing::try_mutants(profiles, renderer, 2, {}, {}, tries);
   CHECK(mutants().size() == 57);
 }
+
+}  // namespace
+
+TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") { try_ours(testing::Tries::half); }
+TEST_CASE("Wrong renderers are rejected on every picture where they leave the legal sets", "[long]") { try_ours(testing::Tries::all); }

@@ -2,8 +2,10 @@
 #include "tests/catch.hpp"
 #include <cstdio>
 #include <map>
+#include <optional>
 
 #include "oracle/gl/renderer.h"
+#include "oracle/intervals/blend_mutants.h"
 #include "oracle/intervals/glass_mutants.h"
 #include "oracle/intervals/surface_mutants.h"
 #include "oracle/intervals/validate.h"
@@ -18,15 +20,25 @@ using testing::opened;
 
 namespace {
 
-/// Steps of lights drawn one by one; nothing for strategies that sum them.
-LightSteps steps_of(GlRenderer& renderer, const Pipeline& pipeline) {
-  if (!blends_lights(pipeline.strategy)) return {};
-  return [&renderer, pipeline](const StepSink& sink) {
+/// A picture, its target after each light where lights are drawn one by one, and after each transparent object.
+struct Watched {
+  Watched(GlRenderer& renderer, const Pipeline& pipeline) {
     GlDraw draw;
-    draw.after_light = sink;
-    renderer.draw(pipeline, draw);
-  };
-}
+    if (blends_lights(pipeline.strategy)) draw.after_light = [this](int, const Image& target) { after_light.push_back(target); };
+    draw.after_object = [this](int i, const Image& target) { after_object.emplace_back(i, target); };
+    capture = renderer.draw(pipeline, draw).capture;
+    if (draw.after_light) lights = steps_from(after_light);
+    objects = [this](const StepSink& sink) {
+      for (const auto& [i, target] : after_object) sink(i, target);
+    };
+  }
+  Watched(const Watched&) = delete;
+
+  Capture capture;
+  std::vector<Image> after_light;
+  std::vector<std::pair<int, Image>> after_object;
+  LightSteps lights, objects;  ///< lights: nothing for strategies that sum them
+};
 
 /// Pixels that show another surface or branch, and how many were predicted at most, over many frames.
 struct Others {
@@ -38,12 +50,12 @@ struct Others {
 void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& scene, const Pipeline& pipeline,
                  std::map<std::string, Others>& others) {
   const bool known = context.info().line().find("Mesa 22.3") != std::string::npos;
-  const Capture capture = renderer.draw(pipeline).capture;
+  const Watched drawn(renderer, pipeline);
   for (const char* profile_name : {"unknown", "mesa-llvmpipe-22.3"}) {
     Profile profile = *profile_named(profile_name);
     if (profile.name == "unknown") profile.subpixel_bits = context.info().subpixel_bits;
     if (profile.name != "unknown" && !known) continue;
-    const Verdict v = validate_capture(scene, pipeline, capture, {profile, false, steps_of(renderer, pipeline)});
+    const Verdict v = validate_capture(scene, pipeline, drawn.capture, {profile, false, drawn.lights});
     CAPTURE(scene.spec, pipeline.preset, name_of(pipeline.strategy), profile_name);
     if (v.violations() > 0) UNSCOPED_INFO(verdict_json(v));
     CHECK(v.violations() == 0);
@@ -111,20 +123,15 @@ TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explai
         add_glass(scene);
         add_bumps(scene, pipeline);
         GlRenderer renderer(*context, scene);
-        const Capture capture = renderer.draw(pipeline).capture;
-        const LightSteps objects = [&](const StepSink& sink) {
-          GlDraw draw;
-          draw.after_object = sink;
-          renderer.draw(pipeline, draw);
-        };
+        const Watched drawn(renderer, pipeline);
         for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
           Profile profile = *profile_named(name);
           if (profile.name == "unknown") profile.subpixel_bits = context->info().subpixel_bits;
           if (profile.name != "unknown" && !known) continue;
           for (const bool watched : {true, false}) {
             const Verdict v = validate_capture(
-                scene, pipeline, capture,
-                {profile, false, watched ? steps_of(renderer, pipeline) : LightSteps{}, watched ? objects : LightSteps{}});
+                scene, pipeline, drawn.capture,
+                {profile, false, watched ? drawn.lights : LightSteps{}, watched ? drawn.objects : LightSteps{}});
             CAPTURE(preset.name, name_of(pipeline.strategy), kTransparencyNames[size_t(mode)], name, watched);
             if (v.violations() > 0) UNSCOPED_INFO(verdict_json(v));
             CHECK(v.violations() == 0);
@@ -159,9 +166,9 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
         pipeline.blend.constant = {0.75f, 0.5f, 0.25f, 0.5f};
         pipeline.blend.mask[3] = true;
       }
-      Capture capture;
+      std::optional<Watched> drawn;
       try {
-        capture = renderer.draw(pipeline).capture;
+        drawn.emplace(renderer, pipeline);
       } catch (const std::runtime_error&) {
         continue;  // a format this driver does not render to
       }
@@ -170,14 +177,14 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
         if (name != std::string_view("unknown") && !known) continue;
         Profile profile = *profile_named(name);
         profile.subpixel_bits = 8;
-        const StageVerdict v = judge_blending(scene, pipeline, profile, capture, steps_of(renderer, pipeline));
+        const StageVerdict v = judge_blending(scene, pipeline, profile, drawn->capture, drawn->lights);
         CAPTURE(info(target).name, name, i, int(pipeline.blend.rgb.equation), int(pipeline.blend.rgb.src), int(pipeline.blend.rgb.dst),
                 int(pipeline.blend.alpha.equation), int(pipeline.blend.alpha.src), int(pipeline.blend.alpha.dst));
         if (v.worst.size() > 0)
           UNSCOPED_INFO(v.worst[0].x << ',' << v.worst[0].y << ' ' << v.worst[0].plane << ' ' << v.worst[0].low << ".." << v.worst[0].high << " given "
                                      << v.worst[0].given << ' ' << v.worst[0].note);
         CHECK(v.passes());
-        CHECK(judge_lighting(scene, pipeline, profile, capture).passes());
+        CHECK(judge_lighting(scene, pipeline, profile, drawn->capture).passes());
       }
     }
   CHECK(judged >= 36);
@@ -188,6 +195,7 @@ TEST_CASE("What llvmpipe clears is explained in every target format, whatever th
   if (context == nullptr) return;
   const bool known = context->info().line().find("Mesa 22.3") != std::string::npos;
   Pcg32 random(7);
+  KeptPrograms programs;
   for (const Format target : kTargetFormats)
     for (int i = 0; i < 12; ++i) {
       Scene scene = builtin_scene("city,lights=3");
@@ -196,15 +204,15 @@ TEST_CASE("What llvmpipe clears is explained in every target format, whatever th
       pipeline.width = 24, pipeline.height = 18;
       pipeline.target = target;
       pipeline.strategy = i % 2 == 0 ? Strategy::deferred_loop : Strategy::deferred_volumes;
-      GlRenderer renderer(*context, scene);
-      const Capture capture = renderer.draw(pipeline).capture;
+      GlRenderer renderer(*context, scene, 0, &programs);
+      const Watched drawn(renderer, pipeline);
       for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
         if (name != std::string_view("unknown") && !known) continue;
         Profile profile = *profile_named(name);
         profile.subpixel_bits = 8;
         CAPTURE(info(target).name, name, i);
-        CHECK(judge_lighting(scene, pipeline, profile, capture).passes());
-        if (i % 2 == 1) CHECK(judge_blending(scene, pipeline, profile, capture, steps_of(renderer, pipeline)).passes());
+        CHECK(judge_lighting(scene, pipeline, profile, drawn.capture).passes());
+        if (i % 2 == 1) CHECK(judge_blending(scene, pipeline, profile, drawn.capture, drawn.lights).passes());
       }
     }
 }

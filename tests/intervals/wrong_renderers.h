@@ -5,6 +5,7 @@
 
 #include "oracle/intervals/mutants.h"
 #include "oracle/intervals/profile.h"
+#include "tests/intervals/tries.h"
 
 namespace trueshade::testing {
 
@@ -22,7 +23,8 @@ struct MutantScore {
 ///   presets: how many of presets() are tried on every scene; on cornell all are
 ///   same: those that change no picture here
 ///   inside: those whose pictures are all legal here, beside those of Latitude::always_legal
+///   tries: half leaves out none of those that a profile's latitude may make legal
 void try_mutants(std::span<const oracle::Profile> profiles, const oracle::Renderer& renderer, size_t presets,
-                 std::span<const std::string_view> same, std::span<const std::string_view> inside);
+                 std::span<const std::string_view> same, std::span<const std::string_view> inside, Tries tries);
 
 }  // namespace trueshade::testing
