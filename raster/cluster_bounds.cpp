@@ -28,6 +28,7 @@ struct ClipRow {
   VWF slack;            ///< more than what rounding, of the vertex stage and here, may move it by
 
   HWY_INLINE ClipRow(const VWF row[4], const VWF center[3], const VWF half_size[3]) {
+    const DWF d;
     middle = row[3];
     VWF magnitude = hn::Abs(row[3]);
     for (int i = 0; i < 3; ++i) {
