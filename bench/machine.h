@@ -7,7 +7,7 @@ namespace trueshade {
 struct Machine {
   std::string cpu;       ///< as the system names it
   int cores = 0;         ///< that this process may use
-  double clock_ghz = 0;  ///< measured: dependent additions a nanosecond, one a cycle on every CPU in use
+  double clock_ghz = 0;  ///< measured: dependent multiplications a nanosecond, of three cycles each
 };
 
 Machine this_machine();

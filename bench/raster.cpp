@@ -3,7 +3,9 @@
 //   reject     a triangle transformed and found to cover nothing: sub-pixel ones, mostly between samples
 //   small      a fragment of triangles of a few samples
 //   large      a 4x4 block of triangles over whole tiles
-//   resolve    a pixel that sees one large triangle, or one of its own
+//   masked     a fragment whose colour map says by its alpha whether it is drawn
+//   clipped    a 4x4 block of triangles that cross the near plane, by wide edges
+//   resolve    a pixel that sees one large triangle, or one of its own; mapped: with colour, specular and normal maps
 // `general`: by the paths that the fast ones are held against.
 #include <benchmark/benchmark.h>
 
@@ -25,8 +27,27 @@ namespace {
 
 constexpr int kSize = 64;  // one tile
 
+enum class Grid { plain, masked, mapped, clipped };
+
+// One picture for all maps: normals nearly upright, half of the texels too thin for the mask.
+void use_maps(Scene& scene, bool mask) {
+  constexpr int kSide = 64;
+  Texture texture{"", TextureFormat::rgba8, {{kSide, kSide, {}}}};
+  for (int i = 0; i < kSide * kSide; ++i)
+    append_texel(texture.format, {0.5f, 0.5f, 1.0f, i / 4 % 2 == 0 ? 1.0f : 0.2f}, texture.levels[0].bytes);
+  build_mip_chain(texture);
+  scene.textures.push_back(std::move(texture));
+  Material& material = scene.materials[0];
+  material.color_map.texture = 0;
+  if (mask) {
+    material.alpha_cutoff = 0.5f;
+  } else {
+    material.normal_map.texture = material.specular_map.texture = 0;
+  }
+}
+
 // A square grid over the tile, tilted in depth, of `side` x `side` quads.
-Scene grid_scene(int side) {
+Scene grid_scene(int side, Grid kind) {
   Scene scene;
   scene.materials.resize(1);
   scene.instances.resize(1);
@@ -39,6 +60,7 @@ Scene grid_scene(int side) {
         mesh.position[c].push_back(position[c]);
         mesh.normal[c].push_back(c == 2 ? 1.0f : 0.0f);
       }
+      mesh.uv[0].push_back(float(x) / float(side)), mesh.uv[1].push_back(float(y) / float(side));
     }
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
@@ -48,6 +70,10 @@ Scene grid_scene(int side) {
     }
   scene.meshes.push_back(std::move(mesh));
   scene.camera.clip_from_world = std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1};
+  // The lower left corner lies before the near plane.
+  if (kind == Grid::clipped) (*scene.camera.clip_from_world)[14] = -1.001f;
+  if (kind == Grid::clipped) (*scene.camera.clip_from_world)[10] = 4.0f;
+  if (kind == Grid::masked || kind == Grid::mapped) use_maps(scene, kind == Grid::masked);
   return scene;
 }
 
@@ -62,8 +88,9 @@ struct OneTile {
   std::unique_ptr<VisibleVertices> work = std::make_unique<VisibleVertices>();
   RasterCounts counts;
 
-  explicit OneTile(int side) : scene(grid_scene(side)), clusters(cluster_scene(scene)) {
+  explicit OneTile(int side, Grid kind = Grid::plain) : scene(grid_scene(side, kind)), clusters(cluster_scene(scene)) {
     pipeline.width = pipeline.height = kSize;
+    pipeline.light_model.specular_source = SpecularSource::material;  // reads the specular map
     view = make_view(scene, pipeline);
     bin();
   }
@@ -74,7 +101,7 @@ struct OneTile {
   void draw(bool fast) { draw_visibility(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, true, *visible, counts); }
   void resolve(bool fast) {
     resolve_surfaces(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, pipeline.gbuffer, pipeline.light_model, *visible,
-                     false, *work, *surface);
+                     view.maps.textured(), *work, *surface);
   }
 };
 
@@ -100,13 +127,18 @@ void small(benchmark::State& state, bool fast) {
   time(state, kSize * kSize, [&] { tile.draw(fast); });
 }
 
-void large(benchmark::State& state, bool fast) {
-  OneTile tile(1);
+void masked(benchmark::State& state, bool fast) {
+  OneTile tile(48, Grid::masked);
+  time(state, kSize * kSize, [&] { tile.draw(fast); });
+}
+
+void large(benchmark::State& state, Grid kind, bool fast) {
+  OneTile tile(1, kind);
   time(state, kSize * kSize / kBlockPixels, [&] { tile.draw(fast); });
 }
 
-void resolve(benchmark::State& state, int side, bool fast) {
-  OneTile tile(side);
+void resolve(benchmark::State& state, int side, Grid kind, bool fast) {
+  OneTile tile(side, kind);
   tile.draw(fast);
   time(state, kSize * kSize, [&] { tile.resolve(fast); });
 }
@@ -119,9 +151,15 @@ int main(int argc, char** argv) {
     const std::string how = fast ? "" : " (general)";
     benchmark::RegisterBenchmark(("reject, a triangle" + how).c_str(), [=](auto& s) { reject(s, fast); });
     benchmark::RegisterBenchmark(("small, a fragment" + how).c_str(), [=](auto& s) { small(s, fast); });
-    benchmark::RegisterBenchmark(("large, a block" + how).c_str(), [=](auto& s) { large(s, fast); });
-    benchmark::RegisterBenchmark(("resolve large, a pixel" + how).c_str(), [=](auto& s) { resolve(s, 4, fast); });
-    benchmark::RegisterBenchmark(("resolve small, a pixel" + how).c_str(), [=](auto& s) { resolve(s, 64, fast); });
+    benchmark::RegisterBenchmark(("large, a block" + how).c_str(), [=](auto& s) { large(s, Grid::plain, fast); });
+    benchmark::RegisterBenchmark(("clipped, a block" + how).c_str(), [=](auto& s) { large(s, Grid::clipped, fast); });
+    benchmark::RegisterBenchmark(("masked, a fragment" + how).c_str(), [=](auto& s) { masked(s, fast); });
+    benchmark::RegisterBenchmark(("resolve large, a pixel" + how).c_str(),
+                                 [=](auto& s) { resolve(s, 4, Grid::plain, fast); });
+    benchmark::RegisterBenchmark(("resolve small, a pixel" + how).c_str(),
+                                 [=](auto& s) { resolve(s, 64, Grid::plain, fast); });
+    benchmark::RegisterBenchmark(("resolve mapped, a pixel" + how).c_str(),
+                                 [=](auto& s) { resolve(s, 4, Grid::mapped, fast); });
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -22,7 +22,9 @@ std::string against_peers(const SceneTime& s) {
   std::vector<Bar> bars{{"trueshade", s.timing.median(), number(s.timing.median(), "%.2f ms"), true}};
   for (const PeerTime& peer : s.peers)
     bars.push_back({peer.name + ' ' + peer.strategy, peer.timing.median(),
-                    number(peer.timing.median(), "%.1f ms") + number(s.ratio(peer), ", %.1fx"), false});
+                    number(peer.timing.median(), "%.1f ms") + number(s.ratio(peer), ", %.1fx") +
+                        (peer.picture && !peer.picture->right() ? ", another picture" : ""),
+                    false});
   return card(s.scene + ", " + std::to_string(s.pipeline.width) + " x " + std::to_string(s.pipeline.height),
               bar_chart(bars));
 }

@@ -157,7 +157,8 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
           " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " + rate_text(s) +
           "; modelled floor " + number(floor_ms(s, bench), "%.2f") + " ms, " +
           number(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
-  text += "  " + std::to_string(f.triangles_tested) + " of " + std::to_string(f.triangles) + " triangles set up, " +
+  text += "  " + std::to_string(f.triangles) + " triangles submitted, " + std::to_string(f.triangles_tested) +
+          " set up over all tiles, " +
           std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) + " pixels covered; " +
           std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +

@@ -80,9 +80,9 @@ NumericProfile profile_from_text(const std::string& text) {
   return *profile;
 }
 
-ImageView view_from_text(const std::string& text) {
+ImageView view_from_text(const std::string& option, const std::string& text) {
   const std::optional<ImageView> view = view_from_name(text);
-  if (!view) throw usage("--view", "there is no view '" + text + "'", "one of: " + joined(kViewNames));
+  if (!view) throw usage(option, "there is no view '" + text + "'", "one of: " + joined(kViewNames));
   return *view;
 }
 
@@ -92,31 +92,31 @@ std::vector<std::string_view> target_names() {
   return names;
 }
 
-Format target_from_text(const std::string& text) {
+Format target_from_text(const std::string& option, const std::string& text) {
   const std::optional<Format> format = format_from_name(text);
   if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
-    throw usage("--target", "there is no target '" + text + "'", "one of: " + joined(target_names()));
+    throw usage(option, "there is no target '" + text + "'", "one of: " + joined(target_names()));
   return *format;
 }
 
-Strategy strategy_from_text(const std::string& text) {
+Strategy strategy_from_text(const std::string& option, const std::string& text) {
   const auto name = std::find(std::begin(kStrategyNames), std::end(kStrategyNames), text);
   if (name == std::end(kStrategyNames))
-    throw usage("--strategy", "there is no strategy '" + text + "'", "one of: " + joined(kStrategyNames));
+    throw usage(option, "there is no strategy '" + text + "'", "one of: " + joined(kStrategyNames));
   return Strategy(name - std::begin(kStrategyNames));
 }
 
 std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
 
-std::vector<std::string> aovs_from_text(const std::string& list) {
+std::vector<std::string> aovs_from_text(const std::string& option, const std::string& list) {
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
     const std::string name = list.substr(begin, end - begin);
     if (!is_aov_name(name))
-      throw usage("--aov", "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
+      throw usage(option, "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
     if (std::find(names.begin(), names.end(), name) != names.end())
-      throw usage("--aov", "plane '" + name + "' is named twice", "name it once");
+      throw usage(option, "plane '" + name + "' is named twice", "name it once");
     names.push_back(name);
     begin = end + 1;
   }
@@ -147,21 +147,21 @@ Variant variant_from_text(const std::string& text) {
   const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
   Variant v;
   if (key == "strategy") {
-    v.strategy = strategy_from_text(value);
+    v.strategy = strategy_from_text("--against strategy", value);
   } else if (key == "target") {
-    v.target = target_from_text(value);
+    v.target = target_from_text("--against target", value);
   } else if (key == "view") {
-    v.view = view_from_text(value);
+    v.view = view_from_text("--against view", value);
   } else if (key == "threads") {
     v.threads = integer_in("--against threads", value, 0, 1024);
   } else if (key == "tile") {
     v.tile = tile_from_text("--against tile", value);
   } else if (key == "simd") {
-    check_simd(v.simd = value);
+    check_simd("--against simd", v.simd = value);
   } else if (key == "aov") {
     std::string list = value;
     std::replace(list.begin(), list.end(), '+', ',');
-    v.aovs = aovs_from_text(list);
+    v.aovs = aovs_from_text("--against aov", list);
   } else {
     throw usage("--against", "nothing of ours is chosen by '" + key + "'", "any of, with commas: " + kVariantForms);
   }
@@ -173,10 +173,10 @@ void check_preset(const std::optional<std::string>& preset) {
     throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");
 }
 
-void check_simd(const std::string& name) {
+void check_simd(const std::string& option, const std::string& name) {
   const std::vector<std::string_view> simd = simd_targets();
   if (name != "best" && std::find(simd.begin(), simd.end(), name) == simd.end())
-    throw usage("--simd", "this machine has no '" + name + "'", "one of: best " + joined(simd));
+    throw usage(option, "this machine has no '" + name + "'", "one of: best " + joined(simd));
 }
 
 }  // namespace trueshade

@@ -16,11 +16,11 @@ Size size_from_text(const std::string& text);
 double time_from_text(const std::string& text);
 FrameRange frames_from_text(const std::string& text);
 NumericProfile profile_from_text(const std::string& text);
-ImageView view_from_text(const std::string& text);
-Format target_from_text(const std::string& text);
-Strategy strategy_from_text(const std::string& text);
+ImageView view_from_text(const std::string& option, const std::string& text);
+Format target_from_text(const std::string& option, const std::string& text);
+Strategy strategy_from_text(const std::string& option, const std::string& text);
 /// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
-std::vector<std::string> aovs_from_text(const std::string& list);
+std::vector<std::string> aovs_from_text(const std::string& option, const std::string& list);
 /// Names of peers: gl, embree, or ours drawn otherwise, KEY=VALUE.
 std::vector<std::string> peers_from_text(const std::string& list);
 
@@ -37,7 +37,7 @@ struct Variant {
 Variant variant_from_text(const std::string& text);
 
 void check_preset(const std::optional<std::string>& preset);
-void check_simd(const std::string& name);
+void check_simd(const std::string& option, const std::string& name);
 
 Error usage(const std::string& where, const std::string& reason, const std::string& remedy);
 

@@ -79,17 +79,17 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.frames) options.frames = frames_from_text(*texts.frames);
-  if (texts.target) options.target = target_from_text(*texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.view) options.view = view_from_text(*texts.view);
-  if (texts.aov) options.aovs = aovs_from_text(*texts.aov);
+  if (texts.view) options.view = view_from_text("--view", *texts.view);
+  if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
   options.execution.light_culling = !texts.no_light_culling;
   options.execution.count_as_gl = options.stats || options.json;
   check_preset(options.preset);
-  check_simd(options.simd);
+  check_simd("--simd", options.simd);
   validate(execution_of(options));
   check_outputs(options);
   return options;
@@ -107,7 +107,7 @@ CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::
 
 GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::string>& strategy) {
   check_preset(options.preset);
-  if (strategy) options.strategy = strategy_from_text(*strategy);
+  if (strategy) options.strategy = strategy_from_text("--strategy", *strategy);
   return options;
 }
 
@@ -148,7 +148,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
   constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
   if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
@@ -177,7 +177,8 @@ struct BenchTexts {
 };
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
-  CLI::App* bench = app.add_subcommand("bench", "Time frames, in turn with others that draw the same");
+  CLI::App* bench = app.add_subcommand(
+      "bench", "Time frames, in turn with others that draw the same: up to 15 of each, within some 2.5 s a contender");
   bench->add_option("SCENE", options.scenes, "Scenes as for render; without any builtin:city, rabbits, sphere and red");
   bench->add_option("--preset", options.preset, "Row of numbers, as for render");
   bench->add_option("--pipeline", options.pipeline_file, "JSON file of values, as for render");
@@ -196,11 +197,11 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
   if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text(*texts.strategy);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.against) options.against = peers_from_text(*texts.against);
   check_preset(options.preset);
-  check_simd(options.simd);
+  check_simd("--simd", options.simd);
   if (options.report && !options.report->ends_with(".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   return options;

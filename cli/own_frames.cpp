@@ -5,6 +5,16 @@
 #include <stdexcept>
 
 namespace trueshade {
+namespace {
+
+/// Of the image, and of each plane behind it.
+std::string frame_hash(const Frame& frame) {
+  std::string hash = image_hash(frame.color);
+  for (const NamedImage& plane : frame.aovs) hash += ' ' + image_hash(plane.image);
+  return hash;
+}
+
+}  // namespace
 
 OwnFrames::OwnFrames(const OwnFrames& as, const Variant& v)
     : prepared_(as.prepared_), pipeline_(as.pipeline_), simd_(v.simd), execution_(as.execution_), aovs_(v.aovs) {
@@ -22,15 +32,15 @@ std::string OwnFrames::checked_hash(std::string_view simd) {
   other.threads = 1;
   other.tile = execution_.tile == 32 ? 64 : 32;
   other.simd = simd;
-  const std::string expected = image_hash(render_frame(prepared_, pipeline_, other).color);
-  hash_ = image_hash(render_frame(prepared_, pipeline_, execution_).color);
+  const std::string expected = frame_hash(render_frame(prepared_, pipeline_, other, aovs_));
+  hash_ = frame_hash(render_frame(prepared_, pipeline_, execution_, aovs_));
   if (hash_ != expected)
     throw std::runtime_error("two ways to draw " + prepared_.scene().spec + " give two images: nothing is timed");
   return hash_;
 }
 
 bool OwnFrames::same_picture(const OwnFrames& other) const {
-  return pipeline_json(pipeline_) == pipeline_json(other.pipeline_);
+  return pipeline_json(pipeline_) == pipeline_json(other.pipeline_) && aovs_ == other.aovs_;
 }
 
 double OwnFrames::draw() {
@@ -38,7 +48,7 @@ double OwnFrames::draw() {
   const Clock::time_point start = Clock::now();
   const Frame frame = render_frame(prepared_, pipeline_, execution_, aovs_);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  if (!hash_.empty() && image_hash(frame.color) != hash_) throw std::runtime_error("a timed frame came out otherwise");
+  if (!hash_.empty() && frame_hash(frame) != hash_) throw std::runtime_error("a timed frame came out otherwise");
   frames_.emplace_back(ms, frame.stats);
   return ms;
 }

@@ -18,8 +18,8 @@ class OwnFrames {
   OwnFrames(const OwnFrames& as, const Variant& variant);
   OwnFrames(const OwnFrames&) = delete;
 
-  /// Hash of the frame, drawn in another way too: one thread, other tiles, the SIMD target `simd`. What is drawn from
-  /// then on must have it. Throws std::runtime_error where the two differ.
+  /// Hash of the frame and its planes, drawn in another way too: one thread, other tiles, the SIMD target `simd`. What
+  /// is drawn from then on must have it. Throws std::runtime_error where the two differ.
   std::string checked_hash(std::string_view simd);
   const std::string& hash() const { return hash_; }
   void expect(const std::string& hash) { hash_ = hash; }

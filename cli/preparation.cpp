@@ -1,9 +1,5 @@
 #include "cli/preparation.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -34,16 +30,6 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.view) pipeline.view = *options.view;
   validate(pipeline);
   return pipeline;
-}
-
-void check_folders(std::span<const std::string> paths) {
-  for (const std::string& path : paths) {
-    const size_t slash = path.rfind('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-    if (access(folder.c_str(), W_OK) != 0)
-      throw Error(ErrorKind::io, path, std::string("cannot write to its folder: ") + std::strerror(errno),
-                  "choose a folder that exists and that you may write to");
-  }
 }
 
 }  // namespace trueshade

@@ -98,7 +98,7 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
 }  // namespace
 
 void render(const RenderOptions& options) {
-  check_folders(options.outputs);
+  for (const std::string& path : options.outputs) check_writable(path);
   Scene scene = load_scene(options.scene, {}, decode_image);
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");

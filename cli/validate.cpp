@@ -58,8 +58,8 @@ void read_files(const ValidationOptions& options, Validation& v) {
 }  // namespace
 
 bool judge_opengl(const ValidationOptions& options) {
-  if (options.report) check_folders({&*options.report, 1});
-  check_folders(options.saved);
+  if (options.report) check_writable(*options.report);
+  for (const std::string& path : options.saved) check_writable(path);
   Scene scene = load_scene(options.scene, {}, decode_image);
   set_time(scene, options.time);
   Validation v;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 
@@ -47,6 +48,55 @@ std::string temporary_name(const std::string& path, int attempt) {
   return folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
 }
 
+/// What a path that may be written stands for.
+struct Destination {
+  bool stream;       ///< a device or a pipe: bytes go into it, and nothing takes its place
+  std::string path;  ///< with no link at its end
+};
+
+/// Where links lead, also to what is not there yet.
+std::string followed(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::string at = path;
+  for (int links = 0; links <= kMostLinks; ++links) {
+    char target[PATH_MAX];
+    const ssize_t length = readlink(at.c_str(), target, sizeof target);
+    if (length < 0) return at;
+    const std::string next(target, size_t(length));
+    at = next.starts_with('/') ? next : folder_of(at) + '/' + next;
+  }
+  fail(path, "find what it links to", ELOOP);
+}
+
+Destination destination_of(const std::string& path) {
+  if (path.empty()) throw Error(ErrorKind::io, "''", "is no name of a file", "name one");
+  struct stat there {};
+  if (stat(path.c_str(), &there) != 0) return {false, followed(path)};
+  if (S_ISCHR(there.st_mode) || S_ISFIFO(there.st_mode)) return {true, path};
+  if (S_ISDIR(there.st_mode)) fail(path, "write", EISDIR);
+  if (!S_ISREG(there.st_mode))
+    throw Error(ErrorKind::io, path, "is neither a file nor a stream of bytes", "choose another name");
+  return {false, followed(path)};
+}
+
+void write_bytes(int descriptor, const std::string& path, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path, "write", errno);
+    bytes = bytes.subspan(size_t(written));
+  }
+}
+
+void write_stream(const std::string& path, std::span<const uint8_t> bytes) {
+  struct Stream {
+    int descriptor;
+    ~Stream() { close(descriptor); }
+  } stream{open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
+  if (stream.descriptor < 0) fail(path, "open", errno);
+  write_bytes(stream.descriptor, path, bytes);
+}
+
 /// A file in the folder of `path`, without a name where the file system can do that, so that not even a killed process
 /// leaves it behind; else under a name of its own. Removed on destruction unless it took the name of `path`.
 class Temporary {
@@ -66,14 +116,7 @@ class Temporary {
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
 
-  void write_all(std::span<const uint8_t> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(path_, "write", errno);
-      bytes = bytes.subspan(size_t(written));
-    }
-  }
+  void write_all(std::span<const uint8_t> bytes) { write_bytes(descriptor_, path_, bytes); }
 
   /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
   void take_name() {
@@ -112,9 +155,16 @@ class Temporary {
 }  // namespace
 
 void write_file(const std::string& path, std::span<const uint8_t> bytes) {
-  Temporary file(path);
+  const Destination to = destination_of(path);
+  if (to.stream) return write_stream(to.path, bytes);
+  Temporary file(to.path);
   file.write_all(bytes);
   file.take_name();
+}
+
+void check_writable(const std::string& path) {
+  const Destination to = destination_of(path);
+  if (!to.stream) const Temporary file(to.path);
 }
 
 }  // namespace trueshade

@@ -86,7 +86,9 @@ LightMesh light_mesh(LightExtent extent, int slices, int stacks) {
 }
 
 LightMeshes::LightMeshes(const LightVolumes& v)
-    : box(light_mesh(LightExtent::box, v.slices, v.stacks)),
+    : slices(v.slices),
+      stacks(v.stacks),
+      box(light_mesh(LightExtent::box, v.slices, v.stacks)),
       sphere(light_mesh(LightExtent::sphere, v.slices, v.stacks)),
       cone(light_mesh(LightExtent::cone, v.slices, v.stacks)) {}
 

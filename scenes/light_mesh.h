@@ -24,8 +24,10 @@ LightMesh light_mesh(LightExtent extent, int slices, int stacks);
 
 /// The meshes of a pipeline, by extent.
 struct LightMeshes {
+  int slices, stacks;
   LightMesh box, sphere, cone;
   explicit LightMeshes(const LightVolumes& volumes);
+  bool fit(const LightVolumes& volumes) const { return slices == volumes.slices && stacks == volumes.stacks; }
   const LightMesh& operator[](LightExtent extent) const;
 };
 

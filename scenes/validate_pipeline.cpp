@@ -8,34 +8,42 @@
 namespace trueshade {
 namespace {
 
-void require(bool holds, const char* field, const std::string& found, const char* range) {
-  if (!holds) throw Error(ErrorKind::usage, field, found + " is out of range", range);
+// Every frame's values are looked at: numbers become text, and texts one, only where one is refused.
+[[noreturn]] void refuse(const std::string& field, const std::string& found, const std::string& range) {
+  throw Error(ErrorKind::usage, field, found + " is out of range", range);
+}
+
+void require(bool holds, const char* field, const char* found, const char* range) {
+  if (!holds) refuse(field, found, range);
 }
 
 void require_integer(int value, int least, int most, const char* field, const char* range) {
-  require(value >= least && value <= most, field, std::to_string(value), range);
+  if (!(value >= least && value <= most)) refuse(field, std::to_string(value), range);
 }
 
-void require_real(float value, float least, float most, const char* field, const char* range) {
-  require(value >= least && value <= most, field, std::to_string(value), range);  // false for NaN
+void require_real(float value, float least, float most, const char* field, const char* range,
+                  const char* of_field = "") {
+  if (!(value >= least && value <= most))  // a NaN too
+    refuse(std::string(field) + of_field, std::to_string(value), range);
 }
 
 template <typename Enum>
-void require_enumerator(Enum value, Enum last, const char* field) {
-  require(value <= last, field, std::to_string(int(value)), "an enumerator of its type");
+void require_enumerator(Enum value, Enum last, const char* field, const char* of_field = "") {
+  if (value > last) refuse(std::string(field) + of_field, std::to_string(int(value)), "an enumerator of its type");
 }
 
 void require_format(Format format, std::span<const Format> allowed, const char* field) {
+  if (std::find(allowed.begin(), allowed.end(), format) != allowed.end()) return;
   std::string names;
   for (const Format f : allowed)
     names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(info(f).name);
-  require(std::find(allowed.begin(), allowed.end(), format) != allowed.end(), field, std::string(info(format).name),
-          names.c_str());
+  refuse(field, std::string(info(format).name), names);
 }
 
 void check_geometry(const GeometryState& g) {
-  require(g.viewport.width >= 0 && g.viewport.height >= 0, "geometry.viewport",
-          std::to_string(g.viewport.width) + " x " + std::to_string(g.viewport.height), "width and height at least 0");
+  if (g.viewport.width < 0 || g.viewport.height < 0)
+    refuse("geometry.viewport", std::to_string(g.viewport.width) + " x " + std::to_string(g.viewport.height),
+           "width and height at least 0");
   require_real(g.depth_near, 0.0f, 1.0f, "geometry.depth_near", "0 to 1");
   require_real(g.depth_far, 0.0f, 1.0f, "geometry.depth_far", "0 to 1");
   require_real(g.clear_depth, 0.0f, 1.0f, "geometry.clear_depth", "0 to 1");
@@ -90,14 +98,14 @@ void check_light_volumes(const LightVolumes& v) {
   require_enumerator(v.cull_face, CullFace::front_and_back, "light_volumes.cull_face");
 }
 
-void check_blend(const BlendState& b, const std::string& field) {
+void check_blend(const BlendState& b, const char* field) {
   for (const BlendTerm& term : {b.rgb, b.alpha}) {
-    require_enumerator(term.equation, BlendEquation::max, (field + ": equation").c_str());
-    require_enumerator(term.src, BlendFactor::src_alpha_saturate, (field + ": src").c_str());
-    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, (field + ": dst").c_str());
+    require_enumerator(term.equation, BlendEquation::max, field, ": equation");
+    require_enumerator(term.src, BlendFactor::src_alpha_saturate, field, ": src");
+    require_enumerator(term.dst, BlendFactor::src_alpha_saturate, field, ": dst");
   }
   for (const float constant : b.constant)
-    require_real(constant, -1e18f, 1e18f, (field + ".constant").c_str(), "each -1e18 to 1e18");
+    require_real(constant, -1e18f, 1e18f, field, "each -1e18 to 1e18", ".constant");
 }
 
 void check_transparency(const Pipeline& p) {
@@ -120,8 +128,7 @@ void check_post(const PostChain& p) {
   require_integer(p.bloom.passes, 1, 64, "post.bloom.passes", "1 to 64");
   require_enumerator(p.tone_map, PostChain::ToneMap::reinhard, "post.tone_map");
   require_real(p.key, 1e-6f, 1e6f, "post.key", "1e-6 to 1e6");
-  require(p.white == 0.0f || (p.white >= 1e-6f && p.white <= 1e18f), "post.white", std::to_string(p.white),
-          "0, or 1e-6 to 1e18");
+  if (p.white != 0.0f) require_real(p.white, 1e-6f, 1e18f, "post.white", "0, or 1e-6 to 1e18");
   require_real(p.log_offset, 1e-12f, 1e6f, "post.log_offset", "1e-12 to 1e6");
   require_enumerator(p.encode, PostChain::Encode::srgb, "post.encode");
   require_format(p.output, kPostOutputs, "post.output");
@@ -150,11 +157,11 @@ void validate(const Pipeline& pipeline) {
 void validate(const Execution& execution) {
   require_integer(execution.threads, 0, 1024, "threads", "0 to 1024; 0 is one a core");
   constexpr int kTiles[] = {0, 8, 16, 32, 48, 64};
-  require(std::find(std::begin(kTiles), std::end(kTiles), execution.tile) != std::end(kTiles), "tile",
-          std::to_string(execution.tile), "8, 16, 32, 48 or 64; 0 is by size and threads");
+  if (std::find(std::begin(kTiles), std::end(kTiles), execution.tile) == std::end(kTiles))
+    refuse("tile", std::to_string(execution.tile), "8, 16, 32, 48 or 64; 0 is by size and threads");
   constexpr std::string_view kSimd[] = {"best", "scalar", "sse4", "avx2", "avx512"};
-  require(std::find(std::begin(kSimd), std::end(kSimd), execution.simd) != std::end(kSimd), "simd",
-          "'" + std::string(execution.simd) + "'", "best, scalar, sse4, avx2 or avx512");
+  if (std::find(std::begin(kSimd), std::end(kSimd), execution.simd) == std::end(kSimd))
+    refuse("simd", "'" + std::string(execution.simd) + "'", "best, scalar, sse4, avx2 or avx512");
 }
 
 }  // namespace trueshade

@@ -58,6 +58,7 @@ struct FrameTables {
   ClusterBins bins;
   LightTable lights;
   LightGroups groups;
+  std::optional<LightMeshes> meshes;
 };
 
 // Tables that a frame has for its time, kept for the thread's next one.
@@ -96,7 +97,7 @@ struct FrameWork {
   const LightTable& lights;
   const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
   const LightGroups& groups;
-  const LightMeshes meshes;
+  const LightMeshes& meshes;
   const LightOutlines outlines;  ///< of strategies that blend
   bool need_uv, lit;
   const LightPlanes light_planes;
@@ -300,6 +301,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   Execution execution = asked;
   if (execution.tile == 0) execution.tile = tile_for(pipeline.width, pipeline.height, execution.threads);
   check_memory(pipeline, execution, aovs);
+  wake_threads(execution.threads);
   const FpScope fp;
   const SimdScope simd(execution.simd);
   const double start = now_ms();
@@ -312,7 +314,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   std::optional<LoopLog> log(std::in_place);
   View view = make_view(scene, pipeline, execution.threads);
   const TablesLoan loan;
-  auto& [bins, lights, groups] = *loan.tables;
+  auto& [bins, lights, groups, kept_meshes] = *loan.tables;
   bin_clusters(scene, prepared.clusters(), view, execution.tile, execution.geometry_culling, execution.threads, bins);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
   const bool meshes_drawn = pipeline.strategy == Strategy::deferred_volumes;
@@ -323,7 +325,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
     plain = make_plain_lights(lights, pipeline.light_model);
   groups.group.clear();
   if (lit && execution.light_culling) make_light_groups(lights, execution.threads, groups);
-  LightMeshes meshes(pipeline.light_volumes);
+  if (!kept_meshes || !kept_meshes->fit(pipeline.light_volumes)) kept_meshes.emplace(pipeline.light_volumes);
+  const LightMeshes& meshes = *kept_meshes;
   LightOutlines outlines;
   if (lit && blends_lights(pipeline.strategy))
     outlines = outlines_of_draws(scene.lights, pipeline, meshes, view, execution.threads);
@@ -333,7 +336,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
   draw_tiles(
-      {prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, std::move(meshes),
+      {prepared, pipeline, execution, std::move(view), bins, lights, std::move(plain), groups, meshes,
        std::move(outlines), need_uv, lit, std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
       progress);
 
@@ -342,7 +345,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   stats.lights = scene.lights.size();
   stats.pixel_lights = stats.covered_pixels * stats.lights;
   stats.triangles = scene.triangle_count();
-  stats.gl = counted_as_gl(scene, pipeline, stats);
+  stats.gl = counted_as_gl(scene, pipeline, meshes, stats);
   stats.total_ms = now_ms() - start;
   return frame;
 }

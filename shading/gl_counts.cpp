@@ -11,9 +11,8 @@ int planes_read(const Pipeline& pipeline) {
   return 3 + int(reads_specular_plane(pipeline.light_model)) + int(pipeline.light_model.emission);
 }
 
-uint64_t geometry_triangles(const Scene& scene, const LightVolumes& volumes) {
+uint64_t geometry_triangles(const Scene& scene, const LightVolumes& volumes, const LightMeshes& meshes) {
   constexpr uint64_t kQuad = 2;
-  const LightMeshes meshes(volumes);
   uint64_t triangles = volumes.base ? kQuad : 0;
   for (const Light& light : scene.lights) {
     const LightExtent extent = drawn_extent(light, volumes);
@@ -39,7 +38,8 @@ void add_transparent(const Scene& scene, const Pipeline& pipeline, uint64_t frag
 
 }  // namespace
 
-GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const FrameStats& stats) {
+GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const LightMeshes& meshes,
+                       const FrameStats& stats) {
   GlCounts c;
   const bool transparent = draws_transparent(scene, pipeline);
   const uint64_t n = stats.covered_pixels, lights = scene.lights.size();
@@ -62,7 +62,7 @@ GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const Frame
       c.target_fragments_read = pipeline.blend.enabled ? c.light_pixels : 0;
       if (pipeline.light_volumes.base) c.light_pixels += n;
       c.draws = instances + lights + uint64_t(pipeline.light_volumes.base);
-      c.light_triangles = geometry_triangles(scene, pipeline.light_volumes);
+      c.light_triangles = geometry_triangles(scene, pipeline.light_volumes, meshes);
       break;
     case Strategy::deferred_loop:
       c.planes = planes_read(pipeline);

@@ -1,4 +1,5 @@
 #pragma once
+#include "scenes/light_mesh.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -6,6 +7,8 @@
 namespace trueshade {
 
 /// The frame's GlCounts, from stats.covered_pixels and, of deferred-volumes, stats.gl.light_pixels.
-GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const FrameStats& stats);
+/// `meshes`: the pipeline's.
+GlCounts counted_as_gl(const Scene& scene, const Pipeline& pipeline, const LightMeshes& meshes,
+                       const FrameStats& stats);
 
 }  // namespace trueshade

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Fails on an #include against the arrows core <- scenes <- raster <- shading <- bench <- cli; oracle sees core and scenes. Also
-# holds libraries to their places: OpenImageIO in core/image_io.cpp, core/jpeg_pixels.cpp and core/read_image.cpp, TBB in core/fp_env.cpp, Embree in oracle/ray_scene.h.
+# holds libraries to their places: OpenImageIO in core/image_io.cpp, core/jpeg_pixels.cpp and core/read_image.cpp, TBB in core/thread_pool.cpp, Embree in oracle/ray_scene.h.
 # Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
@@ -38,7 +38,7 @@ allowed oracle 'core|scenes|oracle'
 allowed bench 'core|scenes|raster|shading|oracle|bench'
 allowed cli 'core|scenes|raster|shading|compare|oracle|bench|cli'
 only_in 'OpenImageIO/' 'core/(image_io|jpeg_pixels|read_image).cpp'
-only_in '(tbb|oneapi)/' 'core/fp_env.cpp'
+only_in '(tbb|oneapi)/' 'core/thread_pool.cpp'
 only_in "embree" "oracle/ray_scene.h"
 only_in 'epoxy/' 'oracle/gl/[a-z_]*\.(h|cpp)'
 only_in 'CLI/' 'cli/options.cpp'

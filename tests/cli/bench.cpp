@@ -123,13 +123,13 @@ TEST_CASE("bench refuses what it cannot do, in one line") {
   check_refused(run_command({"bench", "--against", "gl,"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,gl"}), 2, "twice");
   check_refused(run_command({"bench", "--against", "simd="}), 2, "simd");
-  check_refused(run_command({"bench", "--against", "simd=neon"}), 2, "neon");
-  check_refused(run_command({"bench", "--against", "target=rgb"}), 2, "target");
-  check_refused(run_command({"bench", "--against", "view=nothing"}), 2, "view");
-  check_refused(run_command({"bench", "--against", "tile=7"}), 2, "tile");
-  check_refused(run_command({"bench", "--against", "threads=-1"}), 2, "threads");
-  check_refused(run_command({"bench", "--against", "aov=depth+"}), 2, "plane");
-  check_refused(run_command({"bench", "--against", "strategy=best"}), 2, "strategy");
+  check_refused(run_command({"bench", "--against", "simd=neon"}), 2, "--against simd");
+  check_refused(run_command({"bench", "--against", "target=rgb"}), 2, "--against target");
+  check_refused(run_command({"bench", "--against", "view=nothing"}), 2, "--against view");
+  check_refused(run_command({"bench", "--against", "tile=7"}), 2, "--against tile");
+  check_refused(run_command({"bench", "--against", "threads=-1"}), 2, "--against threads");
+  check_refused(run_command({"bench", "--against", "aov=depth+"}), 2, "--against aov");
+  check_refused(run_command({"bench", "--against", "strategy=best"}), 2, "--against strategy");
   check_refused(run_command({"bench", "--against", "=avx2"}), 2, "chosen by ''");
   check_refused(run_command({"bench", "city"}), 3, "builtin:city");
   check_refused(run_command({"bench", "builtin:nowhere"}), 3, "nowhere");
@@ -137,6 +137,21 @@ TEST_CASE("bench refuses what it cannot do, in one line") {
   check_refused(run_command({"bench", "--size", "0x1"}), 2, "size");
   check_refused(run_command({"bench", "-o", "x.png"}), 2, ".html");
   check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path("absent/x.json")}), 5, "folder");
+  check_refused(run_command({"bench", "builtin:cornell", "--json", ""}), 5, "name");
+  check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path("")}), 5, "folder");
+}
+
+TEST_CASE("What a scene takes of memory is its own, whatever was timed before it") {
+  const ScratchFolder folder;
+  const auto mib = [&](const std::vector<std::string>& scenes) {
+    std::vector<std::string> arguments{"bench", "--size", "64x48", "--json", "m.json"};
+    arguments.insert(arguments.begin() + 1, scenes.begin(), scenes.end());
+    const Outcome bench = run_command(arguments, folder.path(""));
+    INFO(bench.err);
+    REQUIRE(bench.exit_code == 0);
+    return nlohmann::json::parse(contents(folder.path("m.json")))["scenes"].back()["peak_mib"].get<double>();
+  };
+  CHECK(mib({"builtin:rabbits", "builtin:cornell"}) == Approx(mib({"builtin:cornell"})).margin(4.0));
 }
 
 }  // namespace trueshade

@@ -1,10 +1,17 @@
 // What the command writes, read back by OpenImageIO and hashed from what was read.
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "core/sha256.h"
 #include "tests/catch.hpp"
+#include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
 
@@ -45,6 +52,59 @@ TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata"
   const std::string about = output_of({"info", "x.png"}, folder.path(""));
   CHECK(about.find("61x47") != std::string::npos);
   CHECK(about.find(hex) != std::string::npos);
+}
+
+TEST_CASE("Pipes get the bytes, files behind links are replaced, and nothing else is") {
+  const ScratchFolder folder;
+  const std::string pipe = folder.path("pipe.png"), file = folder.path("file.png"), link = folder.path("link.png");
+  const std::vector<std::string> render{"render", "builtin:cornell", "--size", "8x8", "-o"};
+  const auto draw = [&](const std::string& path) {
+    std::vector<std::string> arguments = render;
+    arguments.push_back(path);
+    return arguments;
+  };
+  output_of(draw(file));
+  const std::string picture = contents(file);
+
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string piped;
+  std::thread reader([&] { piped = contents(pipe); });
+  output_of(draw(pipe));
+  reader.join();
+  CHECK(piped == picture);
+  CHECK(std::filesystem::is_fifo(pipe));
+
+  for (const char* target : {"file.png", "absent.png"}) {  // one that is there, one that is not yet
+    std::filesystem::create_symlink(target, link);
+    output_of(draw(link));
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(contents(folder.path(target)) == picture);
+    std::filesystem::remove(link);
+  }
+  std::filesystem::create_symlink("link.png", link);  // to itself
+  check_refused(run_command(draw(link)), 5, "link");
+  std::filesystem::create_directory(folder.path("folder.png"));
+  check_refused(run_command(draw(folder.path("folder.png"))), 5, "folder");
+}
+
+TEST_CASE("A device gets the bytes and stays a device") {
+  const ScratchFolder folder;
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE(terminal >= 0);
+  REQUIRE(grantpt(terminal) == 0);
+  REQUIRE(unlockpt(terminal) == 0);
+  const std::string device = ptsname(terminal), link = folder.path("device.png");
+  std::filesystem::create_symlink(device, link);
+  const int other_end = open(device.c_str(), O_RDWR | O_NOCTTY);  // keeps what was written until it is read
+  REQUIRE(other_end >= 0);
+  output_of({"render", "builtin:cornell", "--size", "8x8", "-o", link});
+  char first[4] = {};
+  CHECK(read(terminal, first, 4) == 4);
+  CHECK(std::string(first + 1, 3) == "PNG");
+  CHECK(std::filesystem::is_character_file(device));
+  CHECK(std::filesystem::is_symlink(link));
+  close(other_end);
+  close(terminal);
 }
 
 TEST_CASE("an EXR has the planes asked for under their channel names") {

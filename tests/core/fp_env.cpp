@@ -107,6 +107,37 @@ TEST_CASE("parallel_for runs as many threads as asked for, beyond the number of 
   }
 }
 
+TEST_CASE("loops within loops, of several callers at once, call every index once") {
+  constexpr int kCallers = 4, kOuter = 20, kInner = 50;
+  std::vector<std::atomic<int>> calls(size_t(kCallers * kOuter * kInner));
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < kCallers; ++caller)
+    callers.emplace_back([&, caller] {
+      wake_threads(3);
+      parallel_for(kOuter, 3, [&](int outer) {
+        parallel_for(kInner, 2 + outer % 3, [&](int inner) {
+          ++calls[size_t((caller * kOuter + outer) * kInner + inner)];
+          if (inner == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));  // until threads sleep
+        });
+      });
+    });
+  for (std::thread& caller : callers) caller.join();
+  for (const auto& count : calls) REQUIRE(count == 1);
+}
+
+TEST_CASE("an exception in a loop within a loop reaches the outer caller, and loops after it are whole") {
+  CHECK_THROWS_AS(parallel_for(8, 4,
+                               [](int) {
+                                 parallel_for(8, 4, [](int i) {
+                                   if (i == 5) throw std::runtime_error("5");
+                                 });
+                               }),
+                  std::runtime_error);
+  std::atomic<int> sum{0};
+  parallel_for(100, 4, [&](int i) { sum += i; });
+  CHECK(sum == 4950);
+}
+
 TEST_CASE("an exception of a body reaches the caller of parallel_for") {
   for (const int threads : {1, 4})
     CHECK_THROWS_AS(parallel_for(100, threads,

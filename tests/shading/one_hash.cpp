@@ -168,6 +168,7 @@ TEST_CASE("every built-in scene has one hash over the whole matrix", "[determini
               c[6] = (c[1] + c[4]) % counts[6];
               c[7] = (c[1] + c[5]) % counts[7];
               c[8] = (c[0] + c[1] + c[4]) % counts[8];
+              c[9] = (c[2] + c[4] + c[5]) % counts[9];
               check(prepared, golden, way(c, targets));
             }
   }
