@@ -91,7 +91,8 @@ struct BlendPlan {
     return unorm() && target.profile == NumericProfile::ideal && !layout.srgb_channel(c) &&
            group(c).term == kAccumulate;
   }
-  float largest(int c) const { return float(layout.largest_code(c)); }
+  /// 0 where channels are floats of 32 bits, which have no codes.
+  float largest(int c) const { return layout.bits[size_t(c)] < 32 ? float(layout.largest_code(c)) : 0.0f; }
   float blended_largest(int c) const { return wide ? 65535.0f : largest(c); }
 };
 

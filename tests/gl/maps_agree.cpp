@@ -244,10 +244,11 @@ TEST_CASE("Pictures with normal and specular maps are ours in every strategy, un
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::string aovs[] = {"id.object"};
+  KeptPrograms programs;
   for (const char* name : {"lecture,lights=6", "city,objects=200,lights=40"}) {
     const Scene scene = bumpy(name);
     const PreparedScene prepared(scene);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     for (const Preset& preset : presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;

@@ -108,13 +108,14 @@ TEST_CASE("Frames of constant colours are llvmpipe's bit for bit, every target f
   Random random(223);
   const std::string aovs[] = {"id.object", "albedo"};
   size_t covered = 0;
+  KeptPrograms programs;
   for (const Format target : kTargetFormats)
     for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
       for (int i = 0; i < 6; ++i) {
         if (target == Format::srgb8_a8 && !estimates_as_recorded()) continue;
         const Scene scene = flat_scene(random);
         const Pipeline pipeline = some_pipeline(random, target, Strategy(strategy));
-        const Capture gl = GlRenderer(*context, scene).draw(pipeline).capture;
+        const Capture gl = GlRenderer(*context, scene, 0, &programs).draw(pipeline).capture;
         const Frame ours = render_frame(scene, pipeline, {}, aovs);
         INFO("frame " << i << ", " << info(target).name << ", " << name_of(pipeline.strategy) << ", albedo "
                       << info(pipeline.gbuffer.albedo.format).name << ", glass "
@@ -132,9 +133,10 @@ TEST_CASE(
     "Lit frames of ten bits a channel are llvmpipe's codes under its profile, but where sums lie at a code's edge") {
   const GlContext* context = opened_mesa_22_3();
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* name : {"city,objects=300,lights=30", "cornell"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     for (const Preset& preset : presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;

@@ -53,10 +53,11 @@ Agreement compared(const Capture& gl, const Frame& ours) {
 TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a code") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const BuiltinInfo& builtin : builtin_scenes()) {
     const Scene scene = builtin_scene(builtin.name);
     const PreparedScene prepared(scene);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     // Rounding light by light and llvmpipe's 8-bit texture weights add up to more than a code: strategies_agree.cpp and
     // the judge's textured scenes hold those.
     if (!scene.textures.empty()) continue;
