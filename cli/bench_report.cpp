@@ -40,13 +40,16 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
   html += row("image", "sha256:" + s.hash) +
           row("median, least", number(s.timing.median(), "%.3f ms, ") + number(s.timing.least(), "%.3f ms"));
   html += row("spread of the middle half", number(100 * s.timing.spread(), "%.1f %%"));
-  html += row("geometry, light: core time", number(f.geometry_ms, "%.3f ms, ") + number(f.light_ms, "%.3f ms"));
+  html += row("visibility, surfaces, light, store: core time",
+              number(f.visibility_ms, "%.3f ms, ") + number(f.surfaces_ms, "%.3f ms, ") +
+                  number(f.light_ms, "%.3f ms, ") + number(f.store_ms, "%.3f ms"));
   html += row("modelled floor",
               number(floor, "%.3f ms, ") + number(100 * floor / s.timing.median(), "%.0f %% of the time"));
   html += row("light, of a core", number(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
   html += row("rate", rate_text(s));
   html += row("triangles submitted, set up", std::to_string(f.triangles) + ", " + std::to_string(f.triangles_tested));
   html += row("fragments, pixels covered", std::to_string(f.fragments) + ", " + std::to_string(f.covered_pixels));
+  html += row("lights tested", std::to_string(f.lights_tested));
   html += row("pixel-lights left by tiles, computed, lit", std::to_string(f.tile_pixel_lights) + ", " +
                                                                std::to_string(f.evaluated_pixel_lights) + ", " +
                                                                std::to_string(f.lit_pixel_lights));

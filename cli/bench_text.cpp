@@ -94,7 +94,8 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   json.put("hash", "sha256:" + s.hash);
   json.put("ms", s.timing.median()).put("least_ms", s.timing.least()).put("spread", s.timing.spread());
   json.put("frames", uint64_t(s.timing.ms.size()));
-  json.put("geometry_ms", f.geometry_ms).put("light_ms", f.light_ms);
+  json.put("geometry_ms", f.geometry_ms()).put("visibility_ms", f.visibility_ms).put("surfaces_ms", f.surfaces_ms);
+  json.put("light_ms", f.light_ms).put("store_ms", f.store_ms).put("lights_tested", f.lights_tested);
   json.put("triangles", f.triangles).put("triangles_tested", f.triangles_tested).put("fragments", f.fragments);
   json.put("covered_pixels", f.covered_pixels).put("lights", f.lights).put("lit_pixel_lights", f.lit_pixel_lights);
   json.put("evaluated_pixel_lights", f.evaluated_pixel_lights).put("tile_pixel_lights", f.tile_pixel_lights);
@@ -153,13 +154,14 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
                      number(s.ratio(peer), "%.2fx ours") + picture_text(peer));
   text += fastest_text(s, "this picture", [](const PictureCheck& p) { return p.same(); });
   text += fastest_text(s, "this shading, wherever it rounds", [](const PictureCheck& p) { return p.same_shading(); });
-  text += "  geometry " + number(f.geometry_ms, "%.2f") + " ms, light " + number(f.light_ms, "%.2f") +
+  text += "  visibility " + number(f.visibility_ms, "%.2f") + " ms, surfaces " + number(f.surfaces_ms, "%.2f") +
+          " ms, light " + number(f.light_ms, "%.2f") + " ms, store " + number(f.store_ms, "%.2f") +
           " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " + rate_text(s) +
           "; modelled floor " + number(floor_ms(s, bench), "%.2f") + " ms, " +
           number(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
   text += "  " + std::to_string(f.triangles) + " triangles submitted, " + std::to_string(f.triangles_tested) +
-          " set up over all tiles, " +
-          std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) + " pixels covered; " +
+          " set up over all tiles, " + std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) +
+          " pixels covered; " + std::to_string(f.lights_tested) + " lights tested, " +
           std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
           number(s.peak_mib, "%.0f") + " MiB at most, " + number(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") +

@@ -310,6 +310,7 @@ struct DrawRegions {
     for (int n = 0; n < t.regions.count; ++n) {
       const Region& r = t.regions.region[n];
       region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
+      t.counts.tested += t.work.lights.light.size();
       if (t.work.region.light.empty()) continue;
       if constexpr (comes_by_pairs<Shape>() || settles_phong<Shape>())
         if (t.method.adds && t.method.codes && add_to_region<true>(t, terms, r)) continue;
@@ -350,7 +351,7 @@ void blend_tile_simd(const LightDraws& draws, const SurfaceTile& surface, const 
     saturate_alpha(t);
   }
   if (reaching) {
-    reaching_lights(draws.table, draws.groups, t.regions, t.cull, work.bits, work.touching);
+    counts.tested += reaching_lights(draws.table, draws.groups, t.regions, t.cull, work.bits, work.touching);
     std::erase_if(work.touching,
                   [&](uint32_t light) { return light < first_light || !touches(draws.outlines, light, rect); });
   } else {

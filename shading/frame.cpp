@@ -87,7 +87,8 @@ struct TileCounts {
   LightCounts light;
   uint64_t covered = 0, transparent = 0;
   uint64_t lit_geometry = 0;  ///< P of the counters
-  double geometry_ms = 0.0, light_ms = 0.0;
+  double visibility_ms = 0.0, surfaces_ms = 0.0, light_ms = 0.0, store_ms = 0.0;
+  double ms() const { return visibility_ms + surfaces_ms + light_ms + store_ms; }
 };
 
 // What every tile of a frame shares.
@@ -147,29 +148,31 @@ struct FrameWork {
     return transparent.active() ? s.transparent.get() : nullptr;
   }
 
-  /// Lights, what is transparent after them, the store, and the planes light.<i>.
-  void light_and_store(const TileDraws& all, const TileRect& where, bool tied, TransparentWork* glass, TileScratch& s,
-                       TileCounts& counts) const {
+  /// Whether a tile's colours are in the target's stored form once its lights are in.
+  bool encodes(const TransparentWork* glass) const {
+    return blends_lights(pipeline.strategy) || draws_unlike_clears(target()) ||
+           (glass != nullptr && transparent.after_lights());
+  }
+
+  /// Lights, and what is transparent after them.
+  void light(const TileDraws& all, const TileRect& where, bool tied, TransparentWork* glass, TileScratch& s,
+             TileCounts& counts) const {
     const glm::vec4 clear_color = drawn_clear(prepared.scene().clear, target());
     const float* const clear = &clear_color[0];
     if (blends_lights(pipeline.strategy)) {
-      const LightDraws lit = light_draws();
-      blend_tile(lit, s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
+      blend_tile(light_draws(), s.surface, tied ? &s.tied : nullptr, where, clear, s.blend, s.color, counts.light);
     } else {
       light_tile(s.surface, where.size, lights, groups, pipeline.light_model, clear, light_shortcuts(), s.lights,
                  s.color, counts.light);
+      if (encodes(glass)) encode_colors(target(), where.size * where.size, s.color);
     }
-    bool stored = blends_lights(pipeline.strategy);
-    if (!stored && draws_unlike_clears(target())) {
-      encode_colors(target(), where.size * where.size, s.color);
-      stored = true;
-    }
-    if (glass != nullptr && transparent.after_lights()) {
-      if (!stored) encode_colors(target(), where.size * where.size, s.color);
+    if (glass != nullptr && transparent.after_lights())
       transparent.blend_after_lights(all, where, execution, s.vertices, s.lights, *glass, s.color);
-      stored = true;
-    }
-    if (stored)
+  }
+
+  /// The target's texels, and the planes light.<i>.
+  void store(const TileRect& where, bool tied, const TransparentWork* glass, TileScratch& s) const {
+    if (encodes(glass))
       write_stored(s.color, where, out.color);
     else
       store_target(s.color, where, pipeline.gbuffer.half_round, out.color);
@@ -189,6 +192,7 @@ struct FrameWork {
     TransparentWork* const glass = transparent_work(s);
     const TileDraws draws = glass != nullptr ? transparent.opaque_draws(all, *glass) : all;
     draw_visibility(draws, where, execution.geometry_culling, s.visible, counts.raster);
+    const double seen = now_ms();
     const GBufferState planes = surface_planes(pipeline);
     resolve_surfaces(draws, where, planes, pipeline.light_model, s.visible, need_uv, s.vertices, s.surface);
     const bool tied = pipeline.strategy == Strategy::forward_multipass &&
@@ -199,8 +203,10 @@ struct FrameWork {
       counts.transparent += transparent.find_fragments(all, where, execution.geometry_culling, s.visible, *glass);
       if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
     }
-    const double middle = now_ms();
-    if (lit) light_and_store(all, where, tied, glass, s, counts);
+    const double resolved = now_ms();
+    if (lit) light(all, where, tied, glass, s, counts);
+    const double lighted = now_ms();
+    if (lit) store(where, tied, glass, s);
     for (NamedImage& aov : out.aovs) {
       if (light_of_plane(aov.name)) continue;
       if (aov.name == "specular" || aov.name == "emission") {
@@ -212,8 +218,8 @@ struct FrameWork {
       store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where, planes.half_round,
                 aov.image);
     }
-    counts.geometry_ms += middle - start;
-    counts.light_ms += now_ms() - middle;
+    counts.visibility_ms = seen - start, counts.surfaces_ms = resolved - seen;
+    counts.light_ms = lighted - resolved, counts.store_ms = now_ms() - lighted;
     if (lit && execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
       counts.lit_geometry += count_lit_geometry(light_draws(), s.surface, where, s.blend.counts, s.blend.lights);
   }
@@ -263,9 +269,12 @@ void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
     stats.fragments += t.raster.fragments;
     stats.tile_pixel_lights += t.light.tile_pairs;
     stats.evaluated_pixel_lights += t.light.evaluated_pairs;
+    stats.lights_tested += t.light.tested;
     stats.gl.light_pixels += t.lit_geometry;
-    stats.geometry_ms += t.geometry_ms;
+    stats.visibility_ms += t.visibility_ms;
+    stats.surfaces_ms += t.surfaces_ms;
     stats.light_ms += t.light_ms;
+    stats.store_ms += t.store_ms;
   }
 }
 
@@ -276,7 +285,9 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
   std::mutex reporting;
   parallel_for(int(order.size()), work.execution.threads, [&](int i) {
     const int tile = order[size_t(i)];
-    work.draw(tile, thread_scratch(), counts[size_t(tile)]);
+    TileCounts of_tile;  // by itself while it is counted: tiles next to each other share cache lines of `counts`
+    work.draw(tile, thread_scratch(), of_tile);
+    counts[size_t(tile)] = of_tile;
     const int finished = ++done;
     if (!progress || finished % 16 != 0) return;
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
@@ -284,8 +295,7 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
   add_up(counts, work.out.stats);
   work.out.stats.tile_ms.reserve(order.size());
   for (const int tile : order) {
-    const TileCounts& t = counts[size_t(tile)];
-    work.out.stats.tile_ms.push_back(t.geometry_ms + t.light_ms);
+    work.out.stats.tile_ms.push_back(counts[size_t(tile)].ms());
   }
 }
 

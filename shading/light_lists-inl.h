@@ -124,17 +124,19 @@ HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t e
   }
 }
 
-/// Sets the bit of each light, found among many, that may reach the region.
-inline void reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
-                            std::vector<uint64_t>& bits) {
+/// Sets the bit of each light, found among many, that may reach the region. Returns how many were asked.
+inline uint64_t reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
+                                std::vector<uint64_t>& bits) {
   constexpr size_t kGroup = LightGroups::kGroup;
   const auto set = [&](uint32_t light) {
     if (!cull.cone || !dark_over(lights.row[light], r.place.low, r.place.high))
       bits[light / 64] |= uint64_t(1) << light % 64;
   };
+  uint64_t asked = 0;
   for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
     const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
     for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
+      asked += kGroup;
       const LightGroup& of = groups.group[group];
       const float* const position[3] = {of.position[0], of.position[1], of.position[2]};
       for (size_t i = 0; i < kGroup; i += hn::Lanes(DF())) {
@@ -144,23 +146,25 @@ inline void reaching_groups(const LightTable& lights, const LightGroups& groups,
       }
     });
   });
+  return asked;
 }
 
 /// Lights of the table that may reach the tile, ascending: its box, or, of many lights, any of its regions.
-/// `bits` is scratch, all zero.
-inline void reaching_lights(const LightTable& lights, const LightGroups& groups, const TileRegions& tile,
-                            RegionCull cull, std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
+/// `bits` is scratch, all zero. Returns how many were asked.
+inline uint64_t reaching_lights(const LightTable& lights, const LightGroups& groups, const TileRegions& tile,
+                                RegionCull cull, std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
   out.clear();
   if (!groups.empty()) {
+    uint64_t asked = 0;
     bits.resize((lights.size() + 63) / 64);
-    for (int k = 0; k < tile.count; ++k) reaching_groups(lights, groups, tile.region[k], cull, bits);
+    for (int k = 0; k < tile.count; ++k) asked += reaching_groups(lights, groups, tile.region[k], cull, bits);
     for (const uint32_t light : groups.always) bits[light / 64] |= uint64_t(1) << light % 64;
     for (size_t w = 0; w < bits.size(); ++w) {
       for (uint64_t word = bits[w]; word != 0; word &= word - 1)
         out.push_back(uint32_t(64 * w) + uint32_t(std::countr_zero(word)));
       bits[w] = 0;
     }
-    return;
+    return asked;
   }
   const Box& box = tile.place;
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
@@ -168,6 +172,7 @@ inline void reaching_lights(const LightTable& lights, const LightGroups& groups,
     for_each_lane(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
       if (!lights.cones || !dark_over(lights.row[i], box.low, box.high)) out.push_back(uint32_t(i));
     });
+  return lights.size();
 }
 
 /// Whether the cover of a listed light has pixels of the region; where it has all of them `listed` says so.

@@ -86,7 +86,7 @@ void clear_tile(const TileWork& in) {
 void list_tile_lights(const TileWork& in, const TileRegions& regions, RegionCull cull) {
   in.work.tile.clear();
   if (in.shortcuts.culling) {
-    reaching_lights(in.lights, in.groups, regions, cull, in.work.bits, in.work.reaching);
+    in.counts.tested += reaching_lights(in.lights, in.groups, regions, cull, in.work.bits, in.work.reaching);
     for (const uint32_t i : in.work.reaching) in.work.tile.add(in.lights, i);
   } else {
     for (uint32_t i = 0; i < in.lights.size(); ++i) in.work.tile.add(in.lights, i);
@@ -209,10 +209,11 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
     if (many) {
-      find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
+      in.counts.tested += find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
       in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();
     } else {
       region_lights(in.work.tile, r, blocks, cull, in.work.region);
+      in.counts.tested += in.work.tile.light.size();
     }
     if constexpr (comes_by_pairs<Shape>()) {
       light_region(in, terms, r, cull, order);

@@ -14,6 +14,7 @@
 namespace trueshade {
 
 struct LightCounts {
+  uint64_t tested = 0;           ///< lights held against the bounds of a tile or of a region
   uint64_t tile_pairs = 0;       ///< covered pixels times lights in the tile's list
   uint64_t evaluated_pairs = 0;  ///< lanes a contribution was computed for
   uint64_t lit_pairs = 0;        ///< covered pixel and light with falloff > 0 and N.L > 0

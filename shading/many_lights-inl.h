@@ -113,19 +113,22 @@ struct LightBits {
   }
 };
 
-/// Calls found(k) for the k-th light of the groups' if it may reach the region.
+/// Calls found(k) for the k-th light of the groups' if it may reach the region. Returns how many were asked.
 template <class Found>
-HWY_INLINE void for_each_near(const LightGroups& groups, const Region& r, bool facing, const Found& found) {
+HWY_INLINE uint64_t for_each_near(const LightGroups& groups, const Region& r, bool facing, const Found& found) {
   constexpr size_t kGroup = LightGroups::kGroup;
   const NearTest near(r, facing);
   const LightGroup* const all = groups.group.data();
+  uint64_t asked = 0;
   for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
     const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
     for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
+      asked += kGroup;
       for (size_t i = 0; i < kGroup; i += hn::Lanes(DF()))
         for_each_lane(near(all[group], i), group * kGroup + i, ~size_t(0), found);
     });
   });
+  return asked;
 }
 
 /// Puts lights at their places of a list that has room for them.
@@ -152,9 +155,9 @@ class PlacedLights {
   float *position_[3], *cut2_;
 };
 
-/// The lights, of many, that may reach a region, in scene order.
-inline void find_region_lights(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
-                               FoundLights& memory, TileLights& out) {
+/// The lights, of many, that may reach a region, in scene order. Returns how many were asked.
+inline uint64_t find_region_lights(const LightTable& lights, const LightGroups& groups, const Region& r,
+                                   RegionCull cull, FoundLights& memory, TileLights& out) {
   constexpr size_t kGroup = LightGroups::kGroup;
   LightBits bits(memory, lights.size());
   if (memory.at.size() < groups.group.size() * kGroup) memory.at.resize(groups.group.size() * kGroup);
@@ -162,7 +165,7 @@ inline void find_region_lights(const LightTable& lights, const LightGroups& grou
   const LightGroup* const group = groups.group.data();
   const LightRow* const row = lights.row.data();
   size_t count = 0;
-  for_each_near(groups, r, cull.facing, [&](size_t k) {
+  const uint64_t asked = for_each_near(groups, r, cull.facing, [&](size_t k) {
     const uint32_t light = group[k / kGroup].light[k % kGroup];
     if (cull.cone && dark_over(row[light], r.place.low, r.place.high)) return;
     found[count++] = uint32_t(k);
@@ -182,6 +185,7 @@ inline void find_region_lights(const LightTable& lights, const LightGroups& grou
              lights.cut2[light], x == x);
   }
   bits.clear();
+  return asked;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
