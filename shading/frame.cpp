@@ -25,6 +25,7 @@
 #include "shading/light_planes.h"
 #include "shading/light_table.h"
 #include "shading/target.h"
+#include "shading/texels.h"
 #include "shading/transparent_blend.h"
 #include "shading/transparent_pass.h"
 
@@ -204,6 +205,7 @@ struct FrameWork {
       if (transparent.into_albedo()) transparent.blend_into_albedo(all, where, s.vertices, *glass, s.surface);
     }
     const double resolved = now_ms();
+    if (lit) fetch_texels(where, out.color);
     if (lit) light(all, where, tied, glass, s, counts);
     const double lighted = now_ms();
     if (lit) store(where, tied, glass, s);

@@ -69,6 +69,20 @@ struct SmallFloats {
     return hn::Or(hn::Or(unsigned_bits<6>(value[0], mode), green), hn::ShiftLeft<22>(unsigned_bits<5>(value[2], mode)));
   }
 };
+/// Fixed point of four bytes.
+struct ByteCodes {
+  static constexpr int kWords = 1;
+  Format format;
+  bool coded;
+  HWY_INLINE VU word(const VF* value, int) const {
+    VU byte[4];
+    for (int c = 0; c < 4; ++c)
+      byte[c] = hn::BitCast(
+          DU(), hn::ConvertTo(DI(), coded ? value[c] : encoded(value[c], format, c, HalfRound::toward_zero)));
+    return hn::Or(hn::Or(byte[0], hn::ShiftLeft<8>(byte[1])),
+                  hn::Or(hn::ShiftLeft<16>(byte[2]), hn::ShiftLeft<24>(byte[3])));
+  }
+};
 /// Fixed point of kWords words of as many channels each.
 template <int kOfTexel>
 struct Codes {
@@ -87,9 +101,11 @@ struct Codes {
   }
 };
 
-/// Channel c of the pixels from `i` on.
+/// Channel c of the pixels from `i` on. kPlanes: of a source that is four planes and nothing else.
+template <bool kPlanes>
 HWY_INLINE VF channel_of(const TexelSource& source, int c, int i) {
   const DF d;
+  if constexpr (kPlanes) return hn::Load(d, source.plane[c] + i);
   VF value = source.plane[c] != nullptr ? hn::Load(d, source.plane[c] + i) : hn::Set(d, source.constant[c]);
   if (source.halved) value = hn::Add(hn::Mul(value, hn::Set(d, 0.5f)), hn::Set(d, 0.5f));
   if (source.covered != nullptr) value = hn::And(value, hn::BitCast(d, hn::Load(DI(), source.covered + i)));
@@ -109,35 +125,52 @@ HWY_INLINE void store_words(const VU (&word)[kWords], uint32_t* to) {
     hn::StoreInterleaved4(word[0], word[1], word[2], word[3], d, to);
 }
 
-/// `texel`: bytes of it in the image, of those that its words have the first.
-template <class Pack>
-void store_blocks(const TexelSource& source, const Pack& pack, size_t texel, const TileRect& rect, Image& image) {
-  constexpr int kWords = Pack::kWords;
+/// Rows of a block into the image's, upwards from `bottom`.
+template <int kWords>
+HWY_INLINE void write_rows(const uint32_t* words, uint8_t* bottom, size_t row_bytes, int columns, int rows,
+                           size_t texel) {
   constexpr size_t kWhole = sizeof(uint32_t) * kWords;
+  if (columns == kBlockSize && rows == kBlockSize && texel == kWhole) {
+    for (int row = 0; row < kBlockSize; ++row)
+      std::memcpy(bottom - size_t(row) * row_bytes, words + row * kBlockSize * kWords, kBlockSize * kWhole);
+    return;
+  }
+  for (int row = 0; row < rows; ++row)
+    for (int k = 0; k < columns; ++k)
+      std::memcpy(bottom - size_t(row) * row_bytes + size_t(k) * texel, words + (row * kBlockSize + k) * kWords, texel);
+}
+
+/// `texel`: bytes of it in the image, of those that its words have the first.
+template <bool kPlanes, class Pack>
+void store_blocks_of(const TexelSource& source, const Pack& pack, size_t texel, const TileRect& rect, Image& image) {
+  constexpr int kWords = Pack::kWords;
   const int width = std::min(rect.size, image.width - rect.x), height = std::min(rect.size, image.height - rect.y);
   const size_t row_bytes = size_t(image.width) * texel;
   uint8_t* const bottom = image.texels.data() + size_t(image.height - 1 - rect.y) * row_bytes + size_t(rect.x) * texel;
   alignas(64) uint32_t words[kBlockPixels * kWords];
   for (int y = 0; y < height; y += kBlockSize)
     for (int x = 0; x < width; x += kBlockSize) {
+      const int block = tile_index(rect.size, x, y);
       for (int k = 0; k < kBlockPixels; k += int(hn::Lanes(DU()))) {
         VF value[4];
-        for (int c = 0; c < 4; ++c) value[c] = channel_of(source, c, tile_index(rect.size, x, y) + k);
+        for (int c = 0; c < 4; ++c) value[c] = channel_of<kPlanes>(source, c, block + k);
         VU word[kWords];
         for (int w = 0; w < kWords; ++w) word[w] = pack.word(value, w);
         store_words(word, words + k * kWords);
       }
-      const int columns = std::min(kBlockSize, width - x), rows = std::min(kBlockSize, height - y);
-      for (int row = 0; row < rows; ++row) {
-        uint8_t* const to = bottom - size_t(y + row) * row_bytes + size_t(x) * texel;
-        const uint32_t* const from = words + row * kBlockSize * kWords;
-        if (columns == kBlockSize && texel == kWhole) {
-          std::memcpy(to, from, kBlockSize * kWhole);
-          continue;
-        }
-        for (int k = 0; k < columns; ++k) std::memcpy(to + size_t(k) * texel, from + k * kWords, texel);
-      }
+      write_rows<kWords>(words, bottom - size_t(y) * row_bytes + size_t(x) * texel, row_bytes,
+                         std::min(kBlockSize, width - x), std::min(kBlockSize, height - y), texel);
     }
+}
+
+template <class Pack>
+void store_blocks(const TexelSource& source, const Pack& pack, size_t texel, const TileRect& rect, Image& image) {
+  const bool planes = source.plane[0] != nullptr && source.plane[1] != nullptr && source.plane[2] != nullptr &&
+                      source.plane[3] != nullptr && source.covered == nullptr && !source.halved;
+  if (planes)
+    store_blocks_of<true>(source, pack, texel, rect, image);
+  else
+    store_blocks_of<false>(source, pack, texel, rect, image);
 }
 
 void store_texels_simd(const TexelSource& source, const TileRect& rect, HalfRound half_round, Image& image) {
@@ -146,6 +179,8 @@ void store_texels_simd(const TexelSource& source, const TileRect& rect, HalfRoun
   if (layout.number_class == NumberClass::unorm) {
     if (layout.bytes_per_channel == 2)
       store_blocks(source, Codes<2>{image.format, source.coded, layout.bits}, texel, rect, image);
+    else if (!layout.packed() && layout.channels == 4)
+      store_blocks(source, ByteCodes{image.format, source.coded}, texel, rect, image);
     else
       store_blocks(source, Codes<1>{image.format, source.coded, layout.bits}, texel, rect, image);
   } else if (layout.packed()) {
@@ -170,6 +205,17 @@ HWY_EXPORT(store_texels_simd);
 
 void store_texels(const TexelSource& source, const TileRect& rect, HalfRound half_round, Image& image) {
   HWY_DYNAMIC_DISPATCH(store_texels_simd)(source, rect, half_round, image);
+}
+
+void fetch_texels(const TileRect& rect, const Image& image) {
+  constexpr size_t kLine = 64;
+  const int width = std::min(rect.size, image.width - rect.x), height = std::min(rect.size, image.height - rect.y);
+  for (int y = 0; y < height; ++y) {
+    const uint8_t* const row = image.texel(rect.x, image.height - 1 - rect.y - y);
+    const uint8_t* const end = row + size_t(width) * size_t(info(image.format).bytes_per_texel());
+    for (const uint8_t* line = row; line < end; line += kLine) __builtin_prefetch(line, 1);
+    __builtin_prefetch(end - 1, 1);
+  }
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

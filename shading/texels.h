@@ -21,4 +21,7 @@ struct TexelSource {
 /// bits of core/half.h and core/small_float.h on every SIMD target.
 void store_texels(const TexelSource& source, const TileRect& rect, HalfRound half_round, Image& image);
 
+/// Asks for the image's lines that store_texels() is going to write, so that it need not wait for them.
+void fetch_texels(const TileRect& rect, const Image& image);
+
 }  // namespace trueshade
