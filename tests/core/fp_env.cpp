@@ -138,6 +138,18 @@ TEST_CASE("an exception in a loop within a loop reaches the outer caller, and lo
   CHECK(sum == 4950);
 }
 
+TEST_CASE("tasks are started in their order: none overtakes another by more than the threads at work") {
+  constexpr int kTasks = 2000, kThreads = 4;
+  std::vector<int> started(kTasks);
+  std::atomic<int> ticket{0};
+  parallel_for(kTasks, kThreads, [&](int i) {
+    started[size_t(i)] = ticket++;
+    std::this_thread::yield();
+  });
+  // Of the tasks before i at most one a thread has been taken and has not drawn its ticket; those after i are as few.
+  for (int i = 0; i < kTasks; ++i) CHECK(started[size_t(i)] >= i - (kThreads - 1));
+}
+
 TEST_CASE("an exception of a body reaches the caller of parallel_for") {
   for (const int threads : {1, 4})
     CHECK_THROWS_AS(parallel_for(100, threads,
