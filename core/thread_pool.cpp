@@ -108,8 +108,11 @@ void ThreadPool::Loop::work() {
 
 void ThreadPool::rouse(int helpers) {
   ++news_;
-  for (int serving = serving_; serving < helpers;)
-    if (serving_.compare_exchange_weak(serving, serving + 1)) start(helpers, [this] { serve(); }), ++serving;
+  // Counted once: threads that leave for want of work while others are still being asked for are not replaced.
+  for (int missing = helpers - serving_; missing > 0; --missing) {
+    ++serving_;
+    start(helpers, [this] { serve(); });
+  }
 }
 
 void ThreadPool::run(int count, int helpers, TaskRef body) {
