@@ -116,26 +116,28 @@ HWY_INLINE MF less_within(MF mask, VF a, VF b) {
 #endif
 }
 
+/// 1 / sqrt(x) as the CPU estimates it: at most 2^-14 off as a share of it, with whichever bits.
+struct EstimatedRoot {
+  static HWY_INLINE VF reciprocal(VF x) { return hn::ApproximateReciprocalSqrt(x); }
+};
+
 /// Some pairs of a light and a vector of pixels, a step of each after the other.
-template <size_t kMany>
+template <size_t kMany, class Root = EstimatedRoot>
 struct SettledPairs {
   const PixelVector* px[kMany];
   const SettledLight* light[kMany];
   MF lit[kMany];  ///< at first, the pixels in question
 
-  /// Adds the codes that are settled; returns the pixels of each pair that are lit and whose are not.
+  /// What the colours are multiplied by, 2 N . L f where all is exact. Leaves `lit` to the pixels that are.
   template <class Shape>
-  HWY_INLINE void settle(const LightTerms<Shape>& terms, SettledCodes* const out[kMany], MF open[kMany]) {
+  HWY_INLINE void weigh(const LightTerms<Shape>& terms, VF weight[kMany]) {
     const DF d;
-    const DI di;
     LightChain at[kMany];
-    VF root[kMany], weight[kMany];
-    hn::Vec<DI> t[kMany][3];
-    MF settled[kMany];
+    VF root[kMany];
     for (size_t k = 0; k < kMany; ++k) terms.place(*px[k], false, light[k]->position, at[k]);
     for (size_t k = 0; k < kMany; ++k) {
       lit[k] = less_within(less_within(lit[k], at[k].d2, hn::Set(d, light[k]->cut2)), hn::Zero(d), at[k].nl);
-      root[k] = hn::ApproximateReciprocalSqrt(at[k].d2);
+      root[k] = Root::reciprocal(at[k].d2);
     }
     for (size_t k = 0; k < kMany; ++k)  // 2 / sqrt
       root[k] = hn::Mul(root[k], hn::Sub(hn::Set(d, 3.0f), hn::Mul(at[k].d2, hn::Mul(root[k], root[k]))));
@@ -143,10 +145,26 @@ struct SettledPairs {
       const VF share = hn::Mul(hn::Mul(at[k].d2, hn::Set(d, light[k]->half_share)), root[k]);
       weight[k] = hn::Mul(hn::Mul(at[k].nl, root[k]), hn::Sub(hn::Set(d, 1.0f), share));
     }
+  }
+
+  /// The estimate of 255 / 256 of a channel's term.
+  HWY_INLINE VF estimate(size_t k, int c, VF weight) const {
+    return hn::Mul(hn::Mul(px[k]->albedo[c], hn::Set(DF(), light[k]->color[c])), weight);
+  }
+
+  /// Adds the codes that are settled; returns the pixels of each pair that are lit and whose are not.
+  template <class Shape>
+  HWY_INLINE void settle(const LightTerms<Shape>& terms, SettledCodes* const out[kMany], MF open[kMany]) {
+    const DF d;
+    const DI di;
+    VF weight[kMany];
+    hn::Vec<DI> t[kMany][3];
+    MF settled[kMany];
+    weigh(terms, weight);
     for (size_t k = 0; k < kMany; ++k) {
       settled[k] = lit[k];
       for (int c = 0; c < 3; ++c) {
-        const VF x = hn::Mul(hn::Mul(px[k]->albedo[c], hn::Set(d, light[k]->color[c])), weight[k]);
+        const VF x = estimate(k, c, weight[k]);
         t[k][c] = hn::BitCast(di, hn::Add(x, hn::BitCast(d, hn::Set(di, light[k]->bias[c]))));
         settled[k] = has_any(settled[k], t[k][c], hn::Set(di, light[k]->clear[c]));
       }

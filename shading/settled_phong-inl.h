@@ -69,62 +69,79 @@ HWY_INLINE VF twice_facing(const PixelVector& px) {
   const VF facing = dot3(px.n, px.v);
   return hn::Add(facing, facing);
 }
-HWY_INLINE MF plain_views(const PixelVector& px) {
-  return hn::Le(dot3(px.v, px.v), hn::Set(DF(), 1.0f + 0x1p-10f));
-}
+HWY_INLINE MF plain_views(const PixelVector& px) { return hn::Le(dot3(px.v, px.v), hn::Set(DF(), 1.0f + 0x1p-10f)); }
 
 /// Some pairs of a light and a vector of pixels, a step of each after the other.
-template <size_t kMany>
+template <size_t kMany, class Root = EstimatedRoot>
 struct PhongPairs {
   const PixelVector* px[kMany];
   const VF* facing2[kMany];
   const SettledSpot* light[kMany];
   MF open[kMany];  ///< at first the pixels in question, then those that are not settled and may count
 
-  /// Adds the codes that are settled.
+  /// What weigh() makes of the pairs.
+  struct Weights {
+    VF facing[kMany], weight[kMany], bound[kMany];  ///< N . D; what the colours are multiplied by; in units of 2^-14
+    MF settled[kMany];                              ///< pixels that are estimated
+  };
+
   template <bool kCone, class Shape>
-  HWY_INLINE void settle(const LightTerms<Shape>& terms, SettledCodes* const out[kMany]) {
+  HWY_INLINE void weigh(const LightTerms<Shape>& terms, Weights& of) {
     const DF d;
-    const DI di;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const VF one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
     LightChain at[kMany];
-    VF inverse[kMany], diffuse[kMany], shine[kMany], weight[kMany], bound[kMany];
-    MF settled[kMany];
+    VF inverse[kMany], diffuse[kMany], shine[kMany];
     for (size_t k = 0; k < kMany; ++k) terms.place(*px[k], false, light[k]->position, at[k]);
     for (size_t k = 0; k < kMany; ++k) {
       open[k] = less_within(open[k], at[k].d2, hn::Set(d, light[k]->cut2));
-      settled[k] = less_within(less_within(open[k], hn::Set(d, 0x1p-100f), at[k].d2), at[k].d2, hn::Set(d, 0x1p100f));
-      inverse[k] = hn::ApproximateReciprocalSqrt(at[k].d2);
+      of.settled[k] =
+          less_within(less_within(open[k], hn::Set(d, 0x1p-100f), at[k].d2), at[k].d2, hn::Set(d, 0x1p100f));
+      inverse[k] = Root::reciprocal(at[k].d2);
     }
     for (size_t k = 0; k < kMany; ++k)
       inverse[k] = hn::Mul(hn::Mul(inverse[k], half),
                            hn::Sub(hn::Set(d, 3.0f), hn::Mul(at[k].d2, hn::Mul(inverse[k], inverse[k]))));
     for (size_t k = 0; k < kMany; ++k) {
       diffuse[k] = at_most(positive(hn::Mul(at[k].nl, inverse[k])), 1.0f);
-      const VF seen =
-          hn::Sub(hn::Mul(diffuse[k], *facing2[k]), hn::Mul(dot3(at[k].to_light, px[k]->v), inverse[k]));
+      const VF seen = hn::Sub(hn::Mul(diffuse[k], *facing2[k]), hn::Mul(dot3(at[k].to_light, px[k]->v), inverse[k]));
       shine[k] = hn::Min(hn::Max(seen, half), one);  // less comes to less than 2^-60, and must not become denormal
     }
     power60(shine);
     for (size_t k = 0; k < kMany; ++k) {
-      weight[k] = hn::Add(diffuse[k], shine[k]);
-      bound[k] = hn::Add(hn::Set(d, light[k]->window), hn::Mul(hn::Set(d, light[k]->shine), shine[k]));
-      if constexpr (kCone) narrow(k, at[k], inverse[k], weight[k], bound[k], settled[k]);
+      of.facing[k] = at[k].nl;
+      of.weight[k] = hn::Add(diffuse[k], shine[k]);
+      of.bound[k] = hn::Add(hn::Set(d, light[k]->window), hn::Mul(hn::Set(d, light[k]->shine), shine[k]));
+      if constexpr (kCone) narrow(k, at[k], inverse[k], of.weight[k], of.bound[k], of.settled[k]);
     }
+  }
+
+  /// The estimate of 255 / 256 of a channel's term.
+  HWY_INLINE VF estimate(size_t k, int c, VF weight) const {
+    return hn::Mul(hn::Mul(px[k]->albedo[c], hn::Set(DF(), light[k]->color[c])), weight);
+  }
+
+  /// Adds the codes that are settled.
+  template <bool kCone, class Shape>
+  HWY_INLINE void settle(const LightTerms<Shape>& terms, SettledCodes* const out[kMany]) {
+    const DF d;
+    const DI di;
+    Weights of;
+    weigh<kCone>(terms, of);
     for (size_t k = 0; k < kMany; ++k) {
-      const auto near = hn::ConvertTo(di, bound[k]), nearer = hn::Add(near, near);
+      MF& settled = of.settled[k];
+      const auto near = hn::ConvertTo(di, of.bound[k]), nearer = hn::Add(near, near);
       hn::Vec<DI> t[3];
       for (int c = 0; c < 3; ++c) {
-        const VF x = hn::Mul(hn::Mul(px[k]->albedo[c], hn::Set(d, light[k]->color[c])), weight[k]);
+        const VF x = estimate(k, c, of.weight[k]);
         t[c] = hn::Add(hn::BitCast(di, hn::Add(x, hn::Set(d, 2.0f + 0x1p-9f))), near);
-        settled[k] = greater_within(settled[k], hn::And(t[c], hn::Set(di, (1 << kBelowCode) - 1)), nearer);
+        settled = greater_within(settled, hn::And(t[c], hn::Set(di, (1 << kBelowCode) - 1)), nearer);
       }
       for (int c = 0; c < 3; ++c)
-        out[k]->sum[c] = hn::Add(out[k]->sum[c], hn::IfThenElseZero(hn::RebindMask(di, settled[k]),
+        out[k]->sum[c] = hn::Add(out[k]->sum[c], hn::IfThenElseZero(hn::RebindMask(di, settled),
                                                                   hn::ShiftRight<kBelowCode>(t[c])));
-      const MF lit = less_within(settled[k], zero, at[k].nl);
+      const MF lit = less_within(settled, hn::Zero(d), of.facing[k]);
       out[k]->lit = hn::Add(out[k]->lit, hn::IfThenElseZero(hn::RebindMask(di, lit), hn::Set(di, 1)));
-      open[k] = hn::AndNot(settled[k], open[k]);
+      open[k] = hn::AndNot(settled, open[k]);
     }
   }
 

@@ -1,0 +1,233 @@
+#include "tests/shading/settled_lanes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/shading/settled_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "shading/settled_phong-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using testing::kSettledPixels, testing::RootSource, testing::SettledErrors, testing::SettledPixels;
+
+constexpr bool kSettles = kLanes == size_t(kSettledPixels);
+
+bool settles_lanes() { return kSettles; }
+
+/// An estimate at an end of the range that is promised, or in its middle.
+template <int kEnd>
+struct RootAt {
+  static HWY_INLINE VF reciprocal(VF x) {
+    const DF d;
+    const VF right = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));  // two roundings off: 2^-23
+    return hn::Mul(right, hn::Set(d, 1.0f + float(kEnd) * (0x1p-14f - 0x1p-22f)));
+  }
+};
+
+// 0 where the target settles none.
+template <bool kPhong, size_t kIndex = 0>
+constexpr size_t settled_shape() {
+  if constexpr (kIndex == std::size(kCompiledShapes))
+    return 0;
+  else if constexpr (kPhong ? settles_phong<CompiledShape<kIndex>>() : settles_codes<CompiledShape<kIndex>>())
+    return kIndex;
+  else
+    return settled_shape<kPhong, kIndex + 1>();
+}
+
+struct Estimates {
+  alignas(64) float x[3][kSettledPixels], code255[3][kSettledPixels];
+  double allowed[3][kSettledPixels];  ///< units of 2^-14 of a code; 0 where nothing is estimated
+  double proven[kSettledPixels];      ///< the proof's bound for colour 1, in u
+};
+
+// Section 17: 9.1 f + 6.1 d / range of the estimate, 8 f + 2 d / range of the term: most where f is 1.
+constexpr double kProvenLambert = 17.1;
+constexpr double kProvenLength = 1.001;  // of N and V, whose squares may be 1 + 2^-10, and what is of second order
+
+// Section 18, of one pixel, before what is there for slack.
+inline double proven_phong(const SettledPixels& in, int i, const LightRow& row) {
+  double d2 = 0, nd = 0, nv = 0, dv = 0, da = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double d = row.position[c] - in.number[c][i], n = in.number[3 + c][i], v = in.number[6 + c][i];
+    d2 += d * d, nd += n * d, nv += n * v, dv += d * v, da += d * row.axis[c];
+  }
+  const double r = 1.0 / std::sqrt(d2), c = std::clamp(nd * r, 0.0, 1.0);
+  const double s = std::pow(std::clamp(2.0 * c * nv - dv * r, 0.0, 1.0), 60.0), all = c + s;
+  const double sum = 7.1 * c + 2950.0 * s + 5.2 + 10.0 * all;
+  if (row.kind != LightKind::coned) return sum;
+  const double t = std::clamp((da * r - row.edge) * row.slope, 0.0, 1.0), g = t * t * (3.0 - 2.0 * t);
+  return g * sum + all * (6.0 * g + 6.0 * (t - t * t) * (13.1 * row.slope + 4.0));
+}
+
+inline void compare(const LightRow& row, const Estimates& of, SettledErrors& out) {
+  for (int i = 0; i < kSettledPixels; ++i) {
+    out.share[i] = out.window[i] = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      if (of.allowed[c][i] == 0.0 || !std::isfinite(of.x[c][i])) continue;  // the latter must be left open
+      const double units = std::fabs(double(of.x[c][i]) * 256.0 - double(of.code255[c][i])) * 0x1p14;
+      const double proven = of.proven[i] * double(row.color[c]) * 255.0 * 0x1p-10 * kProvenLength + 0x1p-20;
+      if (!(units / proven <= out.share[i])) out.share[i] = units / proven;
+      if (!(proven / of.allowed[c][i] <= out.window[i])) out.window[i] = proven / of.allowed[c][i];
+    }
+  }
+}
+
+// What is not open must have counted as the term does, or not at all where that adds nothing.
+inline void check_codes(const LightTerm& term, const SettledCodes& codes, bool all_light, MF asked, MF open,
+                        SettledErrors& out) {
+  const DF d;
+  const DI di;
+  const MF closed = hn::AndNot(open, asked);
+  MF wrong = hn::Lt(hn::Zero(d), hn::Zero(d));
+  for (int c = 0; c < 3; ++c) {
+    const VF code = hn::Round(hn::Mul(hn::IfThenElseZero(term.adds, term.color[c]), hn::Set(d, 255.0f)));
+    wrong = hn::Or(wrong, hn::Ne(code, codes.codes(c)));
+  }
+  const auto lights = hn::IfThenElseZero(hn::RebindMask(di, term.lit), hn::Set(di, 1));
+  wrong = hn::Or(wrong, hn::RebindMask(d, hn::Ne(lights, codes.lights(all_light))));
+  out.wrong = int(hn::CountTrue(d, hn::And(closed, wrong)));
+  out.settled = int(hn::CountTrue(d, hn::And(closed, term.adds)));
+}
+
+HWY_INLINE PixelVector loaded(const SettledPixels& in) {
+  const DF d;
+  PixelVector px;
+  px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
+  for (int c = 0; c < 3; ++c) {
+    px.p[c] = hn::Load(d, in.number[c]), px.n[c] = hn::Load(d, in.number[3 + c]);
+    px.v[c] = hn::Load(d, in.number[6 + c]), px.albedo[c] = hn::Load(d, in.number[9 + c]);
+    px.specular[c] = hn::Zero(d);
+  }
+  return px;
+}
+
+template <class Terms>
+HWY_INLINE LightTerm term_of(const Terms& terms, const PixelVector& px, Estimates& of) {
+  const DF d;
+  const LightTerm term = terms(px, terms.lights.row[0]);
+  for (int c = 0; c < 3; ++c)
+    hn::Store(hn::IfThenElseZero(term.adds, hn::Mul(term.color[c], hn::Set(d, 255.0f))), d, of.code255[c]);
+  return term;
+}
+
+template <class Root>
+void lambert_errors(const LightTable& table, const LightModel& model, const SettledPixels& in, SettledErrors& out) {
+  using Shape = CompiledShape<settled_shape<false>()>;
+  const DF d;
+  const LightTerms<Shape> terms(table, model, Shape());
+  const PixelVector px = loaded(in);
+  const MF plain = plain_surfaces(px);
+  SettledLight light;
+  const LightRow& row = table.row[0];
+  make_settled_light({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true}, light);
+  SettledPairs<1, Root> pairs;
+  pairs.px[0] = &px, pairs.light[0] = &light, pairs.lit[0] = plain;
+  Estimates of;
+  VF weight[1];
+  pairs.weigh(terms, weight);
+  const LightTerm term = term_of(terms, px, of);
+  const uint64_t lit = mask_bits(pairs.lit[0]);
+  for (int c = 0; c < 3; ++c) {
+    hn::Store(pairs.estimate(0, c, weight[0]), d, of.x[c]);
+    const int window = light.bias[c] - (1 << 30) - (1 << (kBelowCode - 1));
+    for (int i = 0; i < kSettledPixels; ++i)
+      of.allowed[c][i] = (lit >> i & 1) != 0 && light.clear[c] != 0 ? window - 0.5 : 0.0;
+  }
+  std::fill_n(of.proven, kSettledPixels, kProvenLambert);
+  compare(row, of, out);
+  out.edge = 0.0;
+  SettledCodes codes, *const to[1] = {&codes};
+  codes.clear();
+  MF open[1];
+  pairs.lit[0] = plain;
+  pairs.settle(terms, to, open);
+  check_codes(term, codes, true, plain, open[0], out);
+}
+
+template <class Root, bool kCone>
+void phong_errors(const LightTable& table, const LightModel& model, const SettledPixels& in, SettledErrors& out) {
+  using Shape = CompiledShape<settled_shape<true>()>;
+  using Pairs = PhongPairs<1, Root>;
+  const DF d;
+  const LightTerms<Shape> terms(table, model, Shape());
+  const PixelVector px = loaded(in);
+  const MF plain = hn::And(plain_surfaces(px), plain_views(px));
+  const VF facing2 = twice_facing(px);
+  const LightRow& row = table.row[0];
+  const SettledSpot light =
+      settled_spot({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
+  Pairs pairs;
+  pairs.px[0] = &px, pairs.facing2[0] = &facing2, pairs.light[0] = &light, pairs.open[0] = plain;
+  Estimates of;
+  typename Pairs::Weights weights;
+  pairs.template weigh<kCone>(terms, weights);
+  const LightTerm term = term_of(terms, px, of);
+  alignas(64) int32_t near[kSettledPixels];
+  hn::Store(hn::ConvertTo(DI(), weights.bound[0]), DI(), near);
+  const uint64_t settled = mask_bits(weights.settled[0]);
+  for (int c = 0; c < 3; ++c) {
+    hn::Store(pairs.estimate(0, c, weights.weight[0]), d, of.x[c]);
+    for (int i = 0; i < kSettledPixels; ++i)
+      of.allowed[c][i] = (settled >> i & 1) != 0 && near[i] < 1 << (kBelowCode - 1) ? near[i] + 0.5 : 0.0;
+  }
+  for (int i = 0; i < kSettledPixels; ++i) of.proven[i] = proven_phong(in, i, row);
+  compare(row, of, out);
+  out.edge = kCone ? (13.1 * row.slope + 4.0) * kProvenLength * 0x1p-24 / light.away : 0.0;
+  SettledCodes codes, *const to[1] = {&codes};
+  codes.clear();
+  pairs.open[0] = plain;
+  pairs.template settle<kCone>(terms, to);
+  check_codes(term, codes, false, plain, pairs.open[0], out);
+}
+
+template <class Root>
+void errors_from(const LightTable& table, const LightModel& model, bool phong, const SettledPixels& in,
+                 SettledErrors& out) {
+  if constexpr (kSettles) {
+    if (!phong) return lambert_errors<Root>(table, model, in, out);
+    if (table.row[0].kind == LightKind::coned) return phong_errors<Root, true>(table, model, in, out);
+    phong_errors<Root, false>(table, model, in, out);
+  }
+}
+
+void settled_errors_of(const LightTable& table, const LightModel& model, bool phong, RootSource root,
+                       const SettledPixels& in, SettledErrors& out) {
+  switch (root) {
+    case RootSource::cpu:
+      return errors_from<EstimatedRoot>(table, model, phong, in, out);
+    case RootSource::low:
+      return errors_from<RootAt<-1>>(table, model, phong, in, out);
+    case RootSource::right:
+      return errors_from<RootAt<0>>(table, model, phong, in, out);
+    case RootSource::high:
+      return errors_from<RootAt<1>>(table, model, phong, in, out);
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(settles_lanes);
+HWY_EXPORT(settled_errors_of);
+
+namespace testing {
+
+bool settles_lanes() { return HWY_DYNAMIC_DISPATCH(trueshade::settles_lanes)(); }
+
+void settled_errors(const LightTable& lights, const LightModel& model, bool phong, RootSource root,
+                    const SettledPixels& pixels, SettledErrors& errors) {
+  HWY_DYNAMIC_DISPATCH(settled_errors_of)(lights, model, phong, root, pixels, errors);
+}
+
+}  // namespace testing
+}  // namespace trueshade
+#endif  // HWY_ONCE
