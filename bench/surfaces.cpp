@@ -1,6 +1,7 @@
 // What does the geometry pass of a frame cost once clusters are in bins? One thread; counters, of the least time that
 // each tile took in any round, so that what else the machine does falls out: core ms a frame for visibility and for the
-// surfaces of visible pixels, ns a covered pixel for these. SIMD targets by --benchmark_filter: the name ends in one.
+// surfaces of visible pixels, ns a covered pixel for these; clusters in bins. Rows "back" drop back faces. SIMD targets
+// by --benchmark_filter: the name ends in one.
 #include "raster/surfaces.h"
 
 #include <benchmark/benchmark.h>
@@ -33,10 +34,11 @@ struct BinnedFrame {
   ClusterBins bins;
   std::vector<TileRect> rect;
 
-  BinnedFrame(const std::string& spec, const std::string& preset, int width, int height)
+  BinnedFrame(const std::string& spec, const std::string& preset, CullFace cull, int width, int height)
       : scene(load_scene(spec)), pipeline(*preset_pipeline(preset)), prepared(scene) {
     pipeline.width = width;
     pipeline.height = height;
+    pipeline.geometry.cull_face = cull;
     view = make_view(scene, pipeline);
     bin_clusters(scene, prepared.clusters(), view, kTile, true, 1, bins);
     for (int i = 0; i < int(bins.first.size()) - 1; ++i) {
@@ -63,18 +65,19 @@ struct LeastTimes {
   double sum() const { return std::accumulate(ns.begin(), ns.end(), 0.0); }
 };
 
-const BinnedFrame& binned_frame(const std::string& spec, const std::string& preset, int width, int height) {
+const BinnedFrame& binned_frame(const std::string& spec, const std::string& preset, CullFace cull, int width,
+                                int height) {
   static std::map<std::string, std::unique_ptr<BinnedFrame>> made;
-  auto& slot = made[spec + preset + std::to_string(width)];
-  if (!slot) slot = std::make_unique<BinnedFrame>(spec, preset, width, height);
+  auto& slot = made[spec + preset + std::to_string(int(cull)) + std::to_string(width)];
+  if (!slot) slot = std::make_unique<BinnedFrame>(spec, preset, cull, width, height);
   return *slot;
 }
 
-void geometry(benchmark::State& state, const std::string& spec, const std::string& preset, int width, int height,
-              const std::string& target) {
+void geometry(benchmark::State& state, const std::string& spec, const std::string& preset, CullFace cull, int width,
+              int height, const std::string& target) {
   const FpScope fp;
   const SimdScope simd(target);
-  const BinnedFrame& in = binned_frame(spec, preset, width, height);
+  const BinnedFrame& in = binned_frame(spec, preset, cull, width, height);
   const GBufferState planes = surface_planes(in.pipeline);
   const auto visible = std::make_unique<VisibilityTile>();
   const auto surface = std::make_unique<SurfaceTile>();
@@ -95,24 +98,30 @@ void geometry(benchmark::State& state, const std::string& spec, const std::strin
   }
   state.counters["visibility ms"] = visibility.sum() * 1e-6;
   state.counters["surfaces ms"] = surfaces.sum() * 1e-6;
+  state.counters["clusters"] = double(in.bins.draws.size());
   state.counters["ns/pixel"] = surfaces.sum() / double(pixels);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::pair<const char*, const char*> rows[] = {{"builtin:city", "many-lights"},
-                                                      {"builtin:sphere", "many-lights"},
-                                                      {"builtin:rabbits", "many-lights"},
-                                                      {"builtin:red", "many-lights"},
-                                                      {"builtin:red", "redsdk"}};
-  for (const auto& [scene, preset] : rows)
+  struct Row {
+    const char *scene, *preset;
+    CullFace cull = CullFace::none;
+  };
+  const Row rows[] = {{"builtin:city", "many-lights"},    {"builtin:sphere", "many-lights"},
+                      {"builtin:rabbits", "many-lights"}, {"builtin:rabbits", "many-lights", CullFace::back},
+                      {"builtin:red", "many-lights"},     {"builtin:red", "many-lights", CullFace::back},
+                      {"builtin:red", "redsdk"}};
+  for (const auto& [scene, preset, cull] : rows)
     for (const auto& [width, height] : {std::pair(800, 800), std::pair(1920, 1080)})
       for (const std::string_view target : simd_targets())
         benchmark::RegisterBenchmark(
-            (std::string(scene) + " " + preset + " " + std::to_string(width) + " " + std::string(target)).c_str(),
-            [=, scene = scene, preset = preset, width = width, height = height](benchmark::State& state) {
-              geometry(state, scene, preset, width, height, std::string(target));
+            (std::string(scene) + " " + preset + (cull == CullFace::back ? " back " : " ") + std::to_string(width) +
+             " " + std::string(target))
+                .c_str(),
+            [=, scene = scene, preset = preset, cull = cull, width = width, height = height](benchmark::State& state) {
+              geometry(state, scene, preset, cull, width, height, std::string(target));
             })
             ->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);

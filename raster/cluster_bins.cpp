@@ -39,8 +39,13 @@ void append_piece(const Scene& scene, const ClusteredScene& clusters, const View
     const uint32_t instance = bins.row[at];
     const uint64_t until = std::min(end, row[at + 1]);
     const auto first = uint32_t(from - row[at]), last = uint32_t(until - row[at]);
-    run[runs++] = {&clusters.meshes[scene.instances[instance].mesh].boxes, &view.instances[instance], instance, first,
-                   last};
+    const InstanceTransform& transform = view.instances[instance];
+    run[runs++] = {&clusters.meshes[scene.instances[instance].mesh],
+                   &transform,
+                   instance,
+                   first,
+                   last,
+                   culling && t.dropped != 0 ? object_eye(transform) : ObjectEye{}};
     from = until;
     if (culling && (runs == kRuns || from == end)) append_seen({run, std::exchange(runs, 0)}, t, out);
     if (culling) continue;

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "raster/lanes-inl.h"
 #include "raster/vertex_stage-inl.h"
@@ -132,7 +133,7 @@ struct PlacedBoxes {
     alignas(64) float lane[kNumbers][kMostLanes];
     for (size_t k = 0; k < hn::Lanes(d); ++k) {
       const float* const clip = of[k].run->transform->clip[0];
-      const ClusterBoxes& boxes = *of[k].run->boxes;
+      const ClusterBoxes& boxes = of[k].run->mesh->boxes;
       for (size_t n = 0; n < 16; ++n) lane[n][k] = clip[n];
       for (size_t c = 0; c < 3; ++c) {
         lane[16 + c][k] = boxes.center[c][of[k].cluster];
@@ -144,6 +145,98 @@ struct PlacedBoxes {
   }
 };
 
+// Cones and the eye that sees them, a lane each.
+struct PlacedCones {
+  VWF axis[3], cosine, sine, off_center, inradius;
+  VWF center[3], weight, center_slack, weight_slack;
+
+  // A run's cones from the i-th cluster on.
+  HWY_INLINE PlacedCones(const ClusterRun& run, size_t i) {
+    const DWF d;
+    const ClusterCones& cones = run.mesh->cones;
+    for (size_t c = 0; c < 3; ++c) axis[c] = hn::LoadU(d, cones.axis[c].data() + i);
+    cosine = hn::LoadU(d, cones.cosine.data() + i), sine = hn::LoadU(d, cones.sine.data() + i);
+    off_center = hn::LoadU(d, cones.off_center.data() + i), inradius = hn::LoadU(d, cones.inradius.data() + i);
+    for (size_t c = 0; c < 3; ++c) center[c] = hn::Set(d, run.eye.center[c]);
+    weight = hn::Set(d, run.eye.weight);
+    center_slack = hn::Set(d, run.eye.center_slack), weight_slack = hn::Set(d, run.eye.weight_slack);
+  }
+
+  // Cones of any runs, one each.
+  HWY_INLINE explicit PlacedCones(const BoxLane* of) {
+    const DWF d;
+    alignas(64) float lane[13][kMostLanes];
+    for (size_t k = 0; k < hn::Lanes(d); ++k) {
+      const ClusterCones& cones = of[k].run->mesh->cones;
+      const ObjectEye& eye = of[k].run->eye;
+      const uint32_t i = of[k].cluster;
+      const float number[13] = {cones.axis[0][i], cones.axis[1][i],    cones.axis[2][i],  cones.cosine[i],
+                                cones.sine[i],    cones.off_center[i], cones.inradius[i], eye.center[0],
+                                eye.center[1],    eye.center[2],       eye.weight,        eye.center_slack,
+                                eye.weight_slack};
+      for (size_t n = 0; n < 13; ++n) lane[n][k] = number[n];
+    }
+    for (size_t c = 0; c < 3; ++c) axis[c] = hn::Load(d, lane[c]), center[c] = hn::Load(d, lane[7 + c]);
+    cosine = hn::Load(d, lane[3]), sine = hn::Load(d, lane[4]);
+    off_center = hn::Load(d, lane[5]), inradius = hn::Load(d, lane[6]);
+    weight = hn::Load(d, lane[10]), center_slack = hn::Load(d, lane[11]), weight_slack = hn::Load(d, lane[12]);
+  }
+};
+
+// A lower bound of n . g for all normals n in a box's cone, g = +-(center + weight p) at any corner p of a triangle: at
+// the box's centre |g| cos(angle to the axis + the cone's), from there to p's plane at most |weight| off_center. Sums
+// here are off by less than 32 u of what they add.
+HWY_INLINE VWF least_turn(const PlacedBoxes& in, const PlacedCones& cones, float sign) {
+  const DWF d;
+  const VWF zero = hn::Zero(d);
+  VWF g[3], size = zero, places = zero, along = zero, across = hn::Set(d, 0x1p-100f);
+  for (int i = 0; i < 3; ++i) {
+    const VWF moved = hn::Mul(cones.weight, in.center[i]);
+    g[i] = hn::Mul(hn::Set(d, sign), hn::Add(cones.center[i], moved));
+    size = hn::Add(size, hn::Add(hn::Abs(cones.center[i]), hn::Abs(moved)));
+    places = hn::Add(places, hn::Abs(in.center[i]));
+    along = hn::Add(along, hn::Mul(cones.axis[i], g[i]));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3, l = (i + 2) % 3;
+    const VWF part = hn::Sub(hn::Mul(cones.axis[k], g[l]), hn::Mul(cones.axis[l], g[k]));
+    across = hn::Add(across, hn::Mul(part, part));
+  }
+  const VWF slack = hn::Add(hn::Add(hn::Mul(size, hn::Set(d, 0x1p-18f)), cones.center_slack),
+                            hn::Add(hn::Mul(places, cones.weight_slack), hn::Set(d, 0x1p-100f)));
+  const VWF at_center = hn::Sub(hn::Mul(along, cones.cosine), hn::Mul(hn::Sqrt(across), cones.sine));
+  return hn::Sub(hn::Sub(at_center, hn::Mul(hn::Abs(cones.weight), cones.off_center)), slack);
+}
+
+// Lanes all of whose triangles stay turned away, whatever rounds. In 1/256 pixel a triangle's doubled area is
+// S 2A (n . g) / (w0 w1 w2), S the product of the scales; and an edge that joins p and q, x_p - x_q being
+// ((X_p - X_q) - x_q (W_p - W_q)) / W_p, at most |p - q| K / w, K the norm of both axes' rows less x times that of w.
+// So its inradius is at least S rho (n . g) w_low / (w_high^3 K), rho that in object space. Corners that move by up to
+// e change the doubled area by at most e perimeter + 2.6 e^2, and a perimeter is at least 10.3 inradii: above 1.21 e no
+// sign turns. e is sqrt(2) times what an axis' snap and the vertex stage make. 1.77: 1.21 sqrt(2), and roundings here.
+HWY_INLINE MWF turned_away(const PlacedBoxes& in, const PlacedCones& cones, const ClipRow row[2], const ClipRow& w_row,
+                           const Intervals& w, const Intervals ndc[2], const WindowTransform& t) {
+  const DWF d;
+  const float greatest = std::numeric_limits<float>::max();
+  VWF norm = hn::Set(d, 0x1p-60f), moved = hn::Zero(d), area = hn::Set(d, 1.0f);
+  for (int axis = 0; axis < 2; ++axis) {
+    const VWF most = hn::Max(hn::Abs(ndc[axis].low), hn::Abs(ndc[axis].high));
+    const VWF scale = hn::Set(d, std::abs(float(t.scale[axis])));
+    for (int i = 0; i < 3; ++i) {
+      const VWF slope = hn::Mul(scale, hn::Add(hn::Abs(in.row[axis][i]), hn::Mul(most, hn::Abs(in.row[3][i]))));
+      norm = hn::Add(norm, hn::Mul(slope, slope));
+    }
+    const VWF off = hn::Div(hn::Add(row[axis].slack, hn::Mul(most, w_row.slack)), w.low);
+    moved = hn::Max(moved, hn::Mul(scale, off));
+    area = hn::Mul(area, scale);
+  }
+  const VWF snapped = hn::Add(moved, hn::Set(d, 0.51f)), cube = hn::Mul(w.high, hn::Mul(w.high, w.high));
+  const VWF inradius = hn::Mul(hn::Mul(hn::Mul(area, cones.inradius), least_turn(in, cones, float(t.dropped))), w.low);
+  const VWF enough = hn::Mul(hn::Mul(hn::Set(d, 1.77f), snapped), hn::Mul(cube, hn::Sqrt(norm)));
+  return hn::And(hn::And(hn::Gt(inradius, enough), hn::Le(inradius, hn::Set(d, greatest))),
+                 hn::Ge(w.low, hn::Set(d, 0x1p-30f)));
+}
+
 // Bounds of a vector of clusters.
 struct Bounds {
   static constexpr int kMost = kMostLanes;
@@ -151,7 +244,9 @@ struct Bounds {
   alignas(64) float near[kMost];
   uint32_t seen, unknown, plain;  // a bit a lane: may be seen; somewhere in the viewport; needs no care
 
-  HWY_INLINE void set(const PlacedBoxes& in, const WindowTransform& t) {
+  // `cones`: makes those of the boxes, asked only where faces are dropped; or null.
+  template <class Cones>
+  HWY_INLINE void set(const PlacedBoxes& in, const Cones& cones, const WindowTransform& t) {
     const DWF d;
     const ClipRow row[3] = {
         {in.row[0], in.center, in.half}, {in.row[1], in.center, in.half}, {in.row[2], in.center, in.half}};
@@ -184,6 +279,9 @@ struct Bounds {
         hn::Add(hn::Mul(hn::Add(hn::Abs(least), hn::Abs(offset)), hn::Set(d, 0x1p-22f)), hn::Set(d, 0x1p-40f));
     hn::Store(hn::Sub(hn::Add(least, offset), slack), d, near);
     plain = lane_bits(d, without_care(ndc, before_far, w, t)) & ~somewhere;
+    if constexpr (!std::is_null_pointer_v<Cones>)
+      if (t.dropped != 0 && (seen & plain) != 0)
+        seen &= ~(plain & lane_bits(d, turned_away(in, cones(), row, w_row, w, ndc, t)));
   }
 
  private:
@@ -231,7 +329,9 @@ void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t
   for (size_t at = 0; at < runs.size();) {
     const ClusterRun& run = runs[at];
     const bool alone = run.last - i >= lanes || at + 1 == runs.size();
-    if (alone) b.set(PlacedBoxes(*run.boxes, *run.transform, i), t);
+    if (alone)
+      b.set(
+          PlacedBoxes(run.mesh->boxes, *run.transform, i), [&] { return PlacedCones(run, i); }, t);
     uint32_t count = 0;
     for (; count < lanes && at < runs.size(); ++count) {
       lane[count] = {&runs[at], i};
@@ -239,7 +339,8 @@ void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t
     }
     if (!alone) {
       std::fill(lane + count, lane + lanes, lane[count - 1]);
-      b.set(PlacedBoxes(lane), t);
+      b.set(
+          PlacedBoxes(lane), [&] { return PlacedCones(lane); }, t);
     }
     for (uint32_t bits = b.seen & ((uint32_t(1) << count) - 1); bits != 0; bits &= bits - 1) {
       const int k = std::countr_zero(bits);
@@ -251,7 +352,7 @@ void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t
 bool may_be_seen_simd(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& t,
                       uint32_t index) {
   Bounds b;
-  b.set(PlacedBoxes(boxes, transform, index), t);
+  b.set(PlacedBoxes(boxes, transform, index), nullptr, t);
   return (b.seen & 1) != 0;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fp_env.h"
+#include "raster/cone_maker.h"
 
 namespace trueshade {
 namespace {
@@ -34,9 +35,11 @@ class Builder {
     }
     finish();
     for (size_t c = 0; c < 3; ++c) add_box(c, least_[c], greatest_[c]);
+    add_cone(NormalCone{}, out_.cones);
     for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
     for (auto* ends : {&out_.boxes.center, &out_.boxes.half_size})
       for (auto& stream : *ends) stream.resize(stream.size() + kBoxSlack);
+    for (size_t i = 0; i < kBoxSlack; ++i) add_cone(NormalCone{}, out_.cones);
     return std::move(out_);
   }
 
@@ -99,6 +102,7 @@ class Builder {
       for (size_t c = 0; c < 3; ++c) add_line(mesh_.normal[c], i);
       for (size_t c = 0; c < 4 && mesh_.has_color(); ++c) add_line(mesh_.color[c], i);
     }
+    add_cone(normal_cone(out_, current_, out_.clusters.size()), out_.cones);
     out_.clusters.push_back(current_);
   }
 
