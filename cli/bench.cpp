@@ -29,7 +29,8 @@ double memory_mib(const char* which) {
   return 0.0;
 }
 
-/// The most memory that a scene takes of this process: what others before it left behind is theirs.
+/// The most memory that a scene takes of this process: what others before it left behind is theirs, and so is threads'
+/// scratch.
 class PeakMemory {
  public:
   PeakMemory() {

@@ -151,7 +151,10 @@ TEST_CASE("What a scene takes of memory is its own, whatever was timed before it
     REQUIRE(bench.exit_code == 0);
     return nlohmann::json::parse(contents(folder.path("m.json")))["scenes"].back()["peak_mib"].get<double>();
   };
-  CHECK(mib({"builtin:rabbits", "builtin:cornell"}) == Approx(mib({"builtin:cornell"})).margin(4.0));
+  // Scratch of threads, some 4 MiB, is the first scene's; rabbits takes 7 MiB more than cornell.
+  const double alone = mib({"builtin:cornell"}), after = mib({"builtin:rabbits", "builtin:cornell"});
+  CHECK(after <= alone + 2.0);
+  CHECK(after >= alone - 7.0);
 }
 
 }  // namespace trueshade
