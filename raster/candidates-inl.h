@@ -173,8 +173,9 @@ class CandidateTest {
   }
 
  private:
-  static constexpr uint16_t kSixteenBits[32] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
-                                                1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  alignas(64) static constexpr uint16_t kSixteenBits[32] = {1,       1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
+                                                            1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
+                                                            1 << 12, 1 << 13, 1 << 14, 1 << 15};
   const PackedLimits& limit_;
   const bool any_held_, all_open_;
   const SixteenWords rows_, bits_;
