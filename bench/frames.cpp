@@ -50,14 +50,12 @@ void draw(benchmark::State& state, const std::string& spec, const std::string& p
     sum.triangles += s.triangles;
     sum.evaluated_pixel_lights += s.evaluated_pixel_lights;
     sum.covered_pixels = s.covered_pixels;
-    sum.visibility_ms += s.visibility_ms;
-    sum.surfaces_ms += s.surfaces_ms;
-    sum.light_ms += s.light_ms;
+    sum.core_ms += s.core_ms;
   }
   state.counters["Mtri/s"] = benchmark::Counter(double(sum.triangles) * 1e-6, benchmark::Counter::kIsRate);
-  state.counters["ns/pixel-light"] = sum.light_ms * 1e6 / double(sum.evaluated_pixel_lights);
+  state.counters["ns/pixel-light"] = sum.core_ms.light * 1e6 / double(sum.evaluated_pixel_lights);
   state.counters["covered"] = double(sum.covered_pixels);
-  state.counters["geometry share"] = sum.geometry_ms() / (sum.geometry_ms() + sum.light_ms);
+  state.counters["geometry share"] = sum.core_ms.geometry() / (sum.core_ms.geometry() + sum.core_ms.light);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "bench/peers.h"
@@ -51,11 +52,12 @@ struct Work {
 
 class GlPeers final : public Peers {
  public:
-  GlPeers(const Scene& scene, const Pipeline& pipeline)
+  GlPeers(const Scene& scene, const Pipeline& pipeline, std::span<const std::string> designs)
       : context_(oracle::GlDriver::any), renderer_(context_, scene), pipeline_(pipeline) {
     const int changed = pixels_culling_changes(renderer_, pipeline);
     culled_ = changed <= pipeline.width * pipeline.height / kPixelsPerChange;
     for (const GlDesign design : oracle::kGlDesigns) {
+      if (!designs.empty() && std::find(designs.begin(), designs.end(), name_of(design)) == designs.end()) continue;
       if (draws_transparent(scene, pipeline) && !draws_glass(design, pipeline.transparency.mode)) {
         without_glass_ = true;
         continue;
@@ -98,8 +100,18 @@ class GlPeers final : public Peers {
 
 }  // namespace
 
-std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline) {
-  return std::make_unique<GlPeers>(scene, pipeline);
+std::span<const std::string_view> gl_design_names() {
+  static const auto names = [] {
+    std::array<std::string_view, oracle::kGlDesigns.size()> all;
+    std::transform(oracle::kGlDesigns.begin(), oracle::kGlDesigns.end(), all.begin(),
+                   [](GlDesign design) { return name_of(design); });
+    return all;
+  }();
+  return names;
+}
+
+std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline, std::span<const std::string> designs) {
+  return std::make_unique<GlPeers>(scene, pipeline, designs);
 }
 
 }  // namespace trueshade

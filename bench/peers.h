@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,10 +22,13 @@ class Peers {
   virtual std::vector<PeerPicture> pictures() { return {}; }
 };
 
-/// OpenGL in every design of oracle/gl/designs.h, on the driver at hand. Designs that a user picks for speed cull back
-/// faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver), Error(usage) for lights whose
-/// extents one shader cannot tell apart.
-std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline);
+/// Names of the designs of oracle/gl/designs.h; none where OpenGL was not built in.
+std::span<const std::string_view> gl_design_names();
+
+/// OpenGL in these designs, in all of them where none is named, on the driver at hand. Designs that a user picks for
+/// speed cull back faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver), Error(usage) for
+/// lights whose extents one shader cannot tell apart.
+std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline, std::span<const std::string> designs);
 
 /// Embree's primary rays, nothing shaded. `threads`: 0 for one a core.
 std::unique_ptr<Peers> embree_peers(const Scene& scene, const Pipeline& pipeline, int threads);

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "bench/peers.h"
@@ -45,18 +44,19 @@ class PeakMemory {
   double left_behind_;
 };
 
-bool is_variant(const std::string& peer) { return peer.find('=') != std::string::npos; }
+bool is_gl(const std::string& peer) { return peer == "gl" || peer.starts_with("gl="); }
+bool is_variant(const std::string& peer) { return !is_gl(peer) && peer.find('=') != std::string::npos; }
 
 std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const Scene& scene,
                                              const Pipeline& pipeline) {
   std::vector<std::unique_ptr<Peers>> peers;
   for (const std::string& name : options.against) {
     if (is_variant(name)) continue;
-    if (name != "gl" && draws_transparent(scene, pipeline))
+    if (!is_gl(name) && draws_transparent(scene, pipeline))
       throw Error(ErrorKind::usage, "--against", name + " does not see through transparent surfaces",
                   "gl, a scene without, or a pipeline with transparency none");
-    peers.push_back(name == "gl" ? gl_peers(scene, pipeline)
-                                 : embree_peers(scene, pipeline, options.execution.threads));
+    peers.push_back(is_gl(name) ? gl_peers(scene, pipeline, designs_from_text(name))
+                                : embree_peers(scene, pipeline, options.execution.threads));
   }
   return peers;
 }
@@ -77,11 +77,17 @@ std::vector<std::pair<std::string, std::unique_ptr<OwnFrames>>> variants_of(cons
   return variants;
 }
 
+std::vector<double> sums(const std::vector<StageTimes>& tiles) {
+  std::vector<double> ms;
+  for (const StageTimes& tile : tiles) ms.push_back(tile.sum());
+  return ms;
+}
+
 /// What tiles cost by the sides that more cores would draw with.
 std::map<int, std::vector<double>> tile_costs(const OwnFrames& frames, const FrameStats& drawn, const Pipeline& p,
                                               const Execution& execution) {
   constexpr int kRounds = 5;
-  std::map<int, std::vector<double>> costs{{drawn.tile, drawn.tile_ms}};
+  std::map<int, std::vector<double>> costs{{drawn.tile, sums(drawn.tile_ms)}};
   if (execution.tile != 0) return costs;
   for (const int cores : kMoreCores) {
     const int tile = tile_for(p.width, p.height, cores);
@@ -91,7 +97,7 @@ std::map<int, std::vector<double>> tile_costs(const OwnFrames& frames, const Fra
     OwnFrames others(frames, smaller);
     others.expect(frames.hash());
     for (int round = 0; round < kRounds; ++round) others.draw();
-    costs[tile] = others.stats().tile_ms;
+    costs[tile] = sums(others.stats().tile_ms);
   }
   return costs;
 }
@@ -145,61 +151,6 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   result.bytes = frame_bytes(result.stats, result.pipeline.target);
   result.tile_costs = tile_costs(frames, result.stats, result.pipeline, execution);
   return result;
-}
-
-// --- Scaling -------------------------------------------------------------------------------------------------------
-
-constexpr double kSlowMs = 1000.0;  ///< frames that take longer are not followed by ten times as much
-
-/// Median time of a scene by us alone.
-double median_ms(const BenchOptions& options, const std::string& spec, const Execution& execution,
-                 std::optional<Size> size = {}) {
-  PipelineOptions own = options;
-  own.scene = spec;
-  if (size) own.size = size;
-  const Scene scene = load_scene(spec, {}, decode_image);
-  const PreparedScene prepared(scene);
-  OwnFrames frames(prepared, pipeline_of(own, scene), execution);
-  frames.checked_hash(simd_targets()[simd_targets().size() > 1 ? 1 : 0]);
-  const std::vector<Contender> alone{{"trueshade", "", [&frames] { return frames.draw(); }}};
-  return contest(alone, {7, 1000.0})[0].median();
-}
-
-std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const Execution& execution) {
-  ProgressBar bar("scaling", "curves");
-  std::vector<ScalingCurve> curves;
-  ScalingCurve lights{"Lights, city", "lights", true, {}};
-  for (const char* count : {"1", "10", "100", "757", "10000", "100000", "1000000"}) {
-    if (!lights.points.empty() && lights.points.back().ms > kSlowMs) break;  // lights that end nowhere, every pixel
-    lights.points.push_back(
-        {count, std::stod(count), median_ms(options, std::string("builtin:city,lights=") + count, execution)});
-  }
-  bar.show(1, 5), curves.push_back(lights);
-  ScalingCurve triangles{"Triangles, city", "triangles", true, {}};
-  for (const int objects : {100, 1000, 10000, 100000})
-    triangles.points.push_back({std::to_string(objects * 12), objects * 12.0,
-                                median_ms(options, "builtin:city,objects=" + std::to_string(objects), execution)});
-  bar.show(2, 5), curves.push_back(triangles);
-  ScalingCurve pixels{"Pixels, city", "megapixels", true, {}};
-  for (const int side : {200, 400, 800, 1600})
-    pixels.points.push_back({std::to_string(side) + "x" + std::to_string(side), side * side * 1e-6,
-                             median_ms(options, "builtin:city", execution, Size{side, side})});
-  bar.show(3, 5), curves.push_back(pixels);
-  ScalingCurve threads{"Threads, city", "threads", false, {}};
-  for (int n = 1; n <= thread_count(0); n = std::max(n + 1, std::min(2 * n, thread_count(0)))) {
-    Execution e = execution;
-    e.threads = n;
-    threads.points.push_back({std::to_string(n), double(n), median_ms(options, "builtin:city", e)});
-  }
-  bar.show(4, 5), curves.push_back(threads);
-  ScalingCurve simd{"SIMD targets, city", "", false, {}};
-  for (const std::string_view target : simd_targets()) {
-    Execution e = execution;
-    e.simd = target;
-    simd.points.push_back({std::string(target), double(simd.points.size()), median_ms(options, "builtin:city", e)});
-  }
-  bar.show(5, 5), curves.push_back(simd);
-  return curves;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "bench/floor.h"
 #include "bench/machine.h"
 #include "bench/picture_check.h"
+#include "cli/options.h"
 #include "scenes/pipeline.h"
 #include "shading/frame.h"
 
@@ -28,7 +29,7 @@ struct SceneTime {
   Pipeline pipeline;
   std::string hash;  ///< of every frame that was timed; 64 hex digits
   Timing timing;
-  FrameStats stats;  ///< of the frame of median time
+  FrameStats stats;  ///< of the frame of median time, stages and tiles by their least
   FrameFloor floor;
   FrameBytes bytes;
   std::map<int, std::vector<double>> tile_costs;  ///< ms of each tile in the order they are started, by the tiles' side
@@ -62,6 +63,11 @@ struct BenchResult {
   std::vector<SceneTime> scenes;
   std::vector<ScalingCurve> scaling;  ///< empty unless a report was asked for
 };
+
+/// How frames of city scale with lights, triangles, pixels, threads and SIMD targets, each curve's drawn in turn.
+std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const Execution& execution);
+
+std::string formatted(double value, const char* format);  ///< by printf's format for one double
 
 double ns_per_pixel_light(const SceneTime& scene);  ///< of one core, per pixel-light computed
 double million_triangles_per_s(const SceneTime& scene);

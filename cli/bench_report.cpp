@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #include "cli/bench.h"
 #include "cli/page.h"
 #include "cli/svg_chart.h"
@@ -8,25 +6,31 @@
 namespace trueshade {
 namespace {
 
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string card(const std::string& title, const std::string& chart) {
   return "<figure style=\"padding: 14px\"><b>" + escaped(title) + "</b>\n" + chart + "</figure>\n";
 }
 
+std::string about(const SceneTime& s) {
+  return s.pipeline.preset + ", " + std::to_string(s.pipeline.width) + " x " + std::to_string(s.pipeline.height);
+}
+
 std::string against_peers(const SceneTime& s) {
-  std::vector<Bar> bars{{"trueshade", s.timing.median(), number(s.timing.median(), "%.2f ms"), true}};
+  std::vector<Bar> bars{{"trueshade", s.timing.median(), formatted(s.timing.median(), "%.2f ms"), true}};
   for (const PeerTime& peer : s.peers)
     bars.push_back({peer.name + ' ' + peer.strategy, peer.timing.median(),
-                    number(peer.timing.median(), "%.1f ms") + number(s.ratio(peer), ", %.1fx") +
+                    formatted(peer.timing.median(), "%.1f ms") + formatted(s.ratio(peer), ", %.1fx") +
                         (peer.picture && !peer.picture->right() ? ", another picture" : ""),
                     false});
-  return card(s.scene + ", " + std::to_string(s.pipeline.width) + " x " + std::to_string(s.pipeline.height),
-              bar_chart(bars));
+  return card(s.scene + ", " + about(s), bar_chart(bars));
+}
+
+/// How much faster than by one core the frame would be by what its tiles cost.
+std::string scheduled(const SceneTime& s) {
+  std::vector<Bar> bars;
+  for (const int cores : kMoreCores)
+    bars.push_back({std::to_string(cores) + " cores", s.scheduled_speedup(cores),
+                    formatted(s.scheduled_speedup(cores), "%.1fx"), false});
+  return card(s.scene + ", " + about(s) + ": scheduled on more cores by its tiles' costs", bar_chart(bars));
 }
 
 std::string row(const std::string& name, const std::string& value) {
@@ -38,14 +42,14 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
   const double floor = s.floor.ms(bench.machine.clock_ghz, bench.threads);
   std::string html = "<details><summary>" + escaped(s.scene) + "</summary>\n<table>\n";
   html += row("image", "sha256:" + s.hash) +
-          row("median, least", number(s.timing.median(), "%.3f ms, ") + number(s.timing.least(), "%.3f ms"));
-  html += row("spread of the middle half", number(100 * s.timing.spread(), "%.1f %%"));
+          row("median, least", formatted(s.timing.median(), "%.3f ms, ") + formatted(s.timing.least(), "%.3f ms"));
+  html += row("spread of the middle half", formatted(100 * s.timing.spread(), "%.1f %%"));
   html += row("visibility, surfaces, light, store: core time",
-              number(f.visibility_ms, "%.3f ms, ") + number(f.surfaces_ms, "%.3f ms, ") +
-                  number(f.light_ms, "%.3f ms, ") + number(f.store_ms, "%.3f ms"));
+              formatted(f.core_ms.visibility, "%.3f ms, ") + formatted(f.core_ms.surfaces, "%.3f ms, ") +
+                  formatted(f.core_ms.light, "%.3f ms, ") + formatted(f.core_ms.store, "%.3f ms"));
   html += row("modelled floor",
-              number(floor, "%.3f ms, ") + number(100 * floor / s.timing.median(), "%.0f %% of the time"));
-  html += row("light, of a core", number(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
+              formatted(floor, "%.3f ms, ") + formatted(100 * floor / s.timing.median(), "%.0f %% of the time"));
+  html += row("light, of a core", formatted(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
   html += row("rate", rate_text(s));
   html += row("triangles submitted, set up", std::to_string(f.triangles) + ", " + std::to_string(f.triangles_tested));
   html += row("fragments, pixels covered", std::to_string(f.fragments) + ", " + std::to_string(f.covered_pixels));
@@ -55,7 +59,7 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
                                                                std::to_string(f.lit_pixel_lights));
   html +=
       row("bytes stored, of clusters drawn", std::to_string(s.bytes.stored) + ", " + std::to_string(s.bytes.clusters));
-  html += row("most memory", number(s.peak_mib, "%.0f MiB"));
+  html += row("most memory", formatted(s.peak_mib, "%.0f MiB"));
   for (const std::string& about : s.peers_about) html += row("peer", about);
   return html + "</table></details>\n";
 }
@@ -73,10 +77,11 @@ std::string bench_page(const BenchResult& bench) {
     std::vector<Bar> bars;
     for (const auto& p : curve.points) {
       points.push_back({p.x, p.ms, p.label});
-      bars.push_back({p.label, p.ms, number(p.ms, "%.2f ms"), false});
+      bars.push_back({p.label, p.ms, formatted(p.ms, "%.2f ms"), false});
     }
     html += card(curve.title, curve.axis.empty() ? bar_chart(bars) : line_chart(points, curve.axis, curve.log_axis));
   }
+  for (const SceneTime& s : bench.scenes) html += scheduled(s);
   html += "</div>\n<h2>Counts</h2>\n";
   for (const SceneTime& s : bench.scenes) html += counts(s, bench);
   return html + std::string(kPageEnd);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "bench/schedule.h"
 #include "cli/bench.h"
@@ -8,12 +9,6 @@
 
 namespace trueshade {
 namespace {
-
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string size_text(const Pipeline& p) { return std::to_string(p.width) + 'x' + std::to_string(p.height); }
 
@@ -28,14 +23,14 @@ double alone_ms(const FrameStats& f) { return scheduled_frame_ms(f, {}, 1 << 20)
 
 std::string schedule_text(const SceneTime& s) {
   const FrameStats& f = s.stats;
-  std::string text = "  before the tiles " + number(f.before_tiles_ms, "%.2f") + " ms, " + number(alone_ms(f), "%.2f") +
-                     " on any number of cores; ";
+  std::string text = "  before the tiles " + formatted(f.before_tiles_ms, "%.2f") + " ms, " +
+                     formatted(alone_ms(f), "%.2f") + " on any number of cores; ";
   for (const auto& [tile, ms] : s.tile_costs)
     text += std::to_string(ms.size()) + " tiles of " + std::to_string(tile) + " pixels, the dearest " +
-            number(ms.empty() ? 0.0 : *std::max_element(ms.begin(), ms.end()), "%.2f") + " ms; ";
+            formatted(ms.empty() ? 0.0 : *std::max_element(ms.begin(), ms.end()), "%.2f") + " ms; ";
   text += "scheduled by these costs:";
   for (const int cores : kMoreCores)
-    text += ' ' + std::to_string(cores) + " cores " + number(s.scheduled_speedup(cores), "%.1fx");
+    text += ' ' + std::to_string(cores) + " cores " + formatted(s.scheduled_speedup(cores), "%.1fx");
   return text + '\n';
 }
 
@@ -50,7 +45,7 @@ std::string picture_text(const PeerTime& peer) {
   if (!peer.picture) return {};
   const PictureCheck& p = *peer.picture;
   const auto far = [&p](uint64_t n) {
-    return ", " + std::to_string(n) + " px over " + number(p.codes, "%.3g") + " codes";
+    return ", " + std::to_string(n) + " px over " + formatted(p.codes, "%.3g") + " codes";
   };
   if (!p.right()) return "  ANOTHER PICTURE" + far(p.off_ours);
   const std::string rounding = blends_lights(p.strategy) ? "blended light by light" : "summed, stored once";
@@ -59,17 +54,29 @@ std::string picture_text(const PeerTime& peer) {
   return "  picture of " + std::string(name_of(p.strategy)) + ": " + rounding + far(p.off_ours);
 }
 
-/// The fastest of the peers that `counts` admits.
-template <class Counts>
-std::string fastest_text(const SceneTime& s, const char* what, const Counts& counts) {
+/// Which pictures beside the one that is timed a peer may draw: as it says it does, rounded elsewhere, or any.
+constexpr std::pair<const char*, bool (*)(const PictureCheck&)> kFastestOf[] = {
+    {"this picture", [](const PictureCheck& p) { return p.same(); }},
+    {"this shading, wherever it rounds", [](const PictureCheck& p) { return p.same_shading(); }},
+    {"all", [](const PictureCheck&) { return true; }}};
+
+/// The fastest of the peers that draw what they say and that `counts` admits; null where there is none.
+const PeerTime* fastest_peer(const SceneTime& s, bool (*counts)(const PictureCheck&)) {
   const PeerTime* fastest = nullptr;
   for (const PeerTime& peer : s.peers)
     if (peer.picture && peer.picture->right() && counts(*peer.picture) &&
         (fastest == nullptr || s.ratio(peer) < s.ratio(*fastest)))
       fastest = &peer;
-  if (fastest == nullptr) return {};
-  return std::string("  fastest peer of ") + what + ": " + fastest->name + ' ' + fastest->strategy + ", " +
-         number(s.ratio(*fastest), "%.2fx ours\n");
+  return fastest;
+}
+
+std::string fastest_text(const SceneTime& s) {
+  std::string text;
+  for (const auto& [what, counts] : kFastestOf)
+    if (const PeerTime* peer = fastest_peer(s, counts))
+      text += std::string("  fastest peer of ") + what + ": " + peer->name + ' ' + peer->strategy + ", " +
+              formatted(s.ratio(*peer), "%.2fx ours\n");
+  return text;
 }
 
 std::string scene_json(const SceneTime& s, const BenchResult& bench) {
@@ -94,9 +101,11 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   json.put("hash", "sha256:" + s.hash);
   json.put("ms", s.timing.median()).put("least_ms", s.timing.least()).put("spread", s.timing.spread());
   json.put("frames", uint64_t(s.timing.ms.size()));
-  json.put("geometry_ms", f.geometry_ms()).put("visibility_ms", f.visibility_ms).put("surfaces_ms", f.surfaces_ms);
-  json.put("light_ms", f.light_ms).put("store_ms", f.store_ms).put("lights_tested", f.lights_tested);
+  json.put("geometry_ms", f.core_ms.geometry()).put("visibility_ms", f.core_ms.visibility);
+  json.put("surfaces_ms", f.core_ms.surfaces);
+  json.put("light_ms", f.core_ms.light).put("store_ms", f.core_ms.store).put("lights_tested", f.lights_tested);
   json.put("triangles", f.triangles).put("triangles_tested", f.triangles_tested).put("fragments", f.fragments);
+  json.put("clusters_drawn", f.clusters_drawn);
   json.put("covered_pixels", f.covered_pixels).put("lights", f.lights).put("lit_pixel_lights", f.lit_pixel_lights);
   json.put("evaluated_pixel_lights", f.evaluated_pixel_lights).put("tile_pixel_lights", f.tile_pixel_lights);
   json.put("ns_per_pixel_light", ns_per_pixel_light(s)).put("million_triangles_per_s", million_triangles_per_s(s));
@@ -107,7 +116,7 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   json.put("bytes_per_pixel", per(s.peak_mib * 1048576.0, f.pixels));
   json.put("before_tiles_ms", f.before_tiles_ms).put("before_tiles_alone_ms", alone_ms(f));
   JsonArray tiles, speedups;
-  for (const double ms : f.tile_ms) tiles.add_raw(number(ms, "%.4f"));
+  for (const StageTimes& tile : f.tile_ms) tiles.add_raw(formatted(tile.sum(), "%.4f"));
   for (const int cores : kMoreCores)
     speedups.add_raw(JsonObject()
                          .put("cores", cores)
@@ -115,18 +124,31 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
                          .put("speedup", s.scheduled_speedup(cores))
                          .text());
   json.put_raw("tile_ms", tiles.text()).put_raw("scheduled", speedups.text());
+  if (const PeerTime* best = fastest_peer(s, kFastestOf[std::size(kFastestOf) - 1].second))
+    json.put_raw(
+        "best_peer",
+        JsonObject().put("name", best->name).put("strategy", best->strategy).put("ratio", s.ratio(*best)).text());
   return json.put_raw("peers", peers.text()).text();
 }
 
 }  // namespace
 
-double ns_per_pixel_light(const SceneTime& s) { return per(s.stats.light_ms * 1e6, s.stats.evaluated_pixel_lights); }
+std::string formatted(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+double ns_per_pixel_light(const SceneTime& s) {
+  return per(s.stats.core_ms.light * 1e6, s.stats.evaluated_pixel_lights);
+}
 double million_triangles_per_s(const SceneTime& s) { return double(s.stats.triangles) * 1e-3 / s.timing.median(); }
 double million_pixels_per_s(const SceneTime& s) { return double(s.stats.pixels) * 1e-3 / s.timing.median(); }
 
 std::string rate_text(const SceneTime& s) {
-  return number(million_triangles_per_s(s), "%.0f") + " million triangles submitted and " +
-         number(million_pixels_per_s(s), "%.0f") + " million pixels a second";
+  const auto rate = [](double value) { return formatted(value, value < 10.0 ? "%.2f" : "%.0f"); };
+  return rate(million_triangles_per_s(s)) + " million triangles submitted and " + rate(million_pixels_per_s(s)) +
+         " million pixels a second";
 }
 
 int SceneTime::scheduled_tile(int cores) const {
@@ -139,9 +161,9 @@ double SceneTime::scheduled_speedup(int cores) const {
 }
 
 std::string bench_heading(const BenchResult& b) {
-  return b.machine.cpu + ", " + std::to_string(b.machine.cores) + " cores at " + number(b.machine.clock_ghz, "%.2f") +
-         " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + b.simd + ", " + std::to_string(b.threads) +
-         (b.threads == 1 ? " thread\n" : " threads\n");
+  return b.machine.cpu + ", " + std::to_string(b.machine.cores) + " cores at " +
+         formatted(b.machine.clock_ghz, "%.2f") + " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + b.simd +
+         ", " + std::to_string(b.threads) + (b.threads == 1 ? " thread\n" : " threads\n");
 }
 
 std::string bench_text(const SceneTime& s, const BenchResult& bench) {
@@ -151,23 +173,23 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
   text += time_row("trueshade", s.timing, "");
   for (const PeerTime& peer : s.peers)
     text += time_row(peer.name + ' ' + peer.strategy, peer.timing,
-                     number(s.ratio(peer), "%.2fx ours") + picture_text(peer));
-  text += fastest_text(s, "this picture", [](const PictureCheck& p) { return p.same(); });
-  text += fastest_text(s, "this shading, wherever it rounds", [](const PictureCheck& p) { return p.same_shading(); });
-  text += "  visibility " + number(f.visibility_ms, "%.2f") + " ms, surfaces " + number(f.surfaces_ms, "%.2f") +
-          " ms, light " + number(f.light_ms, "%.2f") + " ms, store " + number(f.store_ms, "%.2f") +
-          " ms of core time; " + number(ns_per_pixel_light(s), "%.2f") + " ns a pixel-light, " + rate_text(s) +
-          "; modelled floor " + number(floor_ms(s, bench), "%.2f") + " ms, " +
-          number(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
+                     formatted(s.ratio(peer), "%.2fx ours") + picture_text(peer));
+  text += fastest_text(s);
+  text += "  visibility " + formatted(f.core_ms.visibility, "%.2f") + " ms, surfaces " +
+          formatted(f.core_ms.surfaces, "%.2f") + " ms, light " + formatted(f.core_ms.light, "%.2f") + " ms, store " +
+          formatted(f.core_ms.store, "%.2f") + " ms of core time; " + formatted(ns_per_pixel_light(s), "%.2f") +
+          " ns a pixel-light, " + rate_text(s) + "; modelled floor " + formatted(floor_ms(s, bench), "%.2f") + " ms, " +
+          formatted(100.0 * floor_ms(s, bench) / s.timing.median(), "%.0f") + " % of the time\n";
   text += "  " + std::to_string(f.triangles) + " triangles submitted, " + std::to_string(f.triangles_tested) +
           " set up over all tiles, " + std::to_string(f.fragments) + " fragments, " + std::to_string(f.covered_pixels) +
           " pixels covered; " + std::to_string(f.lights_tested) + " lights tested, " +
           std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
-          number(s.peak_mib, "%.0f") + " MiB at most, " + number(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") +
-          " bytes a triangle, " + number(per(s.peak_mib * 1048576.0, f.pixels), "%.0f") + " a pixel\n";
-  text += "  " + number(double(s.bytes.stored) * 1e-6, "%.1f") + " MB stored, " +
-          number(double(s.bytes.clusters) * 1e-6, "%.1f") + " MB of clusters drawn\n";
+          formatted(s.peak_mib, "%.0f") + " MiB at most, " +
+          formatted(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") + " bytes a triangle, " +
+          formatted(per(s.peak_mib * 1048576.0, f.pixels), "%.0f") + " a pixel\n";
+  text += "  " + formatted(double(s.bytes.stored) * 1e-6, "%.1f") + " MB stored, " +
+          formatted(double(s.bytes.clusters) * 1e-6, "%.1f") + " MB of clusters drawn\n";
   text += schedule_text(s);
   for (const std::string& about : s.peers_about) text += "  " + about + "\n";
   return text;

@@ -88,8 +88,8 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       count("gl_gbuffer_fragments_read", "  G-buffer fragments read", s.gl.gbuffer_fragments_read),
       count("gl_target_fragments_read", "  target fragments read", s.gl.target_fragments_read),
       count("gl_fragments_written", "  fragments written", s.gl.fragments_written),
-      time("geometry_ms", "geometry, all threads [ms]", s.geometry_ms()),
-      time("light_ms", "light, all threads [ms]", s.light_ms),
+      time("geometry_ms", "geometry, all threads [ms]", s.core_ms.geometry()),
+      time("light_ms", "light, all threads [ms]", s.core_ms.light),
       time("total_ms", "this frame, planes included [ms]", s.total_ms)};
   if (result.frame.view_scale > 0)
     lines.push_back(count("view_scale", "count at the top of the heat map", result.frame.view_scale));

@@ -24,6 +24,9 @@ std::vector<std::string> aovs_from_text(const std::string& option, const std::st
 /// Names of peers: gl, embree, or ours drawn otherwise, KEY=VALUE.
 std::vector<std::string> peers_from_text(const std::string& list);
 
+/// Of the peer gl=DESIGN+DESIGN...; of gl, none: every design.
+std::vector<std::string> designs_from_text(const std::string& peer);
+
 /// How a variant of the bench draws what is timed: one option of render in another way.
 struct Variant {
   std::optional<Strategy> strategy;

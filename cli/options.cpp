@@ -187,7 +187,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   bench->add_option("--threads", texts.threads, "Threads, 0 for one a core");
   bench->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512");
   bench->add_option("--against", texts.against,
-                    "Peers in the same run, with commas: gl (every design), embree (visibility), and ours otherwise: "
+                    "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
+                    "and ours otherwise: "
                     "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
   bench->add_option("--json", options.json_file, "JSON document to write");
   bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");

@@ -78,7 +78,7 @@ struct ValidationOptions : PipelineOptions {
 /// `trueshade bench`
 struct BenchOptions : PipelineOptions {
   std::vector<std::string> scenes;   ///< what is timed, one after the other; `scene` is not read
-  std::vector<std::string> against;  ///< of gl, embree, and KEY=VALUE: ours drawn otherwise (variant_options())
+  std::vector<std::string> against;  ///< gl, gl=DESIGN+..., embree, and KEY=VALUE: ours drawn otherwise
   std::string simd = "best";         ///< stays alive for the execution
   Execution execution;
   std::optional<std::string> json_file, report;  ///< files to write; the report is .html

@@ -58,8 +58,16 @@ FrameStats OwnFrames::stats() const {
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return frames_[a].first < frames_[b].first; });
   FrameStats stats = frames_[order[order.size() / 2]].second;
-  for (const auto& [ms, other] : frames_)  // tiles are started in one order, frame after frame
-    for (size_t i = 0; i < stats.tile_ms.size(); ++i) stats.tile_ms[i] = std::min(stats.tile_ms[i], other.tile_ms[i]);
+  stats.core_ms = {};
+  for (size_t i = 0; i < stats.tile_ms.size(); ++i) {  // tiles are started in one order, frame after frame
+    for (const auto& [ms, other] : frames_) {
+      StageTimes& least = stats.tile_ms[i];
+      const StageTimes& tile = other.tile_ms[i];
+      least = {std::min(least.visibility, tile.visibility), std::min(least.surfaces, tile.surfaces),
+               std::min(least.light, tile.light), std::min(least.store, tile.store)};
+    }
+    stats.core_ms += stats.tile_ms[i];
+  }
   return stats;
 }
 

@@ -28,7 +28,8 @@ class OwnFrames {
   /// Draws a frame and returns its time, ms. Throws std::runtime_error for any other image.
   double draw();
 
-  /// Of the frame of median time; tile_ms: the least of each tile, so that what else the machine does falls out.
+  /// Of the frame of median time; core_ms and tile_ms: the least of each stage of each tile in any frame, so that what
+  /// else the machine does falls out.
   FrameStats stats() const;
 
  private:

@@ -38,7 +38,7 @@ DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Vali
 /// A capture that `--gbuffer` takes, but for the planes that no file holds.
 void save(const oracle::Capture& capture, const std::string& path) {
   constexpr std::string_view kPlanes[] = {"depth",    "position", "normal",    "albedo",     "specular",
-                                         "emission", "uv",       "id.object", "id.material"};
+                                          "emission", "uv",       "id.object", "id.material"};
   std::vector<NamedImage> planes;
   for (const NamedImage& plane : capture.planes)
     if (std::find(std::begin(kPlanes), std::end(kPlanes), plane.name) != std::end(kPlanes)) planes.push_back(plane);
@@ -67,8 +67,9 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   if (v.pipeline.post.active())
-    v.notes.push_back("the post chain is not judged: drawn and judged is the target before it, and a captured picture "
-                      "must be that target");
+    v.notes.push_back(
+        "the post chain is not judged: drawn and judged is the target before it, and a captured picture "
+        "must be that target");
   DriverFrame drawn;
   v.draw_ms = timed([&] {
     if (options.gbuffer_file.empty())
@@ -78,8 +79,8 @@ bool judge_opengl(const ValidationOptions& options) {
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
-                                         {v.profile, !options.quick, drawn.steps, drawn.objects});
+    v.verdict =
+        oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, drawn.steps, drawn.objects});
   });
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);

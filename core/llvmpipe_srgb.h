@@ -1,7 +1,7 @@
 #pragma once
 // sRGB as llvmpipe of Mesa 22.3 has it: encoding by x^(3/8) and x^(1/2) made of the CPU's estimate of 1/sqrt, decoding
 // by a cubic (lp_bld_format_srgb.c). The estimate is the CPU maker's own; the steps below are those of AMD's, recorded
-// from the driver over every float in [0, 1] on an AMD EPYC, and tests/gl/srgb_profile.cpp holds them against the
+// from the driver over every float in [0, 1] on an AMD EPYC, and tests/gl/blend_profile.cpp holds them against the
 // driver again.
 #include <array>
 #include <bit>

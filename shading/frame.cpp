@@ -88,8 +88,7 @@ struct TileCounts {
   LightCounts light;
   uint64_t covered = 0, transparent = 0;
   uint64_t lit_geometry = 0;  ///< P of the counters
-  double visibility_ms = 0.0, surfaces_ms = 0.0, light_ms = 0.0, store_ms = 0.0;
-  double ms() const { return visibility_ms + surfaces_ms + light_ms + store_ms; }
+  StageTimes ms;
 };
 
 // What every tile of a frame shares.
@@ -220,8 +219,7 @@ struct FrameWork {
       store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where, planes.half_round,
                 aov.image);
     }
-    counts.visibility_ms = seen - start, counts.surfaces_ms = resolved - seen;
-    counts.light_ms = lighted - resolved, counts.store_ms = now_ms() - lighted;
+    counts.ms = {seen - start, resolved - seen, lighted - resolved, now_ms() - lighted};
     if (lit && execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
       counts.lit_geometry += count_lit_geometry(light_draws(), s.surface, where, s.blend.counts, s.blend.lights);
   }
@@ -273,10 +271,7 @@ void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
     stats.evaluated_pixel_lights += t.light.evaluated_pairs;
     stats.lights_tested += t.light.tested;
     stats.gl.light_pixels += t.lit_geometry;
-    stats.visibility_ms += t.visibility_ms;
-    stats.surfaces_ms += t.surfaces_ms;
-    stats.light_ms += t.light_ms;
-    stats.store_ms += t.store_ms;
+    stats.core_ms += t.ms;
   }
 }
 
@@ -296,9 +291,7 @@ void draw_tiles(const FrameWork& work, const Progress& progress) {
   });
   add_up(counts, work.out.stats);
   work.out.stats.tile_ms.reserve(order.size());
-  for (const int tile : order) {
-    work.out.stats.tile_ms.push_back(counts[size_t(tile)].ms());
-  }
+  for (const int tile : order) work.out.stats.tile_ms.push_back(counts[size_t(tile)].ms);
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ struct GlCounts {
   int planes = 0;
 };
 
+/// Core time by stage, ms: of a tile, or of many.
+struct StageTimes {
+  double visibility = 0, surfaces = 0, light = 0, store = 0;
+  double geometry() const { return visibility + surfaces; }
+  double sum() const { return visibility + surfaces + light + store; }
+  StageTimes& operator+=(const StageTimes& other) {
+    visibility += other.visibility, surfaces += other.surfaces, light += other.light, store += other.store;
+    return *this;
+  }
+};
+
 /// Counts of one frame. The first group depends on scene and pipeline alone; the second on Execution too.
 struct FrameStats {
   uint64_t pixels = 0;                 ///< of the image
@@ -45,15 +56,14 @@ struct FrameStats {
   uint64_t triangles_tested = 0;   ///< set up, over all tiles
   uint64_t fragments = 0;          ///< covered samples before the depth test
   uint64_t tile_pixel_lights = 0;  ///< covered pixels times lights in the tile's list; of many lights, its region's
-  uint64_t evaluated_pixel_lights = 0;  ///< lanes the light kernel computed a contribution for
-  uint64_t lights_tested = 0;           ///< lights held against the bounds of a tile or of a region
-  double visibility_ms = 0, surfaces_ms = 0, light_ms = 0, store_ms = 0;  ///< of the tiles, summed over threads
-  double total_ms = 0;                                                    ///< wall time of the frame
-  double geometry_ms() const { return visibility_ms + surfaces_ms; }
+  uint64_t evaluated_pixel_lights = 0;           ///< lanes the light kernel computed a contribution for
+  uint64_t lights_tested = 0;                    ///< lights held against the bounds of a tile or of a region
+  StageTimes core_ms;                            ///< of the tiles, summed over threads
+  double total_ms = 0;                           ///< wall time of the frame
   double before_tiles_ms = 0;                    ///< wall time: view, bins, light tables
   std::vector<ParallelLoop> loops_before_tiles;  ///< the parts of that which threads share
   int tile = 0, threads = 0;                     ///< of the frame: pixels a side, and how many at work
-  std::vector<double> tile_ms;                   ///< each tile's, in the order they are started
+  std::vector<StageTimes> tile_ms;               ///< each tile's, in the order they are started
 };
 
 /// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular

@@ -45,7 +45,7 @@ constexpr bool adds_unlit(const LightShape& s) {
 }
 
 /// Shapes that light_tile() is compiled for; all others, and these too where nothing fits, run the general kernel with
-/// equal bits (tests/shading/light_shapes.cpp).
+/// equal bits (tests/shading/light_models.cpp).
 inline constexpr LightShape kCompiledShapes[] = {
     // Blinn-Phong, shininess 32, a linear window.
     {true, true, Falloff::linear_range, TermOrder::factored, Cone::none, Diffuse::clamped, Specular::blinn_phong,

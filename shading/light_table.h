@@ -47,7 +47,7 @@ struct LightTable {
   float eye[3], view_axis[3];
   uint64_t version = 0;  ///< another one wherever lights differ, of all tables; 0: empty
 
-  // What update_light_table() made the rows of.
+  // What LightTableUpdate made the rows of.
   std::vector<Light> made_of;
   LightModel model;
   LightVolumes volumes;

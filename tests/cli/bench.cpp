@@ -1,6 +1,7 @@
 // What `trueshade bench` says and writes. No time is a verdict here.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -69,10 +70,78 @@ TEST_CASE("bench times OpenGL under presets that draw lights as geometry, and sa
       CHECK((per_light || peer["same_picture"] == false));  // what is timed is blended light by light
       CHECK(peer["pixels_off"].get<int>() <= 64 * 48 / 100);
     }
+    const auto& peers = json["scenes"][0]["peers"];
+    const auto fastest = std::min_element(peers.begin(), peers.end(), [](const auto& a, const auto& b) {
+      return a["ratio"].template get<double>() < b["ratio"].template get<double>();
+    });
+    CHECK(json["scenes"][0]["best_peer"]["strategy"] == (*fastest)["strategy"]);
+    CHECK(json["scenes"][0]["best_peer"]["ratio"] == (*fastest)["ratio"]);
+    CHECK(bench.out.find("fastest peer of all: gl " + (*fastest)["strategy"].get<std::string>()) != std::string::npos);
     CHECK(blended == 2);
     CHECK(same >= 1);
     CHECK(json["scenes"][0]["peers"].size() == 6);
   }
+}
+
+TEST_CASE("bench draws the designs of OpenGL that are named, and no other") {
+  const ScratchFolder folder;
+  const Outcome bench = run_command(
+      {"bench", "builtin:circle,lights=3", "--size", "64x48", "--against", "gl=tiled+forward-plus", "--json", "b.json"},
+      folder.path(""));
+  if (bench.exit_code == 7) {
+    WARN("SKIPPED: " << bench.err);
+    return;
+  }
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto peers = nlohmann::json::parse(contents(folder.path("b.json")))["scenes"][0]["peers"];
+  REQUIRE(peers.size() == 2);
+  CHECK(peers[0]["strategy"] == "tiled");
+  CHECK(peers[1]["strategy"] == "forward-plus");
+  CHECK(peers[0]["right_picture"] == true);
+}
+
+TEST_CASE("The times of stages are those of the tiles, each the least that a tile took") {
+  const ScratchFolder folder;
+  const Outcome bench = run_command(
+      {"bench", "builtin:city,objects=60,lights=5", "--size", "256x192", "--json", "b.json"}, folder.path(""));
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto scene = nlohmann::json::parse(contents(folder.path("b.json")))["scenes"][0];
+  double tiles = 0.0, stages = 0.0;
+  for (const auto& tile : scene["tile_ms"]) tiles += tile.get<double>();
+  for (const char* stage : {"visibility_ms", "surfaces_ms", "light_ms", "store_ms"})
+    stages += scene[stage].get<double>();
+  CHECK(tiles == Approx(stages).margin(1e-4 * double(scene["tile_ms"].size())));
+  CHECK(stages <= scene["least_ms"].get<double>() * 1024);  // of at most so many threads
+  CHECK(scene["clusters_drawn"].get<int>() > 0);
+}
+
+TEST_CASE("bench's report shows peers, tiles' costs on more cores, and how frames scale") {
+  const ScratchFolder folder;
+  const Outcome bench = run_command({"bench", "builtin:cornell", "--preset", "many-lights", "--size", "32x24",
+                                     "--against", "tile=8", "--json", "b.json", "-o", "b.html"},
+                                    folder.path(""));
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const std::string page = contents(folder.path("b.html"));
+  const auto scaling = nlohmann::json::parse(contents(folder.path("b.json")))["scaling"];
+  REQUIRE(scaling.size() == 6);
+  for (const auto& curve : scaling) {
+    CAPTURE(curve["title"].get<std::string>());
+    CHECK(page.find("<b>" + curve["title"].get<std::string>() + "</b>\n<svg") != std::string::npos);
+    CHECK(curve["points"].size() >= 1);
+    for (const auto& point : curve["points"]) {
+      CHECK(point["ms"].get<double>() > 0.0);
+      CHECK(page.find('>' + point["label"].get<std::string>() + "</text>") != std::string::npos);
+    }
+  }
+  CHECK(scaling[1]["title"] == "Lights at constant overlap, city");
+  CHECK(scaling[1]["points"].back()["label"] == "1000000");
+  CHECK(scaling[3]["points"].size() == 4);
+  CHECK(page.find("trueshade tile=8</text>") != std::string::npos);
+  CHECK(page.find("scheduled on more cores") != std::string::npos);
+  CHECK(page.find("64 cores</text>") != std::string::npos);
 }
 
 TEST_CASE("bench times ours drawn otherwise in the same run: other targets, views, planes, threads and tiles") {
@@ -122,6 +191,8 @@ TEST_CASE("bench refuses what it cannot do, in one line") {
   check_refused(run_command({"bench", "--against", "vulkan"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,gl"}), 2, "twice");
+  check_refused(run_command({"bench", "--against", "gl=tiled+fast"}), 2, "'fast'");
+  check_refused(run_command({"bench", "--against", "gl="}), 2, "not drawn by ''");
   check_refused(run_command({"bench", "--against", "simd="}), 2, "simd");
   check_refused(run_command({"bench", "--against", "simd=neon"}), 2, "--against simd");
   check_refused(run_command({"bench", "--against", "target=rgb"}), 2, "--against target");
