@@ -2,7 +2,7 @@
 
 #include "bench/peers.h"
 #include "core/error.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/embree_peer.h"
 
 namespace trueshade {

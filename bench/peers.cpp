@@ -29,7 +29,7 @@ struct Loaded {
       scene = std::make_unique<Scene>(load_scene(spec));
       Pipeline pipeline = presets().front().pipeline;
       if (lambert) pipeline.light_model.specular = Specular::none;
-      peers = gl_peers(*scene, pipeline);
+      peers = gl_peers(*scene, pipeline, {});
       contenders = peers->contenders();
     }
     return contenders[index];

@@ -21,8 +21,8 @@ double scheduled_ms(std::span<const double> task_ms, int cores) {
 double scheduled_frame_ms(const FrameStats& stats, std::span<const double> tile_ms, int cores) {
   double alone = stats.before_tiles_ms, shared = 0.0;
   for (const ParallelLoop& loop : stats.loops_before_tiles) {
-    alone -= loop.core_ms / std::min(loop.tasks, std::max(1, stats.threads));
-    shared += loop.core_ms / std::min(loop.tasks, cores);
+    alone -= loop.most_core_ms / std::min(loop.tasks, std::max(1, stats.threads));
+    shared += loop.most_core_ms / std::min(loop.tasks, cores);
   }
   return std::max(alone, 0.0) + shared + scheduled_ms(tile_ms, cores);
 }

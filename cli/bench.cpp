@@ -14,8 +14,8 @@
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
-#include "core/fp_env.h"
 #include "core/image_io.h"
+#include "core/parallel_for.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

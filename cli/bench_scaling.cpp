@@ -6,8 +6,8 @@
 #include "cli/own_frames.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
-#include "core/fp_env.h"
 #include "core/image_io.h"
+#include "core/parallel_for.h"
 
 namespace trueshade {
 namespace {

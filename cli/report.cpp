@@ -5,7 +5,7 @@
 
 #include "cli/page.h"
 #include "cli/version.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "shading/derived_planes.h"
 #include "shading/heat_map.h"
 #include "shading/view_image.h"

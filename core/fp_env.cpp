@@ -1,12 +1,6 @@
 #include "core/fp_env.h"
 
-#include <algorithm>
 #include <cfloat>
-#include <chrono>
-#include <thread>
-#include <utility>
-
-#include "core/thread_pool.h"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -38,45 +32,5 @@ void set_control(uint64_t value) { asm volatile("msr fpcr, %0" : : "r"(value)); 
 
 FpScope::FpScope() : saved_(control()) { set_control(kIeeeControl); }
 FpScope::~FpScope() { set_control(saved_); }
-
-int thread_count(int requested) {
-  static const int cores = std::max(1, int(std::thread::hardware_concurrency()));  // asking takes 2 us
-  return requested > 0 ? requested : cores;
-}
-
-namespace {
-thread_local LoopLog* current_log = nullptr;
-}
-
-LoopLog::LoopLog() : outer_(std::exchange(current_log, this)) {}
-LoopLog::~LoopLog() { current_log = outer_; }
-
-void parallel_for(int count, int threads, TaskRef body) {
-  const auto one = [body](int i) {
-    const FpScope ieee;
-    body(i);
-  };
-  threads = std::min(thread_count(threads), count);
-  using Clock = std::chrono::steady_clock;
-  LoopLog* const log = std::exchange(current_log, nullptr);  // loops inside this one are part of it
-  const Clock::time_point start = log != nullptr ? Clock::now() : Clock::time_point();
-  try {
-    if (threads > 1)
-      ThreadPool::shared().run(count, threads - 1, one);
-    else
-      for (int i = 0; i < count; ++i) one(i);
-  } catch (...) {
-    current_log = log;
-    throw;
-  }
-  current_log = log;
-  if (log == nullptr || count == 0) return;
-  const double wall = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  log->loops_.push_back({wall * threads, count});
-}
-
-void wake_threads(int threads) {
-  if (thread_count(threads) > 1) ThreadPool::shared().rouse(thread_count(threads) - 1);
-}
 
 }  // namespace trueshade

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 
 namespace trueshade {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/cluster_bounds.h"
 #include "raster/fixed_point.h"
 

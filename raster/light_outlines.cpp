@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/coverage-inl.h"
 #include "raster/outline_maker.h"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/cluster_bounds.h"
 #include "raster/coverage-inl.h"
 #include "raster/hidden-inl.h"

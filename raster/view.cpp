@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/triangle_setup.h"
 #include "scenes/camera.h"
 

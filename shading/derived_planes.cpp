@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "core/fp_env.h"
 #include "core/image_rows.h"
+#include "core/parallel_for.h"
 #include "scenes/light_shapes.h"
 #include "shading/light_planes.h"
 #include "shading/light_table.h"

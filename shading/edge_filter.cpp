@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "shading/derived_planes.h"
 #include "shading/post.h"
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/cluster_bins.h"
 #include "raster/clusters.h"
 #include "raster/overdraw.h"
@@ -366,7 +367,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   const double start = now_ms();
   const Scene& scene = prepared.scene();
   Frame frame;
-  std::optional<LoopLog> log(std::in_place);
+  std::optional<LoopTimes> log(std::in_place);
   const TablesLoan loan;
   FrameTables& tables = *loan.tables;
   View view = make_view(scene, pipeline, execution.threads, std::move(tables.transforms));

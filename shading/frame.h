@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fp_env.h"
 #include "core/image.h"
+#include "core/parallel_for.h"
 #include "raster/simd_target.h"
 #include "scenes/pipeline.h"
 #include "scenes/scene.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/fp_env.h"
 #include "core/image_rows.h"
+#include "core/parallel_for.h"
 
 namespace trueshade {
 namespace {

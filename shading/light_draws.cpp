@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 
 namespace trueshade {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 
 namespace trueshade {
 namespace {

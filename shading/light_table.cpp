@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "scenes/light_mesh.h"
 #include "scenes/trig.h"
 

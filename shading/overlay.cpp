@@ -4,7 +4,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "raster/clusters.h"
 #include "raster/placed_scene.h"
 #include "raster/simd_target.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/fp_env.h"
 #include "core/half.h"
+#include "core/parallel_for.h"
 #include "shading/derived_planes.h"
 #include "shading/power.h"
 

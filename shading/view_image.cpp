@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "core/fp_env.h"
 #include "core/image_rows.h"
+#include "core/parallel_for.h"
 #include "core/srgb_codes.h"
 #include "shading/derived_planes.h"
 #include "shading/overlay.h"

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 
@@ -28,7 +28,8 @@ struct Pixels {
   float clear;
   bool shows(size_t pixel) const { return depth[pixel] != clear; }
   std::array<float, 3> normal(size_t pixel) const {
-    return {float_of_half(normals[4 * pixel]), float_of_half(normals[4 * pixel + 1]), float_of_half(normals[4 * pixel + 2])};
+    return {float_of_half(normals[4 * pixel]), float_of_half(normals[4 * pixel + 1]),
+            float_of_half(normals[4 * pixel + 2])};
   }
 };
 
@@ -84,7 +85,8 @@ void bound_place(const Matrix4& world_from_clip, const Pipeline& pipeline, const
   for (size_t i = 0; i < 8; ++i) {
     const double x = ((i & 1) != 0 ? r.x1 : r.x0) - v.x, y = ((i & 2) != 0 ? r.y1 : r.y0) - v.y;
     const double ndc_y = y * 2 / v.height - 1, z = double((i & 4) != 0 ? t.high : t.low);
-    const double ndc[4] = {x * 2 / v.width - 1, g.clip_origin == ClipOrigin::upper_left ? -ndc_y : ndc_y, (z - offset) / scale, 1};
+    const double ndc[4] = {x * 2 / v.width - 1, g.clip_origin == ClipOrigin::upper_left ? -ndc_y : ndc_y,
+                           (z - offset) / scale, 1};
     double h[4] = {};
     for (size_t row = 0; row < 4; ++row)
       for (size_t c = 0; c < 4; ++c) h[row] += world_from_clip[4 * c + row] * ndc[c];
@@ -110,7 +112,8 @@ bool TileSurface::faces(const glm::vec3& light) const {
   const Vector to{double(light.x) - center[0], double(light.y) - center[1], double(light.z) - center[2]};
   const double distance = std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
   if (!(cosine > 0) || !(distance > radius)) return true;
-  const double sin_t = std::sqrt(std::max(0.0, 1 - cosine * cosine)), sin_p = radius / distance, cos_p = std::sqrt(1 - sin_p * sin_p);
+  const double sin_t = std::sqrt(std::max(0.0, 1 - cosine * cosine)), sin_p = radius / distance,
+               cos_p = std::sqrt(1 - sin_p * sin_p);
   if (!(cosine * cos_p > sin_t * sin_p)) return true;  // t + p is 90 degrees or more
   const double along = (to[0] * axis[0] + to[1] * axis[1] + to[2] * axis[2]) / distance;
   return !(along < -(sin_t * cos_p + cosine * sin_p) - kSlack);
@@ -119,13 +122,15 @@ bool TileSurface::faces(const glm::vec3& light) const {
 std::vector<TileSurface> tile_surfaces(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth,
                                        std::span<const uint16_t> normals, int tile) {
   const int columns = (pipeline.width + tile - 1) / tile, rows = (pipeline.height + tile - 1) / tile;
-  const Matrix4 world_from_clip = inverse_of(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+  const Matrix4 world_from_clip =
+      inverse_of(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
   const Pixels pixels{depth, normals, pipeline.width, pipeline.geometry.clear_depth};
   std::vector<TileSurface> out(size_t(columns) * size_t(rows));
   parallel_for(rows, 0, [&](int row) {
     for (int column = 0; column < columns; ++column) {
       TileSurface& t = out[size_t(row) * size_t(columns) + size_t(column)];
-      const Rect r{column * tile, row * tile, std::min((column + 1) * tile, pipeline.width), std::min((row + 1) * tile, pipeline.height)};
+      const Rect r{column * tile, row * tile, std::min((column + 1) * tile, pipeline.width),
+                   std::min((row + 1) * tile, pipeline.height)};
       bound_depth(pixels, r, t);
       if (t.low > t.high) continue;
       bound_place(world_from_clip, pipeline, r, t);

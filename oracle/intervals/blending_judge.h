@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/intervals/blend_ways.h"
 #include "oracle/intervals/captured_surface.h"
 #include "oracle/intervals/light_cover.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/intervals/map_range.h"
 #include "scenes/transparency.h"
 
@@ -24,8 +24,8 @@ struct Work {
 
 /// What a search is for.
 struct Search {
-  bool transparent = false;   ///< surfaces drawn apart, none of which hides another; else all the others
-  bool apart = false;         ///< whether there are any that are drawn apart
+  bool transparent = false;  ///< surfaces drawn apart, none of which hides another; else all the others
+  bool apart = false;        ///< whether there are any that are drawn apart
   bool wants(const Projector& p, uint32_t instance) const {
     const Scene& scene = p.scene();
     return !apart || scene.materials[scene.instances[instance].material].transparent == transparent;
@@ -61,8 +61,8 @@ bool near_a_limit(const GeometryState& state, const Range& z) {
 }
 
 /// What the alpha test leaves of a candidate; false: nothing.
-bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values, double x,
-                double y, Candidate& c) {
+bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values,
+                double x, double y, Candidate& c) {
   const Material& material = p.scene().materials[p.scene().instances[c.instance].material];
   if (!material.masked()) return true;
   const AlphaVerdict verdict = alpha_verdict(p, material, piece, point, values, x, y);
@@ -108,7 +108,8 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
   }
 }
 
-void scan(const Projector& projector, const Work& work, double order, const std::vector<double>& bound, std::vector<Entry>& out) {
+void scan(const Projector& projector, const Work& work, double order, const std::vector<double>& bound,
+          std::vector<Entry>& out) {
   std::vector<Piece> pieces;
   PixelRect rect;
   for (uint32_t t = work.first; t < work.last; ++t) {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/intervals/candidates.h"
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/judge_transparency.h"
@@ -91,8 +91,7 @@ class GBufferJudge {
     Texel stored;
     for (int k = 0; k < plane.view.channels; ++k) {
       const Range base = surface.base_color(k, plane.interpolation);
-      stored[size_t(k)] =
-          legal_texel(k < 3 ? surface.albedo(base) : base, plane.view.image->format, k, profile_);
+      stored[size_t(k)] = legal_texel(k < 3 ? surface.albedo(base) : base, plane.view.image->format, k, profile_);
     }
     const TransparentPixel pixel = layers_->at(x, y_top);
     std::vector<LayeredTexel> ways{LayeredTexel{PixelClass::exact, stored, {}, false, false}};
@@ -147,15 +146,15 @@ class GBufferJudge {
           continue;
         }
         if (p.first != kAlbedo) {
-          m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel, profile_);
+          m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel,
+                       profile_);
           continue;
         }
         const Range base = surface.base_color(k, p.interpolation);
         if (specular_ && k < 3)
           judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k),
                         surface.glossy());
-        if (!layered)
-          judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
+        if (!layered) judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
       }
     }
     constant_planes(surface, x, y_top, pixel, m);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/intervals/captured_surface.h"
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/judge_blending.h"
@@ -84,8 +84,8 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
       };
       at.nominal[k] = texel(lit.color[k]), at.all[k] = texel(any);
     }
-    at.nominal[3] = at.all[3] = legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)),
-                                            color_.image->format, 3, profile_);
+    at.nominal[3] = at.all[3] =
+        legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)), color_.image->format, 3, profile_);
   }
   const TransparentPixel pixel = layers_->at(x, y);
   may_have_other_layers(pixel, row);

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 
 namespace trueshade::oracle {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fp_env.h"
+#include "core/parallel_for.h"
 #include "oracle/intervals/surface_values.h"
 #include "oracle/intervals/tally.h"
 
@@ -68,8 +68,8 @@ class TieFinder {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
-      off += std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value -
-                       normal_.image->value(x, y_top, k));
+      off +=
+          std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value - normal_.image->value(x, y_top, k));
     if (depth_) off += std::fabs(values.depth().value - held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
   }

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/parallel_for.h"
+
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif
@@ -51,22 +53,22 @@ TEST_CASE("FpScope computes as IEEE 754 says and gives the caller's settings bac
 
 TEST_CASE("A log of loops has those that its thread calls, each with its tasks, and no others") {
   parallel_for(3, 2, [](int) {});
-  const LoopLog log;
+  const LoopTimes log;
   parallel_for(5, 2, [](int) { parallel_for(7, 1, [](int) {}); });
   parallel_for(0, 2, [](int) {});
   {
-    const LoopLog inner;
+    const LoopTimes inner;
     parallel_for(9, 1, [](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
     REQUIRE(inner.loops().size() == 1);
     CHECK(inner.loops()[0].tasks == 9);
-    CHECK(inner.loops()[0].core_ms >= 18.0);
+    CHECK(inner.loops()[0].most_core_ms >= 18.0);
   }
   CHECK_THROWS(parallel_for(4, 2, [](int) { throw std::runtime_error("no"); }));
   parallel_for(2, 64, [](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
   REQUIRE(log.loops().size() == 2);
   CHECK(log.loops()[0].tasks == 5);
   CHECK(log.loops()[1].tasks == 2);
-  CHECK(log.loops()[1].core_ms >= 4.0);  // both threads'
+  CHECK(log.loops()[1].most_core_ms >= 4.0);  // both threads'
 }
 
 TEST_CASE("parallel_for calls every index once and under IEEE arithmetic, whatever the caller's settings") {
