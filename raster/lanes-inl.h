@@ -116,10 +116,22 @@ HWY_INLINE hn::Vec<D> joined(D d, V lower, [[maybe_unused]] V upper) {
     return Combine(d, upper, lower);  // by its argument's namespace: the one-lane target has none
 }
 
-/// Stores the lanes of a mask. Not by BlendedStore, a masked store on AVX2, which takes Zen 4 some dozens of cycles.
+/// Stores the lanes of a mask. AVX2's masked store takes Zen 4 some dozens of cycles, AVX-512's one or two.
+inline constexpr bool kMaskedStores = HWY_TARGET == HWY_AVX3;
 template <class D>
 HWY_INLINE void store_lanes(hn::Vec<D> v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
-  hn::Store(hn::IfThenElse(mask, v, hn::Load(d, to)), d, to);
+  if constexpr (kMaskedStores)
+    hn::BlendedStore(v, mask, d, to);
+  else
+    hn::Store(hn::IfThenElse(mask, v, hn::Load(d, to)), d, to);
+}
+/// The same where all lanes may be stored as well; a branch on that costs more than a masked store.
+template <class D>
+HWY_INLINE void store_lanes_or_all(hn::Vec<D> v, hn::Mask<D> mask, bool all, D d, hn::TFromD<D>* to) {
+  if (!kMaskedStores && all)
+    hn::Store(v, d, to);
+  else
+    store_lanes(v, mask, d, to);
 }
 
 /// Pairs of 64-bit words at from[0], from[2], from[4] ...: a vector full.

@@ -94,10 +94,7 @@ struct RunAttributes {
       const auto value = hn::Set(d, float(a0[k]) + 0.0f);
       float* const plane = out.plane[stream[k]] + at;
       for (int p = 0; p < kBlockPixels; p += kTogether)
-        if (whole)
-          hn::Store(value, d, plane + p);
-        else
-          store_lanes(value, lane_mask(d, mine >> p), d, plane + p);
+        store_lanes_or_all(value, lane_mask(d, mine >> p), whole, d, plane + p);
     }
   }
 
@@ -130,10 +127,7 @@ struct RunAttributes {
       const auto plane = [&](V64 w1, V64 w2) { return hn::Add(from, hn::Add(hn::Mul(w1, d1), hn::Mul(w2, d2))); };
       const auto value = held(d, plane(b1, b2), plane(upper_b1, upper_b2), low[k], high[k]);
       float* const to = out.plane[stream[k]] + at;
-      if (all)
-        hn::Store(value, d, to);
-      else
-        store_lanes(value, mask, d, to);
+      store_lanes_or_all(value, mask, all, d, to);
     }
   }
 

@@ -1,7 +1,6 @@
 #include "shading/derived_planes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -19,8 +18,7 @@ struct Derived {
   std::string_view name;
   std::string_view from[3];  ///< planes it is made of, beside the target
 };
-constexpr Derived kDerived[] = {{"Z", {"position", "id.object"}},
-                                {"light.tile", {"position", "id.object"}},
+constexpr Derived kDerived[] = {{"light.tile", {"position", "id.object"}},
                                 {"light.intensity", {}},
                                 {"light.boxes", {"albedo", "id.object", "depth"}},
                                 {"light.edges", {"albedo", "id.object", "depth"}}};
@@ -56,40 +54,12 @@ struct VectorRow {
   }
 };
 
-/// Unit vector along which distance from the eye grows in depth: what divides x and y in a perspective, else z.
-glm::vec3 view_axis(const Scene& scene, const Pipeline& pipeline) {
-  const Matrix4 m = clip_from_world(scene.camera, 1.0, pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
-  for (const size_t row : {size_t(3), size_t(2)}) {
-    const double x = m[row], y = m[4 + row], z = m[8 + row], length2 = (x * x + y * y) + z * z;
-    if (!(length2 > 0.0)) continue;
-    const double inverse = 1.0 / std::sqrt(length2);
-    return {float(x * inverse), float(y * inverse), float(z * inverse)};
-  }
-  return glm::vec3(0.0f);
-}
-
 /// Calls body(y) for every row of a plane.
 template <typename Body>
 void for_each_row(int height, int threads, const Body& body) {
   parallel_for((height + kRowsOfBand - 1) / kRowsOfBand, threads, [&](int band) {
     for (int y = band * kRowsOfBand; y < std::min((band + 1) * kRowsOfBand, height); ++y) body(y);
   });
-}
-
-Image view_distance(const Scene& scene, const Pipeline& pipeline, int threads, const Image& position,
-                    const Image& object) {
-  const glm::vec3 axis = view_axis(scene, pipeline), eye = scene.camera.eye;
-  Image out(object.width, object.height, Format::d32f);
-  for_each_row(out.height, threads, [&](int y) {
-    const VectorRow row(position, object, y);
-    const TexelRow<float> texels(out, y);
-    for (int x = 0; x < out.width; ++x) {
-      if (row.object[size_t(x)] == 0) continue;
-      const glm::vec3 p = row.at(x) - eye;
-      texels.put(x, (axis.x * p.x + axis.y * p.y) + axis.z * p.z);
-    }
-  });
-  return out;
 }
 
 /// The box of some positions.
@@ -205,7 +175,6 @@ Image derived_plane(std::string_view name, const Scene& scene, const Pipeline& p
   if (name == "light.edges") return among_surfaces(light_box_edges(scene), pipeline, execution, drawn);
   const Image& object = plane_named(drawn, "id.object");
   const Image& position = plane_named(drawn, "position");
-  if (name == "Z") return view_distance(scene, pipeline, execution.threads, position, object);
   return lights_by_tile(make_light_table(scene.lights, pipeline.light_model, scene.camera), execution.threads, position,
                         object);
 }

@@ -18,7 +18,6 @@ inline constexpr int kLightTile = 16;
 std::vector<std::string> planes_to_draw(std::span<const std::string> asked);
 
 /// A plane made of other planes of the same frame, drawn as planes_to_draw() says. docs/views.md:
-///   Z                distance of the stored position along the view axis; 0 without a surface
 ///   light.tile       lights that may reach the surfaces in the pixel's square of kLightTile pixels
 ///   light.intensity  luminance of the target
 ///   light.boxes      albedo with the lights' boxes among the surfaces, tested for depth; alpha: 1 where a box is seen

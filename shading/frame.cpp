@@ -29,6 +29,7 @@
 #include "shading/texels.h"
 #include "shading/transparent_blend.h"
 #include "shading/transparent_pass.h"
+#include "shading/view_distance.h"
 
 namespace trueshade {
 namespace {
@@ -106,6 +107,7 @@ struct FrameWork {
   const LightOutlines& outlines;  ///< of strategies that blend
   bool need_uv, lit;
   const LightPlanes light_planes;
+  const ViewDistance view_distance;
   const TransparentPass transparent;
   Frame& out;
 
@@ -215,10 +217,11 @@ struct FrameWork {
         store_material_plane(aov.name, s.surface, pipeline.light_model, where, planes.half_round, aov.image);
         continue;
       }
-      const bool counts_fragments = aov.name == "overdraw";
+      const bool counts_fragments = aov.name == "overdraw", distance = aov.name == "Z";
       if (counts_fragments) count_fragments(all, where, s.extra.light_count);
-      store_aov(aov.name, s.visible, s.surface, counts_fragments ? s.extra : s.color, where, planes.half_round,
-                aov.image);
+      if (distance) view_distance.measure(s.surface, where.size * where.size, s.extra.plane[0]);
+      store_aov(aov.name, s.visible, s.surface, counts_fragments || distance ? s.extra : s.color, where,
+                planes.half_round, aov.image);
     }
     counts.ms = {seen - start, resolved - seen, lighted - resolved, now_ms() - lighted};
     if (lit && execution.count_as_gl && blends_lights(pipeline.strategy))  // what it takes is no part of the frame
@@ -384,10 +387,10 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   frame.stats.loops_before_tiles = log->loops();
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
-  draw_tiles(
-      {prepared, pipeline, execution, view, tables.bins, tables.lights, std::move(plain), tables.groups, meshes,
-       tables.outlines, need_uv, lit, std::move(light_planes), TransparentPass(scene, pipeline, execution), frame},
-      progress);
+  draw_tiles({prepared, pipeline, execution, view, tables.bins, tables.lights, std::move(plain), tables.groups, meshes,
+              tables.outlines, need_uv, lit, std::move(light_planes), ViewDistance(scene, pipeline),
+              TransparentPass(scene, pipeline, execution), frame},
+             progress);
 
   tables.transforms = std::move(view.instances);
   FrameStats& stats = frame.stats;

@@ -40,9 +40,10 @@ TexelSource source_of(std::string_view name, const VisibilityTile& visible, cons
   if (name == "albedo") return planes_of(surface, kAlbedo, 4);
   if (name == "uv") return planes_of(surface, kUv, 2);
   if (name == "normal") return planes_of(surface, kNormal, 3);
-  TexelSource depth;
-  depth.plane[0] = visible.depth;
-  return depth;
+  TexelSource distance;
+  distance.plane[0] = name == "Z" ? color.plane[0] : visible.depth;
+  if (name == "Z") distance.covered = surface.covered;
+  return distance;
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ void store_material_plane(std::string_view name, const SurfaceTile& surface, con
 }
 
 Format aov_format(std::string_view name, const GBufferState& planes) {
-  if (name == "depth") return Format::d32f;
+  if (name == "depth" || name == "Z") return Format::d32f;
   if (name == "position") return planes.position_from_depth ? Format::rgba32f : planes.position.format;
   if (name == "normal") return planes.normal.format;
   if (name == "albedo") return planes.albedo.format;

@@ -15,7 +15,7 @@ void write_stored(const ColorTile& stored, const TileRect& rect, Image& target);
 
 /// Writes one plane of a tile into an AOV image of the same size.
 /// Names are planes_to_draw()'s but for light.<i>; pixels without a surface get 0, depth its stored value. Of
-/// `overdraw`, color.light_count holds the counts.
+/// `overdraw`, color.light_count holds the counts; of `Z`, color.plane[0] the distances.
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane);
 

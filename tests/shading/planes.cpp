@@ -232,6 +232,39 @@ TEST_CASE("Z is the distance along the view axis, whatever the camera's matrix",
   check();
 }
 
+TEST_CASE("Z is made of the position as it is stored, bit for bit", "[views]") {
+  const Scene scene = load_scene("builtin:circle");
+  const PreparedScene prepared(scene);
+  const Matrix4 m = clip_from_world(scene.camera, 1.0, false);
+  const double inverse = 1.0 / std::sqrt((m[3] * m[3] + m[7] * m[7]) + m[11] * m[11]);
+  const float axis[] = {float(m[3] * inverse), float(m[7] * inverse), float(m[11] * inverse)};
+  const std::string planes[] = {"Z", "position", "id.object"};
+  for (const Format format : {Format::rgba32f, Format::rgb16f})
+    for (const bool from_depth : {false, true})
+      for (const std::string_view simd : simd_targets()) {
+        Pipeline pipeline = pipeline_of("many-lights", 61, 47);
+        pipeline.gbuffer.position.format = format;
+        pipeline.gbuffer.position_from_depth = from_depth;
+        Execution execution;
+        execution.simd = simd;
+        const Frame frame = render_frame(prepared, pipeline, execution, planes);
+        int unlike = 0, seen = 0;
+        for (int y = 0; y < pipeline.height; ++y)
+          for (int x = 0; x < pipeline.width; ++x) {
+            const bool surface = at<uint32_t>(frame.aovs[2].image, x, y) != 0;
+            float part[3];
+            for (int k = 0; k < 3; ++k)
+              part[k] = axis[k] * (float(frame.aovs[1].image.value(x, y, k)) - scene.camera.eye[k]);
+            const float expected = surface ? (part[0] + part[1]) + part[2] : 0.0f;
+            unlike += std::bit_cast<uint32_t>(expected) != at<uint32_t>(frame.aovs[0].image, x, y);
+            seen += surface;
+          }
+        CAPTURE(info(format).name, from_depth, simd);
+        CHECK(unlike == 0);
+        CHECK(seen > 100);
+      }
+}
+
 TEST_CASE("Overdraw counts every covered sample, hidden ones too, and those of culled faces not", "[views]") {
   Scene scene = two_squares();
   const std::string planes[] = {"overdraw", "id.object"};
