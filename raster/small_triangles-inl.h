@@ -36,11 +36,6 @@ struct ClusterScratch {
   FragmentList fragments;
 };
 
-/// The same by the lowest byte of each lane.
-HWY_INLINE VT corner_of(const int32_t* packed, VT word) {
-  return corner_at(packed, hn::And(word, hn::Set(DT(), kClusterVertices - 1)));
-}
-
 HWY_INLINE VT lower_half(VT packed) { return hn::And(packed, hn::Set(DT(), 0xFFFF)); }
 HWY_INLINE VT upper_half(VT packed) { return hn::ShiftRight<16>(packed); }
 HWY_INLINE VT least_of(VT a, VT b, VT c) { return hn::Min(hn::Min(a, b), c); }
@@ -190,6 +185,7 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
   const VT past_x = hn::Set(d, limit.last_x + 1), past_y = hn::Set(d, limit.last_y + 1);
   VT at_x[kSide];
   for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
+  int n = out.count;
   for (int y = 0; y < kSide; ++y) {
     const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), in.rect.size);
     const auto in_rows = y == 0 ? drawn : hn::And(drawn, hn::Lt(hn::Add(row, hn::Set(d, y)), past_y));
@@ -199,14 +195,13 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
       if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
       const uint32_t bits = lane_bits(d, covered);
       if (kSide <= 2 || bits != 0) {  // of few samples there is nearly always one
-        const FrontLanes front(d, bits);
-        const int n = out.count;
+        const FrontLanes front(d, covered, bits);
         hn::StoreU(front(hn::Add(f1, e1.not_owned)), d, out.e1 + n);
         hn::StoreU(front(hn::Add(f2, e2.not_owned)), d, out.e2 + n);
         hn::StoreU(front(size), d, out.area + n);
         hn::StoreU(front(named), d, out.word + n);
         hn::StoreU(front(hn::Add(at_x[x], at_y)), d, out.at + n);
-        out.count = n + std::popcount(bits);
+        n += std::popcount(bits);
       }
       f0 = hn::Sub(f0, e0.across);
       f1 = hn::Sub(f1, e1.across);
@@ -216,6 +211,7 @@ HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangl
     e1.first = hn::Add(e1.first, e1.up);
     e2.first = hn::Add(e2.first, e2.up);
   }
+  out.count = n;
 }
 
 /// Where fragments go.
@@ -241,9 +237,9 @@ struct ListedTriangles {
 
   HWY_INLINE ListedTriangles(const SmallDraw& in, const int32_t* list, int count, int i)
       : word(hn::Load(DT(), list + i)),
-        p0(corner_of(in.packed, word)),
-        p1(corner_of(in.packed, hn::ShiftRight<8>(word))),
-        p2(corner_of(in.packed, hn::ShiftRight<16>(word))),
+        p0(corner_at(in.packed, word)),
+        p1(corner_at(in.packed, hn::ShiftRight<8>(word))),
+        p2(corner_at(in.packed, hn::ShiftRight<16>(word))),
         box(p0, p1, p2, in.limit),
         present(hn::FirstN(DT(), size_t(count - i))) {}
 };
