@@ -54,21 +54,18 @@ HWY_INLINE void pack_corners(const WindowVertices& v, int count, int32_t middle,
   }
 }
 
-/// packed[index] for indices below 64. Permutations of registers where 16 lanes make them possible: a gather is slower.
+/// packed[index] for indices below 64, whatever the bits above. Permutations of registers where 16 lanes make them
+/// possible: a gather is slower.
 HWY_INLINE VT corner_at(const int32_t* packed, VT index) {
   const DT d;
-  if constexpr (hn::MaxLanes(d) == 16) {
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(d, 15)));
-    const auto in_odd = hn::Ne(hn::And(index, hn::Set(d, 16)), hn::Zero(d));
-    const auto in_upper = hn::Gt(index, hn::Set(d, 31));
-    const VT lower = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 16), lane),
-                                    hn::TableLookupLanes(hn::Load(d, packed), lane));
-    const VT upper = hn::IfThenElse(in_odd, hn::TableLookupLanes(hn::Load(d, packed + 48), lane),
-                                    hn::TableLookupLanes(hn::Load(d, packed + 32), lane));
-    return hn::IfThenElse(in_upper, upper, lower);
-  } else {
-    return hn::GatherIndex(d, packed, index);
-  }
+#if HWY_TARGET == HWY_AVX3
+  const auto half = [&](int i) {
+    return VT{_mm512_permutex2var_epi32(hn::Load(d, packed + i).raw, index.raw, hn::Load(d, packed + i + 16).raw)};
+  };
+  return hn::IfThenElse(hn::TestBit(index, hn::Set(d, 32)), half(32), half(0));
+#else
+  return hn::GatherIndex(d, packed, hn::And(index, hn::Set(d, kClusterVertices - 1)));
+#endif
 }
 
 /// Corners by index below 64, lower and upper halves of the packed words apart.
@@ -128,13 +125,16 @@ struct PackedLimits {
 };
 
 /// Appends the words of some lanes; returns how many there are then.
-HWY_INLINE int append(int32_t* out, int count, uint32_t lanes, VT word) {
-  const DT d;
-  hn::StoreU(FrontLanes(d, lanes)(word), d, out + count);
+HWY_INLINE int append(int32_t* out, int count, const FrontLanes<DT>& front, uint32_t lanes, VT word) {
+  hn::StoreU(front(word), DT(), out + count);
   return count + std::popcount(lanes);
 }
+HWY_INLINE int append(int32_t* out, int count, uint32_t lanes, VT word) {
+  return append(out, count, FrontLanes(DT(), lanes), lanes, word);
+}
 HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
-  return append(out, count, lane_bits(DT(), which), word);
+  const uint32_t lanes = lane_bits(DT(), which);
+  return append(out, count, FrontLanes(DT(), which, lanes), lanes, word);
 }
 
 /// Which of a vector of triangles have a sample in their box and the tile, and which of these at most 2x2: a bit each.
@@ -200,7 +200,7 @@ HWY_INLINE void find_candidates(const int32_t* packed, bool any_held, const Clus
     for (int k = 0; k < 3; ++k) corners.at(corner[k] + t, x[k], y[k]);
     uint32_t sampled, upto_2;
     test(x, y, sampled, upto_2);
-    const uint32_t present = range_bits(t, cluster.triangles - 1, t, kBoth);
+    const uint32_t present = first_bits(cluster.triangles - t);
     sampled &= present, upto_2 &= present;
     for (int i = 0; i < kBoth; i += kLanes) {
       const VT i0 = hn::PromoteTo(d, hn::LoadU(d8, corner[0] + t + i)),

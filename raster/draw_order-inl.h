@@ -36,24 +36,26 @@ inline std::span<ListedDraw> nearest_first(const TileDraws& in) {
   const size_t count = in.list.size();
   thread_local std::vector<float> nearest;
   nearest.resize(std::max(nearest.size(), count));
-  const std::span<float> near = std::span(nearest).first(count);
+  float* const near = nearest.data();
+  const uint32_t* const list = in.list.data();
+  const ClusterDraw* const draws = in.draws.data();
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (size_t i = 0; i < count; ++i) {
-    if (i + kAhead < count) hwy::Prefetch(&in.draws[in.list[i + kAhead]]);
-    near[i] = in.draws[in.list[i]].near_depth;
+    if (i + kAhead < count) hwy::Prefetch(draws + list[i + kAhead]);
+    near[i] = draws[list[i]].near_depth;
     high = std::max(high, near[i]);
     if (near[i] > -std::numeric_limits<float>::infinity()) low = std::min(low, near[i]);
   }
   const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
   const auto step = [&](float z) { return z >= low ? std::min(int((z - low) * scale), kSteps - 2) : kSteps - 1; };
   uint32_t next[kSteps + 1] = {};
-  for (const float z : near) ++next[step(z) + 1];
+  for (size_t i = 0; i < count; ++i) ++next[step(near[i]) + 1];
   for (int k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
   thread_local std::vector<ListedDraw> listed;
   listed.resize(std::max(listed.size(), count));
-  const std::span<ListedDraw> order = std::span(listed).first(count);
-  for (size_t i = 0; i < count; ++i) order[next[step(near[i])]++] = {in.draws[in.list[i]], uint32_t(i)};
-  return order;
+  ListedDraw* const order = listed.data();
+  for (size_t i = 0; i < count; ++i) order[next[step(near[i])]++] = {draws[list[i]], uint32_t(i)};
+  return {order, count};
 }
 
 /// Asks memory for what is read of an instance.
@@ -71,9 +73,8 @@ HWY_INLINE void fetch_header(const TileDraws& in, const ClusterDraw& draw) {
 
 /// For the streams.
 HWY_INLINE void fetch_streams(const TileDraws& in, const ClusterDraw& draw) {
-  constexpr size_t kLine = 64, kNear = size_t(1) << 16;  // vertices that caches hold between tiles
+  constexpr size_t kLine = 64;
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
-  if (mesh.vertex.size() < kNear) return;
   const Cluster& cluster = mesh.clusters[draw.cluster];
   for (const auto& stream : mesh.position)
     for (size_t i = 0; i < cluster.vertices; i += kLine / sizeof(float))

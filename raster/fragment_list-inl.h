@@ -27,10 +27,54 @@ struct FragmentList {
   alignas(64) int32_t e1[kMostFragments], e2[kMostFragments], area[kMostFragments], word[kMostFragments],
       at[kMostFragments];
   int count = 0;
-  alignas(64) double corner_z[3][kMostFragments];
+  alignas(64) double corner_z[3][kMostFragments];  ///< scratch of CornerDepths
   alignas(64) float z[kMostFragments];
   uint16_t block[kMaxTilePixels / kBlockPixels + 1];    ///< those that fragments fall into
   uint8_t touched[kMaxTilePixels / kBlockPixels] = {};  ///< 1 while listed there
+};
+
+/// Depths of the fragments' corners: where vectors hold those of a cluster's vertices, by permutations of registers.
+class CornerDepths {
+#if HWY_TARGET == HWY_AVX3
+  using Word = hn::Vec<hn::RebindToUnsigned<D64>>;
+
+ public:
+  HWY_INLINE CornerDepths(const FragmentList&, const double* vertex_z) {
+    for (size_t i = 0; i < 8; ++i) z_[i] = hn::Load(D64(), vertex_z + 8 * i);
+  }
+  HWY_INLINE void at(const FragmentList& in, int i, V64& z0, V64& z1, V64& z2) const {
+    const Word word = hn::PromoteTo(hn::RebindToUnsigned<D64>(), hn::BitCast(U32(), hn::Load(I32(), in.word + i)));
+    z0 = of(word), z1 = of(hn::ShiftRight<8>(word)), z2 = of(hn::ShiftRight<16>(word));
+  }
+
+ private:
+  HWY_INLINE V64 of(Word index) const {  // whatever its bits above the lowest six
+    const D64 d;
+    const hn::RebindToUnsigned<D64> dl;
+    V64 part[4];
+    for (size_t i = 0; i < 4; ++i) part[i] = V64{_mm512_permutex2var_pd(z_[2 * i].raw, index.raw, z_[2 * i + 1].raw)};
+    const auto odd = hn::RebindMask(d, hn::TestBit(index, hn::Set(dl, 16)));
+    const auto upper = hn::RebindMask(d, hn::TestBit(index, hn::Set(dl, 32)));
+    return hn::IfThenElse(upper, hn::IfThenElse(odd, part[3], part[2]), hn::IfThenElse(odd, part[1], part[0]));
+  }
+
+  V64 z_[8];
+#else
+ public:
+  HWY_INLINE CornerDepths(FragmentList& in, const double* vertex_z) {
+    for (int i = 0; i < in.count; ++i) {
+      const uint32_t word = uint32_t(in.word[i]);
+      in.corner_z[0][i] = vertex_z[word & 255];
+      in.corner_z[1][i] = vertex_z[(word >> 8) & 255];
+      in.corner_z[2][i] = vertex_z[(word >> 16) & 255];
+    }
+    for (double* const z : in.corner_z) hn::StoreU(hn::Zero(D64()), D64(), z + in.count);
+  }
+  HWY_INLINE void at(const FragmentList& in, int i, V64& z0, V64& z1, V64& z2) const {
+    const D64 d;
+    z0 = hn::Load(d, in.corner_z[0] + i), z1 = hn::Load(d, in.corner_z[1] + i), z2 = hn::Load(d, in.corner_z[2] + i);
+  }
+#endif
 };
 
 /// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
@@ -38,16 +82,10 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
   const D64 d;
   const D32 df;
   const I32 di;
-  double(&z)[3][kMostFragments] = in.corner_z;
-  for (int i = 0; i < in.count; ++i) {
-    const uint32_t word = uint32_t(in.word[i]);
-    z[0][i] = vertex_z[word & 255];
-    z[1][i] = vertex_z[(word >> 8) & 255];
-    z[2][i] = vertex_z[(word >> 16) & 255];
-  }
-  for (size_t k = 0; k < 3; ++k) hn::StoreU(hn::Zero(d), d, z[k] + in.count);
+  const CornerDepths corners(in, vertex_z);
   for (int i = 0; i < in.count; i += int(hn::Lanes(d))) {
-    const V64 z0 = hn::Load(d, z[0] + i), z1 = hn::Load(d, z[1] + i), z2 = hn::Load(d, z[2] + i);
+    V64 z0, z1, z2;
+    corners.at(in, i, z0, z1, z2);
     const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
     const V64 e1 = hn::PromoteTo(d, hn::Load(di, in.e1 + i)), e2 = hn::PromoteTo(d, hn::Load(di, in.e2 + i));
     const V64 g1 = hn::Div(hn::Sub(z1, z0), size), g2 = hn::Div(hn::Sub(z2, z0), size);

@@ -73,12 +73,6 @@ HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox
   return any != 0;
 }
 
-/// Box of a cluster's vertices or of a triangle's, from the snapped coordinates, and its least depth.
-struct WindowBox {
-  int32_t x0, y0, x1, y1;
-  double near;
-};
-
 /// What the depth test compares for a bound from below.
 HWY_INLINE float near_bound(double near, const WindowTransform& t) {
   return t.depth.stored(std::min(std::max(float(near), t.depth_low), t.depth_high));

@@ -25,13 +25,21 @@ using M64 = hn::Mask<D64>;
 
 /// A bit for each lane of a mask.
 template <class D>
-HWY_INLINE uint32_t lane_bits(D d, hn::Mask<D> mask) {
+HWY_INLINE uint32_t lane_bits([[maybe_unused]] D d, hn::Mask<D> mask) {
+#if HWY_TARGET == HWY_AVX3
+  static_assert(hn::MaxLanes(D()) >= 8);  // below that masks have bits that mean nothing
+  return mask.raw;
+#else
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   uint32_t bits;
   std::memcpy(&bits, bytes, sizeof(bits));
   return bits;
+#endif
 }
+
+/// The lowest `count` of 32 bits, or all.
+HWY_INLINE uint32_t first_bits(int count) { return uint32_t((uint64_t(1) << std::min(count, 32)) - 1); }
 
 /// Bits of [first, last] that fall into a vector of `lanes` starting at `from`, counted from there.
 HWY_INLINE uint32_t range_bits(int first, int last, int from, int lanes) {
@@ -47,12 +55,13 @@ HWY_INLINE hn::Mask<D> lane_mask(D d, uint32_t bits) {
   return hn::LoadMaskBits(d, bytes);
 }
 
-/// Moves some lanes of vectors to the front; what follows them means nothing. Where a table can do it, it does:
-/// Highway's Compress copies its own onto the stack for each vector under g++ 12.
+/// Moves some lanes of vectors to the front, given by bits or as a mask too; what follows them means nothing. Where a
+/// table can do it, it does: Highway's Compress copies its own onto the stack for each vector under g++ 12.
 template <class D, bool kByMask = (hn::MaxLanes(D()) > 8)>
 class FrontLanes {
  public:
   HWY_INLINE FrontLanes(D d, uint32_t lanes) : mask_(lane_mask(d, lanes)) {}
+  HWY_INLINE FrontLanes(D, hn::Mask<D> mask, uint32_t) : mask_(mask) {}
   HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::Compress(v, mask_); }
 
  private:
@@ -65,6 +74,7 @@ class FrontLanes<D, false> {
  public:
   HWY_INLINE FrontLanes(D d, uint32_t lanes)
       : order_(hn::IndicesFromVec(d, hn::LoadU(I(), kFrontOrder[lanes].data()))) {}
+  HWY_INLINE FrontLanes(D d, hn::Mask<D>, uint32_t lanes) : FrontLanes(d, lanes) {}
   HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::TableLookupLanes(v, order_); }
 
  private:

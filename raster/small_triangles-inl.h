@@ -14,8 +14,7 @@
 #include "raster/commit-inl.h"
 #include "raster/fragment_list-inl.h"
 #include "raster/hidden-inl.h"
-#include "raster/lanes-inl.h"
-#include "raster/triangle_setup.h"
+#include "raster/small_coverage-inl.h"
 #include "raster/vertex_stage-inl.h"
 #include "raster/visibility.h"
 
@@ -35,188 +34,6 @@ struct ClusterScratch {
   Candidates found;
   FragmentList fragments;
 };
-
-/// The same by the lowest byte of each lane.
-HWY_INLINE VT corner_of(const int32_t* packed, VT word) {
-  return corner_at(packed, hn::And(word, hn::Set(DT(), kClusterVertices - 1)));
-}
-
-HWY_INLINE VT lower_half(VT packed) { return hn::And(packed, hn::Set(DT(), 0xFFFF)); }
-HWY_INLINE VT upper_half(VT packed) { return hn::ShiftRight<16>(packed); }
-HWY_INLINE VT least_of(VT a, VT b, VT c) { return hn::Min(hn::Min(a, b), c); }
-HWY_INLINE VT most_of(VT a, VT b, VT c) { return hn::Max(hn::Max(a, b), c); }
-
-/// The samples of the tile in the boxes of a vector of triangles.
-struct SampleBoxes {
-  VT column, row;    ///< of the first
-  VT columns, rows;  ///< one less than there are; negative where there are none
-  VT left, right, bottom, top;
-
-  HWY_INLINE SampleBoxes(VT p0, VT p1, VT p2, const PackedLimits& limit) {
-    const DT d;
-    const VT x0 = lower_half(p0), x1 = lower_half(p1), x2 = lower_half(p2), round_up = hn::Set(d, 255);
-    left = least_of(x0, x1, x2), right = most_of(x0, x1, x2);
-    // y above x: the order of whole words is that of y, so their least and most have its.
-    bottom = upper_half(least_of(p0, p1, p2)), top = upper_half(most_of(p0, p1, p2));
-    column = hn::Max(hn::ShiftRight<8>(hn::Add(left, round_up)), hn::Set(d, limit.low_x));
-    row = hn::Max(hn::ShiftRight<8>(hn::Add(bottom, round_up)), hn::Set(d, limit.low_y));
-    columns = hn::Sub(hn::Min(hn::ShiftRight<8>(right), hn::Set(d, limit.last_x)), column);
-    rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), hn::Set(d, limit.last_y)), row);
-  }
-
-  /// Those of at most side x side samples, of triangles none of whose corners is held: held ones are at the ends of the
-  /// range.
-  HWY_INLINE hn::Mask<DT> upto(int side, bool any_held) const {
-    const DT d;
-    const auto few = hn::Lt(hn::Or(columns, rows), hn::Set(d, side));  // side is a power of two
-    if (!any_held) return few;
-    const VT reach = hn::Max(hn::Max(right, hn::Sub(hn::Set(d, 2 * kPackedLimit), left)),
-                             hn::Add(hn::Max(top, hn::Neg(bottom)), hn::Set(d, kPackedLimit)));
-    return hn::And(few, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
-  }
-};
-
-/// a - b of packed words, both halves apart.
-HWY_INLINE VT pair_difference(VT a, VT b) {
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Or(hn::ShiftLeft<16>(hn::Sub(upper_half(a), upper_half(b))), lower_half(hn::Sub(a, b)));
-#else
-  return hn::BitCast(DT(), hn::Sub(hn::BitCast(DP(), a), hn::BitCast(DP(), b)));
-#endif
-}
-
-/// a.x b.y - a.y b.x of packed differences, y above x.
-HWY_INLINE VT pair_cross(VT a, VT b) {
-#if HWY_TARGET == HWY_SCALAR
-  const auto x = [](VT v) { return upper_half(hn::ShiftLeft<16>(v)); };
-  return hn::Sub(hn::Mul(x(a), upper_half(b)), hn::Mul(upper_half(a), x(b)));
-#else
-  const DT d;
-  const hn::RebindToUnsigned<DT> du;
-  const VT swapped = hn::Or(hn::ShiftLeft<16>(b), hn::BitCast(d, hn::ShiftRight<16>(hn::BitCast(du, b))));
-  const VT turned = hn::Add(hn::Xor(swapped, hn::Set(d, -0x10000)), hn::Set(d, 0x10000));  // -x above y
-  VT others = hn::Zero(d);
-  const VT some =
-      hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), turned), hn::Zero(d), others);
-  return hn::RearrangeToOddPlusEven(some, others);
-#endif
-}
-
-/// An edge function at the first sample of the box, minus 1 where the edge does not own its points: covered where not
-/// negative. A column on it is `across` less, a row on `up` more.
-struct SmallEdge {
-  VT first, across, up, not_owned;  ///< the last 0 or 1
-
-  /// Of an edge function whose edge goes `along` from its first corner to its last.
-  HWY_INLINE void set(VT along, VT e, bool upper_left) {
-    const DT d;
-    // Owned where dy < 0, and where dy = 0 and dx has the owning sign: then the word is positive and below 2^15.
-    const VT word = upper_left ? hn::Xor(along, hn::Set(d, 1 << 15)) : along;
-    not_owned = hn::IfThenElseZero(hn::Gt(word, hn::Set(d, (1 << 15) - 1)), hn::Set(d, 1));
-    first = hn::Sub(e, not_owned);
-    across = hn::ShiftLeft<8>(upper_half(along));
-    up = hn::ShiftRight<8>(hn::ShiftLeft<16>(along));
-  }
-};
-
-/// Place of a pixel in the tile's planes, column and row apart: tile_index() is their sum.
-HWY_INLINE VT column_index(VT x) {
-  const DT d;
-  return hn::Add(hn::ShiftLeft<4>(hn::ShiftRight<2>(x)), hn::And(x, hn::Set(d, 3)));
-}
-HWY_INLINE VT row_index(VT y, int size) {
-  const DT d;
-  return hn::Add(hn::Mul(hn::ShiftRight<2>(y), hn::Set(d, size * kBlockSize)),
-                 hn::ShiftLeft<2>(hn::And(y, hn::Set(d, 3))));
-}
-
-/// A vector of triangles in canonical order: smallest (y, x) first, the others as they follow.
-struct OrderedTriangles {
-  VT q0, q1, q2;  ///< packed corners
-  VT word;        ///< as in Candidates
-
-  HWY_INLINE OrderedTriangles(VT p0, VT p1, VT p2, VT named) {
-    const DT d;
-    const auto from_2 = hn::And(hn::Lt(p2, p0), hn::Lt(p2, p1));
-    const auto from_1 = hn::AndNot(hn::Lt(p2, p1), hn::Lt(p1, p0));
-    q0 = hn::IfThenElse(from_2, p2, hn::IfThenElse(from_1, p1, p0));
-    q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
-    q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
-    const VT corners = hn::And(named, hn::Set(d, 0xFFFFFF));
-    const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
-    const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
-    const VT vertices =
-        hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
-    word = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), named));
-  }
-};
-
-/// What drawing a cluster's small triangles reads.
-struct SmallDraw {
-  const int32_t* packed;  ///< corners
-  bool any_held;
-  const GeometryState& state;
-  bool upper_left;
-  const TileRect& rect;
-  const PackedLimits limit;
-};
-
-/// Lists the covered samples of a vector of triangles whose boxes hold at most kSide x kSide samples; `which` of them.
-template <int kSide>
-HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangles, const SampleBoxes& box,
-                            hn::Mask<DT> which, FragmentList& out) {
-  const DT d;
-  const VT zero = hn::Zero(d), named = triangles.word;
-  const PackedLimits& limit = in.limit;
-  const bool drop_positive = culled(in.state, !in.upper_left), drop_negative = culled(in.state, in.upper_left);
-  const VT q0 = triangles.q0, q1 = triangles.q1, q2 = triangles.q2;
-  const VT from_q2 = pair_difference(q0, q2), from_q0 = pair_difference(q1, q0);
-  const VT area = pair_cross(from_q2, from_q0), size = hn::Abs(area), sign = hn::BroadcastSignBit(area);
-  auto drawn = hn::And(which, hn::Ne(area, zero));
-  if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
-  if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
-
-  const VT column = box.column, row = box.row;
-  const VT sample = hn::Add(hn::ShiftLeft<24>(row), hn::ShiftLeft<8>(column));
-  const auto turned = [sign](VT along) { return pair_difference(hn::Xor(along, sign), sign); };
-  const VT along_0 = turned(pair_difference(q2, q1)), along_1 = turned(from_q2), along_2 = turned(from_q0);
-  const VT at_1 = pair_cross(along_1, pair_difference(sample, q2)),
-           at_2 = pair_cross(along_2, pair_difference(sample, q0));
-  SmallEdge e0, e1, e2;  // whose sum is the area
-  e0.set(along_0, hn::Sub(size, hn::Add(at_1, at_2)), in.upper_left);
-  e1.set(along_1, at_1, in.upper_left);
-  e2.set(along_2, at_2, in.upper_left);
-  const VT px = hn::Sub(column, hn::Set(d, limit.first_x)), py = hn::Sub(row, hn::Set(d, limit.first_y));
-  const VT past_x = hn::Set(d, limit.last_x + 1), past_y = hn::Set(d, limit.last_y + 1);
-  VT at_x[kSide];
-  for (int x = 0; x < kSide; ++x) at_x[x] = column_index(hn::Add(px, hn::Set(d, x)));
-  for (int y = 0; y < kSide; ++y) {
-    const VT at_y = row_index(hn::Add(py, hn::Set(d, y)), in.rect.size);
-    const auto in_rows = y == 0 ? drawn : hn::And(drawn, hn::Lt(hn::Add(row, hn::Set(d, y)), past_y));
-    VT f0 = e0.first, f1 = e1.first, f2 = e2.first;
-    for (int x = 0; x < kSide; ++x) {
-      auto covered = hn::And(in_rows, hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(d, -1)));
-      if (x > 0) covered = hn::And(covered, hn::Lt(hn::Add(column, hn::Set(d, x)), past_x));
-      const uint32_t bits = lane_bits(d, covered);
-      if (kSide <= 2 || bits != 0) {  // of few samples there is nearly always one
-        const FrontLanes front(d, bits);
-        const int n = out.count;
-        hn::StoreU(front(hn::Add(f1, e1.not_owned)), d, out.e1 + n);
-        hn::StoreU(front(hn::Add(f2, e2.not_owned)), d, out.e2 + n);
-        hn::StoreU(front(size), d, out.area + n);
-        hn::StoreU(front(named), d, out.word + n);
-        hn::StoreU(front(hn::Add(at_x[x], at_y)), d, out.at + n);
-        out.count = n + std::popcount(bits);
-      }
-      f0 = hn::Sub(f0, e0.across);
-      f1 = hn::Sub(f1, e1.across);
-      f2 = hn::Sub(f2, e2.across);
-    }
-    e0.first = hn::Add(e0.first, e0.up);
-    e1.first = hn::Add(e1.first, e1.up);
-    e2.first = hn::Add(e2.first, e2.up);
-  }
-}
 
 /// Where fragments go.
 struct SmallCommit {
@@ -241,9 +58,9 @@ struct ListedTriangles {
 
   HWY_INLINE ListedTriangles(const SmallDraw& in, const int32_t* list, int count, int i)
       : word(hn::Load(DT(), list + i)),
-        p0(corner_of(in.packed, word)),
-        p1(corner_of(in.packed, hn::ShiftRight<8>(word))),
-        p2(corner_of(in.packed, hn::ShiftRight<16>(word))),
+        p0(corner_at(in.packed, word)),
+        p1(corner_at(in.packed, hn::ShiftRight<8>(word))),
+        p2(corner_at(in.packed, hn::ShiftRight<16>(word))),
         box(p0, p1, p2, in.limit),
         present(hn::FirstN(DT(), size_t(count - i))) {}
 };

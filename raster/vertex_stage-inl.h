@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "raster/clusters.h"
 #include "raster/fixed_point.h"
 #include "raster/snap.h"
@@ -34,6 +36,40 @@ HWY_INLINE V affine_row(const float m[4], V x, V y, V z) {
       hn::Set(d, m[3]));
 }
 
+/// Box of a cluster's vertices or of a triangle's, from the snapped coordinates, and its least depth.
+struct WindowBox {
+  int32_t x0, y0, x1, y1;
+  double near;
+};
+
+/// The same a lane a vertex, as vectors of vertices come.
+class VertexBox {
+ public:
+  HWY_INLINE VertexBox()
+      : x0_(hn::Set(I32(), std::numeric_limits<int32_t>::max())),
+        y0_(x0_),
+        x1_(hn::Set(I32(), std::numeric_limits<int32_t>::lowest())),
+        y1_(x1_),
+        near_(hn::Set(D64(), std::numeric_limits<double>::infinity())) {}
+  HWY_INLINE void add(hn::Vec<I32> x, hn::Vec<I32> y, V64 z) {
+    x0_ = hn::Min(x0_, x);
+    x1_ = hn::Max(x1_, x);
+    y0_ = hn::Min(y0_, y);
+    y1_ = hn::Max(y1_, y);
+    near_ = hn::Min(near_, z);
+  }
+  HWY_INLINE WindowBox box() const {
+    const I32 d;
+    return {hn::GetLane(hn::MinOfLanes(d, x0_)), hn::GetLane(hn::MinOfLanes(d, y0_)),
+            hn::GetLane(hn::MaxOfLanes(d, x1_)), hn::GetLane(hn::MaxOfLanes(d, y1_)),
+            hn::GetLane(hn::MinOfLanes(D64(), near_))};
+  }
+
+ private:
+  hn::Vec<I32> x0_, y0_, x1_, y1_;
+  V64 near_;
+};
+
 /// Vertices in window space, relative to the sample of a tile's pixel (0, 0). Where `needs_care` is set, x and y mean
 /// nothing: the vertex is outside near or far, has w <= 0 or no finite value, or lies 2^25 subpixels away; clip.h sees
 /// to its triangles.
@@ -43,6 +79,7 @@ struct WindowVertices {
   alignas(64) double u[kClusterVertices];                        ///< 1 / w
   alignas(64) int32_t needs_care[kClusterVertices];              ///< -1 or 0
   bool any_needs_care;
+  WindowBox box;  ///< of all, where none needs care
 };
 
 /// Window position of the sample of a tile's pixel (0, 0), in 1/256 pixel.
@@ -147,69 +184,89 @@ class PlainVertices {
   HWY_INLINE PlainVertices(const InstanceTransform& instance, const WindowTransform& t, SampleOrigin origin)
       : snap_scale_{t.scale[0], t.scale[1]},
         scale_{double(t.scale[0]), double(t.scale[1])},
-        offset_{double(t.offset[0] - origin.x), double(t.offset[1] - origin.y)},
+        shift_{kWhole + double(t.offset[0] - origin.x), kWhole + double(t.offset[1] - origin.y)},
         z_scale_(t.z_scale),
         z_offset_(t.z_offset) {
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c) clip_[r][c] = instance.clip[r][c];
   }
 
-  /// Places one vector of object-space positions at out[i...]; with their depths or without.
-  template <bool kDepth = true>
+  /// Places one vector of object-space positions at out[i...].
   HWY_INLINE void place(V32 px, V32 py, V32 pz, size_t i, WindowVertices& out) const {
-    place_clip<kDepth>(affine_row(clip_[0], px, py, pz), affine_row(clip_[1], px, py, pz),
-                       kDepth ? affine_row(clip_[2], px, py, pz) : px, affine_row(clip_[3], px, py, pz), i, out);
+    place_clip(affine_row(clip_[0], px, py, pz), affine_row(clip_[1], px, py, pz), affine_row(clip_[3], px, py, pz), i,
+               out);
   }
 
-  /// The same for vectors of twice as many, whose sums fill a vector then.
-  HWY_INLINE void place_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out) const {
+  /// The same for vectors of twice as many, whose sums fill a vector then, with their depths.
+  HWY_INLINE void place_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out,
+                            VertexBox& box) const {
     const hn::ScalableTag<float> d;
     const auto px = hn::LoadU(d, x + i), py = hn::LoadU(d, y + i), pz = hn::LoadU(d, z + i);
     hn::Vec<decltype(d)> clip[4];
     for (int r = 0; r < 4; ++r) clip[r] = affine_row(clip_[r], px, py, pz);
 #if HWY_TARGET == HWY_SCALAR
-    place_clip<true>(clip[0], clip[1], clip[2], clip[3], i, out);
+    place_with_depth(clip[0], clip[1], clip[2], clip[3], i, out, box);
 #else
     const D32 half;
-    place_clip<true>(hn::LowerHalf(half, clip[0]), hn::LowerHalf(half, clip[1]), hn::LowerHalf(half, clip[2]),
-                     hn::LowerHalf(half, clip[3]), i, out);
-    place_clip<true>(hn::UpperHalf(half, clip[0]), hn::UpperHalf(half, clip[1]), hn::UpperHalf(half, clip[2]),
-                     hn::UpperHalf(half, clip[3]), i + hn::Lanes(half), out);
+    place_with_depth(hn::LowerHalf(half, clip[0]), hn::LowerHalf(half, clip[1]), hn::LowerHalf(half, clip[2]),
+                     hn::LowerHalf(half, clip[3]), i, out, box);
+    place_with_depth(hn::UpperHalf(half, clip[0]), hn::UpperHalf(half, clip[1]), hn::UpperHalf(half, clip[2]),
+                     hn::UpperHalf(half, clip[3]), i + hn::Lanes(half), out, box);
 #endif
   }
 
  private:
-  template <bool kDepth>
-  HWY_INLINE void place_clip(V32 cx, V32 cy, [[maybe_unused]] V32 cz, V32 cw, size_t i, WindowVertices& out) const {
+  struct Placed {
+    hn::Vec<I32> x, y;
+    V64 u;
+  };
+
+  HWY_INLINE void place_with_depth(V32 cx, V32 cy, V32 cz, V32 cw, size_t i, WindowVertices& out,
+                                   VertexBox& box) const {
+    const D64 d;
+    const Placed p = place_clip(cx, cy, cw, i, out);
+    const V64 z = hn::Add(hn::Mul(hn::Mul(hn::PromoteTo(d, cz), p.u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_));
+    hn::Store(z, d, out.z + i);
+    box.add(p.x, p.y, z);
+  }
+
+  HWY_INLINE Placed place_clip(V32 cx, V32 cy, V32 cw, size_t i, WindowVertices& out) const {
     const D64 d;
     const I32 di;
     const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), ww = hn::PromoteTo(d, cw);
-    const V64 u = hn::Div(hn::Set(d, 1.0), ww);
+    const V64 u = hn::Div(hn::Set(d, 1.0), ww), x_shift = hn::Set(d, shift_[0]), y_shift = hn::Set(d, shift_[1]);
     const V64 x = hn::Mul(hn::Mul(wx, u), hn::Set(d, scale_[0])), y = hn::Mul(hn::Mul(wy, u), hn::Set(d, scale_[1]));
-    V64 x_fx = hn::Round(x), y_fx = hn::Round(y);
+    V64 x_sum = hn::Add(x, x_shift), y_sum = hn::Add(y, y_shift);
+    const V64 x_fx = hn::Sub(x_sum, x_shift), y_fx = hn::Sub(y_sum, y_shift);
     const V64 off = hn::Max(hn::Abs(hn::Sub(x, x_fx)), hn::Abs(hn::Sub(y, y_fx)));
     if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Gt(off, hn::Set(d, 0.5 - 0x1p-14))))) {
-      x_fx = round_near_ties(x, x_fx, wx, ww, snap_scale_[0]);
-      y_fx = round_near_ties(y, y_fx, wy, ww, snap_scale_[1]);
+      x_sum = hn::Add(round_near_ties(x, x_fx, wx, ww, snap_scale_[0]), x_shift);
+      y_sum = hn::Add(round_near_ties(y, y_fx, wy, ww, snap_scale_[1]), y_shift);
     }
-    hn::Store(hn::DemoteTo(di, hn::Add(x_fx, hn::Set(d, offset_[0]))), di, out.x + i);
-    hn::Store(hn::DemoteTo(di, hn::Add(y_fx, hn::Set(d, offset_[1]))), di, out.y + i);
+    const Placed p{lower_words(x_sum), lower_words(y_sum), u};
+    hn::Store(p.x, di, out.x + i);
+    hn::Store(p.y, di, out.y + i);
     hn::Store(u, d, out.u + i);
-    if constexpr (kDepth) {
-      const V64 wz = hn::PromoteTo(d, cz);
-      hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, z_scale_)), hn::Set(d, z_offset_)), d, out.z + i);
-    }
+    return p;
   }
 
+  static HWY_INLINE hn::Vec<I32> lower_words(V64 v) {
+    return hn::BitCast(I32(), hn::TruncateTo(U32(), hn::BitCast(hn::RebindToUnsigned<D64>(), v)));
+  }
+
+  // Doubles from 2^52 on are whole: a sum with this is rounded, and its lower word is what was added to it.
+  static constexpr double kWhole = 0x1.8p52;
   float clip_[4][4];
   int64_t snap_scale_[2];
-  double scale_[2], offset_[2], z_scale_, z_offset_;
+  double scale_[2], shift_[2], z_scale_, z_offset_;
 };
 
 /// Window positions of all vertices of a cluster. `plain`: none of them needs care, by its bounds.
 inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
                             const WindowTransform& t, SampleOrigin origin, bool plain, WindowVertices& out) {
   const D32 df;
+  const I32 di;
+  VertexBox box;
   out.any_needs_care = false;
   const float* position[3];
   for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
@@ -217,7 +274,8 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
   if (plain) {
     const PlainVertices vertices(instance, t, origin);
     for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(hn::ScalableTag<float>()))
-      vertices.place_two(position[0], position[1], position[2], i, out);
+      vertices.place_two(position[0], position[1], position[2], i, out, box);
+    out.box = box.box();
     return;
   }
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
@@ -225,7 +283,9 @@ inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, c
     for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], at(0, i), at(1, i), at(2, i));
     const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
     out.any_needs_care = out.any_needs_care || care;
+    box.add(hn::Load(di, out.x + i), hn::Load(di, out.y + i), hn::Load(D64(), out.z + i));
   }
+  out.box = box.box();
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -22,25 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Streams go on with copies of the last vertex, so whole vectors may be read.
-WindowBox window_box(const WindowVertices& v, int count) {
-  const I32 di;
-  const D64 d;
-  auto x0 = hn::Set(di, v.x[0]), x1 = x0, y0 = hn::Set(di, v.y[0]), y1 = y0;
-  V64 near = hn::Set(d, v.z[0]);
-  for (int i = 0; i < count; i += int(hn::Lanes(di))) {
-    const auto x = hn::Load(di, v.x + i), y = hn::Load(di, v.y + i);
-    x0 = hn::Min(x0, x);
-    x1 = hn::Max(x1, x);
-    y0 = hn::Min(y0, y);
-    y1 = hn::Max(y1, y);
-    near = hn::Min(near, hn::Load(d, v.z + i));
-  }
-  const auto least = [&](auto w) { return hn::GetLane(hn::MinOfLanes(di, w)); };
-  const auto most = [&](auto w) { return hn::GetLane(hn::MaxOfLanes(di, w)); };
-  return {least(x0), least(y0), most(x1), most(y1), hn::GetLane(hn::MinOfLanes(d, near))};
-}
-
 // Triangles that have area and a sample in their box and the tile, many at a time, in 32-bit integers: in a cluster
 // that spans less than 2^15 subpixels a doubled area stays below 2^31. Returns how many it wrote to `out`.
 int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4],
@@ -143,7 +124,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& l
   if (v.any_needs_care) {
     count = all_triangles(cluster, triangle);
   } else {
-    const WindowBox box = window_box(v, cluster.vertices);
+    const WindowBox& box = v.box;
     const int size = rect.size * 256;
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > size || box.y0 > size) return;
     work.open.all = true;

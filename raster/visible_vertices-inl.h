@@ -129,7 +129,7 @@ inline void place_used(const TileDraws& in, const TileRect& rect, const UsedVert
     const V32 x = hn::Load(df, from.stream[0] + i), y = hn::Load(df, from.stream[1] + i),
               z = hn::Load(df, from.stream[2] + i);
     if (all_plain)
-      plain.place<false>(x, y, z, 0, window);
+      plain.place(x, y, z, 0, window);
     else
       place_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
                      affine_row(m[3], x, y, z), in.view.window, origin, 0, window);
