@@ -89,7 +89,7 @@ struct AlphaTest {
                           at.y[k]);
       }
       V32 rgba[4];
-      sample(*maps->color, at, asked, rgba);
+      sample(*maps->color, at, asked, rgba, kAlphaBit);
       alpha = hn::Mul(alpha, rgba[3]);
     }
     alpha = hn::Mul(alpha, hn::Set(df, maps->base_alpha));

@@ -90,6 +90,27 @@ inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, cons
   }
 }
 
+// The maps of the lanes that a piece owns, from its weights there.
+template <class Frames>
+HWY_INLINE void map_piece(const CarefulSurface& s, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
+                          const Frames& frames, SurfaceTile& out) {
+  const D64 d;
+  V64 edge_x[3], edge_y[3], u[3];
+  for (int i = 0; i < 3; ++i) {
+    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
+    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
+    u[i] = hn::Set(d, s.u[i]);
+  }
+  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
+  UvPoint uv;
+  for (int c = 0; c < 2; ++c) {
+    const double* a = s.attribute[kUv + c];
+    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
+                      uv.y[c]);
+  }
+  apply_maps(maps, &uv, &owned, at, frames, out);
+}
+
 // The attributes of one piece at the lanes it owns; the other lanes keep what they have.
 inline void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups,
                               int at, const SceneMaps& maps, const VisibleVertices& work, SurfaceTile& out) {
@@ -110,20 +131,7 @@ inline void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned
       hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
     }
   }
-  if (!maps.textured()) return;
-  V64 edge_x[3], edge_y[3];
-  for (int i = 0; i < 3; ++i) {
-    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
-    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
-  }
-  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
-  UvPoint uv;
-  for (int c = 0; c < 2; ++c) {
-    const double* a = s.attribute[kUv + c];
-    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
-                      uv.y[c]);
-  }
-  apply_maps(maps, uv, owned, at, work, out);
+  if (maps.textured()) map_piece(s, w, owned, at, maps, GatheredFrames{work, at}, out);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -8,7 +8,10 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "raster/interpolate-inl.h"
+#include "raster/lanes-inl.h"
 #include "raster/surfaces.h"
 #include "raster/texture-inl.h"
 
@@ -37,11 +40,6 @@ struct MapCorner {
   static constexpr int kStream[kValues] = {kPosition, kPosition + 1, kPosition + 2, kUv, kUv + 1};
   V64 value[kValues];
 
-  HWY_INLINE void load(const VisibleVertices& work, const uint32_t* corner) {
-    const auto at = hn::LoadU(I32(), reinterpret_cast<const int32_t*>(corner));
-    for (int k = 0; k < kValues; ++k)
-      value[k] = hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[kStream[k]].data(), at));
-  }
   HWY_INLINE Vector3 position() const { return {value[0], value[1], value[2]}; }
 
   /// Before another in the order of values.
@@ -58,10 +56,9 @@ struct TangentFrame {
   Vector3 u, v;
 };
 
-HWY_INLINE TangentFrame tangent_frame(const VisibleVertices& work, int at) {
+HWY_INLINE TangentFrame tangent_frame(const MapCorner corner[3]) {
   const D64 d;
-  MapCorner corner[3], turned[3];
-  for (size_t k = 0; k < 3; ++k) corner[k].load(work, work.corner[k].data() + at);
+  MapCorner turned[3];
   // The least corner first: the frame does not depend on which one a triangle was submitted with.
   const auto from_1 = corner[1].before(corner[0]);
   const auto from_2 =
@@ -106,50 +103,93 @@ HWY_INLINE void bend_normals(const TangentFrame& frame, const V32 texel[3], doub
   for (int k = 0; k < 3; ++k) n[k] = hn::IfThenElse(here, hn::DemoteTo(df, bent[k]), n[k]);
 }
 
-/// Lanes of one material: colour times texel, normal bent; the specular texel waits for the material's own colour.
-inline void apply_material(const MaterialMaps& maps, const UvPoint& at, Mask64 mine, int i, const VisibleVertices& work,
+/// Of vectors of pixels of the general path.
+struct GatheredFrames {
+  const VisibleVertices& work;
+  int at;  ///< the first pixel
+  HWY_INLINE TangentFrame operator()(int) const {
+    MapCorner corner[3];
+    for (int k = 0; k < 3; ++k) {
+      const auto vertex = hn::LoadU(I32(), reinterpret_cast<const int32_t*>(work.corner[k].data()) + at);
+      for (int c = 0; c < MapCorner::kValues; ++c)
+        corner[k].value[c] =
+            hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[MapCorner::kStream[c]].data(), vertex));
+    }
+    return tangent_frame(corner);
+  }
+};
+
+/// Lanes of one material in vectors side by side, pixel i and on: colour times texel, normal bent; the specular texel
+/// waits for the material's own colour. `frames` makes a vector's tangent frames if they are wanted. What one vector
+/// waits for the others do not.
+template <int kVectors, class Frames>
+inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Mask64* mine, int i, const Frames& frames,
                            SurfaceTile& out) {
   const D32 df;
-  V32 rgba[4];
-  const auto ours = float_mask(mine);
-  const auto put = [&](int plane, V32 there, V32 value) {
-    hn::Store(hn::IfThenElse(ours, value, there), df, out.plane[plane] + i);
-  };
-  if (maps.color) {
-    sample(*maps.color, at, mine, rgba);
-    for (int c = 0; c < 4; ++c) {
-      const V32 there = hn::Load(df, out.plane[kAlbedo + c] + i);
-      put(kAlbedo + c, there, hn::Mul(there, rgba[c]));
+  const int lanes = int(hn::Lanes(df));
+  V32 rgba[kVectors][4];
+  LookupPlaces places[kVectors];
+  bool placed = false;
+  const auto texels = [&](const TextureView& texture, uint32_t channels) {
+    if (!placed || !maps.one_place) {
+      MipChoice mip[kVectors];
+      for (int h = 0; h < kVectors; ++h) mip[h] = mip_choice(texture, at[h]);
+      for (int h = 0; h < kVectors; ++h) places[h].set(texture, mip[h], at[h].uv, mine[h]);
     }
+    placed = true;
+    for (int h = 0; h < kVectors; ++h) sample(texture, places[h], mine[h], rgba[h], channels);
+  };
+  const auto put = [&](int h, int plane, V32 there, V32 value) {
+    hn::Store(hn::IfThenElse(float_mask(mine[h]), value, there), df, out.plane[plane] + i + h * lanes);
+  };
+  const auto there = [&](int h, int plane) { return hn::Load(df, out.plane[plane] + i + h * lanes); };
+  if (maps.color) {
+    texels(*maps.color, kRgbaBits);
+    for (int h = 0; h < kVectors; ++h)
+      for (int c = 0; c < 4; ++c)
+        put(h, kAlbedo + c, there(h, kAlbedo + c), hn::Mul(there(h, kAlbedo + c), rgba[h][c]));
   }
   if (maps.specular) {
-    sample(*maps.specular, at, mine, rgba);
-    for (int c = 0; c < 3; ++c) put(kSpecular + c, hn::Load(df, out.plane[kSpecular + c] + i), rgba[c]);
+    texels(*maps.specular, kRgbBits);
+    for (int h = 0; h < kVectors; ++h)
+      for (int c = 0; c < 3; ++c) put(h, kSpecular + c, there(h, kSpecular + c), rgba[h][c]);
   }
   if (!maps.normal) return;
-  sample(*maps.normal, at, mine, rgba);
-  V32 n[3], there[3];
-  for (int c = 0; c < 3; ++c) n[c] = there[c] = hn::Load(df, out.plane[kNormal + c] + i);
-  bend_normals(tangent_frame(work, i), rgba, double(maps.normal_scale), n);
-  for (int c = 0; c < 3; ++c) put(kNormal + c, there[c], n[c]);
+  texels(*maps.normal, kRgbBits);
+  for (int h = 0; h < kVectors; ++h) {
+    V32 n[3];
+    for (int c = 0; c < 3; ++c) n[c] = there(h, kNormal + c);
+    bend_normals(frames(h), rgba[h], double(maps.normal_scale), n);
+    for (int c = 0; c < 3; ++c) put(h, kNormal + c, there(h, kNormal + c), n[c]);
+  }
 }
 
 /// The lanes of `owned` at pixel i and on, whose texture coordinates are in the uv planes; of `at` the derivatives.
-inline void apply_maps(const SceneMaps& maps, UvPoint at, Mask64 owned, int i, const VisibleVertices& work,
+template <int kVectors = 1, class Frames>
+inline void apply_maps(const SceneMaps& maps, UvPoint* at, const Mask64* owned, int i, const Frames& frames,
                        SurfaceTile& out) {
   const D64 d;
   const D32 df;
-  for (int k = 0; k < 2; ++k) at.uv[k] = hn::PromoteTo(d, hn::Load(df, out.plane[kUv + k] + i));
-  const V64 material =
-      hn::PromoteTo(d, hn::Load(I32(), reinterpret_cast<const int32_t*>(out.material) + i));  // of 2^31 at most
-  for (Mask64 open = owned;;) {
-    const intptr_t lane = hn::FindFirstTrue(d, open);
-    if (lane < 0) return;
-    const uint32_t first = out.material[i + lane];
-    const Mask64 same = hn::Eq(material, hn::Set(d, double(first)));
-    const MaterialMaps& here = maps.material[first - 1];
-    if (here.any()) apply_material(here, at, hn::And(open, same), i, work, out);
-    open = hn::AndNot(same, open);
+  const int lanes = int(hn::Lanes(d));
+  V64 material[kVectors];  // of 2^31 at most
+  uint32_t open = 0;
+  for (int h = 0; h < kVectors; ++h) {
+    const int place = i + h * lanes;
+    for (int k = 0; k < 2; ++k) at[h].uv[k] = hn::PromoteTo(d, hn::Load(df, out.plane[kUv + k] + place));
+    material[h] = hn::PromoteTo(d, hn::Load(I32(), reinterpret_cast<const int32_t*>(out.material) + place));
+    open |= lane_bits(d, owned[h]) << h * lanes;
+  }
+  while (open != 0) {
+    const uint32_t first = out.material[i + std::countr_zero(open)];
+    Mask64 mine[kVectors];
+    uint32_t here = 0;
+    for (int h = 0; h < kVectors; ++h) {
+      mine[h] = hn::And(owned[h], hn::Eq(material[h], hn::Set(d, double(first))));
+      here |= lane_bits(d, mine[h]) << h * lanes;
+    }
+    const MaterialMaps& its = maps.material[first - 1];
+    if (its.any()) apply_material<kVectors>(its, at, mine, i, frames, out);
+    open &= ~here;
   }
 }
 

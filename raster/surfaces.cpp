@@ -9,6 +9,7 @@
 
 #include "raster/careful_surfaces-inl.h"
 #include "raster/interpolate-inl.h"
+#include "raster/mapped_blocks-inl.h"
 #include "raster/maps-inl.h"
 #include "raster/surface_blocks-inl.h"
 #include "raster/surface_planes-inl.h"
@@ -153,7 +154,8 @@ HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& vis
     for (int k = 0; k < 3; ++k) a[k] = hn::PromoteTo(d, hn::GatherIndex(df, stream, w.vertex[k]));
     coordinate_slopes(along_x, along_y, in.view.maps.uv_how, a[0], a[1], a[2], at.x[c], at.y[c]);
   }
-  apply_maps(in.view.maps, at, hn::Gt(hn::Load(d, plain), hn::Zero(d)), i, work, out);
+  const M64 owned = hn::Gt(hn::Load(d, plain), hn::Zero(d));
+  apply_maps(in.view.maps, &at, &owned, i, GatheredFrames{work, i}, out);
 }
 
 void interpolate_tile(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
@@ -218,7 +220,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
   }
 }
 
-// By the general path: every vertex of a seen cluster, any interpolation, textures.
+// By the general path: every vertex of a seen cluster, any interpolation.
 void resolve_generally(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
                        const StreamGroup* group, int groups, const VisibilityTile& visible, bool need_uv,
                        VisibleVertices& work, SurfaceTile& out) {
@@ -237,7 +239,8 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   need_uv = need_uv || in.view.maps.textured();
   StreamGroup group[4], in_blocks[4];
   const int groups = stream_groups(planes, need_uv, group);
-  if (!in.fast_paths || in.view.maps.textured() || !all_smooth(group, groups)) {
+  const bool textured = in.view.maps.textured();
+  if (!in.fast_paths || !all_smooth(group, groups)) {
     resolve_generally(in, rect, planes, model, group, groups, visible, need_uv, work, out);
     return;
   }
@@ -250,11 +253,15 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   int block_groups = 0;
   for (int g = 0; g < groups; ++g)
     if (colored || group[g].first != kAlbedo) in_blocks[block_groups++] = group[g];
-  BlockInterpolation{in, rect, in_blocks, block_groups, wanted_values(in_blocks, wanted), visible, work.triangles, out}
-      .run();
+  const WantedValues values = wanted_values(in_blocks, wanted);
+  BlockInterpolation{in, rect, in_blocks, block_groups, values, visible, work.triangles, out}.run();
+  if (textured) {
+    for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], rect.size * rect.size, 1.0f);
+    MappedBlocks{in, rect, values, visible, work.triangles, out}.run();
+  }
   if (planes.position_from_depth) rebuild_positions(in, rect, visible, out);
   store_interpolated(in, rect, planes, group, groups, out);
-  if (colored)
+  if (colored || textured)
     apply_materials(in, rect, planes, model, out);
   else
     fill_plain_materials(in, rect, planes, model, out);

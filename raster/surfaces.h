@@ -43,7 +43,7 @@ struct VisibleVertices {
   std::vector<int32_t> slot_of;     ///< by position in the tile's list; -1: not seen
   std::vector<SeenCluster> seen;    ///< by slot
   std::vector<uint32_t> corner[3];  ///< by pixel: vertices of its triangle, in the order submitted
-  VisibleTriangles triangles;       ///< instead of all that, where all attributes are smooth and nothing is textured
+  VisibleTriangles triangles;       ///< instead of all that, where all attributes are smooth
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'

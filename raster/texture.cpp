@@ -30,7 +30,7 @@ void look_up_simd(const TextureView& texture, std::span<const TexturePoint> poin
     for (size_t k = 0; k < 6; ++k) v[k] = hn::Load(d, in[k]);
     const UvPoint at{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}};
     V32 rgba[4];
-    sample(texture, at, hn::Gt(hn::Load(d, valid), hn::Zero(d)), rgba);
+    sample(texture, at, hn::Gt(hn::Load(d, valid), hn::Zero(d)), rgba, kRgbaBits);
     alignas(64) float result[4][kMost];
     for (size_t c = 0; c < 4; ++c) hn::Store(rgba[c], D32(), result[c]);
     for (size_t i = 0; i < count; ++i)
@@ -51,9 +51,18 @@ void look_up(const TextureView& texture, std::span<const TexturePoint> points, s
 
 TextureView view_of(const Texture& texture, const Sampler& sampler) {
   TextureView view{texture.format, int(texture.levels.size()), {}, sampler};
-  for (size_t k = 0; k < texture.levels.size(); ++k)
-    view.level[k] = {texture.levels[k].bytes.data(), texture.levels[k].width, texture.levels[k].height};
+  for (size_t k = 0; k < texture.levels.size(); ++k) {
+    const TextureLevel& from = texture.levels[k];
+    view.level[k] = {from.bytes.data(), from.width, from.height, 1.0 / from.width, 1.0 / from.height};
+  }
   return view;
+}
+
+// Whether lookups in two textures go to the same texels of the same levels.
+static bool read_alike(const std::optional<TextureView>& a, const std::optional<TextureView>& b) {
+  if (!a || !b) return true;
+  return a->sampler == b->sampler && a->levels == b->levels && a->level[0].width == b->level[0].width &&
+         a->level[0].height == b->level[0].height && bytes_per_texel(a->format) == bytes_per_texel(b->format);
 }
 
 SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
@@ -70,6 +79,9 @@ SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
     };
     maps.material.push_back({view(m.color_map), view(m.normal_map), specular ? view(m.specular_map) : std::nullopt,
                              m.normal_scale, m.base_color.a, m.alpha_cutoff});
+    MaterialMaps& made = maps.material.back();
+    made.one_place = read_alike(made.color, made.normal) && read_alike(made.color, made.specular) &&
+                     read_alike(made.normal, made.specular);
   }
   return maps;
 }

@@ -15,6 +15,7 @@ struct TextureView {
   struct Level {
     const uint8_t* bytes;
     int width, height;
+    double inverse_width, inverse_height;  ///< rounded
   };
   TextureFormat format;
   int levels;
@@ -29,6 +30,7 @@ struct MaterialMaps {
   std::optional<TextureView> specular;  ///< where the light model reads the material's specular colour
   float normal_scale;
   float base_alpha, alpha_cutoff;  ///< cutoff 0: no test
+  bool one_place = false;          ///< all maps are read at the same texels
   bool any() const { return color || specular || normal; }
 };
 

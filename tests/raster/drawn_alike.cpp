@@ -20,6 +20,16 @@ void check_executions_alike(const Scene& scene, const Pipeline& pipeline) {
     }
 }
 
+void check_general_alike(const Scene& scene, const Pipeline& pipeline) {
+  Execution general;
+  general.fast_geometry = false;
+  const Planes expected = drawn(scene, pipeline, general);
+  for (const Execution& execution : executions()) {
+    INFO(named(execution) << ", " << pipeline_json(pipeline));
+    REQUIRE(drawn(scene, pipeline, execution) == expected);
+  }
+}
+
 void check_turned_alike(Random& random, Scene scene, const Pipeline& pipeline, const Execution& execution) {
   const Planes expected = drawn(scene, pipeline, execution);
   for (Mesh& mesh : scene.meshes)

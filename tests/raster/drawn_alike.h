@@ -7,6 +7,9 @@ namespace trueshade::testing {
 /// On every SIMD target, tile size and thread count, with and without culling, tiles shuffled.
 void check_executions_alike(const Scene& scene, const Pipeline& pipeline);
 
+/// By the general paths, and by the fast ones in every way of the check above.
+void check_general_alike(const Scene& scene, const Pipeline& pipeline);
+
 /// With every triangle begun by another of its vertices. Planes interpolated flat would mean another vertex then.
 void check_turned_alike(Random& random, Scene scene, const Pipeline& pipeline, const Execution& execution);
 

@@ -76,17 +76,6 @@ void check_frame(const oracle::ScalarFrame& frame, const Scene& scene, const Pip
     }
 }
 
-/// Every way to draw a frame gives the planes of the general paths.
-void require_as_general(const Scene& scene, const Pipeline& pipeline) {
-  Execution general;
-  general.fast_geometry = false;
-  const Planes expected = drawn(scene, pipeline, general);
-  for (const Execution& execution : executions()) {
-    INFO(named(execution) << ", " << pipeline_json(pipeline));
-    REQUIRE(drawn(scene, pipeline, execution) == expected);
-  }
-}
-
 }  // namespace
 
 TEST_CASE("Random frames equal the scalar renderer's: surfaces exactly, values within 1 ulp and in their hull") {
@@ -127,7 +116,7 @@ TEST_CASE("Random frames are the same by the paths for usual triangles and surfa
     planes.position_from_depth = i % 5 == 0 && pipeline.geometry.depth_near != pipeline.geometry.depth_far;
     if (i % 4 == 0) pipeline.width *= 3, pipeline.height *= 2;
     INFO("frame " << i);
-    require_as_general(scene, pipeline);
+    check_general_alike(scene, pipeline);
   }
 }
 
@@ -156,7 +145,7 @@ TEST_CASE("Attributes that a triangle's corners share are the same by the path f
     pipeline.geometry.depth_func = DepthFunc::less;
     if (i % 2 == 0) pipeline.width *= 2, pipeline.height *= 3;
     INFO("frame " << i);
-    require_as_general(scene, pipeline);
+    check_general_alike(scene, pipeline);
   }
 }
 

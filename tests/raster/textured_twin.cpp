@@ -86,6 +86,25 @@ TEST_CASE("Textured frames are the same on every SIMD target, tile size and thre
   }
 }
 
+TEST_CASE("Textured frames are the same by every fast path and by none") {
+  Random random(44);
+  for (int i = 0; i < 60; ++i) {
+    INFO("frame " << i);
+    Scene scene = textured_scene(random);
+    if (i % 2 == 0)
+      for (Mesh& mesh : scene.meshes) mesh.color = {};
+    if (i % 3 == 0) scene.materials[1] = {};
+    if (i % 4 == 0) scene.materials[0].normal_map.sampler = scene.materials[0].color_map.sampler;
+    Pipeline pipeline = random_pipeline(random);
+    if (i % 5 != 0) pipeline.geometry.depth_func = DepthFunc::less;
+    if (i % 3 == 0) pipeline.width *= 3, pipeline.height *= 2;
+    GBufferState& planes = pipeline.gbuffer;
+    for (PlaneState* plane : {&planes.position, &planes.normal, &planes.albedo, &planes.uv})
+      plane->interpolation = Interpolation::smooth;
+    check_general_alike(scene, pipeline);
+  }
+}
+
 TEST_CASE("Textured frames do not depend on which vertex a triangle names first, and move with their viewport") {
   Random random(43);
   const std::vector<Execution> all = executions();

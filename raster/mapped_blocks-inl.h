@@ -1,0 +1,249 @@
+// Maps of a tile's pixels whose smooth attributes were found block by block. Included once per SIMD target.
+// docs/arithmetic.md section 13.
+#if defined(TRUESHADE_RASTER_MAPPED_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_MAPPED_BLOCKS_INL_H_
+#undef TRUESHADE_RASTER_MAPPED_BLOCKS_INL_H_
+#else
+#define TRUESHADE_RASTER_MAPPED_BLOCKS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "raster/careful_surfaces-inl.h"
+#include "raster/maps-inl.h"
+#include "raster/run_triangle-inl.h"
+#include "raster/surfaces.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What the maps of a triangle's pixels want of it: edge functions at the tile's first sample and their changes to the
+/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents.
+struct alignas(64) MappedTriangle {
+  enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
+  enum Frame { kFrame = 22, kValues = 32 };
+  double value[kValues];
+};
+
+/// The triangles of a tile whose materials have maps, and pieces of those that needed care: scratch of a thread.
+struct MappedTriangles {
+  std::vector<MappedTriangle> triangle;
+  std::vector<CarefulSurface> piece;
+};
+inline MappedTriangles& mapped_scratch() {
+  thread_local MappedTriangles scratch;
+  return scratch;
+}
+
+/// Values of the triangle that a vector of pixels see, and of several.
+struct OneTriangle {
+  const double* at;
+  HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
+};
+struct SeveralTriangles {
+  using DI = hn::RebindToSigned<D64>;
+  const double* first;
+  hn::Vec<DI> at;  ///< of each lane
+  HWY_INLINE V64 operator()(int k) const { return hn::GatherIndex(D64(), first + k, at); }
+};
+
+/// How texture coordinates change from pixel to pixel: `slopes` and `affine_slope` of interpolate-inl.h.
+template <class Triangle>
+HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
+  V64 e[3], u[3];
+  for (int k = 0; k < 3; ++k) {
+    e[k] = hn::Add(hn::Add(triangle(MappedTriangle::kEdge + k), hn::Mul(column, triangle(MappedTriangle::kEdgeX + k))),
+                   hn::Mul(row, triangle(MappedTriangle::kEdgeY + k)));
+    u[k] = triangle(MappedTriangle::kInverseW + k);
+  }
+  const Barycentrics w = barycentrics(e, u, e[0]);  // what is smooth does not ask for the area
+  const auto slope = [&](int along, int k) {
+    return hn::Mul(hn::Sub(triangle(along + k), hn::Mul(w.smooth[k], triangle(along + 2))), w.r);
+  };
+  const V64 x[2] = {slope(MappedTriangle::kAlongX, 0), slope(MappedTriangle::kAlongX, 1)};
+  const V64 y[2] = {slope(MappedTriangle::kAlongY, 0), slope(MappedTriangle::kAlongY, 1)};
+  for (int c = 0; c < 2; ++c) {
+    const V64 to_1 = triangle(MappedTriangle::kUv1 + c), to_2 = triangle(MappedTriangle::kUv2 + c);
+    uv.x[c] = hn::Add(hn::Mul(x[0], to_1), hn::Mul(x[1], to_2));
+    uv.y[c] = hn::Add(hn::Mul(y[0], to_1), hn::Mul(y[1], to_2));
+  }
+}
+
+template <class Triangle>
+HWY_INLINE TangentFrame frame_at(const Triangle& triangle) {
+  const auto value = [&](int k) { return triangle(MappedTriangle::kFrame + k); };
+  return {{value(0), value(1), value(2)}, {value(3), value(4), value(5)}};
+}
+
+struct MappedBlocks {
+  const TileDraws& in;
+  const TileRect& rect;
+  const WantedValues wanted;  ///< uv at places kUvPlace and on
+  const VisibilityTile& visible;
+  VisibleTriangles& seen;
+  SurfaceTile& out;
+  const int blocks = rect.size / kBlockSize;  ///< a row
+  MappedTriangles& mapped = mapped_scratch();
+  uint32_t listed = 0;                           ///< triangles
+  alignas(64) int64_t place[kBlockPixels] = {};  ///< of each pixel's triangle among all values
+
+  void run() {
+    mapped.triangle.clear();
+    mapped.piece.clear();
+    for (uint32_t i = 0; i < seen.runs;) {
+      const uint16_t block = seen.run[i].block;
+      uint32_t pixels = 0;
+      for (; i < seen.runs && seen.run[i].block == block; ++i) {
+        const SeenRun& run = seen.run[i];
+        if (!maps_of(run.triangle).any()) continue;
+        // Of a triangle that needed care its pieces have taken the pixels.
+        if (run.pixels == 0 || id_careful(visible.id[block * kBlockPixels + std::countr_zero(run.pixels)])) {
+          map_careful(block, run.triangle);
+          continue;
+        }
+        const int64_t at = triangle_at(run.triangle);
+        if (pixels == 0) std::fill_n(place, kBlockPixels, at);
+        for (uint32_t bits = run.pixels; bits != 0 && pixels != 0; bits &= bits - 1) place[std::countr_zero(bits)] = at;
+        pixels |= run.pixels;
+      }
+      map_block(block, pixels);
+    }
+    for (uint32_t i = 0; i < seen.manys; ++i) {
+      const uint16_t block = seen.many[i];
+      uint32_t pixels = 0;
+      for (uint32_t bits = seen.covered[block]; bits != 0; bits &= bits - 1) {
+        const int k = std::countr_zero(bits);
+        const SeenTriangle triangle{seen.place[block * kBlockPixels + k], seen.corners[block * kBlockPixels + k]};
+        if (!maps_of(triangle).any()) continue;
+        const int64_t at = triangle_at(triangle);
+        if (pixels == 0) std::fill_n(place, kBlockPixels, at);
+        place[k] = at;
+        pixels |= 1u << k;
+      }
+      map_block(block, pixels);
+    }
+    for (uint32_t i = 0; i < listed; ++i) seen.first_run[seen.chain[i]] = VisibleTriangles::kNoRun;
+  }
+
+ private:
+  static constexpr int kUvPlace = 6;
+  const MaterialMaps& maps_of(SeenTriangle triangle) const {
+    return in.view.maps.material[seen.cluster[triangle.place / kTrianglePlaces].material - 1];
+  }
+
+  /// Place of a triangle's values, which are set when it is first met.
+  HWY_INLINE int64_t triangle_at(SeenTriangle triangle) {
+    uint16_t& index = seen.first_run[triangle.place];
+    if (HWY_UNLIKELY(index == VisibleTriangles::kNoRun)) {
+      index = uint16_t(mapped.triangle.size());
+      seen.chain[listed++] = triangle.place;
+      add_triangle(triangle);
+    }
+    return int64_t(index) * MappedTriangle::kValues;
+  }
+
+  HWY_NOINLINE void add_triangle(SeenTriangle triangle) {
+    const RunTriangle run(seen, triangle, wanted);
+    double* const value = mapped.triangle.emplace_back().value;
+    double g[2][3];
+    for (int k = 0; k < 3; ++k) {
+      value[MappedTriangle::kEdge + k] = run.c[k], value[MappedTriangle::kInverseW + k] = run.u[k];
+      value[MappedTriangle::kEdgeX + k] = run.sx[k], value[MappedTriangle::kEdgeY + k] = run.sy[k];
+      g[0][k] = run.sx[k] * run.u[k], g[1][k] = run.sy[k] * run.u[k];
+    }
+    for (int k = 0; k < 2; ++k) {
+      double* const along = value + (k == 0 ? MappedTriangle::kAlongX : MappedTriangle::kAlongY);
+      along[0] = g[k][1], along[1] = g[k][2], along[2] = (g[k][0] + g[k][1]) + g[k][2];
+    }
+    for (int k = 0; k < 2; ++k) {
+      value[MappedTriangle::kUv1 + k] = run.to_1[kUvPlace + k];
+      value[MappedTriangle::kUv2 + k] = run.to_2[kUvPlace + k];
+    }
+    if (!maps_of(triangle).normal) return;
+    const TangentFrame frame = frame_of(triangle);
+    const V64 of[6] = {frame.u.x, frame.u.y, frame.u.z, frame.v.x, frame.v.y, frame.v.z};
+    for (int k = 0; k < 6; ++k) value[MappedTriangle::kFrame + k] = hn::GetLane(of[k]);
+  }
+
+  /// The same in all lanes.
+  TangentFrame frame_of(SeenTriangle triangle) const {
+    const SubmittedVertices of(seen, triangle);
+    MapCorner corner[3];
+    for (int k = 0; k < 3; ++k) {
+      const float* const record = vertex_at(seen.record.data(), of.vertex[k]).value;
+      for (int c = 0; c < MapCorner::kValues; ++c)
+        corner[k].value[c] = hn::Set(D64(), double(record[c < 3 ? c : kUvPlace + c - 3]));
+    }
+    return tangent_frame(corner);
+  }
+
+  void map_block(uint16_t block, uint32_t pixels) const {
+    if (pixels == 0) return;
+    const D64 d;
+    const SeveralTriangles::DI di;
+    const BlockPlace where(block, blocks);
+    const double* const values = mapped.triangle[0].value;
+    int64_t one[kHalves];  // triangle, or below 0
+    UvPoint uv[kHalves];
+    M64 owned[kHalves];
+    const auto several = [&](int h) { return SeveralTriangles{values, hn::Load(di, place + h * kHalf)}; };
+    for (int h = 0; h < kHalves; ++h) {
+      const uint32_t bits = pixels >> h * kHalf & kHalfBits;
+      owned[h] = lane_mask(d, bits);
+      const int64_t first = place[h * kHalf + (bits != 0 ? std::countr_zero(bits) : 0)];
+      const auto others = hn::Ne(hn::Load(di, place + h * kHalf), hn::Set(di, first));
+      one[h] = (lane_bits(di, others) & bits) == 0 ? first : -1;
+      if (one[h] >= 0)
+        set_slopes(OneTriangle{values + first}, where.column(h), where.row(h), uv[h]);
+      else
+        set_slopes(several(h), where.column(h), where.row(h), uv[h]);
+    }
+    const auto frames = [&](int h) {
+      return one[h] >= 0 ? frame_at(OneTriangle{values + one[h]}) : frame_at(several(h));
+    };
+    apply_maps<kHalves>(in.view.maps, uv, owned, where.at, frames, out);
+  }
+
+  HWY_NOINLINE void map_careful(uint16_t block, SeenTriangle triangle) {
+    const D64 d;
+    const VisibleCluster& cluster = seen.cluster[triangle.place / kTrianglePlaces];
+    const uint32_t id = (cluster.position + 1) << 8 | triangle.place % kTrianglePlaces << 1 | 1;
+    if (std::none_of(mapped.piece.begin(), mapped.piece.end(), [id](const CarefulSurface& s) { return s.id == id; })) {
+      const SubmittedVertices of(seen, triangle);
+      const StreamGroup coordinates{kUv, 2, {}};
+      float value[kStreams][3] = {};
+      for (int k = 0; k < 3; ++k)
+        for (int c = 0; c < 2; ++c) value[kUv + c][k] = vertex_at(seen.record.data(), of.vertex[k]).value[kUvPlace + c];
+      add_careful_surfaces(in, rect, &coordinates, 1, id, value, mapped.piece);
+    }
+    const TangentFrame frame = frame_of(triangle);
+    const BlockPlace where(block, blocks);
+    for (int h = 0; h < kHalves; ++h) {
+      const int at = where.at + h * kHalf;
+      uint32_t open = 0;
+      for (int k = 0; k < kHalf; ++k) open |= uint32_t(visible.id[at + k] == id) << k;
+      const double px = where.x + h * kHalf % kBlockSize, py = where.y + h * kHalf / kBlockSize;
+      for (const CarefulSurface& s : mapped.piece) {
+        if (s.id != id || open == 0) continue;
+        const V64 e[3] = {s.edges.at(0, px, py), s.edges.at(1, px, py), s.edges.at(2, px, py)};
+        uint32_t owned = open;
+        for (int k = 0; k < 3; ++k) owned &= lane_bits(d, hn::Ge(e[k], hn::Set(d, double(s.setup.least[k]))));
+        if (owned == 0) continue;
+        const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
+        map_piece(
+            s, barycentrics(e, u, hn::Set(d, s.area)), lane_mask(d, owned), at, in.view.maps,
+            [&](int) { return frame; }, out);
+        open &= ~owned;
+      }
+    }
+  }
+};
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
