@@ -14,7 +14,15 @@
 namespace trueshade {
 namespace {
 
+/// One file cannot hold two documents, and who wants two has mistyped a name.
+void check_named_once(const std::string& option, std::vector<std::string> files) {
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
+}
+
 void check_outputs(const RenderOptions& options) {
+  check_named_once("-o", options.outputs);
   bool exr = false;
   for (const std::string& path : options.outputs) {
     exr = exr || path.ends_with(".exr");
@@ -164,6 +172,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   for (const std::string& path : options.saved)
     if (!path.ends_with(".png") && !path.ends_with(".exr"))
       throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+  check_named_once("--save", options.saved);
   if (!options.saved.empty() && !options.gbuffer_file.empty())
     throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
   if (options.report && !options.report->ends_with(".html"))
@@ -205,6 +214,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   check_simd("--simd", options.simd);
   if (options.report && !options.report->ends_with(".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  if (options.report && options.json_file) check_named_once("--json", {*options.report, *options.json_file});
   return options;
 }
 
@@ -227,9 +237,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
   app.footer(
-      "Exit codes: 0 ok, 1 a violation was found, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, 6 "
-      "out "
-      "of memory, 7 no OpenGL driver, 70 our fault.");
+      "Exit codes: 0 ok, 1 a violation was found, 2 usage, 3 bad input, 4 limit exceeded, 5 input or output failed, "
+      "6 out of memory, 7 no OpenGL driver, 70 our fault.");
   RenderOptions render;
   RenderTexts texts;
   InfoOptions info;

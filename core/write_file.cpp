@@ -29,6 +29,8 @@ const char* remedy(int error) {
       return "raise the limit on file sizes, or write a smaller image";
     case EISDIR:
       return "name a file, not a folder";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
     default:
       return "check the disk and the folder";
   }
@@ -71,7 +73,10 @@ std::string followed(const std::string& path) {
 Destination destination_of(const std::string& path) {
   if (path.empty()) throw Error(ErrorKind::io, "''", "is no name of a file", "name one");
   struct stat there {};
-  if (stat(path.c_str(), &there) != 0) return {false, followed(path)};
+  if (stat(path.c_str(), &there) != 0) {
+    if (errno == ENAMETOOLONG) fail(path, "write", errno);  // what else hinders, making a file in the folder will say
+    return {false, followed(path)};
+  }
   if (S_ISCHR(there.st_mode) || S_ISFIFO(there.st_mode)) return {true, path};
   if (S_ISDIR(there.st_mode)) fail(path, "write", EISDIR);
   if (!S_ISREG(there.st_mode))

@@ -42,10 +42,16 @@ HWY_INLINE Halves halves_of(V x) {
 
 template <class V>
 HWY_INLINE VF rounded(V low, V high) {
-  const DH dh;
-  if constexpr (hn::MaxLanes(DF()) == 1) {
-    return Set(DF(), float(GetLane(low)));  // the target of one lane would demote what is too large to the largest float
+  if constexpr (HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128) {
+    // Highway's own conversion on targets without vector instructions makes the largest float of what is too large.
+    alignas(16) double wide[2 * hn::MaxLanes(DD())];
+    alignas(16) float lane[2 * hn::MaxLanes(DD())];
+    hn::Store(low, DD(), wide);
+    hn::Store(high, DD(), wide + hn::MaxLanes(DD()));
+    for (size_t k = 0; k < hn::MaxLanes(DF()); ++k) lane[k] = float(wide[k]);
+    return hn::Load(DF(), lane);
   } else {
+    const DH dh;
     return Combine(DF(), DemoteTo(dh, high), DemoteTo(dh, low));
   }
 }

@@ -49,6 +49,7 @@ TEST_CASE("options out of range are refused by name") {
   check_render_refused({"--no-such-option"}, 2, "--no-such-option");
   check_render_refused({"-o", "x.tiff"}, 2, ".tiff");
   check_render_refused({"-o", "x"}, 2, "'x'");
+  check_render_refused({"-o", "x.png"}, 2, "'x.png' is named twice");
 }
 
 TEST_CASE("a command that would do nothing is a mistake") {
@@ -110,6 +111,7 @@ TEST_CASE("an output that cannot be written is exit 5, and nothing is left") {
     return arguments;
   };
   check_refused(run_command(with("absent/x.png"), folder.path("")), 5, "absent/x.png");
+  check_refused(run_command(with(std::string(252, 'n') + ".png"), folder.path("")), 5, "choose a shorter name");
   std::filesystem::create_directory(folder.path("folder.png"));
   check_refused(run_command(with("folder.png"), folder.path("")), 5, "folder.png");
   if (geteuid() != 0) {  // root may write anywhere

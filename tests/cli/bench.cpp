@@ -210,6 +210,8 @@ TEST_CASE("bench refuses what it cannot do, in one line") {
   check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path("absent/x.json")}), 5, "folder");
   check_refused(run_command({"bench", "builtin:cornell", "--json", ""}), 5, "name");
   check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path("")}), 5, "folder");
+  check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path(std::string(256, 'n'))}), 5, "shorter");
+  check_refused(run_command({"bench", "builtin:cornell", "--json", "x.html", "-o", "x.html"}), 2, "'x.html' is named");
 }
 
 TEST_CASE("What a scene takes of memory is its own, whatever was timed before it") {

@@ -51,7 +51,8 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
   flatten(scene);
   scene.lights = {light};
   const auto with_albedo = [&](const glm::vec3& albedo, Format target, const Execution& e) {
-    for (int k = 0; k < 3; ++k) std::fill(scene.meshes[0].color[k].begin(), scene.meshes[0].color[k].end(), albedo[k]);
+    for (size_t k = 0; k < 3; ++k)
+      std::fill(scene.meshes[0].color[k].begin(), scene.meshes[0].color[k].end(), albedo[int(k)]);
     Pipeline p = blending_pipeline(preset, target);
     for (PlaneState* plane : {&p.gbuffer.position, &p.gbuffer.normal, &p.gbuffer.albedo})
       plane->format = Format::rgba32f;
@@ -86,7 +87,8 @@ Light far_light(Random& random, double brightest) {
   light.position = glm::vec3(between(random, -1, 1), between(random, -1, 1), between(random, 200, 3000));
   const glm::vec3 at = light.position;
   light.range = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z) * between(random, 1.2, 4.0);
-  light.color = glm::vec3(between(random, 0.2, brightest), between(random, 0.2, brightest), between(random, 0.2, brightest));
+  light.color =
+      glm::vec3(between(random, 0.2, brightest), between(random, 0.2, brightest), between(random, 0.2, brightest));
   return light;
 }
 
