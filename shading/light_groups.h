@@ -41,11 +41,32 @@ struct LightGroups {
   bool empty() const { return group.empty(); }
 };
 
+/// Lights side by side, in any order, with room that whole vectors are written to and read from.
+class LightStreams {
+ public:
+  float *position[3], *cut2;
+  uint32_t* light;  ///< of the table
+  size_t count = 0;
+
+  /// For so many more, and a vector.
+  void make_room(size_t more);
+
+ private:
+  struct alignas(64) Line {
+    float lane[16];
+  };
+  std::vector<Line> memory_;
+  size_t lines_ = 0;  ///< of each stream
+};
+
 /// Lights of a table found in another order than theirs; kept between regions to save allocation.
 struct FoundLights {
-  std::vector<uint32_t> at;         ///< kGroup times the group, and which of its lights
-  std::vector<uint64_t> word, any;  ///< a bit a light, and one for each word that has any; none between regions
-  std::vector<uint32_t> before;     ///< lights in the words before, of words that have any
+  LightStreams near;                  ///< those that end somewhere and may reach a region, and a vector that do not
+  std::vector<uint32_t> at;           ///< of a block, places in `near`
+  std::vector<uint32_t> hit, pixels;  ///< of a vector of pixels, lights of the table and which pixels they light
+  std::vector<uint32_t> order;        ///< places of hits
+  std::vector<uint64_t> word, any;    ///< a bit a light, and one for each word that has any; none between regions
+  std::vector<uint32_t> before;       ///< lights in the words before, of words that have any
 };
 
 LightGroups make_light_groups(const LightTable& lights, int threads);

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "shading/light_pairs-inl.h"
-#include "shading/many_lights-inl.h"
+#include "shading/near_lights-inl.h"
 #include "shading/settled_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -73,6 +73,33 @@ void light_region(const TileWork& in, const LightTerms<Shape>& terms, const Regi
       add_region_lights(terms, in.work.tile, in.work.region.light, cull, order, blocks, in.work.pairs, pixels);
   for (size_t k = 0; k < kRegionBlockCount; ++k)
     if (r.covered[k] != 0) store_sum(in, terms, pixels.px[k], pixels.sum[k], pixels.place(k, blocks));
+}
+
+/// The same of a region near many lights, vector by vector.
+template <class Shape>
+void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
+                       const BlockOrder& order) {
+  FoundLights& found = in.work.found;
+  in.counts.tested += find_near_lights(in.lights, in.groups, r, cull, found);
+  in.counts.tile_pairs += uint64_t(r.pixels) * (found.near.count + in.groups.always.size());
+  make_room(in.groups, found);
+  const BlockMiddles middles(r.blocks);
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    const auto block = size_t(order.block[k]);
+    if (r.covered[block] == 0) continue;
+    const size_t count = list_near_block(found.near, middles, k, found.at.data());
+    const int first = r.block(int(block), in.tile / kBlockSize) * kBlockPixels;
+    for (int i = first; i < first + kBlockPixels; i += int(kLanes)) {
+      const PixelVector px = terms.load(in.surface, i);
+      LightSum sum;
+      if (!hn::AllFalse(DF(), px.covered)) {
+        for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
+        add_near_lights(terms, px, in.groups, count, found, sum);
+      }
+      store_sum(in, terms, px, sum, i);
+      in.counts.evaluated_pairs += sum.evaluated * kLanes;
+    }
+  }
 }
 
 // Of pixels without a surface.
@@ -208,6 +235,10 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   const BlockOrder order;
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
+    if (many && !comes_by_pairs<Shape>()) {
+      light_near_region(in, terms, r, cull, order);
+      continue;
+    }
     if (many) {
       in.counts.tested += find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
       in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();
