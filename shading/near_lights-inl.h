@@ -45,6 +45,7 @@ HWY_INLINE size_t list_near_block(const LightStreams& near, const BlockMiddles& 
   VF middle[3], half[3];
   for (int c = 0; c < 3; ++c) middle[c] = hn::Set(d, blocks.middle[c][k]), half[c] = hn::Set(d, blocks.half[c][k]);
   size_t count = 0;
+  auto place = hn::Iota(du, 0u);
   for (size_t i = 0; i < near.count; i += kLanes) {
     VF d2 = hn::Zero(d);
     for (int c = 0; c < 3; ++c) {
@@ -56,8 +57,9 @@ HWY_INLINE size_t list_near_block(const LightStreams& near, const BlockMiddles& 
     // Some ten roundings, those of the kernel's own square among them.
     const MF far = hn::Ge(hn::Mul(d2, hn::Set(d, 1.0f - 0x1p-19f)), hn::Load(d, near.cut2 + i));
     const auto bits = uint32_t(mask_bits(hn::Not(far)));
-    hn::StoreU(FrontLanes<DU>(du, bits)(hn::Iota(du, uint32_t(i))), du, at + count);
+    hn::StoreU(FrontLanes<DU>(du, bits)(place), du, at + count);
     count += size_t(std::popcount(bits));
+    place = hn::Add(place, hn::Set(du, uint32_t(kLanes)));
   }
   return count;
 }
