@@ -7,6 +7,7 @@
 #define TRUESHADE_SHADING_NEAR_LIGHTS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -85,6 +86,7 @@ HWY_INLINE void add_hits(const LightTerms<Shape>& terms, const PixelVector& px, 
     terms.place(px, false, position, chain);
     terms.reach(px.covered, false, near.cut2[k], chain);
     hits.add(near.light[k], chain.term.adds);
+    hwy::Prefetch(terms.lights.row.data() + hits.light[std::max(hits.count, size_t(1)) - 1]);
   }
 }
 
