@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <iterator>
 #include <limits>
 
 #include "core/fp_env.h"
@@ -149,21 +147,6 @@ void make_light_groups(const LightTable& lights, int threads, LightGroups& out) 
   resize(out.groups, groups);
   resize(out.clusters, clusters);
   parallel_for(int(clusters), threads, [&](int cluster) { fill_cluster(size_t(cluster), out); });
-}
-
-void LightStreams::make_room(size_t more) {
-  constexpr size_t kLane = std::size(Line{}.lane);
-  const size_t lines = (count + more) / kLane + 2;
-  if (lines <= lines_) return;
-  std::vector<Line> memory(5 * 2 * lines);
-  const auto stream = [&](size_t s) { return memory[s * 2 * lines].lane; };
-  for (size_t c = 0; c < 3; ++c) {
-    if (count > 0) std::copy_n(position[c], count, stream(c));
-    position[c] = stream(c);
-  }
-  if (count > 0) std::copy_n(cut2, count, stream(3)), std::memcpy(stream(4), light, count * sizeof *light);
-  cut2 = stream(3), light = reinterpret_cast<uint32_t*>(stream(4));
-  memory_ = std::move(memory), lines_ = 2 * lines;
 }
 
 LightGroups make_light_groups(const LightTable& lights, int threads) {

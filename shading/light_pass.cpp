@@ -75,7 +75,8 @@ void light_region(const TileWork& in, const LightTerms<Shape>& terms, const Regi
     if (r.covered[k] != 0) store_sum(in, terms, pixels.px[k], pixels.sum[k], pixels.place(k, blocks));
 }
 
-/// The same of a region near many lights, vector by vector.
+/// The same of a region near many lights, vector by vector. The next vector's lights are found before this one's are
+/// added: their rows, which are in no near cache, are asked for by then.
 template <class Shape>
 void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
                        const BlockOrder& order) {
@@ -83,23 +84,28 @@ void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const
   in.counts.tested += find_near_lights(in.lights, in.groups, r, cull, found);
   in.counts.tile_pairs += uint64_t(r.pixels) * (found.near.count + in.groups.always.size());
   make_room(in.groups, found);
-  const BlockMiddles middles(r.blocks);
+  HitVector vectors[2] = {HitVector(found, 0), HitVector(found, 1)};
+  const auto add = [&](const HitVector& of) {
+    LightSum sum;
+    for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, of.at, of.px, c);
+    add_hits(terms, of.px, of.hits, found, sum);
+    store_sum(in, terms, of.px, sum, of.at);
+    in.counts.evaluated_pairs += sum.evaluated * kLanes;
+  };
+  size_t count = 0;
   for (size_t k = 0; k < kRegionBlockCount; ++k) {
     const auto block = size_t(order.block[k]);
     if (r.covered[block] == 0) continue;
-    const size_t count = list_near_block(found.near, middles, k, found.at.data());
     const int first = r.block(int(block), in.tile / kBlockSize) * kBlockPixels;
+    const size_t near = list_near_block(in.surface, first, r.blocks.place(k), found.near, found.at.data());
     for (int i = first; i < first + kBlockPixels; i += int(kLanes)) {
-      const PixelVector px = terms.load(in.surface, i);
-      LightSum sum;
-      if (!hn::AllFalse(DF(), px.covered)) {
-        for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, i, px, c);
-        add_near_lights(terms, px, in.groups, count, found, sum);
-      }
-      store_sum(in, terms, px, sum, i);
-      in.counts.evaluated_pairs += sum.evaluated * kLanes;
+      HitVector& next = vectors[count % 2];
+      next.at = i, next.px = terms.load(in.surface, i);
+      find_hits(terms, next.px, found.near, std::span(found.at.data(), near), in.groups.always, next.hits);
+      if (count++ > 0) add(vectors[count % 2]);
     }
   }
+  if (count > 0) add(vectors[(count - 1) % 2]);
 }
 
 // Of pixels without a surface.

@@ -7,12 +7,14 @@
 #define TRUESHADE_SHADING_MANY_LIGHTS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "raster/lanes-inl.h"
 #include "shading/light_lists-inl.h"
@@ -138,27 +140,53 @@ inline void drop_dark(const LightTable& lights, const Region& r, LightStreams& n
   near.count = left;
 }
 
+/// Lists the boxes of [first, end) that meet `box`; room for a vector more.
+HWY_INLINE size_t list_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box, uint32_t* out) {
+  const DU du;
+  size_t count = 0;
+  auto number = hn::Add(hn::Iota(du, 0u), hn::Set(du, uint32_t(first)));
+  for (size_t i = first; i < end; i += kLanes) {
+    const auto bits = uint32_t(mask_bits(meeting(boxes, i, box)));
+    hn::StoreU(FrontLanes<DU>(du, bits)(number), du, out + count);
+    count += size_t(std::popcount(bits));
+    number = hn::Add(number, hn::Set(du, uint32_t(kLanes)));
+  }
+  while (count > 0 && out[count - 1] >= end) --count;
+  return count;
+}
+
+/// Lists the groups with lights that may reach a region.
+inline std::span<const uint32_t> list_groups(const LightGroups& groups, const Region& r, FoundLights& found) {
+  constexpr size_t kGroup = LightGroups::kGroup;
+  if (found.group.size() < groups.groups.count + kLanes) found.group.resize(groups.groups.count + kLanes);
+  uint32_t* const out = found.group.data();
+  size_t count = 0;
+  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
+    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
+    count += list_meeting(groups.groups, cluster * kGroup, end, r.place, out + count);
+  });
+  return {out, count};
+}
+
 /// The lights, of many, that end somewhere and may reach a region, in any order. Returns how many were asked.
 inline uint64_t find_near_lights(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
                                  FoundLights& found) {
-  constexpr size_t kGroup = LightGroups::kGroup;
+  constexpr size_t kGroup = LightGroups::kGroup, kAhead = 4;
   const NearTest test(r, cull.facing);
   const LightGroup* const all = groups.group.data();
-  LightStreams& near = found.near;
-  near.count = 0;
-  uint64_t asked = 0;
-  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
-    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
-    near.make_room(kGroup * kGroup);
-    for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
-      asked += kGroup;
-      for (size_t i = 0; i < kGroup; i += hn::Lanes(DF())) append_lights(all[group], i, test(all[group], i), near);
-    });
-  });
+  const std::span<const uint32_t> of = list_groups(groups, r, found);
+  const uint32_t* const group = of.data();
+  LightStreams near;
+  found.memory.make_room(near, of.size() * kGroup);
+  for (size_t k = 0; k < of.size(); ++k) {
+    const auto* const ahead = reinterpret_cast<const char*>(all + group[std::min(k + kAhead, of.size() - 1)]);
+    for (size_t line = 0; line < sizeof(LightGroup); line += 64) hwy::Prefetch(ahead + line);
+    for (size_t i = 0; i < kGroup; i += kLanes) append_lights(all[group[k]], i, test(all[group[k]], i), near);
+  }
   if (cull.cone) drop_dark(lights, r, near);
-  near.make_room(kLanes);
   for (size_t i = 0; i < kLanes; ++i) near.cut2[near.count + i] = 0.0f;
-  return asked;
+  found.near = near;
+  return of.size() * kGroup;
 }
 
 /// Puts lights at their places of a list that has room for them.
