@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "shading/light_table.h"
 
 namespace trueshade {
@@ -30,8 +31,8 @@ struct SortedLight {
 /// groups to a cluster. Empty for lights so few that looking at them all is quicker.
 struct LightGroups {
   static constexpr size_t kFewest = 4096, kGroup = LightGroup::kLights;
-  std::vector<uint32_t> always;   ///< lights that end nowhere, ascending
-  std::vector<LightGroup> group;  ///< the others
+  std::vector<uint32_t> always;  ///< lights that end nowhere, ascending
+  HugeVector<LightGroup> group;  ///< the others
   GroupBoxes groups, clusters;
   std::vector<uint32_t> cell, first;  ///< scratch, kept from frame to frame like the rest
   std::vector<SortedLight> sorted;    ///< scratch
@@ -41,9 +42,40 @@ struct LightGroups {
   bool empty() const { return group.empty(); }
 };
 
+/// Lights side by side, in any order. By plain pointers: no bound is checked light by light.
+struct LightStreams {
+  float *position[3], *cut2;
+  uint32_t* light;  ///< of the table
+  size_t count = 0;
+};
+
+/// Memory of such, with room for a vector more.
+class StreamMemory {
+ public:
+  void make_room(LightStreams& streams, size_t more) {
+    constexpr size_t kVector = 16;
+    if (streams.count + more + kVector > light_.size()) {
+      light_.resize(2 * (streams.count + more + kVector));
+      for (auto& of : number_) of.resize(light_.size());
+    }
+    for (size_t c = 0; c < 3; ++c) streams.position[c] = number_[c].data();
+    streams.cut2 = number_[3].data(), streams.light = light_.data();
+  }
+
+ private:
+  HugeVector<float> number_[4];  // they begin with cache lines
+  HugeVector<uint32_t> light_;
+};
+
 /// Lights of a table found in another order than theirs; kept between regions to save allocation.
 struct FoundLights {
-  std::vector<uint32_t> at;         ///< kGroup times the group, and which of its lights
+  StreamMemory memory;
+  LightStreams near;                ///< those that end somewhere and may reach a region, and a vector that do not
+  std::vector<uint32_t> group;      ///< that they are of
+  std::vector<uint32_t> at;         ///< of a block, places in `near`
+  std::vector<uint32_t> hit[2];     ///< of two vectors of pixels, lights of the table that light some
+  std::vector<uint32_t> pixels[2];  ///< and which
+  std::vector<uint32_t> order;      ///< places of hits
   std::vector<uint64_t> word, any;  ///< a bit a light, and one for each word that has any; none between regions
   std::vector<uint32_t> before;     ///< lights in the words before, of words that have any
 };

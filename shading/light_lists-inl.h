@@ -108,20 +108,23 @@ HWY_INLINE void for_each_lane(MF mask, size_t first, size_t count, const Found& 
   for_each_bit(mask_bits(mask), first, count, found);
 }
 
+/// Which of a vector of boxes, from the i-th on, meet `box`.
+HWY_INLINE MF meeting(const GroupBoxes& boxes, size_t i, const Box& box) {
+  const DF d;
+  MF meets = hn::Eq(hn::Zero(d), hn::Zero(d));
+  for (int c = 0; c < 3; ++c) {
+    const MF below = hn::Gt(hn::LoadU(d, boxes.low[c].data() + i), hn::Set(d, box.high[c]));
+    const MF above = hn::Lt(hn::LoadU(d, boxes.high[c].data() + i), hn::Set(d, box.low[c]));
+    meets = hn::AndNot(hn::Or(below, above), meets);
+  }
+  return meets;
+}
+
 /// Calls found(i) for the boxes of [first, end) that meet `box`.
 template <class Found>
 HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box,
                                  const Found& found) {
-  const DF d;
-  for (size_t i = first; i < end; i += hn::Lanes(d)) {
-    MF meets = hn::Eq(hn::Zero(d), hn::Zero(d));
-    for (int c = 0; c < 3; ++c) {
-      const MF below = hn::Gt(hn::LoadU(d, boxes.low[c].data() + i), hn::Set(d, box.high[c]));
-      const MF above = hn::Lt(hn::LoadU(d, boxes.high[c].data() + i), hn::Set(d, box.low[c]));
-      meets = hn::AndNot(hn::Or(below, above), meets);
-    }
-    for_each_lane(meets, i, end, found);
-  }
+  for (size_t i = first; i < end; i += hn::Lanes(DF())) for_each_lane(meeting(boxes, i, box), i, end, found);
 }
 
 /// Sets the bit of each light, found among many, that may reach the region. Returns how many were asked.

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "shading/light_pairs-inl.h"
-#include "shading/many_lights-inl.h"
+#include "shading/near_lights-inl.h"
 #include "shading/settled_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -73,6 +73,39 @@ void light_region(const TileWork& in, const LightTerms<Shape>& terms, const Regi
       add_region_lights(terms, in.work.tile, in.work.region.light, cull, order, blocks, in.work.pairs, pixels);
   for (size_t k = 0; k < kRegionBlockCount; ++k)
     if (r.covered[k] != 0) store_sum(in, terms, pixels.px[k], pixels.sum[k], pixels.place(k, blocks));
+}
+
+/// The same of a region near many lights, vector by vector. The next vector's lights are found before this one's are
+/// added: their rows, which are in no near cache, are asked for by then.
+template <class Shape>
+void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
+                       const BlockOrder& order) {
+  FoundLights& found = in.work.found;
+  in.counts.tested += find_near_lights(in.lights, in.groups, r, cull, found);
+  in.counts.tile_pairs += uint64_t(r.pixels) * (found.near.count + in.groups.always.size());
+  make_room(in.groups, found);
+  HitVector vectors[2] = {HitVector(found, 0), HitVector(found, 1)};
+  const auto add = [&](const HitVector& of) {
+    LightSum sum;
+    for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, of.at, of.px, c);
+    add_hits(terms, of.px, of.hits, found, sum);
+    store_sum(in, terms, of.px, sum, of.at);
+    in.counts.evaluated_pairs += sum.evaluated * kLanes;
+  };
+  size_t count = 0;
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    const auto block = size_t(order.block[k]);
+    if (r.covered[block] == 0) continue;
+    const int first = r.block(int(block), in.tile / kBlockSize) * kBlockPixels;
+    const size_t near = list_near_block(in.surface, first, r.blocks.place(k), found.near, found.at.data());
+    for (int i = first; i < first + kBlockPixels; i += int(kLanes)) {
+      HitVector& next = vectors[count % 2];
+      next.at = i, next.px = terms.load(in.surface, i);
+      find_hits(terms, next.px, found.near, std::span(found.at.data(), near), in.groups.always, next.hits);
+      if (count++ > 0) add(vectors[count % 2]);
+    }
+  }
+  if (count > 0) add(vectors[(count - 1) % 2]);
 }
 
 // Of pixels without a surface.
@@ -208,6 +241,10 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   const BlockOrder order;
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
+    if (many && !comes_by_pairs<Shape>()) {
+      light_near_region(in, terms, r, cull, order);
+      continue;
+    }
     if (many) {
       in.counts.tested += find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
       in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();

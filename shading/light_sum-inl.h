@@ -146,29 +146,35 @@ HWY_INLINE size_t hits_of(const LightTerms<Shape>& terms, const PixelVector& px,
 }
 
 template <class Shape, class Sum>
+HWY_INLINE void add_listed_hits(const LightTerms<Shape>& terms, const PixelVector& px, const LightHit* hit, size_t hits,
+                                Sum& sum) {
+  size_t i = 0;
+  if constexpr (Shape::compiled) {
+    while (i < hits) {
+      size_t placed = 0;
+      while (placed < 4 && i + placed < hits && hit[i + placed].light->kind != LightKind::other) ++placed;
+      const size_t together = placed < 2 ? 1 : placed < 4 ? 2 : 4;
+      if (together == 4)
+        add_together(terms, px, hit + i, std::make_index_sequence<4>(), sum);
+      else if (together == 2)
+        add_together(terms, px, hit + i, std::make_index_sequence<2>(), sum);
+      else
+        add_one(terms, px, hit[i], sum);
+      i += together;
+      sum.evaluated += together > 1 ? together : 0;
+    }
+  }
+  for (; i < hits; ++i) add_one(terms, px, hit[i], sum);
+  sum.settle();
+}
+
+template <class Shape, class Sum>
 HWY_INLINE void add_lights(const LightTerms<Shape>& terms, const PixelVector& px, std::span<const ListedLight> list,
                            const VectorPlace& at, Sum& sum) {
   LightHit hit[kMostHits + 1];
   for (size_t first = 0; first < list.size(); first += kMostHits) {
     const size_t hits = hits_of(terms, px, list.subspan(first, std::min(list.size() - first, kMostHits)), at, hit);
-    size_t i = 0;
-    if constexpr (Shape::compiled) {
-      while (i < hits) {
-        size_t placed = 0;
-        while (placed < 4 && i + placed < hits && hit[i + placed].light->kind != LightKind::other) ++placed;
-        const size_t together = placed < 2 ? 1 : placed < 4 ? 2 : 4;
-        if (together == 4)
-          add_together(terms, px, hit + i, std::make_index_sequence<4>(), sum);
-        else if (together == 2)
-          add_together(terms, px, hit + i, std::make_index_sequence<2>(), sum);
-        else
-          add_one(terms, px, hit[i], sum);
-        i += together;
-        sum.evaluated += together > 1 ? together : 0;
-      }
-    }
-    for (; i < hits; ++i) add_one(terms, px, hit[i], sum);
-    sum.settle();
+    add_listed_hits(terms, px, hit, hits, sum);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/light_model.h"
@@ -40,7 +41,7 @@ struct alignas(64) LightRow {
 
 /// A frame's lights in scene order, and the viewer they have in common.
 struct LightTable {
-  std::vector<LightRow> row;
+  HugeVector<LightRow> row;
   std::vector<float> position[3], cut2;  ///< of the rows again, NaN for a light without a place; padded to full vectors
                                          ///< with lights that reach nothing
   bool cones = false;                    ///< some light's kind is `coned`

@@ -7,13 +7,16 @@
 #define TRUESHADE_SHADING_MANY_LIGHTS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "raster/lanes-inl.h"
 #include "shading/light_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -113,22 +116,77 @@ struct LightBits {
   }
 };
 
-/// Calls found(k) for the k-th light of the groups' if it may reach the region. Returns how many were asked.
-template <class Found>
-HWY_INLINE uint64_t for_each_near(const LightGroups& groups, const Region& r, bool facing, const Found& found) {
+/// Appends the lights of a vector, from the i-th of a group on, that `near` has.
+HWY_INLINE void append_lights(const LightGroup& group, size_t i, MF near, LightStreams& out) {
+  const DF d;
+  const DU du;
+  const auto bits = uint32_t(mask_bits(near));
+  const FrontLanes<DF> front(d, bits);
+  for (int c = 0; c < 3; ++c) hn::StoreU(front(hn::Load(d, group.position[c] + i)), d, out.position[c] + out.count);
+  hn::StoreU(front(hn::Load(d, group.cut2 + i)), d, out.cut2 + out.count);
+  const auto light = hn::BitCast(d, hn::Load(du, group.light + i));
+  hn::StoreU(hn::BitCast(du, front(light)), du, out.light + out.count);
+  out.count += size_t(std::popcount(bits));
+}
+
+// Leaves out lights whose cone the region is not in.
+inline void drop_dark(const LightTable& lights, const Region& r, LightStreams& near) {
+  size_t left = 0;
+  for (size_t i = 0; i < near.count; ++i) {
+    for (int c = 0; c < 3; ++c) near.position[c][left] = near.position[c][i];
+    near.cut2[left] = near.cut2[i], near.light[left] = near.light[i];
+    left += dark_over(lights.row[near.light[left]], r.place.low, r.place.high) ? 0u : 1u;
+  }
+  near.count = left;
+}
+
+/// Lists the boxes of [first, end) that meet `box`; room for a vector more.
+HWY_INLINE size_t list_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box, uint32_t* out) {
+  const DU du;
+  size_t count = 0;
+  auto number = hn::Add(hn::Iota(du, 0u), hn::Set(du, uint32_t(first)));
+  for (size_t i = first; i < end; i += kLanes) {
+    const auto bits = uint32_t(mask_bits(meeting(boxes, i, box)));
+    hn::StoreU(FrontLanes<DU>(du, bits)(number), du, out + count);
+    count += size_t(std::popcount(bits));
+    number = hn::Add(number, hn::Set(du, uint32_t(kLanes)));
+  }
+  while (count > 0 && out[count - 1] >= end) --count;
+  return count;
+}
+
+/// Lists the groups with lights that may reach a region.
+inline std::span<const uint32_t> list_groups(const LightGroups& groups, const Region& r, FoundLights& found) {
   constexpr size_t kGroup = LightGroups::kGroup;
-  const NearTest near(r, facing);
-  const LightGroup* const all = groups.group.data();
-  uint64_t asked = 0;
+  if (found.group.size() < groups.groups.count + kLanes) found.group.resize(groups.groups.count + kLanes);
+  uint32_t* const out = found.group.data();
+  size_t count = 0;
   for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
     const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
-    for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
-      asked += kGroup;
-      for (size_t i = 0; i < kGroup; i += hn::Lanes(DF()))
-        for_each_lane(near(all[group], i), group * kGroup + i, ~size_t(0), found);
-    });
+    count += list_meeting(groups.groups, cluster * kGroup, end, r.place, out + count);
   });
-  return asked;
+  return {out, count};
+}
+
+/// The lights, of many, that end somewhere and may reach a region, in any order. Returns how many were asked.
+inline uint64_t find_near_lights(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
+                                 FoundLights& found) {
+  constexpr size_t kGroup = LightGroups::kGroup, kAhead = 4;
+  const NearTest test(r, cull.facing);
+  const LightGroup* const all = groups.group.data();
+  const std::span<const uint32_t> of = list_groups(groups, r, found);
+  const uint32_t* const group = of.data();
+  LightStreams near;
+  found.memory.make_room(near, of.size() * kGroup);
+  for (size_t k = 0; k < of.size(); ++k) {
+    const auto* const ahead = reinterpret_cast<const char*>(all + group[std::min(k + kAhead, of.size() - 1)]);
+    for (size_t line = 0; line < sizeof(LightGroup); line += 64) hwy::Prefetch(ahead + line);
+    for (size_t i = 0; i < kGroup; i += kLanes) append_lights(all[group[k]], i, test(all[group[k]], i), near);
+  }
+  if (cull.cone) drop_dark(lights, r, near);
+  for (size_t i = 0; i < kLanes; ++i) near.cut2[near.count + i] = 0.0f;
+  found.near = near;
+  return of.size() * kGroup;
 }
 
 /// Puts lights at their places of a list that has room for them.
@@ -157,28 +215,17 @@ class PlacedLights {
 
 /// The lights, of many, that may reach a region, in scene order. Returns how many were asked.
 inline uint64_t find_region_lights(const LightTable& lights, const LightGroups& groups, const Region& r,
-                                   RegionCull cull, FoundLights& memory, TileLights& out) {
-  constexpr size_t kGroup = LightGroups::kGroup;
-  LightBits bits(memory, lights.size());
-  if (memory.at.size() < groups.group.size() * kGroup) memory.at.resize(groups.group.size() * kGroup);
-  uint32_t* const found = memory.at.data();
-  const LightGroup* const group = groups.group.data();
-  const LightRow* const row = lights.row.data();
-  size_t count = 0;
-  const uint64_t asked = for_each_near(groups, r, cull.facing, [&](size_t k) {
-    const uint32_t light = group[k / kGroup].light[k % kGroup];
-    if (cull.cone && dark_over(row[light], r.place.low, r.place.high)) return;
-    found[count++] = uint32_t(k);
-    bits.insert(light);
-  });
+                                   RegionCull cull, FoundLights& found, TileLights& out) {
+  const uint64_t asked = find_near_lights(lights, groups, r, cull, found);
+  const LightStreams& near = found.near;
+  LightBits bits(found, lights.size());
+  for (size_t i = 0; i < near.count; ++i) bits.insert(near.light[i]);
   for (const uint32_t light : groups.always) bits.insert(light);
   const PlacedLights list(out, bits.number());
-  for (size_t n = 0; n < count; ++n) {
-    const LightGroup& of = group[found[n] / kGroup];
-    const size_t i = found[n] % kGroup;
-    list.put(bits.number_of(of.light[i]), row + of.light[i], of.position[0][i], of.position[1][i], of.position[2][i],
-             of.cut2[i], true);
-  }
+  const LightRow* const row = lights.row.data();
+  for (size_t i = 0; i < near.count; ++i)
+    list.put(bits.number_of(near.light[i]), row + near.light[i], near.position[0][i], near.position[1][i],
+             near.position[2][i], near.cut2[i], true);
   for (const uint32_t light : groups.always) {
     const float x = lights.position[0][light];  // not a number: without a place
     list.put(bits.number_of(light), row + light, x, lights.position[1][light], lights.position[2][light],

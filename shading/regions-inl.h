@@ -34,6 +34,8 @@ constexpr size_t kRegionBlockCount = size_t(kRegionBlocks) * kRegionBlocks;
 /// Positions and normals of the blocks of a region: in the order of BlockOrder.
 struct BlockBoxes {
   alignas(64) float low[6][kRegionBlockCount], high[6][kRegionBlockCount];  ///< position, normal; without NaN
+
+  Box place(size_t k) const { return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}}; }
 };
 
 /// A region of a tile: its first block, how many blocks it has each way, and what its surfaces are within: the very
@@ -97,14 +99,10 @@ struct BoxVector {
     }
   }
   Box box() const {
-    const DF d;
-    alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
     Box out;
     for (int c = 0; c < 3; ++c) {
-      hn::Store(low[c], d, lane);
-      out.low[c] = *std::min_element(lane, lane + hn::Lanes(d));
-      hn::Store(high[c], d, lane);
-      out.high[c] = *std::max_element(lane, lane + hn::Lanes(d));
+      out.low[c] = hn::GetLane(hn::MinOfLanes(DF(), low[c]));
+      out.high[c] = hn::GetLane(hn::MaxOfLanes(DF(), high[c]));
     }
     return out;
   }
