@@ -61,6 +61,7 @@ struct FrameTables {
   std::vector<InstanceTransform> transforms;  ///< of the view
   ClusterBins bins;
   LightTable lights;
+  PlainLights plain;
   LightGroups groups;
   std::optional<LightMeshes> meshes;
   LightOutlines outlines;
@@ -101,7 +102,7 @@ struct FrameWork {
   const View& view;
   const ClusterBins& bins;
   const LightTable& lights;
-  const PlainLights plain;  ///< of strategies that sum, where bounds may settle them
+  const PlainLights& plain;  ///< of strategies that sum, where bounds may settle them
   const LightGroups& groups;
   const LightMeshes& meshes;
   const LightOutlines& outlines;  ///< of strategies that blend
@@ -378,16 +379,17 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
                tables.bins);
   make_images_and_lights(scene, pipeline, execution, aovs, lit, view, tables, frame);
   const bool need_uv = std::find(aovs.begin(), aovs.end(), "uv") != aovs.end();
-  PlainLights plain;
   if (lit && execution.settled_sums && !blends_lights(pipeline.strategy))
-    plain = make_plain_lights(tables.lights, pipeline.light_model);
+    make_plain_lights(tables.lights, pipeline.light_model, tables.plain);
+  else
+    tables.plain.light.clear(), tables.plain.window.clear();
   const LightMeshes& meshes = *tables.meshes;
   LightPlanes light_planes(aovs, scene, pipeline, meshes, view);
   frame.stats.before_tiles_ms = now_ms() - start;
   frame.stats.loops_before_tiles = log->loops();
   frame.stats.tile = execution.tile, frame.stats.threads = thread_count(execution.threads);
   log.reset();
-  draw_tiles({prepared, pipeline, execution, view, tables.bins, tables.lights, std::move(plain), tables.groups, meshes,
+  draw_tiles({prepared, pipeline, execution, view, tables.bins, tables.lights, tables.plain, tables.groups, meshes,
               tables.outlines, need_uv, lit, std::move(light_planes), ViewDistance(scene, pipeline),
               TransparentPass(scene, pipeline, execution), frame},
              progress);

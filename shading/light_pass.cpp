@@ -10,6 +10,7 @@
 
 #include "shading/light_pairs-inl.h"
 #include "shading/near_lights-inl.h"
+#include "shading/settled_blinn-inl.h"
 #include "shading/settled_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -108,6 +109,60 @@ void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const
   if (count > 0) add(vectors[(count - 1) % 2]);
 }
 
+/// Colours of the vector of pixels at i: its sum by bounds, over the lights of `lane`'s block. Notes the pixels that
+/// these leave open.
+template <class Shape>
+HWY_NOINLINE void settle_block(const TileWork& in, const LightTerms<Shape>& terms, RegionWindows& lights, size_t lane,
+                               int i) {
+  const PlainLights& plain = *in.shortcuts.plain;
+  const PixelVector px = terms.load(in.surface, i);
+  LightSum sum;
+  for (size_t k = 0; k < lights.others; ++k) {
+    LightHit hit{lights.other[k], {}};
+    hn::StoreMaskBits(DF(), px.covered, hit.adds);
+    add_one(terms, px, hit, sum);
+  }
+  WindowList list;
+  if constexpr (kLanes == kBlockPixels)
+    lights.list(lane, list);
+  else
+    lights.list(terms, px, plain.window.data(), list);
+  WindowSum<Shape> estimate(px);
+  estimate.add(terms, plain.window.data(), list);
+  for (int c = 0; c < 3; ++c) sum.color[c] = estimate.value(sum.color[c], c);
+  const MF settled = estimate.settled(sum.color, plain.most_color, lights.others);
+  for_each_lane(hn::AndNot(settled, px.covered), size_t(i), size_t(i) + kLanes,
+                [&](size_t at) { in.work.open.push_back(uint16_t(at)); });
+  sum.lights = hn::Add(sum.lights, estimate.lights);
+  in.counts.evaluated_pairs += (list.count + sum.evaluated) * kLanes;
+  store_sum(in, terms, px, sum, i);
+}
+
+/// The same of a region.
+template <class Shape>
+void settle_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
+                   const BlockOrder& order) {
+  const int blocks = in.tile / kBlockSize;
+  RegionWindows lights(uint32_t(in.lights.size()));
+  const auto window_of = [&](const ListedLight& listed) { return uint32_t(listed.light - in.lights.row.data()); };
+  for (const ListedLight& listed : in.work.region.light)
+    if (!listed.placed) lights.other[lights.others++] = listed.light;
+  if constexpr (kLanes == kBlockPixels) {
+    const BlockBalls balls(r.blocks, cull);
+    for (const ListedLight& listed : in.work.region.light)
+      if (listed.placed) lights.add(window_of(listed), uint32_t(mask_bits(balls.reached(listed))));
+  } else {
+    for (const ListedLight& listed : in.work.region.light)
+      if (listed.placed) lights.add(window_of(listed), 0);
+  }
+  for (size_t lane = 0; lane < kRegionBlockCount; ++lane) {
+    const auto k = size_t(order.block[lane]);
+    const int at = r.block(int(k), blocks) * kBlockPixels;
+    for (int i = at; r.covered[k] != 0 && i < at + kBlockPixels; i += int(kLanes))
+      settle_block(in, terms, lights, lane, i);
+  }
+}
+
 // Of pixels without a surface.
 void clear_tile(const TileWork& in) {
   const size_t pixels = size_t(in.tile) * size_t(in.tile);
@@ -136,6 +191,18 @@ bool sums_by_bounds(const Shape&, const TileWork& in) {
       return in.shortcuts.culling && plain != nullptr && !plain->light.empty() &&
              plain->relative * float(info(in.shortcuts.stored).largest_code(0)) <= 0.125f;
     }
+  }
+  return false;
+}
+
+// The same of sums under lights with a linear window, of few enough lights that the bound stays small.
+template <class Shape>
+bool settles_region(const Shape&, const TileWork& in, const Region& r) {
+  if constexpr (settles_window<Shape>()) {
+    const FormatInfo stored = info(in.shortcuts.stored);
+    return in.shortcuts.culling && in.shortcuts.plain != nullptr && !in.shortcuts.plain->window.empty() &&
+           stored.largest_code(0) == 255 && !stored.srgb_channel(0) &&
+           in.work.region.light.size() <= RegionWindows::kMost && plain_region(r);
   }
   return false;
 }
@@ -181,6 +248,7 @@ template <class Shape>
 void sum_open(const TileWork& in, const LightTerms<Shape>& terms) {
   const size_t lanes = hn::Lanes(DF());
   const std::span<const uint16_t> open = in.work.open;
+  if (!open.empty() && !in.work.packed) in.work.packed = std::make_unique<SurfaceTile>();
   for (size_t first = 0; first < open.size(); first += lanes) {
     const std::span<const uint16_t> at = open.subspan(first, std::min(lanes, open.size() - first));
     pack_pixels(in.surface, at, int(lanes), *in.work.packed);
@@ -239,6 +307,7 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
     }
   }
   const BlockOrder order;
+  in.work.open.clear();
   for (int k = 0; k < regions.count && !by_bounds; ++k) {
     const Region& r = regions.region[k];
     if (many && !comes_by_pairs<Shape>()) {
@@ -256,6 +325,12 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
       light_region(in, terms, r, cull, order);
       continue;
     }
+    if constexpr (settles_window<Shape>()) {
+      if (!many && settles_region(shape, in, r)) {
+        settle_region(in, terms, r, cull, order);
+        continue;
+      }
+    }
     for (int k = 0; k < r.wide * r.tall; ++k) {
       const int block = r.block(k, blocks);
       const std::span<const ListedLight> list =
@@ -264,6 +339,7 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
         light_vector(in, terms, list, i, in.counts);
     }
   }
+  if constexpr (settles_window<Shape>()) sum_open(in, terms);
   in.counts.lit_pairs += sum_of(in.out.light_count, in.tile * in.tile);
 }
 

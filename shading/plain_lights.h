@@ -15,12 +15,22 @@ struct PlainLight {
   float position[3], k1, k2, color[3];
 };
 
-/// The lights of a table as sums by bounds read them (shading/settled_sum-inl.h), in scene order; empty where the model
-/// or one of the lights is not of the kind whose errors docs/arithmetic.md section 16 bounds.
+/// A light that falls off by 1 - d / range, as sums estimate it: half a cache line.
+struct alignas(32) WindowLight {
+  float position[3], cut2;
+  float color[3];
+  float half_share;  ///< 0.5 / range
+};
+
+/// The lights of a table as sums by bounds read them, in scene order: those of docs/arithmetic.md section 16
+/// (shading/settled_sum-inl.h) and of section 19 (shading/settled_blinn-inl.h); empty where the model or one of the
+/// lights is not of the kind whose errors that section bounds.
 struct PlainLights {
   std::vector<PlainLight> light;
   std::vector<float> k1, k2, strongest;  ///< side by side; `strongest`: the largest of the colour; padded with 0
   float relative = 0.0f;                 ///< error of a sum, as a share of it
+  std::vector<WindowLight> window;       ///< of section 19; last, one that lights nothing
+  float most_color = 0.0f;               ///< the largest of theirs
 };
 
 /// Of a region, by what of them may matter.
@@ -45,6 +55,8 @@ constexpr bool plain_place(float x) {
 constexpr float kMostPlainFalloff = 0x1p16f, kMostPlainColor = 0x1p20f, kMostPlainAlbedo = 0x1p10f,
                 kMostPlainNormal = 2.0f;
 
+constexpr float kMostWindowColor = 0x1p6f;
+
 /// Lights of a sum that are added up before they are added to it.
 inline constexpr size_t kPlainPart = 32;
 
@@ -55,6 +67,15 @@ constexpr bool is_plain(const LightShape& s) {
          s.power <= 16 && (s.order == TermOrder::factored || s.order == TermOrder::separate);
 }
 
+/// The same under lights with a linear window.
+constexpr bool is_window(const LightShape& s) {
+  return s.falloff == Falloff::linear_range && s.cone == Cone::none && s.diffuse == Diffuse::clamped &&
+         s.specular == Specular::blinn_phong && s.source == SpecularSource::model && s.specular_masked && s.squared &&
+         s.power == 16 && s.order == TermOrder::factored;
+}
+
 PlainLights make_plain_lights(const LightTable& lights, const LightModel& model);
+/// The same in the memory of others.
+void make_plain_lights(const LightTable& lights, const LightModel& model, PlainLights& out);
 
 }  // namespace trueshade

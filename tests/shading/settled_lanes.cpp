@@ -9,6 +9,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "raster/store-inl.h"
+#include "shading/light_sum-inl.h"
+#include "shading/settled_blinn-inl.h"
 #include "shading/settled_phong-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,12 +24,12 @@ constexpr bool kSettles = kLanes == size_t(kSettledPixels);
 bool settles_lanes() { return kSettles; }
 
 /// An estimate at an end of the range that is promised, or in its middle.
-template <int kEnd>
+template <int kEnd, int kOff = 4>  // in units of 2^-16
 struct RootAt {
   static HWY_INLINE VF reciprocal(VF x) {
     const DF d;
     const VF right = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));  // two roundings off: 2^-23
-    return hn::Mul(right, hn::Set(d, 1.0f + float(kEnd) * (0x1p-14f - 0x1p-22f)));
+    return hn::Mul(right, hn::Set(d, 1.0f + float(kEnd) * (float(kOff) * 0x1p-16f - 0x1p-22f)));
   }
 };
 
@@ -211,17 +214,123 @@ void settled_errors_of(const LightTable& table, const LightModel& model, bool ph
   }
 }
 
+// Section 19: of one pixel and channel, as a share of u.
+inline double proven_window(const SettledPixels& in, int i, int channel, const LightTable& table,
+                            const LightModel& model, double sum) {
+  constexpr double kRoot = 6.4;
+  const double albedo = in.number[9 + channel][i], ks = model.specular_color[channel];
+  double proven = 0, lit = 0;
+  for (const LightRow& row : table.row) {
+    double d2 = 0, nd = 0, nv = 0, dv = 0, v2 = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double d = row.position[c] - in.number[c][i], n = in.number[3 + c][i], v = in.number[6 + c][i];
+      d2 += d * d, nd += n * d, nv += n * v, dv += d * v, v2 += v * v;
+    }
+    const double distance = std::sqrt(d2), cosine = nd / distance, f = 1.0 - distance / row.range;
+    if (!(nd > 0 && f > 0)) continue;
+    const double fall = (kRoot + 5) * (1 - f) + 2 * f, color = row.color[channel];
+    const double h2 = 1 + v2 + 2 * dv / distance, h = std::sqrt(h2), t = std::max(cosine + nv, 0.0);
+    const double root_x = t / h, s = std::pow(root_x, 32.0);
+    const double of_x =
+        root_x < 1e-3 ? 0 : 2 * (kRoot + 10 + 5 * h) / (root_x * h) + (16 + 2 * kRoot) / h2 + 6 / h + 10;
+    proven += albedo * color * cosine * ((kRoot + 4) * f + fall);
+    proven += ks * color * (f * 16 * s * (of_x + 1) + s * fall);
+    ++lit;
+  }
+  return proven + (8 + 2 * lit) * sum;
+}
+
+template <class Root>
+void window_errors_from(const LightTable& table, const PlainLights& plain, const LightModel& model,
+                        const SettledPixels& in, SettledErrors& out) {
+  using Shape = CompiledShape<0>;
+  if constexpr (settles_window<Shape>()) {
+    const DF d;
+    const LightTerms<Shape> terms(table, model, Shape());
+    WindowList list;
+    for (list.count = 0; list.count < table.size(); ++list.count) list.light[list.count] = int32_t(list.count);
+    list.end(uint32_t(table.size()));
+    for (int i = 0; i < kSettledPixels; i += int(kLanes)) {
+      PixelVector px;
+      px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
+      for (int c = 0; c < 3; ++c) {
+        px.p[c] = hn::Load(d, in.number[c] + i), px.n[c] = hn::Load(d, in.number[3 + c] + i);
+        px.v[c] = hn::Load(d, in.number[6 + c] + i), px.albedo[c] = hn::Load(d, in.number[9 + c] + i);
+        px.specular[c] = hn::Set(d, model.specular_color[c]);
+        px.covered = hn::And(px.covered, hn::Le(hn::Abs(px.p[c]), hn::Set(d, 0x1p30f)));  // plain_region()
+      }
+      LightSum sum;
+      for (const LightRow& row : table.row) add_term(terms, px, terms(px, row), sum);
+      WindowSum<Shape, Root> estimate(px);
+      estimate.add(terms, plain.window.data(), list);
+      VF value[3], bound[3];
+      for (int c = 0; c < 3; ++c) value[c] = estimate.value(hn::Zero(d), c);
+      estimate.bound(value, plain.most_color, 0, bound);
+      const MF settled = estimate.settled(value, plain.most_color, 0);
+      const uint64_t bits = mask_bits(settled);
+      MF wrong = hn::RebindMask(d, hn::Ne(estimate.lights, sum.lights));
+      wrong = hn::And(wrong, px.covered);
+      HWY_ALIGN float off[kLanes], allowed[kLanes], right[kLanes];
+      for (int c = 0; c < 3; ++c) {
+        const MF other = hn::Ne(unorm8_code(value[c]), unorm8_code(sum.color[c]));
+        wrong = hn::Or(wrong, hn::And(settled, other));
+        hn::Store(hn::Abs(hn::Sub(value[c], sum.color[c])), d, off);
+        hn::Store(bound[c], d, allowed);
+        hn::Store(sum.color[c], d, right);
+        for (size_t k = 0; k < kLanes; ++k) {
+          const size_t pixel = size_t(i) + k;
+          if (c == 0) out.share[pixel] = out.window[pixel] = 0.0;
+          if ((bits >> k & 1) == 0) continue;
+          const double proven =
+              proven_window(in, int(pixel), c, table, model, double(right[k])) * 1.005 * 0x1p-24 + 0x1p-60;
+          out.share[pixel] = std::max(out.share[pixel], double(off[k]) / proven);
+          out.window[pixel] = std::max(out.window[pixel], proven / (double(allowed[k]) + 0x1p-58));
+        }
+      }
+      out.settled += int(hn::CountTrue(d, settled));
+      out.wrong += int(hn::CountTrue(d, wrong));
+    }
+  }
+}
+
+bool settles_windows() { return settles_window<CompiledShape<0>>(); }
+
+void window_errors_of(const LightTable& table, const PlainLights& plain, const LightModel& model, RootSource root,
+                      const SettledPixels& in, SettledErrors& out) {
+  switch (root) {
+    case RootSource::cpu:
+      return window_errors_from<EstimatedRoot>(table, plain, model, in, out);
+    case RootSource::low:
+      return window_errors_from<RootAt<-1, 24>>(table, plain, model, in, out);
+    case RootSource::right:
+      return window_errors_from<RootAt<0, 24>>(table, plain, model, in, out);
+    case RootSource::high:
+      return window_errors_from<RootAt<1, 24>>(table, plain, model, in, out);
+  }
+}
+
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace trueshade {
+HWY_EXPORT(settles_windows);
+HWY_EXPORT(window_errors_of);
 HWY_EXPORT(settles_lanes);
 HWY_EXPORT(settled_errors_of);
 
 namespace testing {
 
 bool settles_lanes() { return HWY_DYNAMIC_DISPATCH(trueshade::settles_lanes)(); }
+
+bool settles_windows() { return HWY_DYNAMIC_DISPATCH(trueshade::settles_windows)(); }
+
+void window_errors(const LightTable& lights, const PlainLights& plain, const LightModel& model, RootSource root,
+                   const SettledPixels& pixels, SettledErrors& errors) {
+  errors = {};
+  if (plain.window.empty()) return;
+  HWY_DYNAMIC_DISPATCH(window_errors_of)(lights, plain, model, root, pixels, errors);
+}
 
 void settled_errors(const LightTable& lights, const LightModel& model, bool phong, RootSource root,
                     const SettledPixels& pixels, SettledErrors& errors) {

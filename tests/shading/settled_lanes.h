@@ -2,10 +2,12 @@
 #include <cstdint>
 
 #include "shading/light_table.h"
+#include "shading/plain_lights.h"
 
 namespace trueshade::testing {
 
-/// Where the kernels' estimate of 1 / sqrt(d2) comes from: the CPU, or the value itself times 1 + 2^-14 of this.
+/// Where the kernels' estimate of 1 / sqrt(d2) comes from: the CPU, or the value itself times 1 + this of what the
+/// estimate may be off by, 2^-14 for codes and 1.5 * 2^-12 for sums.
 enum class RootSource : uint8_t { cpu, low, right, high };
 
 constexpr int kSettledPixels = 16;
@@ -31,5 +33,13 @@ bool settles_lanes();
 /// Errors of the first light of the table, in Lambert's or Phong's model as kCompiledShapes has them.
 void settled_errors(const LightTable& lights, const LightModel& model, bool phong, RootSource root,
                     const SettledPixels& pixels, SettledErrors& errors);
+
+/// Whether the SIMD target in force has the kernel of settled sums under lights with a linear window (section 19).
+bool settles_windows();
+
+/// Errors of the sums of a table's lights, in the model of the first of kCompiledShapes: `share` of the largest
+/// |estimate - sum| of the channels, in what the proof has for each term of it.
+void window_errors(const LightTable& lights, const PlainLights& plain, const LightModel& model, RootSource root,
+                   const SettledPixels& pixels, SettledErrors& errors);
 
 }  // namespace trueshade::testing

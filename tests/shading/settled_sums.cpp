@@ -1,5 +1,6 @@
-// Sums whose codes are settled by bounds (docs/arithmetic.md section 16) against the sums themselves.
+// Sums whose codes are settled by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "scenes/presets.h"
 #include "shading/frame.h"
@@ -12,10 +13,11 @@ namespace {
 
 const std::vector<std::string> kCounts{"light.count"};
 
-Pipeline summing_pipeline(Format target) {
-  Pipeline p = *preset_pipeline("touchdesigner");
+Pipeline summing_pipeline(std::string_view preset, Format target) {
+  Pipeline p = *preset_pipeline(preset);
   p.width = 57, p.height = 43;
   p.target = target;
+  p.gbuffer.albedo.format = Format::rgba32f;
   return p;
 }
 
@@ -52,7 +54,7 @@ TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights
     add_lights(random, 32 + size_t(random() % 500), between(random, 0.5, 8), scene);
     if (i % 4 == 1) scene.lights[random() % scene.lights.size()].position = scene.camera.eye;
     const Format targets[] = {Format::rgba8, Format::rgb10_a2, Format::srgb8_a8};
-    Pipeline p = summing_pipeline(targets[i % 3]);
+    Pipeline p = summing_pipeline("touchdesigner", targets[i % 3]);
     if (i % 5 == 1) p.strategy = Strategy::forward_loop;
     if (i % 5 == 2) p.light_model.viewer = Viewer::infinite;
     if (i % 5 == 3) p.light_model.order = TermOrder::factored;
@@ -71,26 +73,59 @@ TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights
   CHECK(fewer > frames / 2);  // that is, sums were settled
 }
 
+TEST_CASE("So are those of sums under lights with a linear window, among lights of all kinds") {
+  Random random(436);
+  for (int i = 0; i < 32; ++i) {
+    Scene scene = sheet(random);
+    if (i % 4 == 1) trouble(random, scene.meshes[0]);
+    const size_t count = 1 + size_t(random() % (i % 8 == 7 ? 400 : 100));  // more than are listed, at times
+    while (scene.lights.size() < count) {
+      Light light = random_light(random);
+      if (i % 2 == 0) light.type = LightType::point;
+      light.color *= float(between(random, 0.5, 8)) / float(count);
+      scene.lights.push_back(light);
+    }
+    if (i % 4 == 2) scene.lights[random() % count].position = scene.camera.eye;
+    if (i % 16 == 3) scene.lights[random() % count].color[1] = 65.0f;  // more than bounds are for
+    constexpr Format kTargets[] = {Format::rgba8, Format::rgba8, Format::rgba8, Format::rgb10_a2, Format::srgb8_a8};
+    Pipeline p = summing_pipeline("many-lights", kTargets[i % 5]);
+    if (i % 3 == 1) p.strategy = Strategy::forward_loop;
+    if (i % 7 == 2) p.light_model.viewer = Viewer::infinite;
+    if (i % 11 == 5) p.light_model.global_ambient = glm::vec3(0.1f);
+    if (i % 13 == 6) p.light_model.specular_color = {0.0f, 0.5f, 4.0f};
+    const PreparedScene prepared(scene);
+    const Frame sums = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
+    for (const std::string_view simd : simd_targets()) {
+      INFO("scene " << i << ", " << simd);
+      const Frame settled = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCounts);
+      CHECK(image_hash(settled.color) == image_hash(sums.color));
+      CHECK(image_hash(settled.aovs[0].image) == image_hash(sums.aovs[0].image));
+      CHECK(settled.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
+    }
+  }
+}
+
 TEST_CASE("So are codes of sums that lie on the edge between two of them, all over the picture") {
   Random random(435);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 24; ++i) {
+    const std::string_view preset = i % 2 == 0 ? "touchdesigner" : "many-lights";
     Scene scene = sheet(random);
     Mesh& mesh = scene.meshes[0];
     for (size_t v = 0; v < mesh.position[0].size(); ++v) {
       mesh.position[2][v] = 0.0f;
       for (size_t k = 0; k < 3; ++k) mesh.normal[k][v] = k == 2 ? 1.0f : 0.0f;
     }
-    add_lights(random, 100 + size_t(random() % 300), 2, scene);
+    add_lights(random, i % 2 == 0 ? 100 + size_t(random() % 300) : 4 + size_t(random() % 200), 2, scene);
     for (Light& light : scene.lights) {  // so far away that they shine alike on all of the sheet
       light.position = glm::vec3(light.position.x, light.position.y, 0.3f + std::abs(light.position.z)) * 500.0f;
       light.attenuation = {1, 0, 0};
+      light.range = 3.0f * glm::length(light.position);
     }
     // The sum is linear in the albedo: two sums give the one whose code is about to change.
     const auto with_albedo = [&](float albedo, Format target, const Execution& e) {
       for (size_t k = 0; k < 3; ++k) std::fill(mesh.color[k].begin(), mesh.color[k].end(), albedo);
-      return render_frame(scene, summing_pipeline(target), e).color;
+      return render_frame(scene, summing_pipeline(preset, target), e).color;
     };
-    Pipeline p = summing_pipeline(Format::rgba32f);
     scene.camera.eye = {0.0f, 0.0f, 2000.0f};
     scene.camera.fov_y_rad = 0.0015f;
     scene.camera.near = 1000.0f, scene.camera.far = 4000.0f;
