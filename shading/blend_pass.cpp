@@ -316,7 +316,8 @@ struct DrawRegions {
         if (t.method.adds && t.method.codes && add_to_region<true>(t, terms, r)) continue;
       if constexpr (comes_by_pairs<Shape>())
         if (t.method.adds && add_to_region<false>(t, terms, r)) continue;
-      for (int k = 0; k < r.wide * r.tall; ++k) {
+      for (int k = 0; k < int(kRegionBlockCount); ++k) {
+        if (r.covered[k] == 0) continue;
         const int block = r.block(k, t.blocks());
         const std::span<const ListedLight> list =
             block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);

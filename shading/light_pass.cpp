@@ -219,7 +219,8 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
       light_region(in, terms, r, cull, order);
       continue;
     }
-    for (int k = 0; k < r.wide * r.tall; ++k) {
+    for (int k = 0; k < int(kRegionBlockCount); ++k) {
+      if (r.covered[k] == 0) continue;
       const int block = r.block(k, blocks);
       const std::span<const ListedLight> list =
           block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);

@@ -45,8 +45,12 @@ struct Region {
   uint16_t covered[kRegionBlockCount];  ///< of each block, row by row, its pixels with a surface, bit by bit
   BlockBoxes blocks;
 
+  /// Whether it has a k-th block: rows are kRegionBlocks long, whatever the tile has.
+  bool has(int k) const { return k % kRegionBlocks < wide && k / kRegionBlocks < tall; }
   /// The k-th of its blocks among the tile's, `blocks` a row.
-  int block(int k, int tile_blocks) const { return (by + k / wide) * tile_blocks + bx + k % wide; }
+  int block(int k, int tile_blocks) const {
+    return (by + k / kRegionBlocks) * tile_blocks + bx + k % kRegionBlocks;
+  }
 };
 constexpr int kMostRegions = (kMaxTile / kRegionSize) * (kMaxTile / kRegionSize);
 
@@ -207,7 +211,7 @@ inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region&
   r.pixels = 0;
   for (int k = 0; k < int(kRegionBlockCount); ++k) {
     unsigned bits = 0;
-    if (k < r.wide * r.tall)
+    if (r.has(k))
       for (int i = 0; i < kBlockPixels; i += int(kLanes))
         bits |= unsigned(mask_bits(covered_lanes(s, r.block(k, blocks) * kBlockPixels + i))) << i;
     r.covered[k] = uint16_t(bits);
