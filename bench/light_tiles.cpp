@@ -62,11 +62,7 @@ struct Surfaces {
     }
   }
 
-  LightDraws draws() const {
-    return {scene.lights, lights, groups,         pipeline.light_model, pipeline.light_volumes,      meshes,
-            outlines,     view,   pipeline.blend, {pipeline.target},    pipeline.light_volumes.base, false,
-            true,         true,     true};
-  }
+  LightDraws draws() const { return draws_of(scene.lights, pipeline, lights, groups, meshes, outlines, view); }
 };
 
 const Surfaces& surfaces(const std::string& spec, const std::string& preset) {

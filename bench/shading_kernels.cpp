@@ -100,23 +100,10 @@ struct LitTile {
   }
   void draw(bool compiled) {
     constexpr float kClear[4] = {};
+    LightDraws draws = draws_of(lights, pipeline, table, groups, meshes, outlines, view);
+    draws.compiled = compiled;
     if (blends_lights(pipeline.strategy))
-      blend_tile({lights,
-                  table,
-                  groups,
-                  pipeline.light_model,
-                  pipeline.light_volumes,
-                  meshes,
-                  outlines,
-                  view,
-                  pipeline.blend,
-                  {pipeline.target},
-                  true,
-                  false,
-                  true,
-                  compiled,
-                  true},
-                 *surface, nullptr, {0, 0, kTile, {0, 0, kTile, kTile}}, kClear, blend, *color, counts);
+      blend_tile(draws, *surface, nullptr, {0, 0, kTile, {0, 0, kTile, kTile}}, kClear, blend, *color, counts);
     else
       light_tile(*surface, kTile, table, groups, pipeline.light_model, kClear,
                  {true, compiled, &plain, pipeline.target}, lists, *color, counts);

@@ -12,6 +12,7 @@
 #include "shading/blend-inl.h"
 #include "shading/blend_draw-inl.h"
 #include "shading/light_pairs-inl.h"
+#include "shading/settled_pairs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -24,7 +25,6 @@ constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the n
 /// be held to the largest code later.
 template <bool kCodes>
 struct AddedLight {
-  static constexpr bool kAddsCodes = kCodes;
   const BlendPlan* plan;
   float largest[3];
   VF stored[4];
@@ -42,10 +42,8 @@ struct AddedLight {
     const DF d;
     if constexpr (kCodes) {  // a clamped result is clamped again
       for (int c = 0; c < 3; ++c) {
-        const VF x = terms.tinted(px, term.color[c], c), unit = hn::Min(x, hn::Set(d, 1.0f));
-        const MF counts = hn::And(term.adds, hn::Gt(x, hn::Zero(d)));  // and is a number
-        const VF code = hn::Round(hn::Mul(unit, hn::Set(d, largest[c])));
-        stored[c] = hn::Add(stored[c], hn::IfThenElseZero(counts, code));
+        const VF x = terms.tinted(px, term.color[c], c);
+        stored[c] = hn::Add(stored[c], added_code(x, term.adds, hn::Set(d, largest[c])));
       }
     } else {
       VF source[4], next[4] = {stored[0], stored[1], stored[2], stored[3]};
@@ -57,10 +55,6 @@ struct AddedLight {
         blend_out_of_line(*plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);
     }
-  }
-  HWY_INLINE void add_codes(const SettledCodes& codes, bool all_light) {
-    for (int c = 0; c < 3; ++c) stored[c] = hn::Add(stored[c], codes.codes(c));
-    lights = hn::Add(lights, codes.lights(all_light));
   }
   HWY_INLINE void settle() {
     static_assert((kMostHits + 1) * 65535 < (1 << 24));
@@ -74,6 +68,7 @@ struct BlendMethod {
   bool adds;             ///< a light that adds 0 changes nothing but alpha
   bool saturates_alpha;  ///< any draw makes alpha 1
   bool codes;            ///< AddedLight<true>
+  bool settles;          ///< codes of 8 bits, which bounds may settle
 };
 
 // Whether a light is drawn over the image and its fragments out of range are discarded.
@@ -88,7 +83,10 @@ inline BlendMethod blend_method(const LightDraws& in, const BlendPlan& plan, con
   for (size_t c = 0; c < 3; ++c) rgb = rgb && plan.written[c];
   const bool saturates = plan.written[3] && plan.unorm() && plan.alpha.term == kAccumulate &&
                          !in.model.alpha_from_albedo && !discards(in.table);
-  return {rgb && (saturates || !plan.written[3]), saturates, plan.adds_codes(0)};
+  const bool adds = rgb && (saturates || !plan.written[3]), codes = plan.adds_codes(0);
+  bool settles = in.settles && adds && codes;
+  for (int c = 0; c < 3; ++c) settles = settles && plan.largest(c) == 255.0f;
+  return {adds, saturates, codes, settles};
 }
 
 /// Lights whose geometry may touch the tile, ascending, from `first` on.
@@ -234,7 +232,7 @@ void saturate_alpha(const TileBlend& t) {
       t.out.plane[3][i] = t.plan.largest(3);
 }
 
-void leave_out_tied(const TileBlend& t, PixelVector& px, int i) {
+HWY_INLINE void leave_out_tied(const TileBlend& t, PixelVector& px, int i) {
   if (t.tied == nullptr) return;
   const DI di;
   px.covered = hn::And(px.covered, hn::RebindMask(DF(), hn::Eq(hn::LoadU(di, t.tied + i), hn::Zero(di))));
@@ -254,33 +252,65 @@ void add_to_vector(const TileBlend& t, const LightTerms<Shape>& terms, std::span
   t.counts.evaluated_pairs += sum.evaluated * hn::Lanes(DF());
 }
 
-// The lights of a region, by pairs; false where these are no gain, and nothing is added.
+// The pixels of a block of a region; `px` where there are any.
+template <class Shape>
+HWY_INLINE uint16_t load_block(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r, size_t block,
+                               PixelVector& px) {
+  if (r.covered[block] == 0) return 0;
+  const int i = r.block(int(block), t.blocks()) * kBlockPixels;
+  px = terms.load(t.surface, i);
+  leave_out_tied(t, px, i);
+  return uint16_t(mask_bits(px.covered));
+}
+
+// The lights of a region, by pairs.
 template <bool kCodes, class Shape>
-bool add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
+void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
   const DF d;
   RegionPixels<AddedLight<kCodes>> in(r);
-  in.settles = kCodes && t.in.settles;
-  for (int c = 0; c < 3; ++c) in.settles = in.settles && t.plan.largest(c) == 255.0f;
   for (size_t k = 0; k < kRegionBlockCount; ++k) {
-    in.open[k] = 0;
-    if (r.covered[k] == 0) continue;
-    const int i = in.place(k, t.blocks());
-    in.px[k] = terms.load(t.surface, i);
-    leave_out_tied(t, in.px[k], i);
-    in.open[k] = uint16_t(mask_bits(in.px[k].covered));
-    MF plain = plain_surfaces(in.px[k]);
-    if constexpr (settles_phong<Shape>()) plain = hn::And(plain, plain_views(in.px[k]));
-    in.settles = in.settles && hn::AllFalse(d, hn::AndNot(plain, in.px[k].covered));
-    if (settles_phong<Shape>() && !in.settles) return false;
-    in.sum[k] = AddedLight<kCodes>(t.add_plan, StoredPixels(t.out, i));
+    in.open[k] = load_block(t, terms, r, k, in.px[k]);
+    if (r.covered[k] != 0) in.sum[k] = AddedLight<kCodes>(t.add_plan, StoredPixels(t.out, in.place(k, t.blocks())));
   }
-  t.counts.evaluated_pairs +=
-      add_region_lights(terms, t.work.lights, t.work.region.light, t.cull, t.order, t.blocks(), t.work.pairs, in);
+  const BlockPairs pairs(t.work.lights, r, t.cull, t.order, t.blocks(), in.open, t.work.pairs);
+  t.counts.evaluated_pairs += add_region_lights(terms, t.work.region.light, pairs, in);
   for (size_t k = 0; k < kRegionBlockCount; ++k) {
     if (r.covered[k] == 0) continue;
     const int i = in.place(k, t.blocks());
     for (int c = 0; c < 3; ++c) hn::Store(in.sum[k].stored[c], d, t.out.plane[c] + i);
     hn::Store(in.sum[k].lights, DI(), reinterpret_cast<int32_t*>(t.out.light_count) + i);
+  }
+}
+
+// The same where bounds settle codes of 8 bits; false where its surfaces are not such that they do, and nothing is
+// added.
+template <class Shape>
+bool settle_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
+  const DF d;
+  SettledRegion in(r);
+  MF strange = hn::Lt(hn::Zero(d), hn::Zero(d));
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    in.open[k] = load_block(t, terms, r, k, in.px[k]);
+    if (in.open[k] == 0) continue;
+    MF plain = plain_surfaces(in.px[k]);
+    if constexpr (settles_phong<Shape>()) {
+      plain = hn::And(plain, plain_views(in.px[k]));
+      in.facing2[k] = twice_facing(in.px[k]);
+    }
+    strange = hn::Or(strange, hn::AndNot(plain, in.px[k].covered));
+  }
+  if (!hn::AllFalse(d, strange)) return false;
+  const BlockPairs pairs(t.work.lights, r, t.cull, t.order, t.blocks(), in.open, t.work.pairs);
+  t.counts.evaluated_pairs += settle_region_lights(terms, t.work.region.light, pairs, in);
+  for (size_t k = 0; k < kRegionBlockCount; ++k) {
+    if (in.open[k] == 0) continue;
+    const int i = r.block(int(k), t.blocks()) * kBlockPixels;
+    for (int c = 0; c < 3; ++c) {
+      const VF sum = hn::Add(hn::Load(d, t.out.plane[c] + i), in.codes[k].codes(c));
+      hn::Store(lesser(sum, hn::Set(d, 255.0f)), d, t.out.plane[c] + i);
+    }
+    int32_t* const lights = reinterpret_cast<int32_t*>(t.out.light_count) + i;
+    hn::Store(hn::Add(hn::Load(DI(), lights), in.codes[k].lit), DI(), lights);
   }
   return true;
 }
@@ -312,11 +342,15 @@ struct DrawRegions {
       region_lights(t.work.lights, r, t.blocks(), t.cull, t.work.region);
       t.counts.tested += t.work.lights.light.size();
       if (t.work.region.light.empty()) continue;
-      if constexpr (comes_by_pairs<Shape>() || settles_phong<Shape>())
-        if (t.method.adds && t.method.codes && add_to_region<true>(t, terms, r)) continue;
+      if constexpr (settles_codes<Shape>() || settles_phong<Shape>())
+        if (t.method.settles && settle_region(t, terms, r)) continue;
       if constexpr (comes_by_pairs<Shape>())
-        if (t.method.adds && add_to_region<false>(t, terms, r)) continue;
-      for (int k = 0; k < r.wide * r.tall; ++k) {
+        if (t.method.adds) {
+          t.method.codes ? add_to_region<true>(t, terms, r) : add_to_region<false>(t, terms, r);
+          continue;
+        }
+      for (int k = 0; k < int(kRegionBlockCount); ++k) {
+        if (r.covered[k] == 0) continue;
         const int block = r.block(k, t.blocks());
         const std::span<const ListedLight> list =
             block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);

@@ -113,22 +113,11 @@ struct FrameWork {
   Frame& out;
 
   LightDraws light_draws() const {
-    const bool multipass = pipeline.strategy == Strategy::forward_multipass;
-    return {prepared.scene().lights,
-            lights,
-            groups,
-            pipeline.light_model,
-            pipeline.light_volumes,
-            meshes,
-            outlines,
-            view,
-            multipass ? kAddLight : pipeline.blend,
-            target(),
-            multipass || pipeline.light_volumes.base,
-            multipass,
-            execution.light_culling,
-            execution.compiled_models,
-            execution.settled_sums};
+    LightDraws out = draws_of(prepared.scene().lights, pipeline, lights, groups, meshes, outlines, view);
+    out.culling = execution.light_culling;
+    out.compiled = execution.compiled_models;
+    out.settles = execution.settled_sums;
+    return out;
   }
 
   TileRect rect(int tile) const {

@@ -27,6 +27,25 @@ void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::
 
 }  // namespace
 
+LightDraws draws_of(std::span<const Light> lights, const Pipeline& pipeline, const LightTable& table,
+                    const LightGroups& groups, const LightMeshes& meshes, const LightOutlines& outlines,
+                    const View& view) {
+  const bool multipass = pipeline.strategy == Strategy::forward_multipass;
+  const BlendTarget target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round};
+  return {.lights = lights,
+          .table = table,
+          .groups = groups,
+          .model = pipeline.light_model,
+          .volumes = pipeline.light_volumes,
+          .meshes = meshes,
+          .outlines = outlines,
+          .view = view,
+          .blend = multipass ? kAddLight : pipeline.blend,
+          .target = target,
+          .base = multipass || pipeline.light_volumes.base,
+          .first_base = multipass};
+}
+
 int start_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,
                    OutlineTasks& tasks, LightOutlines& out) {
   if (pipeline.strategy != Strategy::forward_multipass) return tasks.start(lights, pipeline, meshes, view, out);

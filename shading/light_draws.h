@@ -24,12 +24,17 @@ struct LightDraws {
   const View& view;
   BlendState blend;
   BlendTarget target;
-  bool base;        ///< covered pixels start from what they have without lights, not from `clear`
-  bool first_base;  ///< and with light 0, which is in that draw: forward-multipass
-  bool culling;     ///< leave out lights that are proved to add nothing; never changes a bit
-  bool compiled;    ///< use kernels compiled for the model's shape; never changes a bit
-  bool settles;     ///< codes of terms by bounds (docs/arithmetic.md section 17); never changes a bit
+  bool base;             ///< covered pixels start from what they have without lights, not from `clear`
+  bool first_base;       ///< and with light 0, which is in that draw: forward-multipass
+  bool culling = true;   ///< leave out lights that are proved to add nothing; never changes a bit
+  bool compiled = true;  ///< use kernels compiled for the model's shape; never changes a bit
+  bool settles = true;   ///< codes of terms by bounds (docs/arithmetic.md section 17); never changes a bit
 };
+
+/// The draws under a pipeline that blends lights.
+LightDraws draws_of(std::span<const Light> lights, const Pipeline& pipeline, const LightTable& table,
+                    const LightGroups& groups, const LightMeshes& meshes, const LightOutlines& outlines,
+                    const View& view);
 
 /// What the draws of lights cover under a strategy that blends: of forward-multipass every light is a draw of the
 /// scene, wherever it reaches.

@@ -70,8 +70,8 @@ void light_region(const TileWork& in, const LightTerms<Shape>& terms, const Regi
     pixels.px[k] = terms.load(in.surface, i);
     for (int c = 0; c < 3; ++c) pixels.sum[k].color[c] = terms.start(in.surface, i, pixels.px[k], c);
   }
-  in.counts.evaluated_pairs +=
-      add_region_lights(terms, in.work.tile, in.work.region.light, cull, order, blocks, in.work.pairs, pixels);
+  const BlockPairs pairs(in.work.tile, r, cull, order, blocks, pixels.open, in.work.pairs);
+  in.counts.evaluated_pairs += add_region_lights(terms, in.work.region.light, pairs, pixels);
   for (size_t k = 0; k < kRegionBlockCount; ++k)
     if (r.covered[k] != 0) store_sum(in, terms, pixels.px[k], pixels.sum[k], pixels.place(k, blocks));
 }
@@ -331,7 +331,8 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
         continue;
       }
     }
-    for (int k = 0; k < r.wide * r.tall; ++k) {
+    for (int k = 0; k < int(kRegionBlockCount); ++k) {
+      if (r.covered[k] == 0) continue;
       const int block = r.block(k, blocks);
       const std::span<const ListedLight> list =
           block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);

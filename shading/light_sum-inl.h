@@ -59,12 +59,10 @@ struct VectorPlace {
 //   add(terms, px, term) one light's term
 //   settle()             after at most kMostHits terms
 //   lights, evaluated    how many lights light each pixel; lights whose terms were computed
-//   kAddsCodes           terms are only wanted as codes of fixed point, which add_codes(codes) adds
 constexpr size_t kMostHits = 128;
 
 /// Sums of a vector of pixels.
 struct LightSum {
-  static constexpr bool kAddsCodes = false;
   VF color[3];
   hn::Vec<DI> lights;
   uint64_t evaluated = 0;

@@ -47,8 +47,10 @@ struct Region {
   uint16_t covered[kRegionBlockCount];  ///< of each block, row by row, its pixels with a surface, bit by bit
   BlockBoxes blocks;
 
+  /// Whether it has a k-th block: rows are kRegionBlocks long, whatever the tile has.
+  bool has(int k) const { return k % kRegionBlocks < wide && k / kRegionBlocks < tall; }
   /// The k-th of its blocks among the tile's, `blocks` a row.
-  int block(int k, int tile_blocks) const { return (by + k / wide) * tile_blocks + bx + k % wide; }
+  int block(int k, int tile_blocks) const { return (by + k / kRegionBlocks) * tile_blocks + bx + k % kRegionBlocks; }
 };
 constexpr int kMostRegions = (kMaxTile / kRegionSize) * (kMaxTile / kRegionSize);
 
@@ -67,17 +69,25 @@ HWY_INLINE MF covered_lanes(const SurfaceTile& s, int i) {
 
 /// A bit for each lane of a mask.
 HWY_INLINE uint64_t mask_bits(MF mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return mask.raw;
+#else
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(DF(), mask, bytes);
   uint64_t bits = 0;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
+#endif
 }
 
 /// The lanes of the lowest bits.
 HWY_INLINE MF lanes_of(unsigned bits) {
+#if HWY_TARGET <= HWY_AVX3
+  return MF{__mmask16(bits)};
+#else
   const uint8_t bytes[8] = {uint8_t(bits), uint8_t(bits >> 8)};
   return hn::LoadMaskBits(DF(), bytes);
+#endif
 }
 
 /// Components of a vector of boxes, a box a lane.
@@ -138,6 +148,10 @@ template <size_t kCount, class Leaf>
 HWY_INLINE Bounds bounds_across(const Leaf& leaf, size_t first) {
   if constexpr (kCount == 1) {
     return leaf(first);
+  } else if constexpr (kCount == 2 && Leaf::kWhole) {
+    VF x, y;
+    brought_together<kLanes>(leaf.numbers(first), leaf.numbers(first + 1), x, y);
+    return {hn::Min(x, y), hn::Max(x, y)};
   } else {
     const Bounds a = bounds_across<kCount / 2>(leaf, first), b = bounds_across<kCount / 2>(leaf, first + kCount / 2);
     VF x, y;
@@ -161,12 +175,14 @@ struct BlockOrder {
 
  private:
   struct Number {
+    static constexpr bool kWhole = false;
     HWY_INLINE Bounds operator()(size_t k) const { return {hn::Set(DF(), float(k)), hn::Set(DF(), float(k))}; }
   };
 };
 
 /// Bounds of a plane's numbers in the blocks of a region, lane by lane of a block's vectors.
 struct PlaneBounds {
+  static constexpr bool kWhole = false;
   const float* plane;
   const Region& r;
   int blocks;
@@ -187,10 +203,28 @@ struct PlaneBounds {
   }
 };
 
+/// The same where a block is a vector, and all of them are covered and hold numbers: least and largest are brought
+/// together once.
+struct WholeBounds {
+  static constexpr bool kWhole = kLanes == kBlockPixels;
+  const float* plane;
+  const Region& r;
+  int blocks;
+
+  HWY_INLINE VF numbers(size_t k) const { return hn::Load(DF(), plane + r.block(int(k), blocks) * kBlockPixels); }
+  bool holds() const {
+    if (!kWhole || r.pixels != int(kRegionBlockCount) * kBlockPixels) return false;
+    MF none = hn::Lt(hn::Zero(DF()), hn::Zero(DF()));
+    for (size_t k = 0; k < kRegionBlockCount; ++k) none = hn::Or(none, hn::IsNaN(numbers(k)));
+    return hn::AllFalse(DF(), none);
+  }
+  HWY_INLINE Bounds operator()(size_t k) const { return {numbers(k), numbers(k)}; }
+};
+
 // Bounds of a plane block by block; returns those of them all.
-HWY_INLINE void bound_plane(const SurfaceTile& s, int plane, int blocks, Region& r, int row, float& low, float& high) {
+template <class Leaf>
+HWY_INLINE void bound_plane(const Leaf& of_block, Region& r, int row, float& low, float& high) {
   const DF d;
-  const PlaneBounds of_block{s.plane[plane], r, blocks};
   Bounds all{hn::Set(d, INFINITY), hn::Set(d, -INFINITY)};
   for (size_t first = 0; first < kRegionBlockCount; first += kLanes) {
     const Bounds some = bounds_across<kLanes>(of_block, first);
@@ -205,16 +239,22 @@ inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region&
   r.pixels = 0;
   for (int k = 0; k < int(kRegionBlockCount); ++k) {
     unsigned bits = 0;
-    if (k < r.wide * r.tall)
+    if (r.has(k))
       for (int i = 0; i < kBlockPixels; i += int(kLanes))
         bits |= unsigned(mask_bits(covered_lanes(s, r.block(k, blocks) * kBlockPixels + i))) << i;
     r.covered[k] = uint16_t(bits);
     r.pixels += std::popcount(bits);
   }
   if (r.pixels == 0) return;
-  for (int c = 0; c < 3; ++c) bound_plane(s, kPosition + c, blocks, r, c, r.place.low[c], r.place.high[c]);
-  for (int c = 0; c < 3 && normals; ++c)
-    bound_plane(s, kNormal + c, blocks, r, 3 + c, r.normal.low[c], r.normal.high[c]);
+  const auto bound = [&](int plane, int row, float& low, float& high) {
+    const WholeBounds whole{s.plane[plane], r, blocks};
+    if (whole.holds())
+      bound_plane(whole, r, row, low, high);
+    else
+      bound_plane(PlaneBounds{s.plane[plane], r, blocks}, r, row, low, high);
+  };
+  for (int c = 0; c < 3; ++c) bound(kPosition + c, c, r.place.low[c], r.place.high[c]);
+  for (int c = 0; c < 3 && normals; ++c) bound(kNormal + c, 3 + c, r.normal.low[c], r.normal.high[c]);
 }
 
 inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileRegions& out) {

@@ -82,19 +82,18 @@ inline void compare(const LightRow& row, const Estimates& of, SettledErrors& out
   }
 }
 
-// What is not open must have counted as the term does, or not at all where that adds nothing.
-inline void check_codes(const LightTerm& term, const SettledCodes& codes, bool all_light, MF asked, MF open,
-                        SettledErrors& out) {
+// What is not open must have counted as the term does, at most white, or not at all where that adds nothing.
+inline void check_codes(const LightTerm& term, const SettledCodes& codes, MF asked, MF open, SettledErrors& out) {
   const DF d;
   const DI di;
   const MF closed = hn::AndNot(open, asked);
   MF wrong = hn::Lt(hn::Zero(d), hn::Zero(d));
   for (int c = 0; c < 3; ++c) {
     const VF code = hn::Round(hn::Mul(hn::IfThenElseZero(term.adds, term.color[c]), hn::Set(d, 255.0f)));
-    wrong = hn::Or(wrong, hn::Ne(code, codes.codes(c)));
+    wrong = hn::Or(wrong, hn::Ne(hn::Min(code, hn::Set(d, 255.0f)), codes.codes(c)));
   }
   const auto lights = hn::IfThenElseZero(hn::RebindMask(di, term.lit), hn::Set(di, 1));
-  wrong = hn::Or(wrong, hn::RebindMask(d, hn::Ne(lights, codes.lights(all_light))));
+  wrong = hn::Or(wrong, hn::RebindMask(d, hn::Ne(lights, codes.lit)));
   out.wrong = int(hn::CountTrue(d, hn::And(closed, wrong)));
   out.settled = int(hn::CountTrue(d, hn::And(closed, term.adds)));
 }
@@ -129,16 +128,17 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   const MF plain = plain_surfaces(px);
   SettledLight light;
   const LightRow& row = table.row[0];
-  make_settled_light({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true}, light);
+  light.set({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
+  const SettledLanes lanes(light);
   SettledPairs<1, Root> pairs;
-  pairs.px[0] = &px, pairs.light[0] = &light, pairs.lit[0] = plain;
+  pairs.px[0] = &px, pairs.open[0] = plain;
   Estimates of;
   VF weight[1];
-  pairs.weigh(terms, weight);
+  pairs.weigh(lanes, weight);
   const LightTerm term = term_of(terms, px, of);
-  const uint64_t lit = mask_bits(pairs.lit[0]);
+  const uint64_t lit = mask_bits(pairs.open[0]);
   for (int c = 0; c < 3; ++c) {
-    hn::Store(pairs.estimate(0, c, weight[0]), d, of.x[c]);
+    hn::Store(pairs.estimate(lanes, 0, c, weight[0]), d, of.x[c]);
     const int window = light.bias[c] - (1 << 30) - (1 << (kBelowCode - 1));
     for (int i = 0; i < kSettledPixels; ++i)
       of.allowed[c][i] = (lit >> i & 1) != 0 && light.clear[c] != 0 ? window - 0.5 : 0.0;
@@ -148,35 +148,36 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   out.edge = 0.0;
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
-  MF open[1];
-  pairs.lit[0] = plain;
-  pairs.settle(terms, to, open);
-  check_codes(term, codes, true, plain, open[0], out);
+  pairs.open[0] = plain;
+  pairs.settle(lanes, to);
+  codes.settle(true);
+  check_codes(term, codes, plain, pairs.open[0], out);
 }
 
 template <class Root, bool kCone>
 void phong_errors(const LightTable& table, const LightModel& model, const SettledPixels& in, SettledErrors& out) {
   using Shape = CompiledShape<settled_shape<true>()>;
-  using Pairs = PhongPairs<1, Root>;
+  using Pairs = PhongPairs<1, kCone, Root>;
   const DF d;
   const LightTerms<Shape> terms(table, model, Shape());
   const PixelVector px = loaded(in);
   const MF plain = hn::And(plain_surfaces(px), plain_views(px));
   const VF facing2 = twice_facing(px);
   const LightRow& row = table.row[0];
-  const SettledSpot light =
-      settled_spot({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
+  SettledSpot light;
+  light.set({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
+  const SpotLanes lanes(light);
   Pairs pairs;
-  pairs.px[0] = &px, pairs.facing2[0] = &facing2, pairs.light[0] = &light, pairs.open[0] = plain;
+  pairs.px[0] = &px, pairs.facing2[0] = &facing2, pairs.open[0] = plain;
   Estimates of;
   typename Pairs::Weights weights;
-  pairs.template weigh<kCone>(terms, weights);
+  pairs.weigh(lanes, weights);
   const LightTerm term = term_of(terms, px, of);
   alignas(64) int32_t near[kSettledPixels];
   hn::Store(hn::ConvertTo(DI(), weights.bound[0]), DI(), near);
   const uint64_t settled = mask_bits(weights.settled[0]);
   for (int c = 0; c < 3; ++c) {
-    hn::Store(pairs.estimate(0, c, weights.weight[0]), d, of.x[c]);
+    hn::Store(pairs.estimate(lanes, 0, c, weights.weight[0]), d, of.x[c]);
     for (int i = 0; i < kSettledPixels; ++i)
       of.allowed[c][i] = (settled >> i & 1) != 0 && near[i] < 1 << (kBelowCode - 1) ? near[i] + 0.5 : 0.0;
   }
@@ -186,8 +187,9 @@ void phong_errors(const LightTable& table, const LightModel& model, const Settle
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
   pairs.open[0] = plain;
-  pairs.template settle<kCone>(terms, to);
-  check_codes(term, codes, false, plain, pairs.open[0], out);
+  pairs.settle(lanes, to);
+  codes.settle(false);
+  check_codes(term, codes, plain, pairs.open[0], out);
 }
 
 template <class Root>
