@@ -287,7 +287,7 @@ void add_to_region(const TileBlend& t, const LightTerms<Shape>& terms, const Reg
 template <class Shape>
 bool settle_region(const TileBlend& t, const LightTerms<Shape>& terms, const Region& r) {
   const DF d;
-  SettledRegion in(r);
+  SettledRegion in;
   MF strange = hn::Lt(hn::Zero(d), hn::Zero(d));
   for (size_t k = 0; k < kRegionBlockCount; ++k) {
     in.open[k] = load_block(t, terms, r, k, in.px[k]);

@@ -287,14 +287,42 @@ void settle_tile(const TileWork& in, const LightTerms<Shape>& terms, const TileR
   sum_open(in, terms);
 }
 
+/// A region's sums in the quickest way that its lights and surfaces allow. `many`: its lights are found by groups.
+template <class Shape>
+void sum_region(const Shape& shape, const TileWork& in, const LightTerms<Shape>& terms, const Region& r,
+                RegionCull cull, bool many, const BlockOrder& order) {
+  const int blocks = in.tile / kBlockSize;
+  if (many && !comes_by_pairs<Shape>()) return light_near_region(in, terms, r, cull, order);
+  if (many) {
+    in.counts.tested += find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
+    in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();
+  } else {
+    region_lights(in.work.tile, r, blocks, cull, in.work.region);
+    in.counts.tested += in.work.tile.light.size();
+  }
+  if constexpr (comes_by_pairs<Shape>()) {
+    light_region(in, terms, r, cull, order);
+  } else {
+    if constexpr (settles_window<Shape>())
+      if (settles_region(shape, in, r)) return settle_region(in, terms, r, cull, order);
+    for (int k = 0; k < int(kRegionBlockCount); ++k) {
+      if (r.covered[k] == 0) continue;
+      const int block = r.block(k, blocks);
+      const std::span<const ListedLight> list =
+          block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);
+      for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
+        light_vector(in, terms, list, i, in.counts);
+    }
+  }
+}
+
 template <class Shape>
 void light_tile_of(const Shape& shape, const TileWork& in) {
-  const int blocks = in.tile / kBlockSize;
   const bool by_bounds = sums_by_bounds(shape, in);
   TileRegions regions;
   const RegionCull cull{in.shortcuts.culling, in.shortcuts.culling && in.lights.cones,
                         in.shortcuts.culling && !adds_unlit(shape.shape)};
-  find_regions(in.surface, blocks, cull.facing || by_bounds, regions);
+  find_regions(in.surface, in.tile / kBlockSize, cull.facing || by_bounds, regions);
   if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
   const bool many = cull.distance && !in.groups.empty() && !by_bounds;
@@ -308,38 +336,8 @@ void light_tile_of(const Shape& shape, const TileWork& in) {
   }
   const BlockOrder order;
   in.work.open.clear();
-  for (int k = 0; k < regions.count && !by_bounds; ++k) {
-    const Region& r = regions.region[k];
-    if (many && !comes_by_pairs<Shape>()) {
-      light_near_region(in, terms, r, cull, order);
-      continue;
-    }
-    if (many) {
-      in.counts.tested += find_region_lights(in.lights, in.groups, r, cull, in.work.found, in.work.region);
-      in.counts.tile_pairs += uint64_t(r.pixels) * in.work.region.light.size();
-    } else {
-      region_lights(in.work.tile, r, blocks, cull, in.work.region);
-      in.counts.tested += in.work.tile.light.size();
-    }
-    if constexpr (comes_by_pairs<Shape>()) {
-      light_region(in, terms, r, cull, order);
-      continue;
-    }
-    if constexpr (settles_window<Shape>()) {
-      if (!many && settles_region(shape, in, r)) {
-        settle_region(in, terms, r, cull, order);
-        continue;
-      }
-    }
-    for (int k = 0; k < int(kRegionBlockCount); ++k) {
-      if (r.covered[k] == 0) continue;
-      const int block = r.block(k, blocks);
-      const std::span<const ListedLight> list =
-          block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);
-      for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
-        light_vector(in, terms, list, i, in.counts);
-    }
-  }
+  for (int k = 0; k < regions.count && !by_bounds; ++k)
+    sum_region(shape, in, terms, regions.region[k], cull, many, order);
   if constexpr (settles_window<Shape>()) sum_open(in, terms);
   in.counts.lit_pairs += sum_of(in.out.light_count, in.tile * in.tile);
 }

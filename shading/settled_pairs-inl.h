@@ -19,13 +19,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A region and the codes that its pixels get.
 struct SettledRegion {
-  const Region& region;
   uint16_t open[kRegionBlockCount];  ///< of each block, pixels that lights add to
   PixelVector px[kRegionBlockCount];
   VF facing2[kRegionBlockCount];  ///< of Phong terms
   SettledCodes codes[kRegionBlockCount];
-
-  explicit SettledRegion(const Region& r) : region(r) {}
 };
 
 /// Adds the codes that bounds settle; returns how many pairs are left, with the pixels whose codes are open. The pairs
