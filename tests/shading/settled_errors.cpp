@@ -221,7 +221,7 @@ TEST_CASE("Estimates of settled sums are as near to the sums as their proof says
     const SimdScope scope(simd);
     if (!settles_windows()) continue;
     for (const Hunt& hunt : kSums)
-      for (const size_t count : {1, 12})
+      for (const size_t count : {size_t{1}, size_t{12}})
         for (const RootSource root : kRoots) {
           const Worst worst = climb(random, hunt, SumErrors(count, root), 8, 1000);
           INFO(simd << ", " << hunt.name << ", lights " << count << ", root " << int(root) << ": " << worst.share
