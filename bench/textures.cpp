@@ -82,10 +82,10 @@ void draw(benchmark::State& state, Maps maps, std::string_view target) {
   for (auto _ : state) {
     const FrameStats stats = render_frame(prepared, pipeline, execution).stats;
     least.resize(stats.tile_ms.size(), 1e30);
-    for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], stats.tile_ms[i]);
-    visibility = std::min(visibility, stats.visibility_ms);
-    surfaces = std::min(surfaces, stats.surfaces_ms);
-    light = std::min(light, stats.light_ms);
+    for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], stats.tile_ms[i].sum());
+    visibility = std::min(visibility, stats.core_ms.visibility);
+    surfaces = std::min(surfaces, stats.core_ms.surfaces);
+    light = std::min(light, stats.core_ms.light);
     state.counters["covered"] = double(stats.covered_pixels);
   }
   state.counters["core ms"] = std::accumulate(least.begin(), least.end(), 0.0);
