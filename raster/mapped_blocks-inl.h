@@ -45,6 +45,13 @@ struct OneTriangle {
   const double* at;
   HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
 };
+struct TwoTriangles {
+  const double *first, *second;
+  M64 of_second;
+  HWY_INLINE V64 operator()(int k) const {
+    return hn::IfThenElse(of_second, hn::Set(D64(), second[k]), hn::Set(D64(), first[k]));
+  }
+};
 struct SeveralTriangles {
   using DI = hn::RebindToSigned<D64>;
   const double* first;
@@ -188,23 +195,34 @@ struct MappedBlocks {
     const SeveralTriangles::DI di;
     const BlockPlace where(block, blocks);
     const double* const values = mapped.triangle[0].value;
-    int64_t one[kHalves];  // triangle, or below 0
+    constexpr int64_t kNone = -1;
+    int64_t first[kHalves], second[kHalves];  // triangles, the second where there are two; none where there are more
+    M64 of_second[kHalves];
     UvPoint uv[kHalves];
     M64 owned[kHalves];
-    const auto several = [&](int h) { return SeveralTriangles{values, hn::Load(di, place + h * kHalf)}; };
+    // Values of the triangles that a vector sees: gathers are for those of more than two.
+    const auto with_triangles = [&](int h, const auto& use) {
+      if (first[h] != kNone && second[h] == kNone) return use(OneTriangle{values + first[h]});
+      if (first[h] != kNone) return use(TwoTriangles{values + first[h], values + second[h], of_second[h]});
+      return use(SeveralTriangles{values, hn::Load(di, place + h * kHalf)});
+    };
     for (int h = 0; h < kHalves; ++h) {
       const uint32_t bits = pixels >> h * kHalf & kHalfBits;
       owned[h] = lane_mask(d, bits);
-      const int64_t first = place[h * kHalf + (bits != 0 ? std::countr_zero(bits) : 0)];
-      const auto others = hn::Ne(hn::Load(di, place + h * kHalf), hn::Set(di, first));
-      one[h] = (lane_bits(di, others) & bits) == 0 ? first : -1;
-      if (one[h] >= 0)
-        set_slopes(OneTriangle{values + first}, where.column(h), where.row(h), uv[h]);
-      else
-        set_slopes(several(h), where.column(h), where.row(h), uv[h]);
+      const int64_t* const at = place + h * kHalf;
+      const auto places = hn::Load(di, at);
+      const auto beside = [&](int64_t triangle) { return hn::Ne(places, hn::Set(di, triangle)); };
+      first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], second[h] = kNone;
+      const auto others = beside(first[h]);
+      if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
+        second[h] = at[std::countr_zero(left)];
+        of_second[h] = hn::RebindMask(d, others);
+        if ((lane_bits(di, beside(second[h])) & left) != 0) first[h] = kNone;
+      }
+      with_triangles(h, [&](const auto& triangle) { set_slopes(triangle, where.column(h), where.row(h), uv[h]); });
     }
     const auto frames = [&](int h) {
-      return one[h] >= 0 ? frame_at(OneTriangle{values + one[h]}) : frame_at(several(h));
+      return with_triangles(h, [&](const auto& triangle) { return frame_at(triangle); });
     };
     apply_maps<kHalves>(in.view.maps, uv, owned, where.at, frames, out);
   }
