@@ -108,7 +108,7 @@ HWY_INLINE void map_piece(const CarefulSurface& s, const Barycentrics& w, M64 ow
     coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
                       uv.y[c]);
   }
-  apply_maps(maps, &uv, &owned, at, frames, out);
+  apply_maps(maps, &uv, &owned, &at, frames, out);
 }
 
 // The attributes of one piece at the lanes it owns; the other lanes keep what they have.

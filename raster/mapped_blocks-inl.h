@@ -45,6 +45,13 @@ struct OneTriangle {
   const double* at;
   HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
 };
+struct TwoTriangles {
+  const double *first, *second;
+  M64 of_second;
+  HWY_INLINE V64 operator()(int k) const {
+    return hn::IfThenElse(of_second, hn::Set(D64(), second[k]), hn::Set(D64(), first[k]));
+  }
+};
 struct SeveralTriangles {
   using DI = hn::RebindToSigned<D64>;
   const double* first;
@@ -80,6 +87,18 @@ HWY_INLINE TangentFrame frame_at(const Triangle& triangle) {
   return {{value(0), value(1), value(2)}, {value(3), value(4), value(5)}};
 }
 
+/// Blocks whose maps are applied at once, so that none waits for the quotients and sums of one alone.
+struct WaitingBlocks {
+  static constexpr int kBlocks = kHalves <= 2 ? 2 : 1, kVectors = kBlocks * kHalves;
+  static constexpr int64_t kNone = -1;
+  int count;
+  alignas(64) int64_t place[kBlocks * kBlockPixels];  ///< of each pixel's triangle among all values
+  int64_t first[kVectors], second[kVectors];  ///< triangles of vectors, the second where two; none where there are more
+  M64 of_second[kVectors], owned[kVectors];
+  UvPoint uv[kVectors];
+  int pixel[kVectors];  ///< the first
+};
+
 struct MappedBlocks {
   const TileDraws& in;
   const TileRect& rect;
@@ -89,8 +108,8 @@ struct MappedBlocks {
   SurfaceTile& out;
   const int blocks = rect.size / kBlockSize;  ///< a row
   MappedTriangles& mapped = mapped_scratch();
-  uint32_t listed = 0;                           ///< triangles
-  alignas(64) int64_t place[kBlockPixels] = {};  ///< of each pixel's triangle among all values
+  uint32_t listed = 0;  ///< triangles
+  WaitingBlocks waiting{};
 
   void run() {
     mapped.triangle.clear();
@@ -107,6 +126,7 @@ struct MappedBlocks {
           continue;
         }
         const int64_t at = triangle_at(run.triangle);
+        int64_t* const place = waiting.place + waiting.count * kBlockPixels;
         if (pixels == 0) std::fill_n(place, kBlockPixels, at);
         for (uint32_t bits = run.pixels; bits != 0 && pixels != 0; bits &= bits - 1) place[std::countr_zero(bits)] = at;
         pixels |= run.pixels;
@@ -121,12 +141,14 @@ struct MappedBlocks {
         const SeenTriangle triangle{seen.place[block * kBlockPixels + k], seen.corners[block * kBlockPixels + k]};
         if (!maps_of(triangle).any()) continue;
         const int64_t at = triangle_at(triangle);
+        int64_t* const place = waiting.place + waiting.count * kBlockPixels;
         if (pixels == 0) std::fill_n(place, kBlockPixels, at);
         place[k] = at;
         pixels |= 1u << k;
       }
       map_block(block, pixels);
     }
+    map_waiting();
     for (uint32_t i = 0; i < listed; ++i) seen.first_run[seen.chain[i]] = VisibleTriangles::kNoRun;
   }
 
@@ -182,31 +204,54 @@ struct MappedBlocks {
     return tangent_frame(corner);
   }
 
-  void map_block(uint16_t block, uint32_t pixels) const {
+  /// Values of the triangles that a vector sees: gathers are for those of more than two.
+  template <class Use>
+  HWY_INLINE auto with_triangles(int h, const Use& use) const {
+    const double* const values = mapped.triangle[0].value;
+    if (waiting.first[h] != WaitingBlocks::kNone && waiting.second[h] == WaitingBlocks::kNone)
+      return use(OneTriangle{values + waiting.first[h]});
+    if (waiting.first[h] != WaitingBlocks::kNone)
+      return use(TwoTriangles{values + waiting.first[h], values + waiting.second[h], waiting.of_second[h]});
+    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), waiting.place + h * kHalf)});
+  }
+
+  void map_block(uint16_t block, uint32_t pixels) {
     if (pixels == 0) return;
     const D64 d;
     const SeveralTriangles::DI di;
     const BlockPlace where(block, blocks);
-    const double* const values = mapped.triangle[0].value;
-    int64_t one[kHalves];  // triangle, or below 0
-    UvPoint uv[kHalves];
-    M64 owned[kHalves];
-    const auto several = [&](int h) { return SeveralTriangles{values, hn::Load(di, place + h * kHalf)}; };
-    for (int h = 0; h < kHalves; ++h) {
-      const uint32_t bits = pixels >> h * kHalf & kHalfBits;
-      owned[h] = lane_mask(d, bits);
-      const int64_t first = place[h * kHalf + (bits != 0 ? std::countr_zero(bits) : 0)];
-      const auto others = hn::Ne(hn::Load(di, place + h * kHalf), hn::Set(di, first));
-      one[h] = (lane_bits(di, others) & bits) == 0 ? first : -1;
-      if (one[h] >= 0)
-        set_slopes(OneTriangle{values + first}, where.column(h), where.row(h), uv[h]);
-      else
-        set_slopes(several(h), where.column(h), where.row(h), uv[h]);
+    for (int part = 0; part < kHalves; ++part) {
+      const int h = waiting.count * kHalves + part;
+      const uint32_t bits = pixels >> part * kHalf & kHalfBits;
+      waiting.owned[h] = lane_mask(d, bits);
+      waiting.pixel[h] = where.at + part * kHalf;
+      const int64_t* const at = waiting.place + h * kHalf;
+      const auto places = hn::Load(di, at);
+      const auto beside = [&](int64_t triangle) { return hn::Ne(places, hn::Set(di, triangle)); };
+      waiting.first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], waiting.second[h] = WaitingBlocks::kNone;
+      const auto others = beside(waiting.first[h]);
+      if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
+        waiting.second[h] = at[std::countr_zero(left)];
+        waiting.of_second[h] = hn::RebindMask(d, others);
+        if ((lane_bits(di, beside(waiting.second[h])) & left) != 0) waiting.first[h] = WaitingBlocks::kNone;
+      }
+      with_triangles(
+          h, [&](const auto& triangle) { set_slopes(triangle, where.column(part), where.row(part), waiting.uv[h]); });
+    }
+    if (++waiting.count == WaitingBlocks::kBlocks) map_waiting();
+  }
+
+  HWY_INLINE void map_waiting() {
+    if (waiting.count == 0) return;
+    for (int h = waiting.count * kHalves; h < WaitingBlocks::kVectors; ++h) {  // nobody's
+      waiting.owned[h] = lane_mask(D64(), 0);
+      waiting.pixel[h] = waiting.pixel[0], waiting.uv[h] = waiting.uv[0];
     }
     const auto frames = [&](int h) {
-      return one[h] >= 0 ? frame_at(OneTriangle{values + one[h]}) : frame_at(several(h));
+      return with_triangles(h, [&](const auto& triangle) { return frame_at(triangle); });
     };
-    apply_maps<kHalves>(in.view.maps, uv, owned, where.at, frames, out);
+    apply_maps<WaitingBlocks::kVectors>(in.view.maps, waiting.uv, waiting.owned, waiting.pixel, frames, out);
+    waiting.count = 0;
   }
 
   HWY_NOINLINE void map_careful(uint16_t block, SeenTriangle triangle) {

@@ -119,14 +119,13 @@ struct GatheredFrames {
   }
 };
 
-/// Lanes of one material in vectors side by side, pixel i and on: colour times texel, normal bent; the specular texel
+/// Lanes of one material in vectors, each from a pixel on: colour times texel, normal bent; the specular texel
 /// waits for the material's own colour. `frames` makes a vector's tangent frames if they are wanted. What one vector
 /// waits for the others do not.
 template <int kVectors, class Frames>
-inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Mask64* mine, int i, const Frames& frames,
-                           SurfaceTile& out) {
+inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Mask64* mine, const int* pixel,
+                           const Frames& frames, SurfaceTile& out) {
   const D32 df;
-  const int lanes = int(hn::Lanes(df));
   V32 rgba[kVectors][4];
   LookupPlaces places[kVectors];
   bool placed = false;
@@ -140,9 +139,9 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Ma
     for (int h = 0; h < kVectors; ++h) sample(texture, places[h], mine[h], rgba[h], channels);
   };
   const auto put = [&](int h, int plane, V32 there, V32 value) {
-    hn::Store(hn::IfThenElse(float_mask(mine[h]), value, there), df, out.plane[plane] + i + h * lanes);
+    hn::Store(hn::IfThenElse(float_mask(mine[h]), value, there), df, out.plane[plane] + pixel[h]);
   };
-  const auto there = [&](int h, int plane) { return hn::Load(df, out.plane[plane] + i + h * lanes); };
+  const auto there = [&](int h, int plane) { return hn::Load(df, out.plane[plane] + pixel[h]); };
   if (maps.color) {
     texels(*maps.color, kRgbaBits);
     for (int h = 0; h < kVectors; ++h)
@@ -164,9 +163,10 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Ma
   }
 }
 
-/// The lanes of `owned` at pixel i and on, whose texture coordinates are in the uv planes; of `at` the derivatives.
+/// The lanes of `owned` of vectors that begin at `pixel`, whose texture coordinates are in the uv planes; of `at` the
+/// derivatives.
 template <int kVectors = 1, class Frames>
-inline void apply_maps(const SceneMaps& maps, UvPoint* at, const Mask64* owned, int i, const Frames& frames,
+inline void apply_maps(const SceneMaps& maps, UvPoint* at, const Mask64* owned, const int* pixel, const Frames& frames,
                        SurfaceTile& out) {
   const D64 d;
   const D32 df;
@@ -174,13 +174,13 @@ inline void apply_maps(const SceneMaps& maps, UvPoint* at, const Mask64* owned, 
   V64 material[kVectors];  // of 2^31 at most
   uint32_t open = 0;
   for (int h = 0; h < kVectors; ++h) {
-    const int place = i + h * lanes;
-    for (int k = 0; k < 2; ++k) at[h].uv[k] = hn::PromoteTo(d, hn::Load(df, out.plane[kUv + k] + place));
-    material[h] = hn::PromoteTo(d, hn::Load(I32(), reinterpret_cast<const int32_t*>(out.material) + place));
+    for (int k = 0; k < 2; ++k) at[h].uv[k] = hn::PromoteTo(d, hn::Load(df, out.plane[kUv + k] + pixel[h]));
+    material[h] = hn::PromoteTo(d, hn::Load(I32(), reinterpret_cast<const int32_t*>(out.material) + pixel[h]));
     open |= lane_bits(d, owned[h]) << h * lanes;
   }
   while (open != 0) {
-    const uint32_t first = out.material[i + std::countr_zero(open)];
+    const int lane = std::countr_zero(open);
+    const uint32_t first = out.material[pixel[lane / lanes] + lane % lanes];
     Mask64 mine[kVectors];
     uint32_t here = 0;
     for (int h = 0; h < kVectors; ++h) {
@@ -188,7 +188,7 @@ inline void apply_maps(const SceneMaps& maps, UvPoint* at, const Mask64* owned, 
       here |= lane_bits(d, mine[h]) << h * lanes;
     }
     const MaterialMaps& its = maps.material[first - 1];
-    if (its.any()) apply_material<kVectors>(its, at, mine, i, frames, out);
+    if (its.any()) apply_material<kVectors>(its, at, mine, pixel, frames, out);
     open &= ~here;
   }
 }

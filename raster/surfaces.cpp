@@ -155,7 +155,7 @@ HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& vis
     coordinate_slopes(along_x, along_y, in.view.maps.uv_how, a[0], a[1], a[2], at.x[c], at.y[c]);
   }
   const M64 owned = hn::Gt(hn::Load(d, plain), hn::Zero(d));
-  apply_maps(in.view.maps, &at, &owned, i, GatheredFrames{work, i}, out);
+  apply_maps(in.view.maps, &at, &owned, &i, GatheredFrames{work, i}, out);
 }
 
 void interpolate_tile(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,

@@ -230,9 +230,10 @@ struct LookupPlaces {
 
   HWY_INLINE void set(const TextureView& texture, const MipChoice& mip, const V64 at[2], Mask64 valid) {
     const D64 d;
-    // What is read for nobody is some texel.
+    // What is read for nobody is some texel of the middle, where no neighbour lies beyond an edge.
     V64 uv[2];
-    for (size_t k = 0; k < 2; ++k) uv[k] = held_coordinate(texture.sampler.wrap[k], hn::IfThenElseZero(valid, at[k]));
+    for (size_t k = 0; k < 2; ++k)
+      uv[k] = held_coordinate(texture.sampler.wrap[k], hn::IfThenElse(valid, at[k], hn::Set(d, 0.5)));
     part = mip.part;
     of[0].set(texture, mip.level, uv, mip.linear);
     blends =

@@ -46,6 +46,7 @@ struct TexelQuadsOf {
     if (!at.blends) return;
     V64 next[4];
     filter_level(row[1], at.of[1], texture.format, mixed, next);
+#pragma GCC unroll 4
     for (int c = 0; c < 4; ++c)
       if ((mixed >> c & 1) != 0) value[c] = mix(value[c], next[c], at.part);
   }
@@ -62,6 +63,7 @@ struct TexelQuadsOf {
       return order;
     }();
     const auto apart = hn::SetTableIndices(DW(), kApart.data());
+#pragma GCC unroll 2
     for (int j = 0; j < 2; ++j)
       row[j] = hn::TableLookupLanes(hn::BitCast(DW(), words_at(du, bytes, at.offset[j])), apart);
   }
@@ -102,8 +104,10 @@ struct TexelQuadsOf {
       if (format == TextureFormat::srgb8_a8)
         linear_colors(row, color);
       else
+#pragma GCC unroll 2
         for (int j = 0; j < 2; ++j)
           color[j][0] = unorm<0>(row[j]), color[j][1] = unorm<1>(row[j]), color[j][2] = unorm<2>(row[j]);
+#pragma GCC unroll 3
       for (int c = 0; c < 3; ++c) value[c] = mixed(color[0][c], color[1][c], at);
     }
     if ((channels & 8) != 0) value[3] = mixed(unorm<3>(row[0]), unorm<3>(row[1]), at);
@@ -141,9 +145,11 @@ struct TexelQuadsOf {
                            hn::Or(hn::And(hn::ShiftRight<8>(row[0]), hn::Set(d, 0xFF)),
                                   hn::And(hn::ShiftLeft<8>(row[1]), hn::Set(d, 0xFF0000)))};
     Words half[2][3];
+#pragma GCC unroll 2
     for (int h = 0; h < 2; ++h) {
       __m512i part[8];
       for (int k = 0; k < 8; ++k) part[k] = _mm512_load_si512(kSrgbHalves[h].data() + 32 * k);
+#pragma GCC unroll 3
       for (int n = 0; n < 3; ++n) {
         const __m512i at = code[n].raw;
         const __mmask32 odd = _mm512_test_epi16_mask(at, _mm512_set1_epi16(64)),
@@ -160,6 +166,7 @@ struct TexelQuadsOf {
     const auto second = [&](int n) {
       return hn::BitCast(DF(), hn::Or(hn::ShiftRight<16>(half[0][n]), hn::AndNot(low, half[1][n])));
     };
+#pragma GCC unroll 2
     for (int j = 0; j < 2; ++j) color[j][0] = first(j), color[j][2] = second(j);
     color[0][1] = first(2), color[1][1] = second(2);
   }

@@ -90,6 +90,7 @@ inline void sample(const TextureView& texture, const LookupPlaces& at, Mask64 va
     }
   }
   // + 0: what a weight of 0 adds above, so that no lane sees what its neighbours need.
+#pragma GCC unroll 4
   for (int c = 0; c < 4; ++c)
     if ((channels >> c & 1) != 0) rgba[c] = hn::DemoteTo(D32(), hn::Add(value[c], hn::Zero(D64())));
 }
