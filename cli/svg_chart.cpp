@@ -10,7 +10,7 @@ namespace trueshade {
 namespace {
 
 constexpr int kWidth = 640, kLabelWidth = 190, kTextWidth = 150, kBarHeight = 22;
-constexpr int kPlotHeight = 220, kLeft = 56, kRight = 56, kTop = 16, kBottom = 44;
+constexpr int kPlotHeight = 230, kLeft = 56, kRight = 56, kTop = 26, kBottom = 44;
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor,
                     const char* color = "var(--text)") {
