@@ -1,20 +1,25 @@
 // What does each kernel of the geometry pass cost an item? One thread; the counter is the time of one item.
+//   clusters   a triangle of a mesh split into clusters, when a scene is loaded
 //   bounds     a cluster of which bins are made
+//   overdraw   a fragment that is counted
 //   reject     a triangle transformed and found to cover nothing: sub-pixel ones, mostly between samples
 //   small      a fragment of triangles of a few samples
 //   large      a 4x4 block of triangles over whole tiles
 //   masked     a fragment whose colour map says by its alpha whether it is drawn
 //   clipped    a 4x4 block of triangles that cross the near plane, by wide edges
 //   resolve    a pixel that sees one large triangle, or one of its own; mapped: with colour, specular and normal maps
-// `general`: by the paths that the fast ones are held against.
+// `general`: by the paths that the fast ones are held against. Names end in the SIMD target.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "raster/cluster_bins.h"
 #include "raster/clusters.h"
+#include "raster/overdraw.h"
+#include "raster/simd_target.h"
 #include "raster/surfaces.h"
 #include "raster/view.h"
 #include "raster/visibility.h"
@@ -117,6 +122,20 @@ void bounds(benchmark::State& state) {
   time(state, double(tile.clusters.meshes[0].clusters.size()), [&] { tile.bin(); });
 }
 
+void made(benchmark::State& state) {
+  const Scene scene = grid_scene(300, Grid::plain);
+  time(state, double(scene.triangle_count()),
+       [&] { benchmark::DoNotOptimize(cluster_scene(scene).meshes[0].clusters.data()); });
+}
+
+void overdraw(benchmark::State& state) {
+  OneTile tile(48);
+  std::vector<uint32_t> counts(kSize * kSize);
+  time(state, kSize * kSize, [&] {
+    count_fragments(tile.draws(true), {0, 0, kSize, {0, 0, kSize, kSize}}, counts.data());
+  });
+}
+
 void reject(benchmark::State& state, bool fast) {
   OneTile tile(600);  // 720,000 triangles for 4,096 samples
   time(state, double(tile.scene.triangle_count()), [&] { tile.draw(fast); });
@@ -146,20 +165,28 @@ void resolve(benchmark::State& state, int side, Grid kind, bool fast) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("bounds, a cluster", bounds);
-  for (const bool fast : {true, false}) {
-    const std::string how = fast ? "" : " (general)";
-    benchmark::RegisterBenchmark(("reject, a triangle" + how).c_str(), [=](auto& s) { reject(s, fast); });
-    benchmark::RegisterBenchmark(("small, a fragment" + how).c_str(), [=](auto& s) { small(s, fast); });
-    benchmark::RegisterBenchmark(("large, a block" + how).c_str(), [=](auto& s) { large(s, Grid::plain, fast); });
-    benchmark::RegisterBenchmark(("clipped, a block" + how).c_str(), [=](auto& s) { large(s, Grid::clipped, fast); });
-    benchmark::RegisterBenchmark(("masked, a fragment" + how).c_str(), [=](auto& s) { masked(s, fast); });
-    benchmark::RegisterBenchmark(("resolve large, a pixel" + how).c_str(),
-                                 [=](auto& s) { resolve(s, 4, Grid::plain, fast); });
-    benchmark::RegisterBenchmark(("resolve small, a pixel" + how).c_str(),
-                                 [=](auto& s) { resolve(s, 64, Grid::plain, fast); });
-    benchmark::RegisterBenchmark(("resolve mapped, a pixel" + how).c_str(),
-                                 [=](auto& s) { resolve(s, 4, Grid::mapped, fast); });
+  const auto row = [](const std::string& name, auto run) { benchmark::RegisterBenchmark(name.c_str(), run); };
+  row("clusters, a triangle", made);
+  for (const std::string_view target : simd_targets()) {
+    const auto on = [&](const std::string& name, auto run) {
+      row(name + ' ' + std::string(target), [=](benchmark::State& s) {
+        const SimdScope simd(target);
+        run(s);
+      });
+    };
+    on("bounds, a cluster", bounds);
+    on("overdraw, a fragment", overdraw);
+    for (const bool fast : {true, false}) {
+      const std::string how = fast ? "" : " (general)";
+      on("reject, a triangle" + how, [=](auto& s) { reject(s, fast); });
+      on("small, a fragment" + how, [=](auto& s) { small(s, fast); });
+      on("large, a block" + how, [=](auto& s) { large(s, Grid::plain, fast); });
+      on("clipped, a block" + how, [=](auto& s) { large(s, Grid::clipped, fast); });
+      on("masked, a fragment" + how, [=](auto& s) { masked(s, fast); });
+      on("resolve large, a pixel" + how, [=](auto& s) { resolve(s, 4, Grid::plain, fast); });
+      on("resolve small, a pixel" + how, [=](auto& s) { resolve(s, 64, Grid::plain, fast); });
+      on("resolve mapped, a pixel" + how, [=](auto& s) { resolve(s, 4, Grid::mapped, fast); });
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -5,6 +5,7 @@
 //   left out        a pixel-light of lights that reach the tile's box and face away
 //   lists           a light of 100,000 that are looked up for a tile of 16 regions, most of which reach none
 //   blend           a pixel of a light draw by target format: ONE + ONE, and one of general factors
+//   store           a pixel of a tile into the image, rounded or as blending left it
 //   table, groups, outlines   a light, before the tiles
 //   lookup          a texture lookup, by filter and format
 //   power           x^p of an exponent that is no integer
@@ -25,6 +26,8 @@
 #include "shading/light_pass.h"
 #include "shading/post.h"
 #include "shading/power.h"
+#include "shading/target.h"
+#include "shading/transparent_blend.h"
 
 using namespace trueshade;
 
@@ -141,6 +144,22 @@ void blend(benchmark::State& state, Format format, const BlendState& blending, s
   per_item(state, kPixels, [&] { blend_pixels(blending, {format}, from, to, kPixels); });
 }
 
+void store(benchmark::State& state, Format format, bool as_is, std::string_view target) {
+  const SimdScope simd(target);
+  auto color = std::make_unique<ColorTile>();
+  for (auto& plane : color->plane)
+    for (int i = 0; i < kPixels; ++i) plane[i] = float(i % 97) / 97.0f;
+  Image image(kTile, kTile, format);
+  const TileRect all{0, 0, kTile, {0, 0, kTile, kTile}};
+  if (as_is) encode_colors({format}, kPixels, *color);
+  per_item(state, kPixels, [&] {
+    if (as_is)
+      write_stored(*color, all, image);
+    else
+      store_target(*color, all, HalfRound::toward_zero, image);
+  });
+}
+
 void prepare(benchmark::State& state, const std::string& what) {
   constexpr int kMany = 20000;
   LitTile tile(presets()[0], Strategy::deferred_volumes, lights_at(4.0f, kMany));
@@ -224,6 +243,8 @@ void register_target(std::string_view target) {
   general.rgb.src = BlendFactor::src_alpha, general.rgb.dst = BlendFactor::one_minus_src_alpha;
   for (const Format format : kTargetFormats) {
     const std::string of = std::string(info(format).name) + on;
+    row("store, a pixel " + of, [=](auto& s) { store(s, format, false, target); });
+    row("store as blended, a pixel " + of, [=](auto& s) { store(s, format, true, target); });
     row("blend, a pixel " + of, [=](auto& s) { blend(s, format, kAddLight, target); });
     row("blend by alpha, a pixel " + of, [=](auto& s) { blend(s, format, general, target); });
   }
