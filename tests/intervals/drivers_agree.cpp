@@ -63,8 +63,8 @@ bool other_surface(PixelClass c) {
 }  // namespace
 
 // Do nothing unless drawn_elsewhere() starts them; [long] keeps them out of the list of tests.
-TEST_CASE("drawer: row 62 by llvmpipe", "[.][long]") { draw_and_hand_over(GlDriver::llvmpipe); }
-TEST_CASE("drawer: row 62 by softpipe", "[.][long]") { draw_and_hand_over(GlDriver::softpipe); }
+TEST_CASE("drawer: row 62 by llvmpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::llvmpipe); }
+TEST_CASE("drawer: row 62 by softpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::softpipe); }
 
 TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained") {
   const Scene scene = crowded_scene();

@@ -89,4 +89,4 @@ void judge_cases(GlDriver which, std::initializer_list<int> counts) {
 TEST_CASE("Row 57: what llvmpipe lights is within a fifth of the bound") { judge_cases(GlDriver::llvmpipe, {1, 8, 64}); }
 TEST_CASE("Row 57: what softpipe lights is within a fifth of the bound") { judge_cases(GlDriver::softpipe, {1, 8}); }
 TEST_CASE("Row 57: what llvmpipe lights with 256 lights is too", "[long]") { judge_cases(GlDriver::llvmpipe, {256}); }
-TEST_CASE("Row 57: what softpipe lights with 64 and 256 lights is too", "[long][softpipe-long]") { judge_cases(GlDriver::softpipe, {64, 256}); }
+TEST_CASE("Row 57: what softpipe lights with 64 and 256 lights is too", "[long]") { judge_cases(GlDriver::softpipe, {64, 256}); }
