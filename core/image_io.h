@@ -24,8 +24,8 @@ void write_image(const std::string& path, const Image& color, std::span<const Na
 /// The bytes write_image would write to a .png.
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata);
 
-/// Writes bytes to `path` whole or not at all (temporary, fsync, rename); what a link leads to is written, not the link.
-/// Devices and pipes get the bytes. Error(io); also for folders and whatever else is neither.
+/// Writes bytes to `path` whole or not at all (temporary, fsync, rename); what a link leads to is written, not the
+/// link. Devices and pipes get the bytes. Error(io); also for folders and whatever else is neither.
 void write_file(const std::string& path, std::span<const uint8_t> bytes);
 
 /// Error(io) where write_file() could not begin, so that hours of work do not end in a file that was never there.

@@ -132,9 +132,8 @@ struct PlaneLayout {
   std::string_view name;
   int least, most;
 };
-constexpr PlaneLayout kPlanes[] = {{"color", 3, 4},     {"depth", 1, 1},       {"position", 3, 3},
-                                   {"normal", 3, 3},    {"albedo", 3, 4},      {"specular", 3, 4},
-                                   {"emission", 3, 4},  {"uv", 2, 2},
+constexpr PlaneLayout kPlanes[] = {{"color", 3, 4},     {"depth", 1, 1},       {"position", 3, 3},   {"normal", 3, 3},
+                                   {"albedo", 3, 4},    {"specular", 3, 4},    {"emission", 3, 4},   {"uv", 2, 2},
                                    {"id.object", 1, 1}, {"id.material", 1, 1}, {"light.count", 1, 1}};
 
 Format format_of(const std::string& path, const std::string& channel, OIIO::TypeDesc type, int components,

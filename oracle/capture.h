@@ -9,8 +9,9 @@
 
 namespace trueshade::oracle {
 
-/// What a renderer drew, from wherever it came: a real driver on this machine, a file captured elsewhere, our own frame,
-/// or a mutant made to be rejected. Images have rows top first, values as they read back from the stored formats.
+/// What a renderer drew, from wherever it came: a real driver on this machine, a file captured elsewhere, our own
+/// frame, or a mutant made to be rejected. Images have rows top first, values as they read back from the stored
+/// formats.
 struct Capture {
   std::string driver;              ///< vendor, renderer and version in one line
   Image color;                     ///< the target; empty if none was captured
@@ -29,8 +30,8 @@ struct Capture {
 /// draw before the lights left it (forward-multipass without lights: as its one draw left it).
 using StepSink = std::function<void(int light, const Image& target)>;
 
-/// Draws the lights of a capture again and shows the target after each, in order. The same of surfaces transparent after
-/// the lights, by instance.
+/// Draws the lights of a capture again and shows the target after each, in order. The same of surfaces transparent
+/// after the lights, by instance.
 using LightSteps = std::function<void(const StepSink&)>;
 
 }  // namespace trueshade::oracle

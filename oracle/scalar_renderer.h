@@ -51,7 +51,8 @@ struct ScalarFrame {
   const std::vector<Fragment>& at(int x, int y) const { return fragments[size_t(y) * size_t(width) + size_t(x)]; }
 };
 
-/// Rasterises every triangle; fragments the alpha test drops are left out. Memory is a fragment a covered sample: for scenes of some 10^5 triangle-pixels.
+/// Rasterises every triangle; fragments the alpha test drops are left out. Memory is a fragment a covered sample: for
+/// scenes of some 10^5 triangle-pixels.
 ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline);
 
 /// Which fragment is seen.

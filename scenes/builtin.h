@@ -15,7 +15,8 @@ struct BuiltinInfo {
 
 std::span<const BuiltinInfo> builtin_scenes();
 
-/// `NAME[,key=value...]`, keys lights, seed, objects, glass=0|1, radius=overlap|constant. Generated from the seed by integers and
+/// `NAME[,key=value...]`, keys lights, seed, objects, glass=0|1, radius=overlap|constant. Generated from the seed by
+/// integers and
 /// + - * / sqrt alone: the same bits on every CPU. Error(bad_input) for an unknown name, key or value; Error(limit).
 Scene builtin_scene(std::string_view spec, const SceneLimits& limits = {});
 

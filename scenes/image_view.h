@@ -22,8 +22,8 @@ enum class ImageView : uint8_t {
 };
 
 /// Spelling on the command line and in JSON, in the order of the values.
-inline constexpr std::string_view kViewNames[] = {"lit",        "albedo",        "specular",    "depth",
-                                                  "normal",     "position",      "uv",          "light-count",
+inline constexpr std::string_view kViewNames[] = {"lit",        "albedo",      "specular",    "depth",
+                                                  "normal",     "position",    "uv",          "light-count",
                                                   "light-tile", "light-boxes", "light-edges", "overdraw"};
 
 constexpr std::optional<ImageView> view_from_name(std::string_view name) {

@@ -24,8 +24,8 @@ Mesh cube_mesh();
 /// Unit square in the plane y = 0, centred, facing up, of `quads` x `quads` quads.
 Mesh plane_mesh(int quads);
 
-/// Gives a mesh of side 1 with flat, axis-aligned normals texture coordinates from 0 to 1 over each face, v up (on faces
-/// up and down towards -z), u to the right as seen from outside (from above on both).
+/// Gives a mesh of side 1 with flat, axis-aligned normals texture coordinates from 0 to 1 over each face, v up (on
+/// faces up and down towards -z), u to the right as seen from outside (from above on both).
 void add_face_uv(Mesh& mesh);
 
 /// Unit sphere: an octahedron whose faces have `n` edges a side; 8 n^2 triangles, 4 n^2 + 2 vertices, closed.

@@ -3,7 +3,8 @@
 #include <glm/vec3.hpp>
 
 // Angles and unit vectors by IEEE operations alone: libm's sin and cos differ between processors of one machine type,
-// and a scene made with them would have one hash per library. docs/arithmetic.md, section 1; tests/scenes/camera_and_trig.cpp.
+// and a scene made with them would have one hash per library. docs/arithmetic.md, section 1;
+// tests/scenes/camera_and_trig.cpp.
 namespace trueshade {
 
 inline constexpr double kPi = 3.14159265358979323846;

@@ -54,7 +54,8 @@ class TileSlabs {
 
 /// Whether a light adds nothing to a surface that faces away from it.
 bool lights_faces_alone(const LightModel& m) {
-  return m.diffuse == Diffuse::clamped && m.order != TermOrder::with_ambient && (m.specular == Specular::none || m.specular_masked);
+  return m.diffuse == Diffuse::clamped && m.order != TermOrder::with_ambient &&
+         (m.specular == Specular::none || m.specular_masked);
 }
 
 /// Lights of each tile, ascending.
@@ -90,7 +91,8 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
         const TileSurface& surface = surfaces[tile];
         if (surface.low > surface.high) continue;
         const bool reaches = depths[tile][0].distance(light.position) > -radius &&
-                             depths[tile][1].distance(light.position) > -radius && surface.within(light.position, radius);
+                             depths[tile][1].distance(light.position) > -radius &&
+                             surface.within(light.position, radius);
         if (reaches || !bounded) {
           const bool placed = light.type >= LightType::point;
           if (!faces_alone || !placed || surface.faces(light.position)) out[tile].push_back(i);

@@ -152,7 +152,8 @@ class LightPass {
   void show(int light, GLuint framebuffer) const { show(draw_.after_light, light, framebuffer); }
   void show(const StepSink& sink, int step, GLuint framebuffer) const {
     if (!sink) return;
-    sink(step, read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width, pipeline_.height));
+    sink(step,
+         read_texture(t_.color, pipeline_.target, draw_.shift_x, draw_.shift_y, pipeline_.width, pipeline_.height));
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   }
 

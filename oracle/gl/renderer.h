@@ -39,8 +39,8 @@ class SceneBuffers;
 struct Targets;
 struct Programs;
 
-/// Compiled shaders by their text, for renderers of one context one after the other: a driver takes longer to compile than to draw
-/// a small frame. To be freed before the context, on its thread.
+/// Compiled shaders by their text, for renderers of one context one after the other: a driver takes longer to compile
+/// than to draw a small frame. To be freed before the context, on its thread.
 class KeptPrograms {
  public:
   KeptPrograms();
@@ -56,7 +56,8 @@ class KeptPrograms {
 class GlRenderer {
  public:
   /// `rotation`: 0, 1 or 2, the vertex each triangle starts with. Changes what a flat attribute follows, nothing else.
-  /// `kept`: programs of other renderers, to which this one's are added; without it those of the last frame alone are kept.
+  /// `kept`: programs of other renderers, to which this one's are added; without it those of the last frame alone are
+  /// kept.
   GlRenderer(const GlContext& context, const Scene& scene, int rotation = 0, KeptPrograms* kept = nullptr);
   ~GlRenderer();
 
@@ -72,7 +73,7 @@ class GlRenderer {
  private:
   const GlContext* context_;
   std::unique_ptr<SceneBuffers> buffers_;
-  std::unique_ptr<Targets> targets_;    ///< of the last frame, kept while size and formats stay
+  std::unique_ptr<Targets> targets_;  ///< of the last frame, kept while size and formats stay
   KeptPrograms own_;
   KeptPrograms* kept_;  ///< null: own_
   bool rgb16f_, primitive_ids_;

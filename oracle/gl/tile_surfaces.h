@@ -12,10 +12,10 @@ namespace trueshade::oracle {
 
 /// What a tile shows, from what its pixels hold: where lights must be to reach it, and on which side.
 struct TileSurface {
-  float low = 2, high = -1;          ///< least and greatest depth; low > high: the tile shows nothing
-  std::array<double, 3> center{};    ///< world: a sphere about the tile's part of the view between those depths
+  float low = 2, high = -1;        ///< least and greatest depth; low > high: the tile shows nothing
+  std::array<double, 3> center{};  ///< world: a sphere about the tile's part of the view between those depths
   double radius = 0;
-  std::array<double, 3> axis{};      ///< every normal is within acos(cosine) of it
+  std::array<double, 3> axis{};  ///< every normal is within acos(cosine) of it
   double cosine = -1;
 
   /// False where nothing in the sphere is within `reach` of the light.

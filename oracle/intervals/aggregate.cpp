@@ -23,8 +23,10 @@ double clustered_variance(const std::vector<Item>& sorted, const Same& same) {
 
 AggregateTest other_surfaces(const StageVerdict& v) {
   std::vector<SurfaceChoice> choices = v.surface_choices;
-  std::sort(choices.begin(), choices.end(), [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface < b.surface; });
-  const double variance = clustered_variance(choices, [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface == b.surface; });
+  std::sort(choices.begin(), choices.end(),
+            [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface < b.surface; });
+  const double variance = clustered_variance(
+      choices, [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface == b.surface; });
   return {"other surfaces", double(v.explained()), v.predicted_other, std::sqrt(variance + 1), true};
 }
 
@@ -56,8 +58,10 @@ AggregateTest clusters(const StageVerdict& v) {
 
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
   std::vector<StoreChoice> choices = v.choices;
-  std::sort(choices.begin(), choices.end(), [](const StoreChoice& a, const StoreChoice& b) { return a.value < b.value; });
-  const double sigma = std::sqrt(clustered_variance(choices, [](const StoreChoice& a, const StoreChoice& b) { return a.value == b.value; }) + 1);
+  std::sort(choices.begin(), choices.end(),
+            [](const StoreChoice& a, const StoreChoice& b) { return a.value < b.value; });
+  const double sigma = std::sqrt(
+      clustered_variance(choices, [](const StoreChoice& a, const StoreChoice& b) { return a.value == b.value; }) + 1);
   double second = 0, expected = 0, bias = 0, expected_bias = 0;
   for (const StoreChoice& c : choices) {
     second += c.taken != 0 ? 1 : 0;
@@ -67,7 +71,10 @@ std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
   }
   // Chances are upper bounds: the true drift lies between none and the predicted one.
   const double drift = std::clamp(bias, std::min(0.0, expected_bias), std::max(0.0, expected_bias));
-  std::vector<AggregateTest> tests = {other_surfaces(v), {"second neighbours", second, expected, sigma, true}, {"store bias", bias, drift, sigma, false}, clusters(v)};
+  std::vector<AggregateTest> tests = {other_surfaces(v),
+                                      {"second neighbours", second, expected, sigma, true},
+                                      {"store bias", bias, drift, sigma, false},
+                                      clusters(v)};
   for (size_t i = 1; i < tests.size(); ++i) tests[i].tested = v.stores_apart;
   return tests;
 }

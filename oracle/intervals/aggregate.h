@@ -15,11 +15,14 @@ struct AggregateTest {
   bool one_sided = true;  ///< expectations are upper bounds: errors are taken to fill their whole interval
   bool tested = true;     ///< false: the stage leaves nothing to count
   double deviation() const { return (observed - expected) / sigma; }
-  bool passes() const { return !tested || (one_sided ? deviation() : deviation() < 0 ? -deviation() : deviation()) <= 6; }
+  bool passes() const {
+    return !tested || (one_sided ? deviation() : deviation() < 0 ? -deviation() : deviation()) <= 6;
+  }
 };
 
 /// Four tests a stage:
-///   other surfaces     pixels that show another than the nominal surface or branch; pixels of one triangle move together,
+///   other surfaces     pixels that show another than the nominal surface or branch; pixels of one triangle move
+///   together,
 ///                      so sigma^2 = sum over triangles of (sum p)^2 + 1
 ///   second neighbours  channels stored as another than the nominal neighbour; equal values are one choice, so
 ///                      sigma^2 = sum over values of (n p)^2 + 1

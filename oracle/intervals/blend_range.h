@@ -26,7 +26,8 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
                     const Texel& stored);
 
 /// What the nominal rule, float32 rounded once to the likelier neighbour, leaves, for the tests of the whole image:
-/// its second_chance is a bound of how often a driver of that rule stores another. Profiles that state their blend: theirs.
+/// its second_chance is a bound of how often a driver of that rule stores another. Profiles that state their blend:
+/// theirs.
 Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                    const Texel& stored);
 

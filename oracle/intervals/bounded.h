@@ -10,11 +10,11 @@ namespace trueshade::oracle {
 /// Relative errors of one arithmetic's operations. GLSL 4.60, 4.7.1: + - * are correctly rounded, the rounding mode
 /// undefined, hence one ulp = 2^-23; a / b 2.5 ulp; inversesqrt 2 ulp; sqrt is 1 / inversesqrt.
 struct Arithmetic {
-  double roundoff = 0x1p-23;           ///< of + - *
+  double roundoff = 0x1p-23;  ///< of + - *
   double divide = 2.5 * 0x1p-23;
   double inverse_sqrt = 2 * 0x1p-23;
   double square_root = 4.5 * 0x1p-23;
-  bool exact_pow = false;              ///< powered in double and rounded once (docs/arithmetic.md section 9)
+  bool exact_pow = false;  ///< powered in double and rounded once (docs/arithmetic.md section 9)
 };
 
 /// Below this a float may have been flushed to zero: 2^-126.
@@ -40,8 +40,8 @@ inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& 
   return rounded(x.value - y.value, x.error + y.error, a.roundoff);
 }
 inline Bounded product(const Arithmetic& a, const Bounded& x, const Bounded& y) {
-  return rounded(x.value * y.value,
-                 std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error, a.roundoff);
+  return rounded(x.value * y.value, std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error,
+                 a.roundoff);
 }
 
 /// x / y: |x/y - (x+dx)/(y+dy)| <= (dx + |x/y| dy) / (|y| - dy). Infinite error where y may be 0.
@@ -80,12 +80,11 @@ inline Bounded square_root(const Arithmetic& a, const Bounded& x) {
 }
 
 /// max(x, 0): does not round, never moves values apart.
-inline Bounded positive(const Bounded& x) {
-  return x.value > 0 ? x : Bounded{0, std::max(0.0, x.high())};
-}
+inline Bounded positive(const Bounded& x) { return x.value > 0 ? x : Bounded{0, std::max(0.0, x.high())}; }
 
-/// x^s for 0 <= low <= x <= high, s >= 0, as exp2(s * log2 x) may be computed. log2 errs by 3 ulp outside [0.5, 2], by 2^-21 inside;
-/// the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one rounding.
+/// x^s for 0 <= low <= x <= high, s >= 0, as exp2(s * log2 x) may be computed. log2 errs by 3 ulp outside [0.5, 2], by
+/// 2^-21 inside; the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one
+/// rounding.
 Bounded power(const Arithmetic& a, double low, double x, double high, double s);
 
 }  // namespace trueshade::oracle

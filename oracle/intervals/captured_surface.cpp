@@ -34,9 +34,11 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
 PlaneView CapturedSurface::required(const Capture& capture, std::string_view name) const {
   const PlaneView view = plane_of(capture, pipeline_, name);
   if (!view)
-    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name), "is missing", "the lighting of the picture is judged from it");
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name), "is missing",
+                "the lighting of the picture is judged from it");
   if (name == "specular" && view.channels < 4)
-    throw Error(ErrorKind::bad_input, capture.name + ": plane specular", "has no shininess", "capture it as specular.A");
+    throw Error(ErrorKind::bad_input, capture.name + ": plane specular", "has no shininess",
+                "capture it as specular.A");
   return view;
 }
 
@@ -56,8 +58,8 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
   ShadedSurface s;
   for (int k = 0; k < 3; ++k) {
     if (position_) s.position[size_t(k)] = {position_.stored(x, y, k), 0};
-    s.normal[size_t(k)] = normal_.unorm() ? doubled_normal(fetched(normal_, x, y, k), profile_.arithmetic)
-                                          : fetched(normal_, x, y, k);
+    s.normal[size_t(k)] =
+        normal_.unorm() ? doubled_normal(fetched(normal_, x, y, k), profile_.arithmetic) : fetched(normal_, x, y, k);
   }
   for (int k = 0; k < 4; ++k) s.albedo[size_t(k)] = k < albedo_.channels ? fetched(albedo_, x, y, k) : Bounded{1, 0};
   for (int k = 0; k < 3; ++k) {

@@ -35,8 +35,8 @@ class CapturedSurface {
   Matrix4 world_from_clip_{};
 };
 
-/// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not the
-/// difference is rounded once.
+/// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not
+/// the difference is rounded once.
 Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic);
 
 /// A colour of the lights as the fragment outputs it: clamped where the model says so.

@@ -18,10 +18,10 @@ struct Inference {
   std::optional<int> subpixel_bits;  ///< nothing where no grid explains the image
   std::optional<SnapRule> snap;
   std::optional<PlaneOrigin> plane_origin;  ///< either: both explain the image
-  std::optional<HalfStore> half;     ///< nothing where no half was stored; either: both explain it
-  std::optional<double> unorm_reach; ///< 0.5, 0.6 or 1; nothing where no unorm was stored, or none explains it
-  std::string known_as;              ///< the named profile, tightest first, that explains the image; empty if none
-  Profile tightest;                  ///< all of it together
+  std::optional<HalfStore> half;            ///< nothing where no half was stored; either: both explain it
+  std::optional<double> unorm_reach;        ///< 0.5, 0.6 or 1; nothing where no unorm was stored, or none explains it
+  std::string known_as;  ///< the named profile, tightest first, that explains the image; empty if none
+  Profile tightest;      ///< all of it together
   std::vector<Hypothesis> tried;
 };
 

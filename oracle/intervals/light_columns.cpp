@@ -16,7 +16,8 @@ ErrorChain chain_at(const Arithmetic& a, double k) {
   c.root = c.eta / 2 * (1 + 2 * c.eta) * (1 + i) + i;
   c.direction = (c.root + v * (1 + c.root)) * (1 + v) + v;
   c.distance = c.eta * (1 + q) + q;
-  // k1 d is rounded once, as a part of two sums and again of the larger partial sum; k2 d d twice, and as part of one sum.
+  // k1 d is rounded once, as a part of two sums and again of the larger partial sum; k2 d d twice, and as part of one
+  // sum.
   const double product = c.distance * (1 + v) + v;
   const double both = (product + c.distance + product * c.distance) * (1 + v) + v;
   c.linear = product + 3 * v * (1 + product) * (1 + 4 * v);
@@ -26,7 +27,8 @@ ErrorChain chain_at(const Arithmetic& a, double k) {
 
 }  // namespace
 
-void LightColumns::add(const glm::vec3& at, const glm::vec3& rgb, float damping, float reach, const glm::vec3& attenuation, uint32_t which) {
+void LightColumns::add(const glm::vec3& at, const glm::vec3& rgb, float damping, float reach,
+                       const glm::vec3& attenuation, uint32_t which) {
   for (size_t k = 0; k < 3; ++k) {
     position[k].push_back(double(at[int(k)]));
     color[k].push_back(double(rgb[int(k)]) * double(damping));
@@ -38,7 +40,8 @@ void LightColumns::add(const glm::vec3& at, const glm::vec3& rgb, float damping,
 }
 
 void LightColumns::pad() {
-  for (std::vector<double>* plane : {&position[0], &position[1], &position[2], &color[0], &color[1], &color[2], &range, &k0, &k1, &k2})
+  for (std::vector<double>* plane :
+       {&position[0], &position[1], &position[2], &color[0], &color[1], &color[2], &range, &k0, &k1, &k2})
     plane->resize(whole_vectors(count), 1.0);
 }
 
@@ -57,7 +60,7 @@ void LightColumns::take(const LightColumns& from, std::span<const uint32_t> plac
 LaneModel::LaneModel(const LightModel& light_model, const Arithmetic& a, bool ends, bool unlit)
     : model(light_model), arithmetic(a), extents(ends), adds_unlit(unlit), start(chain_at(a, 0)) {
   const ErrorChain end = chain_at(a, kLargestRatio);
-  const auto rise = [&](double ErrorChain::* error) { return (end.*error - start.*error) / kLargestRatio * kOurs; };
+  const auto rise = [&](double ErrorChain::*error) { return (end.*error - start.*error) / kLargestRatio * kOurs; };
   slope = {rise(&ErrorChain::eta),      rise(&ErrorChain::root),   rise(&ErrorChain::direction),
            rise(&ErrorChain::distance), rise(&ErrorChain::linear), rise(&ErrorChain::square)};
   constant = 4 * a.roundoff * (1 + 0x1p-16);  // k0: in two sums, and twice in the larger partial sums

@@ -21,13 +21,13 @@ struct FragmentCount {
 /// The mesh of one light in the window. Each count from least to most is legal, but that edges walked once each way
 /// between triangles of one facing hold together (GL 4.6 core, 14.6.1: exactly one has the sample).
 ///
-/// A triangle that reaches behind the eye has no window vertices there, and close to the eye's plane none worth the name.
-/// Under depth clamp nothing but w > 0 cuts it, at a place of the driver's choosing: the sides of the view, or a guard
-/// band beyond them, of 2^15 pixels at most as D3D11.3's 16.8 window coordinates have it (3.2.4.1). Wherever it is cut,
-/// its edges stay on the lines through their clip coordinates: E(p) = (a x b) . p in homogeneous window coordinates,
-/// inside where all three have the sign of the determinant (Olano and Greer, "Triangle Scan Conversion using 2D
-/// Homogeneous Coordinates", 1997). Snapped or cut ends lie within e of the line on either axis, e = 2^-b / 2 +
-/// 2^-23 (3 2^15) and the float error of an end that is seen, which moves E by no more than (|alpha| + |beta|) e; an
+/// A triangle that reaches behind the eye has no window vertices there, and close to the eye's plane none worth the
+/// name. Under depth clamp nothing but w > 0 cuts it, at a place of the driver's choosing: the sides of the view, or a
+/// guard band beyond them, of 2^15 pixels at most as D3D11.3's 16.8 window coordinates have it (3.2.4.1). Wherever it
+/// is cut, its edges stay on the lines through their clip coordinates: E(p) = (a x b) . p in homogeneous window
+/// coordinates, inside where all three have the sign of the determinant (Olano and Greer, "Triangle Scan Conversion
+/// using 2D Homogeneous Coordinates", 1997). Snapped or cut ends lie within e of the line on either axis, e = 2^-b / 2
+/// + 2^-23 (3 2^15) and the float error of an end that is seen, which moves E by no more than (|alpha| + |beta|) e; an
 /// error d of clip coordinates by |p x a| . d.
 class LightOutline {
  public:

@@ -52,18 +52,19 @@ HWY_INLINE V dot(const V x[3], const double w[3]) {
 /// What of a pixel the lights share.
 struct Pixel {
   double position[3], normal[3], view[3];
-  double normal_size[3];    ///< |n| + its error
-  double normal_error[3];   ///< of a product with n: (1 + 3 v) error + 3 v |n|
-  double view_error[3];     ///< (1 + v) error
+  double normal_size[3];   ///< |n| + its error
+  double normal_error[3];  ///< of a product with n: (1 + 3 v) error + 3 v |n|
+  double view_error[3];    ///< (1 + v) error
   double position_error[3], position_norm = 0, position_most = 0;
   double moved_normal = 0;  ///< sum of normal_size times position_error
-  double value[2][3], size[2][3], error[2][3];  ///< diffuse and specular: value; |value| + error; error and two products
+  double value[2][3], size[2][3],
+      error[2][3];  ///< diffuse and specular: value; |value| + error; error and two products
 };
 
 /// Of a light in the lane.
 struct Lane {
   V direction[3], distance, d2, inverse, ratio;  ///< ratio: k
-  V direction_error, moved;  ///< a, b
+  V direction_error, moved;                      ///< a, b
   Both n_l;
 };
 
@@ -134,7 +135,8 @@ HWY_INLINE V powered(V x, int s) {
   }
 }
 
-/// power() of bounded.h for t = s r < 1/2, |ln x| from above by its neighbours: for p in [low, 1] |ln p| <= (1/p - p) / 2
+/// power() of bounded.h for t = s r < 1/2, |ln x| from above by its neighbours: for p in [low, 1] |ln p| <= (1/p - p) /
+/// 2
 /// <= (1/low - low) / 2, for p in [1, high] ln p <= high - 1; and expm1(q) <= q + q^2 for q <= 1. Others are `left`.
 HWY_INLINE Both power(const Arithmetic& a, V low, V x, V high, int s, M& left) {
   const D d;
@@ -170,7 +172,8 @@ HWY_INLINE Both specular_at(const LaneModel& m, const Pixel& px, const Lane& lan
   for (int k = 0; k < 3; ++k) {
     h[k] = plus(lane.direction[k], px.view[k]);
     size[k] = hn::Abs(h[k]);
-    const V of_l = plus(times(hn::Abs(lane.direction[k]), lane.direction_error), times(lane.moved, px.position_error[k]));
+    const V of_l =
+        plus(times(hn::Abs(lane.direction[k]), lane.direction_error), times(lane.moved, px.position_error[k]));
     error[k] = plus(plus(times(of_l, 1 + v), px.view_error[k] + kFlushed), times(size[k], v));
   }
   const V h2 = plus(plus(times(h[0], h[0]), times(h[1], h[1])), times(h[2], h[2]));
@@ -213,7 +216,8 @@ HWY_INLINE Lane lane_of(const V offset[3], V d2, const LaneModel& m, const Pixel
   lane.ratio = lane.moved = hn::Zero(D());
   if (px.position_norm > 0) {
     const V all_of_it = times(lane.inverse, px.position_norm);
-    lane.ratio = plus(times(dot(size, px.position_error), lane.inverse), times(all_of_it, plus(times(all_of_it, 0.5 + 2 * v), v)));
+    lane.ratio = plus(times(dot(size, px.position_error), lane.inverse),
+                      times(all_of_it, plus(times(all_of_it, 0.5 + 2 * v), v)));
     lane.ratio = hn::IfThenElse(hn::Le(all_of_it, all(kLargestRatio / 2)), lane.ratio, all(1));
     lane.moved = times(lane.inverse, (1 + 4 * v) * (1 + 0x1p-5));  // rho <= 1/32 where k <= 1/64
   }
@@ -228,9 +232,9 @@ struct Sums {
   V value[3], error[3], magnitude[3];
 };
 
-/// (diffuse N.L + specular power) colour strength: two roundings for the sum, in px.error; one for colour times strength,
-/// one more where the colour was damped, one for the product. Written apart, the terms have three more each. Where an
-/// ambient share of nothing is added to what the colour multiplies, that is one more.
+/// (diffuse N.L + specular power) colour strength: two roundings for the sum, in px.error; one for colour times
+/// strength, one more where the colour was damped, one for the product. Written apart, the terms have three more each.
+/// Where an ambient share of nothing is added to what the colour multiplies, that is one more.
 HWY_INLINE void add_terms(const LightColumns& lights, size_t i, const Pixel& px, Both cosine, Both shine, Both strength,
                           double roundings, double v, M taken, Sums& sums) {
   const D d;

@@ -6,15 +6,16 @@
 // With v the roundoff, e the error of the position, d the distance, g = |e| / d <= 1/128 and
 // k = sum |L_k| e_k / d + g (g (1/2 + 2 v) + v): relative errors along the chain
 //   offset o = light - P       E_k <= e_k (1 + v) + v |o_k|
-//   d2 = o.o                   sum 2 |o_k| E_k + E_k^2 <= d2 (2 v + 2 (1 + v) sum |L_k| e_k / d + (v + (1 + v) g)^2), so
+//   d2 = o.o                   sum 2 |o_k| E_k + E_k^2 <= d2 (2 v + 2 (1 + v) sum |L_k| e_k / d + (v + (1 + v) g)^2),
+//   so
 //                              eta = (2 eps + eps^2)(1 + 3 v) + 3 v, eps = v + (1 + v) k
 //   1 / sqrt(d2)               rho = (eta / 2)(1 + 2 eta)(1 + i) + i, i of inversesqrt, eta <= 1/8:
 //                              1 / (1 - eta)^(3/2) is convex and at most 1 + 2 eta at both ends
 //   L = o / d                  a |L_k| + b e_k, a = (rho + v (1 + rho))(1 + v) + v, b = (1 + v)^2 (1 + rho) / d
 //   d = sqrt(d2)               delta = eta (1 + q) + q, q of sqrt
 // All are polynomials of k without negative coefficients, hence convex: each is at most its chord over [0, 1/64].
-// Flushing to zero adds 2^-126 a step. Where d2 >= 2^-80 that is below 2^-40 of a relative error, which a roundoff taken
-// 1 + 2^-16 times as large covers; elsewhere kFlushed is added.
+// Flushing to zero adds 2^-126 a step. Where d2 >= 2^-80 that is below 2^-40 of a relative error, which a roundoff
+// taken 1 + 2^-16 times as large covers; elsewhere kFlushed is added.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,8 +35,9 @@ struct LightColumns {
   std::vector<uint32_t> index;  ///< in Scene::lights
 
   /// damping: what the model multiplies every colour by.
-  void add(const glm::vec3& position, const glm::vec3& color, float damping, float range, const glm::vec3& attenuation, uint32_t index);
-  void pad();  ///< after the last light
+  void add(const glm::vec3& position, const glm::vec3& color, float damping, float range, const glm::vec3& attenuation,
+           uint32_t index);
+  void pad();                                                             ///< after the last light
   void take(const LightColumns& from, std::span<const uint32_t> places);  ///< these lights alone, padded
 };
 
@@ -63,7 +65,7 @@ bool lanes_suit(const LightModel& model);
 /// One pixel. Diffuse and specular: what N.L and the power are multiplied by; 1 where the albedo multiplies the sum.
 struct LanePixel {
   Bounded3 position, normal, view, diffuse, specular;
-  int shininess = 1;        ///< 1 to 8192
+  int shininess = 1;  ///< 1 to 8192
 };
 
 struct LaneSums {
@@ -72,8 +74,8 @@ struct LaneSums {
   std::vector<uint32_t> left;  ///< places in the columns of lights not judged here
 };
 
-/// Sums the lights' terms, their errors and the terms' magnitudes. Errors are at least those of LightBounds::one_by_one, and
-/// less than 1.1 of them.
+/// Sums the lights' terms, their errors and the terms' magnitudes. Errors are at least those of
+/// LightBounds::one_by_one, and less than 1.1 of them.
 void judge_lanes(const LightColumns& lights, const LaneModel& model, const LanePixel& pixel, LaneSums& sums);
 
 /// The same of each light apart, at its place in the columns: zeros where it is dark, or left.

@@ -14,7 +14,8 @@ struct LightOutput {
   bool undefined = false;               ///< OpenGL gives the value no meaning
 };
 
-/// Of the strategies that draw light by light. A Scene of no meshes but the camera and some lights stands for the scene.
+/// Of the strategies that draw light by light. A Scene of no meshes but the camera and some lights stands for the
+/// scene.
 class LightOutputs {
  public:
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
@@ -23,7 +24,8 @@ class LightOutputs {
   void set_lights(std::span<const Light> lights);
 
   LightOutput term(const ShadedSurface& surface, uint32_t light) const;  ///< the light's own, alone
-  LightOutput first(const ShadedSurface& surface) const;  ///< with what the sum starts from, where only one light is set
+  LightOutput first(
+      const ShadedSurface& surface) const;  ///< with what the sum starts from, where only one light is set
   LightOutput start(const ShadedSurface& surface) const;  ///< what a surface has without lights
 
   /// How many fragments of a quad that ends at the light's range the surface has: 1, 0, or either.
@@ -32,8 +34,8 @@ class LightOutputs {
   };
   InRange in_range(const ShadedSurface& surface, uint32_t light) const;
 
-  /// Whether a fragment of the light counts as lit: in range and facing. One that adds nothing (outside its cone) may be
-  /// left out.
+  /// Whether a fragment of the light counts as lit: in range and facing. One that adds nothing (outside its cone) may
+  /// be left out.
   struct Lit {
     bool surely = false, perhaps = false;
   };

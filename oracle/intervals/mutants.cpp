@@ -72,7 +72,9 @@ void other_normal_length(Scene&, Pipeline& p) { p.light_model.renormalize = !p.l
 void other_alpha_source(Scene&, Pipeline& p) { p.light_model.alpha_from_albedo = !p.light_model.alpha_from_albedo; }
 
 void flat_normals(Scene&, Pipeline& p) { p.gbuffer.normal.interpolation = Interpolation::flat; }
-void flat_base(Scene&, Pipeline& p) { p.gbuffer.normal.interpolation = p.gbuffer.position.interpolation = Interpolation::flat; }
+void flat_base(Scene&, Pipeline& p) {
+  p.gbuffer.normal.interpolation = p.gbuffer.position.interpolation = Interpolation::flat;
+}
 void first_provokes(Scene&, Pipeline& p) { p.geometry.provoking = Provoking::first; }
 void affine_attributes(Scene&, Pipeline& p) {
   for (PlaneState* plane : {&p.gbuffer.position, &p.gbuffer.normal, &p.gbuffer.albedo, &p.gbuffer.uv})
@@ -129,7 +131,8 @@ void half_a_pixel(Scene& s, Pipeline& p) { s.camera = moved_in_window(s, p, 0.5)
 void field_of_view(Scene& s, Pipeline&) { s.camera.fov_y_rad *= 1.001f; }
 void near_moved(Scene& s, Pipeline&) { s.camera.near *= 1.01f; }
 void instance_stale(Scene& s, Pipeline&) {
-  for (size_t i = 0; i < s.instances.size(); i += 3) s.instances[i].world_from_object[3] += glm::vec3(0.0f, 0.02f, 0.0f);
+  for (size_t i = 0; i < s.instances.size(); i += 3)
+    s.instances[i].world_from_object[3] += glm::vec3(0.0f, 0.02f, 0.0f);
 }
 void instance_missing(Scene& s, Pipeline&) {
   if (!s.instances.empty()) s.instances.erase(s.instances.begin() + std::ptrdiff_t(s.instances.size() / 2));
@@ -177,7 +180,8 @@ void shifted(Image& image, int dx, int dy) {
   const size_t bytes = size_t(info(image.format).bytes_per_texel());
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      std::memcpy(image.texel(x, y), from.texel(std::clamp(x + dx, 0, image.width - 1), std::clamp(y + dy, 0, image.height - 1)), bytes);
+      std::memcpy(image.texel(x, y),
+                  from.texel(std::clamp(x + dx, 0, image.width - 1), std::clamp(y + dy, 0, image.height - 1)), bytes);
 }
 template <class Change>
 void each_image(Capture& c, const Change& change) {
@@ -197,18 +201,21 @@ void upside_down(const Pipeline&, Capture& c) {
   });
 }
 void gamma_applied(const Pipeline&, Capture& c) {
-  each_code(c.color, [](uint8_t v, size_t k) { return k == 3 ? v : uint8_t(std::lround(255 * std::pow(v / 255.0, 1 / 2.2))); });
+  each_code(c.color,
+            [](uint8_t v, size_t k) { return k == 3 ? v : uint8_t(std::lround(255 * std::pow(v / 255.0, 1 / 2.2))); });
 }
 void five_bits(const Pipeline&, Capture& c) {
   each_code(c.color, [](uint8_t v, size_t) { return uint8_t((v & 0xf8) | v >> 5); });
 }
 void bgra(const Pipeline&, Capture& c) {
-  for (size_t i = 0; i + 3 < c.color.texels.size() && c.color.format == Format::rgba8; i += 4) std::swap(c.color.texels[i], c.color.texels[i + 2]);
+  for (size_t i = 0; i + 3 < c.color.texels.size() && c.color.format == Format::rgba8; i += 4)
+    std::swap(c.color.texels[i], c.color.texels[i + 2]);
 }
 void albedo_swapped(const Pipeline&, Capture& c) {
   Image* albedo = plane(c, "albedo");
   if (albedo == nullptr) return;
-  const size_t channel = size_t(info(albedo->format).bytes_per_channel), texel = size_t(info(albedo->format).bytes_per_texel());
+  const size_t channel = size_t(info(albedo->format).bytes_per_channel),
+               texel = size_t(info(albedo->format).bytes_per_texel());
   for (size_t i = 0; i + texel <= albedo->texels.size(); i += texel)
     std::swap_ranges(&albedo->texels[i], &albedo->texels[i] + channel, &albedo->texels[i + 2 * channel]);
 }
@@ -228,7 +235,8 @@ void tile_stale(const Pipeline& p, Capture& c) {
   const int x0 = p.width / 2, y0 = p.height / 2;
   for (int y = 0; y < 16 && y0 + y < c.color.height; ++y)
     for (int x = 0; x < 16 && x0 + x < c.color.width; ++x)
-      std::memcpy(c.color.texel(x0 + x, y0 + y), c.color.texel((x0 + x + 24) % c.color.width, y0 + y), size_t(info(c.color.format).bytes_per_texel()));
+      std::memcpy(c.color.texel(x0 + x, y0 + y), c.color.texel((x0 + x + 24) % c.color.width, y0 + y),
+                  size_t(info(c.color.format).bytes_per_texel()));
 }
 void pixel_black(const Pipeline& p, Capture& c) {
   std::memset(c.color.texel(p.width / 2, p.height / 2), 0, size_t(info(c.color.format).bytes_per_texel()));
@@ -267,7 +275,8 @@ void truncated_codes(const Pipeline&, Capture& c) {
   Image codes(c.color.width, c.color.height, Format::rgba8);
   for (int y = 0; y < codes.height; ++y)
     for (int x = 0; x < codes.width; ++x)
-      for (int k = 0; k < 4; ++k) codes.texel(x, y)[k] = uint8_t(std::floor(std::clamp(c.color.value(x, y, k), 0.0, 1.0) * 255));
+      for (int k = 0; k < 4; ++k)
+        codes.texel(x, y)[k] = uint8_t(std::floor(std::clamp(c.color.value(x, y, k), 0.0, 1.0) * 255));
   c.color = std::move(codes);
 }
 void ids_off(const Pipeline&, Capture& c) {
@@ -281,7 +290,9 @@ void ids_off(const Pipeline&, Capture& c) {
   }
 }
 void hole(const Pipeline& p, Capture& c) {
-  each_image(c, [&](Image& i) { std::memset(i.texel(p.width / 2, p.height / 2), 0, size_t(info(i.format).bytes_per_texel())); });
+  each_image(c, [&](Image& i) {
+    std::memset(i.texel(p.width / 2, p.height / 2), 0, size_t(info(i.format).bytes_per_texel()));
+  });
   each_image(c, [&](Image& i) {
     const float clear = p.geometry.clear_depth;
     if (i.format == Format::d32f) std::memcpy(i.texel(p.width / 2, p.height / 2), &clear, 4);
@@ -387,7 +398,8 @@ bool same_surfaces(const Capture& a, const Capture& b) {
   return true;
 }
 
-Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer, const Capture& right) {
+Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer,
+                const Capture& right) {
   Capture capture = right;
   if (mutant.input != nullptr) {
     Scene wrong_scene = scene;

@@ -1,5 +1,6 @@
 #pragma once
-// Wrong renderers, to judge the judge by: each is a change of what a right renderer is given, of what it gives, or both.
+// Wrong renderers, to judge the judge by: each is a change of what a right renderer is given, of what it gives, or
+// both.
 #include <functional>
 #include <span>
 #include <string_view>
@@ -15,16 +16,18 @@ using Renderer = std::function<Capture(const Scene&, const Pipeline&)>;
 
 /// Where a mutant's difference may lie inside the legal sets.
 enum class Latitude : uint8_t {
-  none,           ///< wherever it changes a pixel by more than a rounding, it must be rejected
-  stated_rules,   ///< legal where the profile leaves that rule open (fill, half mode, store, float order); rejected where it does not
-  always_legal,   ///< never to be rejected: the order of lights
+  none,          ///< wherever it changes a pixel by more than a rounding, it must be rejected
+  stated_rules,  ///< legal where the profile leaves that rule open (fill, half mode, store, float order); rejected
+                 ///< where it does not
+  always_legal,  ///< never to be rejected: the order of lights
 };
 
 struct Mutant {
   std::string_view name;
   Latitude latitude = Latitude::none;
-  void (*base)(Scene&, Pipeline&) = nullptr;   ///< what right and wrong renderer are both given, where not the scene as it is
-  void (*input)(Scene&, Pipeline&) = nullptr;  ///< what the wrong one is given
+  void (*base)(Scene&,
+               Pipeline&) = nullptr;  ///< what right and wrong renderer are both given, where not the scene as it is
+  void (*input)(Scene&, Pipeline&) = nullptr;           ///< what the wrong one is given
   void (*output)(const Pipeline&, Capture&) = nullptr;  ///< what is done to what it drew
 };
 
@@ -37,7 +40,9 @@ bool differ(const Capture& a, const Capture& b);
 /// Whether two captures agree in every byte that judge_gbuffer() reads: in all planes but light.count.
 bool same_surfaces(const Capture& a, const Capture& b);
 
-/// What the wrong renderer draws. `right`: what the right one does, which is not drawn again where the input is the same.
-Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer, const Capture& right);
+/// What the wrong renderer draws. `right`: what the right one does, which is not drawn again where the input is the
+/// same.
+Capture mutated(const Mutant& mutant, const Scene& scene, const Pipeline& pipeline, const Renderer& renderer,
+                const Capture& right);
 
 }  // namespace trueshade::oracle

@@ -62,8 +62,8 @@ struct Total {
     if (model.order != TermOrder::albedo_last) return;
     for (size_t k = 0; k < 3; ++k) {  // whichever branches were taken, the sum is at most `magnitude`
       const Bounded& albedo = surface.albedo[k];
-      const double error = albedo.error * magnitude[k] +
-                           a.roundoff * std::fabs(albedo.value) * (magnitude[k] + lit.color[k].error);
+      const double error =
+          albedo.error * magnitude[k] + a.roundoff * std::fabs(albedo.value) * (magnitude[k] + lit.color[k].error);
       const double inherited = (std::fabs(albedo.value) + albedo.error) * lit.color[k].error;
       lit.color[k] = {lit.color[k].value * albedo.value, inherited + error + kSmallestFloat};
       for (OtherBranch& other : lit.branches) other.change[k] *= albedo.value;
@@ -76,14 +76,20 @@ bool for_lanes(const Light& light, const LightModel& model, const LightVolumes& 
   const bool point = light.type == LightType::point ||
                      (light.type == LightType::spot && model.cone == Cone::none && volumes.spot == volumes.point);
   const bool share = model.order == TermOrder::with_ambient && light.ambient != glm::vec3(0.0f);
-  return point && !share && lanes_suit(model) && light.attenuation.x >= 0 && light.attenuation.y >= 0 && light.attenuation.z >= 0;
+  return point && !share && lanes_suit(model) && light.attenuation.x >= 0 && light.attenuation.y >= 0 &&
+         light.attenuation.z >= 0;
 }
 
 }  // namespace
 
 LightBounds::LightBounds(const Scene& scene, const LightModel& model, const std::array<double, 3>& view_axis,
                          const Arithmetic& arithmetic, bool exact, const LightVolumes& volumes)
-    : scene_(scene), model_(model), view_axis_(view_axis), arithmetic_(arithmetic), exact_(exact), volumes_(volumes),
+    : scene_(scene),
+      model_(model),
+      view_axis_(view_axis),
+      arithmetic_(arithmetic),
+      exact_(exact),
+      volumes_(volumes),
       lanes_(model, arithmetic, volumes.point != LightExtent::unbounded, adds_unlit(model)) {
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];

@@ -35,9 +35,10 @@ struct LitRange {
 /// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
 struct LitApart {
   std::vector<std::array<Bounded, 3>> color;
-  std::vector<uint8_t> plain;  ///< 0: a comparison may go either way, or the value is undefined: LightBounds::alone() tells
+  std::vector<uint8_t>
+      plain;  ///< 0: a comparison may go either way, or the value is undefined: LightBounds::alone() tells
 
-  LightColumns columns;        // what lanes work on
+  LightColumns columns;  // what lanes work on
   LaneTerms terms;
   std::vector<uint32_t> in_columns, places;
 };
@@ -56,8 +57,8 @@ class LightBounds {
   /// Lights in lanes where the model lets them (light_lanes.h), the others one by one.
   LitRange at(const ShadedSurface& surface) const;
 
-  /// All one by one, every error carried operation by operation. The same lights, branches and counts; bounds of at() are
-  /// no smaller, and less than 1.1 times as large.
+  /// All one by one, every error carried operation by operation. The same lights, branches and counts; bounds of at()
+  /// are no smaller, and less than 1.1 times as large.
   LitRange one_by_one(const ShadedSurface& surface) const;
 
   /// One light of the scene alone: without what a sum starts from.

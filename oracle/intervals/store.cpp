@@ -53,8 +53,8 @@ void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   t.second_side = up >= down ? 1 : -1;
 }
 
-/// Codes within `reach` of the ends of a range of codes. Less than one from a real number are the whole ones next to it,
-/// and a product rounded to a float is still between them: 1 and 0 have one code each.
+/// Codes within `reach` of the ends of a range of codes. Less than one from a real number are the whole ones next to
+/// it, and a product rounded to a float is still between them: 1 and 0 have one code each.
 void set_reach(LegalTexel& t, double low, double high, double reach, double largest) {
   if (reach == 1.0) {
     t.low = std::max(0.0, std::floor(low));

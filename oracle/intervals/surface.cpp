@@ -96,9 +96,11 @@ void SurfacePoint::no_plane(double x, double y) {
   if (!same) unsnapped_ = std::make_unique<SurfacePoint>(*float_piece_, profile_, window_reach_, x, y);
 }
 
-Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const {
+Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error,
+                            const Range& plane) const {
   Range r{plane.value, HUGE_VAL, -HUGE_VAL};
-  for (size_t i = 0; i < 3; ++i) r.low = std::min(r.low, value[i] - error[i]), r.high = std::max(r.high, value[i] + error[i]);
+  for (size_t i = 0; i < 3; ++i)
+    r.low = std::min(r.low, value[i] - error[i]), r.high = std::max(r.high, value[i] + error[i]);
   const double width = r.high - r.low;
   r.low = std::min(r.low - width, plane.low), r.high = std::max(r.high + width, plane.high);
   return {std::clamp(r.value, r.low, r.high), r.low, r.high};
@@ -187,7 +189,8 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
     };
     double least = largest, most = largest;
     if (!profile_.exact_planes && (piece_.cut || piece_.leaves_view)) {
-      // Whatever triangles a driver cuts it into: the sample's has some vertex as deep as the sample, none past the range.
+      // Whatever triangles a driver cuts it into: the sample's has some vertex as deep as the sample, none past the
+      // range.
       const Range here = depth();
       least = std::min(least, std::max({here.low, -here.high, 0.0}));
       if (piece_.cut) most = std::max({most, std::fabs(double(state.depth_near)), std::fabs(double(state.depth_far))});
@@ -204,7 +207,9 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
   if (!bounded_)
-    return of_tiny(value, error, unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
+    return of_tiny(
+        value, error,
+        unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
   const bool smooth = interpolation == Interpolation::smooth;
   if (!smooth && !profile_.exact_planes) return affine(value, error);
 

@@ -26,17 +26,20 @@ namespace trueshade::oracle {
 ///   stepping from a tile's corner to its pixels: 2 v (|gx| X + |gy| Y)
 /// and a perspective quotient N / D adds (dN + |a| dD) / D and the division.
 ///
-/// Where the box allows a triangle without area no plane through its vertices is bounded. Yet a fragment is only there if
-/// the snapped triangle covers the sample, and its values are then a mean of the vertices' (14.6.1: barycentrics in [0, 1]):
-/// their hull, widened by its own width for the gradients of slivers, 8 v span^2 / |A| of the width, span < 1/4 pixel, |A| at
-/// least 2^-24 (the finest grid known, 12 bits). A plane through vertices that are not snapped is added where the profile has those.
+/// Where the box allows a triangle without area no plane through its vertices is bounded. Yet a fragment is only there
+/// if the snapped triangle covers the sample, and its values are then a mean of the vertices' (14.6.1: barycentrics in
+/// [0, 1]): their hull, widened by its own width for the gradients of slivers, 8 v span^2 / |A| of the width, span <
+/// 1/4 pixel, |A| at least 2^-24 (the finest grid known, 12 bits). A plane through vertices that are not snapped is
+/// added where the profile has those.
 class SurfacePoint {
  public:
   /// reach: the X and Y above, Projector::window_reach().
   SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
   /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
-  bool bounded() const { return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_); }
+  bool bounded() const {
+    return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_);
+  }
 
   /// Window depth before any offset and clamp.
   Range depth() const;
@@ -60,13 +63,13 @@ class SurfacePoint {
   const Piece& piece_;
   const Profile& profile_;
   bool bounded_ = true;
-  Tiny tiny_ = Tiny::anything;              ///< what is known where bounded_ is not true
-  std::unique_ptr<Piece> float_piece_;      ///< the piece with vertices not snapped, and
-  std::unique_ptr<SurfacePoint> unsnapped_; ///< its planes
-  int points_ = 1;                          ///< 1 where the vertices are points, 5 otherwise
+  Tiny tiny_ = Tiny::anything;                     ///< what is known where bounded_ is not true
+  std::unique_ptr<Piece> float_piece_;             ///< the piece with vertices not snapped, and
+  std::unique_ptr<SurfacePoint> unsnapped_;        ///< its planes
+  int points_ = 1;                                 ///< 1 where the vertices are points, 5 otherwise
   std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
-  std::array<double, 3> dx_{}, dy_{};       ///< their gradients, 1/pixel
-  const Pair window_reach_;                 ///< X, Y
+  std::array<double, 3> dx_{}, dy_{};              ///< their gradients, 1/pixel
+  const Pair window_reach_;                        ///< X, Y
   double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
 };
 

@@ -69,7 +69,8 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
 
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline) {
   const PlaneView view = plane_of(capture, pipeline, "color");
-  if (!view) throw Error(ErrorKind::bad_input, capture.name + ": plane color", "is missing", "lighting is judged from it");
+  if (!view)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane color", "is missing", "lighting is judged from it");
   return view;
 }
 

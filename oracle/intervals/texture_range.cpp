@@ -15,7 +15,9 @@ Ranges nothing() {
   return {{{0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}}};
 }
 
-long double srgb_encoded(long double x) { return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L; }
+long double srgb_encoded(long double x) {
+  return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
+}
 long double srgb_decoded(long double s) {
   if (s <= 0.04045L) return std::max(0.0L, s) / 12.92L;
   return std::pow((std::min(s, 1.0L) + 0.055L) / 1.055L, 2.4L);
@@ -37,7 +39,8 @@ struct SrgbTable {
   }
   /// The code whose value rounds to the float; -1 for what is no texel, as a border.
   int code_of(long double texel) const {
-    const auto at = std::lower_bound(value.begin() + 1, value.end() - 1, texel, [](long double a, long double b) { return float(a) < float(b); });
+    const auto at = std::lower_bound(value.begin() + 1, value.end() - 1, texel,
+                                     [](long double a, long double b) { return float(a) < float(b); });
     return at != value.end() - 1 && float(*at) == float(texel) ? int(at - value.begin()) - 1 : -1;
   }
 };

@@ -37,9 +37,10 @@ std::string number(double v) {
 std::string number(uint64_t v) { return std::to_string(v); }
 
 std::string worst_json(const WorstPixel& w) {
-  return "{\"x\":" + std::to_string(w.x) + ",\"y\":" + std::to_string(w.y) + ",\"class\":" + quoted(text(w.pixel_class)) +
-         ",\"plane\":" + quoted(w.plane) + ",\"low\":" + number(w.low) + ",\"high\":" + number(w.high) + ",\"nominal\":" + number(w.nominal) +
-         ",\"given\":" + number(w.given) + ",\"note\":" + quoted(w.note) + "}";
+  return "{\"x\":" + std::to_string(w.x) + ",\"y\":" + std::to_string(w.y) +
+         ",\"class\":" + quoted(text(w.pixel_class)) + ",\"plane\":" + quoted(w.plane) + ",\"low\":" + number(w.low) +
+         ",\"high\":" + number(w.high) + ",\"nominal\":" + number(w.nominal) + ",\"given\":" + number(w.given) +
+         ",\"note\":" + quoted(w.note) + "}";
 }
 
 std::string aggregate_json(const AggregateTest& t) {
@@ -59,22 +60,25 @@ std::string stage_json(const StageVerdict& s, const std::vector<AggregateTest>& 
   std::string counts = "{";
   for (size_t c = 0; c < kPixelClasses; ++c)
     counts += (c > 0 ? "," : "") + quoted(text(PixelClass(c))) + ":" + number(s.counts[c]);
-  return "{\"stage\":" + quoted(s.stage) + ",\"width\":" + std::to_string(s.width) + ",\"height\":" + std::to_string(s.height) +
-         ",\"counts\":" + counts + "},\"covered\":" + number(s.covered) + ",\"ambiguous\":" + number(s.ambiguous) +
-         ",\"predicted_other\":" + number(s.predicted_other) + ",\"stored_values\":" + number(s.stored_values) +
-         ",\"worst_error\":" + number(s.worst_error) + ",\"aggregates\":" + array(tests, aggregate_json) +
-         ",\"worst\":" + array(s.worst, worst_json) + "}";
+  return "{\"stage\":" + quoted(s.stage) + ",\"width\":" + std::to_string(s.width) +
+         ",\"height\":" + std::to_string(s.height) + ",\"counts\":" + counts + "},\"covered\":" + number(s.covered) +
+         ",\"ambiguous\":" + number(s.ambiguous) + ",\"predicted_other\":" + number(s.predicted_other) +
+         ",\"stored_values\":" + number(s.stored_values) + ",\"worst_error\":" + number(s.worst_error) +
+         ",\"aggregates\":" + array(tests, aggregate_json) + ",\"worst\":" + array(s.worst, worst_json) + "}";
 }
 
 std::string inference_json(const Inference& i) {
   const auto tried = [](const Hypothesis& h) {
-    return "{\"knob\":" + quoted(h.knob) + ",\"value\":" + quoted(h.value) + ",\"violations\":" + number(h.violations) + "}";
+    return "{\"knob\":" + quoted(h.knob) + ",\"value\":" + quoted(h.value) + ",\"violations\":" + number(h.violations) +
+           "}";
   };
   return "{\"summary\":" + quoted(text(i)) + ",\"known_as\":" + quoted(i.known_as) +
          ",\"subpixel_bits\":" + (i.subpixel_bits ? std::to_string(*i.subpixel_bits) : "null") +
          ",\"snap\":" + (i.snap ? quoted(text(*i.snap)) : "null") +
-         ",\"plane_origin\":" + (i.plane_origin ? quoted(text(*i.plane_origin)) : "null") + ",\"half\":" + (i.half ? quoted(text(*i.half)) : "null") +
-         ",\"unorm_reach\":" + (i.unorm_reach ? number(*i.unorm_reach) : "null") + ",\"tried\":" + array(i.tried, tried) + "}";
+         ",\"plane_origin\":" + (i.plane_origin ? quoted(text(*i.plane_origin)) : "null") +
+         ",\"half\":" + (i.half ? quoted(text(*i.half)) : "null") +
+         ",\"unorm_reach\":" + (i.unorm_reach ? number(*i.unorm_reach) : "null") +
+         ",\"tried\":" + array(i.tried, tried) + "}";
 }
 
 void judge_target(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const ValidateOptions& options,
@@ -126,22 +130,26 @@ bool Verdict::suspicious() const {
   return false;
 }
 
-Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture, const ValidateOptions& options) {
+Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
+                         const ValidateOptions& options) {
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
   Verdict v;
   v.scene = scene.spec, v.driver = capture.driver, v.profile = options.profile.name;
   const auto has = [&](std::string_view name) { return capture.plane(name) != nullptr; };
-  const bool geometry = has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") || has("id.material");
+  const bool geometry = has("depth") || has("position") || has("normal") || has("albedo") || has("uv") ||
+                        has("id.object") || has("id.material");
   if (geometry) v.stages.push_back(judge_gbuffer(scene, pipeline, options.profile, capture));
-  const bool layers = draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights;
+  const bool layers =
+      draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights;
   if (capture.color.width > 0) {
     if (layers && options.objects)
       judge_layers(scene, pipeline, capture, options, v.stages);
     else
       judge_target(scene, pipeline, capture, options, v.stages);
   }
-  if (v.stages.empty()) throw Error(ErrorKind::bad_input, capture.name, "has no planes", "capture the target or a G-buffer plane");
+  if (v.stages.empty())
+    throw Error(ErrorKind::bad_input, capture.name, "has no planes", "capture the target or a G-buffer plane");
   for (const StageVerdict& s : v.stages) v.aggregates.push_back(aggregate_tests(s));
   if (options.infer && geometry) v.inferred = infer_profile(scene, pipeline, capture);
   return v;
@@ -151,8 +159,9 @@ std::string verdict_json(const Verdict& v) {
   std::string stages = "[";
   for (size_t i = 0; i < v.stages.size(); ++i) stages += (i > 0 ? "," : "") + stage_json(v.stages[i], v.aggregates[i]);
   return "{\"scene\":" + quoted(v.scene) + ",\"driver\":" + quoted(v.driver) + ",\"profile\":" + quoted(v.profile) +
-         ",\"pass\":" + (v.violations() == 0 ? "true" : "false") + ",\"suspicious\":" + (v.suspicious() ? "true" : "false") +
-         ",\"stages\":" + stages + "],\"inferred\":" + (v.inferred ? inference_json(*v.inferred) : "null") + "}";
+         ",\"pass\":" + (v.violations() == 0 ? "true" : "false") +
+         ",\"suspicious\":" + (v.suspicious() ? "true" : "false") + ",\"stages\":" + stages +
+         "],\"inferred\":" + (v.inferred ? inference_json(*v.inferred) : "null") + "}";
 }
 
 }  // namespace trueshade::oracle

@@ -10,9 +10,9 @@ namespace trueshade::oracle {
 
 /// Why a pixel is what it is (GL_RULES section 7). The image passes where no pixel is a violation.
 enum class PixelClass : uint8_t {
-  exact,      ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
-  store_2,    ///< the nominal surface, some channel stored as another legal neighbour
-  edge,       ///< another surface, whose edge the profile allows on either side of the sample
+  exact,    ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
+  store_2,  ///< the nominal surface, some channel stored as another legal neighbour
+  edge,     ///< another surface, whose edge the profile allows on either side of the sample
   depth_tie,  ///< another surface, whose depth the profile cannot tell from the nominal one's
   clip,       ///< another surface, at an edge made by clipping
   branch,     ///< a comparison in the shader may go either way
@@ -38,11 +38,11 @@ struct WorstPixel {
 
 /// A channel whose rounding could go either way: kept for the tests of the whole image.
 struct StoreChoice {
-  uint32_t pixel;   ///< y * width + x, y from the top
-  float value;      ///< the real value before the store: equal values are one choice, however many pixels have them
-  float chance;     ///< predicted that the second neighbour is taken
-  int8_t side;      ///< where the nearest threshold lies: -1 below, 1 above
-  int8_t taken;     ///< 0: the nominal one; -1, 1: the one below, above
+  uint32_t pixel;  ///< y * width + x, y from the top
+  float value;     ///< the real value before the store: equal values are one choice, however many pixels have them
+  float chance;    ///< predicted that the second neighbour is taken
+  int8_t side;     ///< where the nearest threshold lies: -1 below, 1 above
+  int8_t taken;    ///< 0: the nominal one; -1, 1: the one below, above
 };
 
 /// A pixel with more than one legal surface or branch.
@@ -54,17 +54,17 @@ struct SurfaceChoice {
 struct StageVerdict {
   std::string stage, profile;
   int width = 0, height = 0;
-  std::vector<PixelClass> classes;                ///< row 0 at the top
-  std::array<uint64_t, kPixelClasses> counts{};   ///< by class
-  uint64_t covered = 0;                           ///< pixels where a surface is nominally seen
-  uint64_t ambiguous = 0;                         ///< pixels with more than one legal surface or branch
-  double predicted_other = 0;                     ///< expected number of edge + depth_tie + clip + branch pixels
-  uint64_t stored_values = 0;                     ///< unorm and half channels judged
-  std::vector<SurfaceChoice> surface_choices;     ///< of the ambiguous pixels
-  std::vector<StoreChoice> choices;               ///< those of them with two likely values, or that took a second one
-  bool stores_apart = true;                       ///< false: many stores, of which only the last one's result is known
-  double worst_error = 0;                         ///< float planes: largest |given - value| / bound
-  std::vector<WorstPixel> worst;                  ///< at most 32
+  std::vector<PixelClass> classes;               ///< row 0 at the top
+  std::array<uint64_t, kPixelClasses> counts{};  ///< by class
+  uint64_t covered = 0;                          ///< pixels where a surface is nominally seen
+  uint64_t ambiguous = 0;                        ///< pixels with more than one legal surface or branch
+  double predicted_other = 0;                    ///< expected number of edge + depth_tie + clip + branch pixels
+  uint64_t stored_values = 0;                    ///< unorm and half channels judged
+  std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
+  std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
+  bool stores_apart = true;                      ///< false: many stores, of which only the last one's result is known
+  double worst_error = 0;                        ///< float planes: largest |given - value| / bound
+  std::vector<WorstPixel> worst;                 ///< at most 32
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   bool passes() const { return count(PixelClass::violation) == 0; }

@@ -30,15 +30,16 @@ Span edge_span(const WindowVertex& a, const WindowVertex& b, double x, double y)
   }
   const Span p = times(ax, by), q = times(ay, bx);
   if (points) return {p.low - q.low, p.low - q.low};  // 26 bits each: exact
-  const double slack = 0x1p-50 * (std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
+  const double slack =
+      0x1p-50 * (std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
   return {p.low - q.high - slack, p.high - q.low + slack};
 }
 
 /// Whether a sample on the edge a -> b of a counter-clockwise triangle belongs to it.
 bool owns_edge(const WindowVertex& a, const WindowVertex& b, int sign, bool low_side) {
   const double dx = sign * (b.low[0] - a.low[0]), dy = sign * (b.low[1] - a.low[1]);
-  if (dy != 0) return dy < 0;                // downwards: the inside is to the right
-  return low_side ? dx > 0 : dx < 0;         // rightwards: the inside is above
+  if (dy != 0) return dy < 0;         // downwards: the inside is to the right
+  return low_side ? dx > 0 : dx < 0;  // rightwards: the inside is above
 }
 
 constexpr double kSmallestW = 0x1p-100;
@@ -88,9 +89,12 @@ bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, doub
 }
 
 Projector::Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at)
-    : scene_(scene), pipeline_(pipeline), profile_(profile),
+    : scene_(scene),
+      pipeline_(pipeline),
+      profile_(profile),
       viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)),
-      drawn_at_(drawn_at), clip_from_world_(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
+      drawn_at_(drawn_at),
+      clip_from_world_(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
   const double corner[2] = {double(viewport_.x) + drawn_at[0], double(viewport_.y) + drawn_at[1]};
   window_reach_ = {std::max(std::fabs(corner[0]), std::fabs(corner[0] + viewport_.width)),
                    std::max(std::fabs(corner[1]), std::fabs(corner[1] + viewport_.height))};
@@ -136,10 +140,12 @@ Projector::ClipVertex Projector::clip_vertex(uint32_t instance, uint32_t vertex,
       v.c[r] = double(((row[0] * x + row[1] * y) + row[2] * z) + row[3]);
       continue;
     }
-    const double t[4] = {double(row[0]) * double(x), double(row[1]) * double(y), double(row[2]) * double(z), double(row[3])};
+    const double t[4] = {double(row[0]) * double(x), double(row[1]) * double(y), double(row[2]) * double(z),
+                         double(row[3])};
     v.c[r] = ((t[0] + t[1]) + t[2]) + t[3];
     // Each term passes at most four roundings, in any order of sums; one more for the matrix element itself.
-    v.error[r] = 5 * profile_.arithmetic.roundoff * (std::fabs(t[0]) + std::fabs(t[1]) + std::fabs(t[2]) + std::fabs(t[3]));
+    v.error[r] =
+        5 * profile_.arithmetic.roundoff * (std::fabs(t[0]) + std::fabs(t[1]) + std::fabs(t[2]) + std::fabs(t[3]));
   }
   return v;
 }
@@ -151,7 +157,9 @@ std::array<std::array<float, 4>, 3> Projector::clip_of(uint32_t instance, uint32
     const uint32_t vertex = mesh.indices[3 * size_t(triangle) + i];
     for (size_t r = 0; r < 4; ++r) {
       const float* row = matrices_[instance].row[r];
-      clip[i][r] = ((row[0] * mesh.position[0][vertex] + row[1] * mesh.position[1][vertex]) + row[2] * mesh.position[2][vertex]) + row[3];
+      clip[i][r] = ((row[0] * mesh.position[0][vertex] + row[1] * mesh.position[1][vertex]) +
+                    row[2] * mesh.position[2][vertex]) +
+                   row[3];
     }
   }
   return clip;
@@ -167,14 +175,16 @@ bool Projector::near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rec
   bool simple = true;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t vertex = mesh.indices[3 * size_t(triangle) + i];
-    const double p[3] = {double(mesh.position[0][vertex]), double(mesh.position[1][vertex]), double(mesh.position[2][vertex])};
+    const double p[3] = {double(mesh.position[0][vertex]), double(mesh.position[1][vertex]),
+                         double(mesh.position[2][vertex])};
     double c[4];
     for (size_t r = 0; r < 4; ++r)
       c[r] = double(m.row[r][0]) * p[0] + double(m.row[r][1]) * p[1] + double(m.row[r][2]) * p[2] + double(m.row[r][3]);
     const double near = pipeline_.geometry.clip_depth == ClipDepth::zero_to_one ? c[2] : c[2] + c[3];
     const double slack = 2 * (m.error[2] + m.error[3]) + 0x1p-20 * (std::fabs(c[2]) + std::fabs(c[3]));
     const bool clamp = pipeline_.geometry.depth_clamp;
-    outside_all &= (!clamp && near < -slack ? 1u : 0u) | (!clamp && c[3] - c[2] < -slack ? 2u : 0u) | (c[3] < -slack ? 4u : 0u);
+    outside_all &=
+        (!clamp && near < -slack ? 1u : 0u) | (!clamp && c[3] - c[2] < -slack ? 2u : 0u) | (c[3] < -slack ? 4u : 0u);
     if (!(c[3] > 2 * m.error[3] + 0x1p-20 * std::fabs(c[2])) || (!clamp && (near < slack || c[3] - c[2] < slack))) {
       simple = false;
       continue;
@@ -185,7 +195,8 @@ bool Projector::near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rec
       const double at = (ndc + 1) * half + corner[a];
       // Clip error, two float operations of the viewport, a whole subpixel of snapping, and our own 2^-22.
       const double reach = half * (m.error[size_t(a)] + std::fabs(ndc) * m.error[3]) * one_over_w * room +
-                           0x1p-22 * (std::fabs(ndc) * 2 * half + std::fabs(at + drawn_at_[size_t(a)])) + std::ldexp(1.2, -profile_.subpixel_bits);
+                           0x1p-22 * (std::fabs(ndc) * 2 * half + std::fabs(at + drawn_at_[size_t(a)])) +
+                           std::ldexp(1.2, -profile_.subpixel_bits);
       low[a] = std::min(low[a], at - reach);
       high[a] = std::max(high[a], at + reach);
     }
@@ -200,44 +211,64 @@ bool Projector::near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rec
       const auto axis = size_t(a);
       low[a] = HUGE_VAL, high[a] = -HUGE_VAL;
       for (const Piece& piece : list)
-        for (const WindowVertex& v : piece.v) low[a] = std::min(low[a], v.low[axis]), high[a] = std::max(high[a], v.high[axis]);
+        for (const WindowVertex& v : piece.v)
+          low[a] = std::min(low[a], v.low[axis]), high[a] = std::max(high[a], v.high[axis]);
     }
   }
-  const auto first = [](double v, int from, int to) { return int(std::clamp(std::ceil(v - 0.5), double(from), double(to))); };
-  const auto last = [](double v, int from, int to) { return int(std::clamp(std::floor(v - 0.5) + 1, double(from), double(to))); };
+  const auto first = [](double v, int from, int to) {
+    return int(std::clamp(std::ceil(v - 0.5), double(from), double(to)));
+  };
+  const auto last = [](double v, int from, int to) {
+    return int(std::clamp(std::floor(v - 0.5) + 1, double(from), double(to)));
+  };
   const int x0 = std::clamp(viewport_.x, 0, width()), x1 = std::clamp(viewport_.x + viewport_.width, 0, width());
   const int y0 = std::clamp(viewport_.y, 0, height()), y1 = std::clamp(viewport_.y + viewport_.height, 0, height());
   rect = {first(low[0], x0, x1), first(low[1], y0, y1), last(high[0], x0, x1), last(high[1], y0, y1)};
   return rect.x0 < rect.x1 && rect.y0 < rect.y1;
 }
 
-void Projector::snap(WindowVertex& v, int axis_index, const ClipVertex& clip, double error, double along, bool leaves_view) const {
+void Projector::snap(WindowVertex& v, int axis_index, const ClipVertex& clip, double error, double along,
+                     bool leaves_view) const {
   const auto axis = size_t(axis_index);
   const double scale = std::ldexp(1.0, profile_.subpixel_bits), t = v.exact[axis] * scale, e = (error + along) * scale;
   switch (profile_.snap) {
-    case SnapRule::nearest: v.low[axis] = std::nearbyint(t - e), v.high[axis] = std::nearbyint(t + e); break;
-    case SnapRule::nearest_0_6: v.low[axis] = std::ceil(t - e - 0.6), v.high[axis] = std::floor(t + e + 0.6); break;
-    case SnapRule::toward_zero: v.low[axis] = std::floor(t - e), v.high[axis] = std::floor(t + e); break;
-    case SnapRule::unstated: v.low[axis] = t - e - 0.5, v.high[axis] = t + e + 0.5; break;
+    case SnapRule::nearest:
+      v.low[axis] = std::nearbyint(t - e), v.high[axis] = std::nearbyint(t + e);
+      break;
+    case SnapRule::nearest_0_6:
+      v.low[axis] = std::ceil(t - e - 0.6), v.high[axis] = std::floor(t + e + 0.6);
+      break;
+    case SnapRule::toward_zero:
+      v.low[axis] = std::floor(t - e), v.high[axis] = std::floor(t + e);
+      break;
+    case SnapRule::unstated:
+      v.low[axis] = t - e - 0.5, v.high[axis] = t + e + 0.5;
+      break;
   }
   if (profile_.exact_vertices && profile_.snap == SnapRule::nearest && profile_.subpixel_bits == 8 &&
       std::fabs(std::fabs(t - std::trunc(t)) - 0.5) <= 0x1p-45 * (std::fabs(t) + 1)) {
     // So near a tie that a double cannot tell: the quotient in 128 bits.
     bool huge = false;
-    const double numerator = axis == 1 && pipeline_.geometry.clip_origin == ClipOrigin::upper_left ? -clip.c[1] : clip.c[axis];
+    const double numerator =
+        axis == 1 && pipeline_.geometry.clip_origin == ClipOrigin::upper_left ? -clip.c[1] : clip.c[axis];
     const int size = axis == 0 ? viewport_.width : viewport_.height, corner = axis == 0 ? viewport_.x : viewport_.y;
     const int64_t fixed = window_coordinate(numerator, clip.c[3], size, corner, &huge);
     if (!huge) v.low[axis] = v.high[axis] = double(fixed);
   }
   // A cut vertex is snapped again, off the edge by up to half a subpixel; a convex combination of boxes holds it.
-  if (leaves_view && profile_.clips_to_view) v.low[axis] = std::min(v.low[axis], t - e - 0.5), v.high[axis] = std::max(v.high[axis], t + e + 0.5);
+  if (leaves_view && profile_.clips_to_view)
+    v.low[axis] = std::min(v.low[axis], t - e - 0.5), v.high[axis] = std::max(v.high[axis], t + e + 0.5);
   v.low[axis] /= scale;
   v.high[axis] /= scale;
   const double low_plane = v.low[axis] + along, high_plane = v.high[axis] - along;
   const double middle = (low_plane + high_plane) / 2, half = (high_plane - low_plane) / 2;
   switch (profile_.plane_origin) {
-    case PlaneOrigin::snapped: v.plane[axis] = middle, v.plane_reach[axis] = half; break;
-    case PlaneOrigin::unsnapped: v.plane[axis] = v.exact[axis], v.plane_reach[axis] = error; break;
+    case PlaneOrigin::snapped:
+      v.plane[axis] = middle, v.plane_reach[axis] = half;
+      break;
+    case PlaneOrigin::unsnapped:
+      v.plane[axis] = v.exact[axis], v.plane_reach[axis] = error;
+      break;
     case PlaneOrigin::either: {
       const double low = std::min(low_plane, v.exact[axis] - error), high = std::max(high_plane, v.exact[axis] + error);
       v.plane[axis] = (low + high) / 2, v.plane_reach[axis] = (high - low) / 2;
@@ -253,13 +284,15 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
   const bool exact = profile_.exact_vertices;
   for (int a = 0; a < 2; ++a) {
     const auto axis = size_t(a);
-    const double half = (a == 0 ? viewport_.width : viewport_.height) * 0.5, corner = a == 0 ? viewport_.x : viewport_.y;
+    const double half = (a == 0 ? viewport_.width : viewport_.height) * 0.5,
+                 corner = a == 0 ? viewport_.x : viewport_.y;
     double ndc = c.c[axis] / w;
     if (a == 1 && pipeline_.geometry.clip_origin == ClipOrigin::upper_left) ndc = -ndc;
     v.exact[axis] = ndc * half + (half + corner);
     // GL_RULES section 9: fp32 divide and viewport, 2^-23 (2 |x/w| px/2 + |xw|); and what the clip error comes to.
-    const double error = exact ? 0 : half * (c.error[axis] + std::fabs(ndc) * c.error[3]) / room +
-                                         0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis] + drawn_at_[axis]));
+    const double error = exact ? 0
+                               : half * (c.error[axis] + std::fabs(ndc) * c.error[3]) / room +
+                                     0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis] + drawn_at_[axis]));
     v.float_reach[axis] = error;
     const double along = half * (c.along[axis] + std::fabs(ndc) * c.along[3]) / std::max(w - c.along[3], 0x1p-20 * w);
     snap(v, a, c, error, along, leaves_view);
@@ -278,7 +311,8 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
 bool Projector::face(Piece& piece) const {
   const auto &a = piece.v[0], &b = piece.v[1], &c = piece.v[2];
   // The area is the edge function of a, b about the box of c; twice the widest of the three tells how sure it is.
-  const double area = (b.exact[0] - a.exact[0]) * (c.exact[1] - a.exact[1]) - (b.exact[1] - a.exact[1]) * (c.exact[0] - a.exact[0]);
+  const double area =
+      (b.exact[0] - a.exact[0]) * (c.exact[1] - a.exact[1]) - (b.exact[1] - a.exact[1]) * (c.exact[0] - a.exact[0]);
   WindowVertex p = a, q = b;
   for (size_t k = 0; k < 2; ++k) {
     p.low[k] -= c.high[k], p.high[k] -= c.low[k];
@@ -292,10 +326,14 @@ bool Projector::face(Piece& piece) const {
   piece.front = ((piece.sign > 0) != turned) == (pipeline_.geometry.front_face == FrontFace::ccw);
   if (!piece.facing_known) return pipeline_.geometry.cull_face != CullFace::front_and_back;
   switch (pipeline_.geometry.cull_face) {
-    case CullFace::none: return true;
-    case CullFace::front: return !piece.front;
-    case CullFace::back: return piece.front;
-    case CullFace::front_and_back: return false;
+    case CullFace::none:
+      return true;
+    case CullFace::front:
+      return !piece.front;
+    case CullFace::back:
+      return piece.front;
+    case CullFace::front_and_back:
+      return false;
   }
   return true;
 }
@@ -315,7 +353,8 @@ void Projector::cut(std::vector<ClipVertex>& polygon, int plane) const {
     if (!a_in) std::swap(a, b);  // from inside to outside, so that a neighbour finds the same point
     const double da = plane_distance(*a, plane), db = plane_distance(*b, plane), t = da / (da - db);
     // t moves with its distances: each errs by at most the errors of z and w; four roundings of our sum and product.
-    const double dt = (a->error[2] + a->error[3] + b->error[2] + b->error[3]) / (da - db) + 4 * profile_.arithmetic.roundoff;
+    const double dt =
+        (a->error[2] + a->error[3] + b->error[2] + b->error[3]) / (da - db) + 4 * profile_.arithmetic.roundoff;
     ClipVertex point;
     for (size_t k = 0; k < 3; ++k) point.weight[k] = a->weight[k] + (b->weight[k] - a->weight[k]) * t;
     for (size_t k = 0; k < 4; ++k) {
@@ -377,7 +416,8 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
   std::vector<ClipVertex> cut_polygon;
   if (!inside) {
     cut_polygon.assign(corners.begin(), corners.end());
-    for (int plane = pipeline_.geometry.depth_clamp ? 2 : 0; plane < 3 && !cut_polygon.empty(); ++plane) cut(cut_polygon, plane);
+    for (int plane = pipeline_.geometry.depth_clamp ? 2 : 0; plane < 3 && !cut_polygon.empty(); ++plane)
+      cut(cut_polygon, plane);
   }
   const std::span<const ClipVertex> polygon = inside ? std::span<const ClipVertex>(corners) : cut_polygon;
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {

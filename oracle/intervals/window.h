@@ -1,5 +1,6 @@
 #pragma once
-// Triangles in the window, as boxes: where an implementation of a profile may have put each vertex (GL_RULES section 9).
+// Triangles in the window, as boxes: where an implementation of a profile may have put each vertex (GL_RULES section
+// 9).
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,13 +15,13 @@ using Pair = std::array<double, 2>;
 
 /// A vertex in window pixels, y up, and what float arithmetic and snapping may make of it.
 struct WindowVertex {
-  Pair exact{};                     ///< of the real coordinates: equal where two triangles share the vertex
-  Pair low{}, high{};               ///< the box of the snapped vertex, that coverage is computed from
-  Pair plane{}, plane_reach{};      ///< the vertex that attribute planes go through: within reach of plane
-  Pair float_reach{};               ///< what float arithmetic alone makes of `exact`
-  double z = 0, z_error = 0;        ///< window depth
-  double u = 0, u_error = 0;        ///< 1 / w
-  std::array<double, 3> weight{};   ///< in clip space, of the vertices of the triangle submitted
+  Pair exact{};                    ///< of the real coordinates: equal where two triangles share the vertex
+  Pair low{}, high{};              ///< the box of the snapped vertex, that coverage is computed from
+  Pair plane{}, plane_reach{};     ///< the vertex that attribute planes go through: within reach of plane
+  Pair float_reach{};              ///< what float arithmetic alone makes of `exact`
+  double z = 0, z_error = 0;       ///< window depth
+  double u = 0, u_error = 0;       ///< 1 / w
+  std::array<double, 3> weight{};  ///< in clip space, of the vertices of the triangle submitted
 };
 
 /// A triangle, or a piece of the fan of a clipped one.
@@ -29,8 +30,8 @@ struct Piece {
   bool cut = false;          ///< by near, far or w
   bool leaves_view = false;  ///< has an edge that the profile may cut at the sides of the view
   bool facing_known = true;
-  int sign = 1;              ///< of the area; -1: edges are turned
-  bool front = true;         ///< meaningful where facing_known
+  int sign = 1;       ///< of the area; -1: edges are turned
+  bool front = true;  ///< meaningful where facing_known
 };
 
 /// How surely a piece has a sample.
@@ -57,13 +58,15 @@ class Projector {
   /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
   Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {});
 
-  /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh have none.
+  /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh
+  /// have none.
   bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
 
   /// What is left of the triangle after near, far and w; back to `out`, which is cleared.
   void pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const;
 
-  /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix A).
+  /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix
+  /// A).
   std::array<std::array<float, 4>, 3> clip_of(uint32_t instance, uint32_t triangle) const;
 
   /// The largest |x|, |y| of the viewport in the driver's window, where planes are made.
@@ -78,7 +81,8 @@ class Projector {
  private:
   struct ClipVertex {
     std::array<double, 4> c{}, error{};
-    std::array<double, 4> along{};  ///< how far a cut vertex may lie along its edge: moves coverage, leaves the planes alone
+    std::array<double, 4>
+        along{};  ///< how far a cut vertex may lie along its edge: moves coverage, leaves the planes alone
     std::array<double, 3> weight{};
   };
   struct InstanceMatrix {

@@ -113,5 +113,6 @@ TEST_CASE("Every OpenGL design draws glass after the lights, and the deferred on
     scene.materials[i].base_color.a = 0.4f;
     scene.materials[i].transparent = true;
   }
-  for (const TransparencyMode mode : {TransparencyMode::after_lights, TransparencyMode::into_albedo}) check_presets(scene, mode);
+  for (const TransparencyMode mode : {TransparencyMode::after_lights, TransparencyMode::into_albedo})
+    check_presets(scene, mode);
 }

@@ -1,13 +1,13 @@
 // Lists of lights by tile leave out no light that lights a pixel.
 #include "oracle/gl/light_tiles.h"
 
-#include "tests/catch.hpp"
 #include <cstdio>
 
 #include "oracle/gl/glsl.h"
 #include "scenes/builtin.h"
 #include "scenes/presets.h"
 #include "shading/frame.h"
+#include "tests/catch.hpp"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -23,7 +23,8 @@ struct Shown {
 };
 
 Shown shown(const Scene& scene, const Pipeline& pipeline) {
-  Frame frame = render_frame(PreparedScene(scene), pipeline, {}, std::vector<std::string>{"depth", "position", "normal"});
+  Frame frame =
+      render_frame(PreparedScene(scene), pipeline, {}, std::vector<std::string>{"depth", "position", "normal"});
   Shown s;
   for (NamedImage& plane : frame.aovs) {
     for (int y = kHeight - 1; y >= 0; --y)
@@ -31,8 +32,10 @@ Shown shown(const Scene& scene, const Pipeline& pipeline) {
         if (plane.name == "depth") s.depth.push_back(float(plane.image.value(x, y, 0)));
         for (int k = 0; k < 4 && plane.name == "normal"; ++k) s.halves.push_back(uint16_t(plane.image.code(x, y, k)));
       }
-    if (plane.name == "position") s.position = std::move(plane.image);
-    else if (plane.name == "normal") s.normal = std::move(plane.image);
+    if (plane.name == "position")
+      s.position = std::move(plane.image);
+    else if (plane.name == "normal")
+      s.normal = std::move(plane.image);
   }
   return s;
 }
@@ -84,7 +87,8 @@ TEST_CASE("A tile lists every light that lights one of its pixels, and few that 
         }
       CHECK(pairs > 10000);
       CHECK(lost == 0);
-      std::printf("%s, tiles of %d: %zu of %zu records kept by their normals\n", name, size, facing.records.size() / floats, all.records.size() / floats);
+      std::printf("%s, tiles of %d: %zu of %zu records kept by their normals\n", name, size,
+                  facing.records.size() / floats, all.records.size() / floats);
     }
   }
   // A light that adds something to what faces away is listed whatever the normals.
@@ -92,5 +96,6 @@ TEST_CASE("A tile lists every light that lights one of its pixels, and few that 
   unmasked.light_model.specular_masked = false;
   const Scene scene = builtin_scene("sphere");
   const Shown s = shown(scene, unmasked);
-  CHECK(light_tiles(scene, unmasked, s.depth, s.halves, 32).records == light_tiles(scene, unmasked, s.depth, {}, 32).records);
+  CHECK(light_tiles(scene, unmasked, s.depth, s.halves, 32).records ==
+        light_tiles(scene, unmasked, s.depth, {}, 32).records);
 }

@@ -73,7 +73,7 @@ TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a c
       CHECK(a.covered > 3000);
       CHECK(a.unexplained == 0);
       CHECK(a.other_object <= a.covered / 1000);  // all on edges: 0.4 of 100 crossings expected (GL_RULES section 9)
-      CHECK(a.far_codes <= 300);  // of 30,000
+      CHECK(a.far_codes <= 300);                  // of 30,000
     }
   }
 }

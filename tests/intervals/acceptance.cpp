@@ -1,5 +1,4 @@
 // GL_RULES rows 61, 63 and 64, and our own frames: what is judged must be explained, and nothing more be let through.
-#include "tests/catch.hpp"
 #include <cmath>
 #include <cstring>
 
@@ -7,6 +6,7 @@
 #include "scenes/builtin.h"
 #include "scenes/pcg32.h"
 #include "scenes/presets.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 
 using namespace trueshade;
@@ -26,7 +26,8 @@ Capture edited(Capture capture, const Change& change) {
   Image& color = capture.color;
   for (int y = 0; y < color.height; ++y)
     for (int x = 0; x < color.width; ++x)
-      for (int k = 0; k < 4; ++k) color.texel(x, y)[k] = uint8_t(std::clamp(change(int(color.texel(x, y)[k]), k, x, y), 0, 255));
+      for (int k = 0; k < 4; ++k)
+        color.texel(x, y)[k] = uint8_t(std::clamp(change(int(color.texel(x, y)[k]), k, x, y), 0, 255));
   return capture;
 }
 
@@ -37,7 +38,8 @@ namespace {
 void check_own_frame(const PreparedScene& prepared, const Pipeline& pipeline, const char* name) {
   Profile profile = *profile_named(name);
   profile.subpixel_bits = 8;
-  const Verdict v = validate_capture(prepared.scene(), pipeline, testing::captured(prepared, pipeline), {profile, false});
+  const Verdict v =
+      validate_capture(prepared.scene(), pipeline, testing::captured(prepared, pipeline), {profile, false});
   CAPTURE(prepared.scene().spec, pipeline.preset, name_of(pipeline.strategy), name);
   if (v.violations() > 0) UNSCOPED_INFO(verdict_json(v));
   CHECK(v.violations() == 0);
@@ -49,7 +51,9 @@ void check_own_frame(const PreparedScene& prepared, const Pipeline& pipeline, co
   // A value within an ulp of the exact plane may be on either side of a half: STORE-2.
   const bool halves = surface_planes(pipeline).position.format != Format::rgba32f;
   if (std::string_view(name) == "ideal")
-    CHECK(v.stages[0].count(PixelClass::exact) + v.stages[0].count(PixelClass::tex) + (halves ? v.stages[0].count(PixelClass::store_2) : 0) == pixels);
+    CHECK(v.stages[0].count(PixelClass::exact) + v.stages[0].count(PixelClass::tex) +
+              (halves ? v.stages[0].count(PixelClass::store_2) : 0) ==
+          pixels);
   CHECK_FALSE(v.suspicious());
 }
 
@@ -66,7 +70,8 @@ TEST_CASE("Our own frames of every built-in scene are explained, pixel by pixel"
 }
 
 TEST_CASE("Our own frames are explained under every preset and strategy") {
-  for (const char* spec : {"city,lights=30,objects=300", "sphere,lights=12", "circle,lights=12", "cornell", "lecture", "atrium,lights=12"}) {
+  for (const char* spec : {"city,lights=30,objects=300", "sphere,lights=12", "circle,lights=12", "cornell", "lecture",
+                           "atrium,lights=12"}) {
     const Scene scene = builtin_scene(spec);
     const PreparedScene prepared(scene);
     for (const Preset& preset : presets())
@@ -92,11 +97,17 @@ TEST_CASE("The nine pictures that fool the fuzzy compare are violations with a l
   const auto lone = [](int x, int y) { return x % 13 == 6 && y % 15 == 7; };  // 72 isolated pixels
   const std::pair<const char*, Capture> pictures[] = {
       {"all channels off by 4", edited(right, [](int v, int, int, int) { return v < 128 ? v + 4 : v - 4; })},
-      {"shifted by (1, 1)", edited(right, [&](int, int k, int x, int y) { return int(right.color.texel(std::max(0, x - 1), std::max(0, y - 1))[k]); })},
-      {"border of garbage", edited(right, [&](int v, int, int x, int y) { return x == 0 || y == 0 || x == 127 || y == 127 ? random_of(x, y) : v; })},
+      {"shifted by (1, 1)",
+       edited(right, [&](int, int k, int x,
+                         int y) { return int(right.color.texel(std::max(0, x - 1), std::max(0, y - 1))[k]); })},
+      {"border of garbage",
+       edited(right, [&](int v, int, int x,
+                         int y) { return x == 0 || y == 0 || x == 127 || y == 127 ? random_of(x, y) : v; })},
       {"one pixel black", edited(right, [](int v, int, int x, int y) { return x == 64 && y == 90 ? 0 : v; })},
-      {"seventy pixels wrong", edited(right, [&](int v, int, int x, int y) { return lone(x, y) ? (v < 128 ? v + 80 : v - 80) : v; })},
-      {"checkerboard inverted", edited(right, [](int v, int k, int x, int y) { return k < 3 && ((x ^ y) & 1) != 0 ? 255 - v : v; })},
+      {"seventy pixels wrong",
+       edited(right, [&](int v, int, int x, int y) { return lone(x, y) ? (v < 128 ? v + 80 : v - 80) : v; })},
+      {"checkerboard inverted",
+       edited(right, [](int v, int k, int x, int y) { return k < 3 && ((x ^ y) & 1) != 0 ? 255 - v : v; })},
       {"ramp plus 6", edited(right, [](int v, int k, int, int) { return k < 3 ? v + 6 : v; })},
       {"posterised to 5 bits", edited(right, [](int v, int, int, int) { return (v & 0xf8) | v >> 5; })},
       {"off by 132 in all channels", edited(right, [](int v, int, int, int) { return v < 124 ? v + 132 : v - 132; })}};

@@ -25,11 +25,12 @@ namespace {
 struct MutantScore {
   int changed = 0, rejected = 0, by_last = 0;  ///< that differ from the right ones; rejected; by the last image alone
   uint64_t pixels = 0;
-  std::set<std::string> scenes;                ///< that reject it
+  std::set<std::string> scenes;  ///< that reject it
 };
 
 std::vector<Scene> blend_mutant_scenes() {
-  std::vector<Scene> scenes = {builtin_scene("cornell"), builtin_scene("city,lights=6,objects=120"), builtin_scene("sphere,lights=5")};
+  std::vector<Scene> scenes = {builtin_scene("cornell"), builtin_scene("city,lights=6,objects=120"),
+                               builtin_scene("sphere,lights=5")};
   scenes[1].lights.resize(6), scenes[2].lights.resize(5);
   for (size_t i = 1; i < scenes.size(); ++i)  // so that few lights reach much of the picture
     for (Light& l : scenes[i].lights) l.range *= 2.0f;
@@ -37,8 +38,9 @@ std::vector<Scene> blend_mutant_scenes() {
 }
 
 // Right and wrong steps under each profile.
-void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pipeline& preset, std::span<const Profile> profiles,
-                      const Renderer& render, const StepRenderer& step, MutantScore& score) {
+void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pipeline& preset,
+                      std::span<const Profile> profiles, const Renderer& render, const StepRenderer& step,
+                      MutantScore& score) {
   Scene scene = original;
   Pipeline pipeline = preset;
   if (mutant.base != nullptr) mutant.base(scene, pipeline);
@@ -52,7 +54,8 @@ void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pi
   for (const Profile& profile : profiles) {
     CAPTURE(mutant.name, scene.spec, name_of(pipeline.strategy), profile.name);
     CHECK(judge_blending(scene, judged, profile, capture, steps_from(right)).passes());
-    const uint64_t found = judge_blending(scene, judged, profile, capture, steps_from(wrong)).count(PixelClass::violation);
+    const uint64_t found =
+        judge_blending(scene, judged, profile, capture, steps_from(wrong)).count(PixelClass::violation);
     Capture last = capture;
     last.color = wrong.back();
     const uint64_t by_last = judge_lighting(scene, judged, profile, last).count(PixelClass::violation);
@@ -61,7 +64,8 @@ void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pi
     score.by_last += by_last > 0 ? 1 : 0;
     score.pixels += found;
     if (found > 0) score.scenes.insert(scene.spec);
-    if (profile.name == "ideal" || profile.name == "mesa-llvmpipe-22.3" || mutant.latitude == Latitude::none) CHECK(found > 0);
+    if (profile.name == "ideal" || profile.name == "mesa-llvmpipe-22.3" || mutant.latitude == Latitude::none)
+      CHECK(found > 0);
   }
 }
 
@@ -69,8 +73,8 @@ void print_scores(const std::map<std::string_view, MutantScore>& scores) {
   std::printf("%-46s %7s %8s %12s %7s %9s\n", "mutant", "changed", "rejected", "by the last", "scenes", "pixels");
   for (const BlendMutant& mutant : blend_mutants()) {
     const MutantScore& s = scores.at(mutant.name);
-    std::printf("%-46s %7d %8d %12d %7zu %9llu\n", std::string(mutant.name).c_str(), s.changed, s.rejected, s.by_last, s.scenes.size(),
-                static_cast<unsigned long long>(s.pixels));
+    std::printf("%-46s %7d %8d %12d %7zu %9llu\n", std::string(mutant.name).c_str(), s.changed, s.rejected, s.by_last,
+                s.scenes.size(), static_cast<unsigned long long>(s.pixels));
   }
 }
 

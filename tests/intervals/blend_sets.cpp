@@ -16,7 +16,8 @@ using namespace trueshade::oracle;
 namespace {
 
 BlendTerm random_term(Pcg32& random) {
-  return {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)), BlendFactor(random.below(kBlendFactors))};
+  return {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)),
+          BlendFactor(random.below(kBlendFactors))};
 }
 
 BlendState random_state(Pcg32& random) {
@@ -52,7 +53,8 @@ Texel known(const Rgba& stored) {
 }
 
 bool by_mesa(Format f) {
-  return f == Format::rgba8 || f == Format::rgba16 || f == Format::rgba16f || f == Format::rgba32f || f == Format::r11g11b10f;
+  return f == Format::rgba8 || f == Format::rgba16 || f == Format::rgba16f || f == Format::rgba32f ||
+         f == Format::r11g11b10f;
 }
 
 }  // namespace
@@ -73,8 +75,9 @@ TEST_CASE("Both blenders we know are in the legal sets, and each is the whole of
           if ((name == "ideal" && mesa) || (name == "mesa-llvmpipe-22.3" && !mesa)) continue;
           const Texel legal = blended_texel(state, format, *profile_named(name), points(source), known(stored));
           for (size_t k = 0; k < size_t(info(format).channels); ++k) {
-            CAPTURE(info(format).name, name, mesa, k, int(state.rgb.equation), int(state.rgb.src), int(state.rgb.dst), int(state.alpha.equation),
-                    int(state.alpha.src), int(state.alpha.dst), source[k], source[3], stored[k], stored[3], given[k], legal[k].low, legal[k].high);
+            CAPTURE(info(format).name, name, mesa, k, int(state.rgb.equation), int(state.rgb.src), int(state.rgb.dst),
+                    int(state.alpha.equation), int(state.alpha.src), int(state.alpha.dst), source[k], source[3],
+                    stored[k], stored[3], given[k], legal[k].low, legal[k].high);
             if (!legal[k].contains(double(given[k]))) FAIL();
             const bool own = mesa ? name == "mesa-llvmpipe-22.3" : name == "ideal";
             if (own && (legal[k].low != legal[k].high) && !info(format).srgb_channel(int(k))) FAIL();
@@ -87,7 +90,8 @@ TEST_CASE("Both blenders we know are in the legal sets, and each is the whole of
 TEST_CASE("What lies outside is not legal: a code more than any neighbour, a term too many, one too few") {
   const Texel stored = known({100, 100, 100, 255});
   const auto legal = [&](const char* profile, const BlendState& state, float x) {
-    return blended_texel(state, Format::rgba8, *profile_named(profile), points({x / 255, x / 255, x / 255, 1.0f}), stored)[0];
+    return blended_texel(state, Format::rgba8, *profile_named(profile), points({x / 255, x / 255, x / 255, 1.0f}),
+                         stored)[0];
   };
   for (const char* name : {"unknown", "d3d-class"}) {
     CHECK(legal(name, kAddLight, 10.5f).low == 110);
@@ -104,19 +108,21 @@ TEST_CASE("What lies outside is not legal: a code more than any neighbour, a ter
   BlendState state = kAddLight;
   state.rgb = {BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one};
   const auto row40 = [&](const char* profile) {
-    return blended_texel(state, Format::rgba8, *profile_named(profile), points({244 / 255.0f, 0, 0, 197 / 255.0f}), known({4, 0, 0, 0}))[0];
+    return blended_texel(state, Format::rgba8, *profile_named(profile), points({244 / 255.0f, 0, 0, 197 / 255.0f}),
+                         known({4, 0, 0, 0}))[0];
   };
   CHECK((row40("ideal").low == 193 && row40("ideal").high == 193));
   CHECK((row40("mesa-llvmpipe-22.3").low == 192 && row40("mesa-llvmpipe-22.3").high == 192));
-  // The floats 244 / 255 and 197 / 255 are a little more than that (by 7e-7 and 3e-6 codes). By the letter their codes may
-  // be 244 and 245, 197 and 198, and the product, 188.5 to 190.2, is rounded either way: 188 to 191.
+  // The floats 244 / 255 and 197 / 255 are a little more than that (by 7e-7 and 3e-6 codes). By the letter their codes
+  // may be 244 and 245, 197 and 198, and the product, 188.5 to 190.2, is rounded either way: 188 to 191.
   CHECK((row40("unknown").low == 192 && row40("unknown").high == 195));
 }
 
 namespace {
 
 /// Triangles of a light's mesh that cover each pixel, by exact integers.
-std::vector<uint16_t> exact_counts(const Scene& scene, const Pipeline& pipeline, const Light& light, const LightMesh& mesh) {
+std::vector<uint16_t> exact_counts(const Scene& scene, const Pipeline& pipeline, const Light& light,
+                                   const LightMesh& mesh) {
   std::vector<glm::vec3> vertices(mesh.unit.size());
   light_vertices(mesh, light, vertices);
   const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
@@ -125,7 +131,8 @@ std::vector<uint16_t> exact_counts(const Scene& scene, const Pipeline& pipeline,
     for (size_t i = 0; i < 3; ++i)
       for (size_t r = 0; r < 4; ++r) {
         const glm::vec3& v = vertices[mesh.indices[3 * t + i]];
-        triangles[t].vertex[i][r] = ((float(clip[r]) * v.x + float(clip[4 + r]) * v.y) + float(clip[8 + r]) * v.z) + float(clip[12 + r]);
+        triangles[t].vertex[i][r] =
+            ((float(clip[r]) * v.x + float(clip[4 + r]) * v.y) + float(clip[8 + r]) * v.z) + float(clip[12 + r]);
       }
   GeometryState state = pipeline.geometry;
   state.cull_face = pipeline.light_volumes.cull_face;
@@ -155,7 +162,8 @@ TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rul
           const auto old = random.below(uint32_t(largest) + 1);
           before.set_code(0, 0, k, old), from[size_t(k)] = known_texel(double(old));
           // Near a threshold between two codes, by less and by more than the error.
-          const double at = k == 3 ? 1 : (double(random.below(uint32_t(largest))) + random.between(-0.2, 1.2)) / largest;
+          const double at =
+              k == 3 ? 1 : (double(random.below(uint32_t(largest))) + random.between(-0.2, 1.2)) / largest;
           const double error = std::ldexp(random.between(0, 1), -int(8 + random.below(24))) / largest;
           if (k < 3) color[size_t(k)] = {at, error};
           fragment.output.nominal[size_t(k)] = range_of({at, k < 3 ? error : 0});
@@ -179,7 +187,8 @@ TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rul
     }
   CHECK(plain > 50000);
   CHECK(close > 1000);
-  for (const Format f : {Format::srgb8_a8, Format::rgb10_a2, Format::rgba16f, Format::rgba32f}) CHECK_FALSE(AddedCodes(f, kAddLight).suit());
+  for (const Format f : {Format::srgb8_a8, Format::rgb10_a2, Format::rgba16f, Format::rgba32f})
+    CHECK_FALSE(AddedCodes(f, kAddLight).suit());
   BlendState screen = kAddLight;
   screen.rgb.src = BlendFactor::one_minus_dst_color;
   CHECK_FALSE(AddedCodes(Format::rgba8, screen).suit());
@@ -204,7 +213,8 @@ TEST_CASE("A fragment that adds nothing leaves every texel as it is, in every fo
       }
 }
 
-TEST_CASE("How often a light's geometry is drawn at a pixel: exact integers are the nominal count, and few are in doubt") {
+TEST_CASE(
+    "How often a light's geometry is drawn at a pixel: exact integers are the nominal count, and few are in doubt") {
   Scene scene;
   scene.camera.eye = {0.0f, 0.5f, 4.0f};
   scene.camera.near = 0.5f;
@@ -252,7 +262,8 @@ TEST_CASE("How often a light's geometry is drawn at a pixel: exact integers are 
   CAPTURE(samples, doubtful, drawn, behind);
   CHECK(drawn > samples / 8);
   CHECK(behind > 40);
-  // An edge over L rows has 2 e L samples in doubt (GL_RULES section 9), e = 1/512 and what floats add: far below a percent.
+  // An edge over L rows has 2 e L samples in doubt (GL_RULES section 9), e = 1/512 and what floats add: far below a
+  // percent.
   CHECK(doubtful < drawn / 200);
   std::printf("light geometry: %zu samples, %zu drawn, %zu in doubt\n", samples, drawn, doubtful);
 }

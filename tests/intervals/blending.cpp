@@ -71,13 +71,15 @@ TEST_CASE("Our own random frames, drawn light by light, are explained in every t
     if (is_forward(pipeline.strategy)) pipeline.transparency.mode = TransparencyMode::after_lights;
     const std::vector<BlendState> states = blend_states();
     pipeline.blend = states[random.below(uint32_t(states.size()))];
-    constexpr LightExtent extents[] = {LightExtent::unbounded, LightExtent::range, LightExtent::box, LightExtent::sphere};
+    constexpr LightExtent extents[] = {LightExtent::unbounded, LightExtent::range, LightExtent::box,
+                                       LightExtent::sphere};
     pipeline.light_volumes.point = pipeline.light_volumes.spot = extents[random.below(4)];
     pipeline.light_volumes.cull_face = CullFace(random.below(3));
     pipeline.light_volumes.depth_clamp = random.below(3) != 0;
     pipeline.light_volumes.base = random.below(3) != 0;
     for (const char* name : {"ideal", "d3d-class", "unknown"}) {
-      CAPTURE(i, name, name_of(pipeline.strategy), info(pipeline.target).name, int(pipeline.blend.rgb.src), int(pipeline.blend.rgb.dst));
+      CAPTURE(i, name, name_of(pipeline.strategy), info(pipeline.target).name, int(pipeline.blend.rgb.src),
+              int(pipeline.blend.rgb.dst));
       check_both(scene, pipeline, of_8_bits(name));
     }
   }
@@ -97,7 +99,8 @@ TEST_CASE("Surfaces drawn twice add twice under forward-multipass, and the judge
   Capture wrong = captured(once, pipeline);
   const Pipeline judged = with_surface_planes(pipeline);
   CHECK(judge_lighting(scene, judged, of_8_bits("ideal"), wrong).count(PixelClass::violation) > 500);
-  CHECK(judge_blending(scene, judged, of_8_bits("unknown"), wrong, steps_of(once, pipeline)).count(PixelClass::violation) > 500);
+  CHECK(judge_blending(scene, judged, of_8_bits("unknown"), wrong, steps_of(once, pipeline))
+            .count(PixelClass::violation) > 500);
 }
 
 TEST_CASE("A light too many or too few in light.count is found, by the light and by the last image") {
@@ -128,7 +131,8 @@ TEST_CASE("A light too many or too few in light.count is found, by the light and
           const StageVerdict v = judge_blending(scene, judged, of_8_bits(name), wrong, steps_of(scene, pipeline));
           CHECK(100 * v.count(PixelClass::violation) >= 90 * changed);  // some lights may or may not face or be drawn
           CHECK(v.worst.front().plane == "light.count.R");
-          CHECK(100 * judge_lighting(scene, judged, of_8_bits(name), wrong).count(PixelClass::violation) >= 90 * changed);
+          CHECK(100 * judge_lighting(scene, judged, of_8_bits(name), wrong).count(PixelClass::violation) >=
+                90 * changed);
         }
       }
     }
@@ -148,7 +152,8 @@ TEST_CASE("GL_RULES row 50: 64 lights of a quarter of a code blended give 0, or 
   pipeline.strategy = Strategy::deferred_volumes;
   Capture capture = captured(scene, pipeline);
   CHECK(capture.color.texel(20, 15)[0] == 0);
-  for (const char* name : {"ideal", "unknown"}) CHECK(judge_lighting(scene, pipeline, of_8_bits(name), capture).passes());
+  for (const char* name : {"ideal", "unknown"})
+    CHECK(judge_lighting(scene, pipeline, of_8_bits(name), capture).passes());
   const Image* object = capture.plane("id.object");
   for (const auto& [code, by_letter] : {std::pair{16, true}, {64, true}, {65, false}}) {
     for (int y = 0; y < 30; ++y)
@@ -165,7 +170,9 @@ TEST_CASE("Steps that are not each light's in turn are refused in one line") {
   pipeline.width = 32, pipeline.height = 24;
   pipeline.strategy = Strategy::deferred_volumes;
   const Capture capture = captured(scene, pipeline);
-  const auto judged = [&](const LightSteps& steps) { return judge_blending(scene, pipeline, of_8_bits("unknown"), capture, steps); };
+  const auto judged = [&](const LightSteps& steps) {
+    return judge_blending(scene, pipeline, of_8_bits("unknown"), capture, steps);
+  };
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(0, capture.color); }), Error);
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(-1, Image(8, 8, Format::rgba8)); }), Error);
   CHECK_THROWS_AS(judged([&](const StepSink& sink) { sink(-1, capture.color); }), Error);
@@ -194,7 +201,8 @@ Scene many_lamps(int count) {
 }  // namespace
 
 // GL_RULES section 9: RTZ accumulation "must be detected even where each step is legal".
-TEST_CASE("Halves truncated after each of 256 lights are legal where they should be nearest, and not what chance makes") {
+TEST_CASE(
+    "Halves truncated after each of 256 lights are legal where they should be nearest, and not what chance makes") {
   const Scene scene = many_lamps(256);
   for (const HalfRound expected : {HalfRound::nearest, HalfRound::toward_zero})
     for (const HalfRound stored : {HalfRound::nearest, HalfRound::toward_zero}) {
@@ -205,7 +213,8 @@ TEST_CASE("Halves truncated after each of 256 lights are legal where they should
       pipeline = drawn;
       pipeline.gbuffer.half_round = expected, drawn.gbuffer.half_round = stored;
       const Capture capture = captured(scene, drawn);
-      const Verdict v = validate_capture(scene, pipeline, capture, {of_8_bits("unknown"), false, steps_of(scene, drawn), {}});
+      const Verdict v =
+          validate_capture(scene, pipeline, capture, {of_8_bits("unknown"), false, steps_of(scene, drawn), {}});
       CAPTURE(int(expected), int(stored), verdict_json(v));
       REQUIRE(v.stages.back().stage == "blending");
       CHECK(v.violations() == 0);
@@ -221,14 +230,17 @@ TEST_CASE("Halves truncated after each of 256 lights are legal where they should
     }
 }
 
-TEST_CASE("Of lights blended into a file the rounding of one store is not told from the next one's, and the verdict says so") {
+TEST_CASE(
+    "Of lights blended into a file the rounding of one store is not told from the next one's, and the verdict says "
+    "so") {
   const Scene scene = builtin_scene("cornell");
   Pipeline pipeline;
   pipeline.width = 32, pipeline.height = 24;
   pipeline.target = Format::rgba16f;
   for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::deferred_loop}) {
     pipeline.strategy = strategy;
-    const Verdict v = validate_capture(scene, pipeline, captured(scene, pipeline), {of_8_bits("unknown"), false, {}, {}});
+    const Verdict v =
+        validate_capture(scene, pipeline, captured(scene, pipeline), {of_8_bits("unknown"), false, {}, {}});
     const std::vector<AggregateTest>& tests = v.aggregates.back();
     CHECK(named(tests, "other surfaces").tested);
     for (const char* name : {"second neighbours", "store bias", "store clusters"}) {

@@ -11,7 +11,8 @@ namespace trueshade::testing {
 
 /// The planes that are judged: those of every surface, and those that the light model reads.
 inline std::vector<std::string> judged_planes(const LightModel& model) {
-  std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material", "light.count"};
+  std::vector<std::string> planes = {"depth", "position",  "normal",      "albedo",
+                                     "uv",    "id.object", "id.material", "light.count"};
   if (reads_specular_plane(model)) planes.emplace_back("specular");
   if (model.emission) planes.emplace_back("emission");
   return planes;
@@ -22,7 +23,9 @@ inline oracle::Capture captured(const PreparedScene& scene, const Pipeline& pipe
   Frame frame = render_frame(scene, pipeline, {}, judged_planes(pipeline.light_model));
   return {"trueshade", std::move(frame.color), std::move(frame.aovs)};
 }
-inline oracle::Capture captured(const Scene& scene, const Pipeline& pipeline) { return captured(PreparedScene(scene), pipeline); }
+inline oracle::Capture captured(const Scene& scene, const Pipeline& pipeline) {
+  return captured(PreparedScene(scene), pipeline);
+}
 
 /// The pipeline as judge_gbuffer() and the others take it: with the planes that surfaces really have.
 inline Pipeline with_surface_planes(Pipeline pipeline) {

@@ -1,6 +1,5 @@
-// Depth buffers of every format, with and without polygon offset (GL_RULES sections 2 and 8, rows 20 to 26): frames of ours
-// and of llvmpipe are explained, wrong depths are not.
-#include "tests/catch.hpp"
+// Depth buffers of every format, with and without polygon offset (GL_RULES sections 2 and 8, rows 20 to 26): frames of
+// ours and of llvmpipe are explained, wrong depths are not.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +7,7 @@
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/judge.h"
 #include "scenes/shapes.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
 #include "tests/intervals/random_scene.h"
@@ -35,12 +35,13 @@ Pipeline pipeline_of(Format format, Offset offset) {
 
 std::string text(Format format, Offset offset) {
   char line[64];
-  std::snprintf(line, sizeof line, "%s, factor %g, units %g", std::string(info(format).name).c_str(), double(offset.factor), double(offset.units));
+  std::snprintf(line, sizeof line, "%s, factor %g, units %g", std::string(info(format).name).c_str(),
+                double(offset.factor), double(offset.units));
   return line;
 }
 
-/// Slopes of every size: a floor that runs far, walls, balls, and a sheet of one depth. Depths about 1/2, where floats are
-/// finer than 24-bit codes.
+/// Slopes of every size: a floor that runs far, walls, balls, and a sheet of one depth. Depths about 1/2, where floats
+/// are finer than 24-bit codes.
 Scene slopes() {
   Pcg32 random(7);
   Scene scene = testing::random_scene(random);
@@ -59,8 +60,9 @@ uint64_t violations(const Scene& scene, const Pipeline& pipeline, const Profile&
   const StageVerdict v = judge_gbuffer(scene, pipeline, profile, capture);
   if (!v.passes()) {
     const WorstPixel& w = v.worst.front();
-    UNSCOPED_INFO(profile.name << ": " << v.count(PixelClass::violation) << " px of " << v.covered << ", (" << w.x << ", " << w.y << ") " << w.plane
-                               << " [" << w.low << ", " << w.high << "] given " << w.given << " " << w.note);
+    UNSCOPED_INFO(profile.name << ": " << v.count(PixelClass::violation) << " px of " << v.covered << ", (" << w.x
+                               << ", " << w.y << ") " << w.plane << " [" << w.low << ", " << w.high << "] given "
+                               << w.given << " " << w.note);
   }
   return v.count(PixelClass::violation);
 }
@@ -126,10 +128,14 @@ struct WrongOffset {
   Offset meant, drawn;
 };
 constexpr WrongOffset kWrongOffsets[] = {
-    {"no offset where there is a factor", {1, 0}, {0, 0}},   {"no offset where there are units", {0, -400}, {0, 0}},
-    {"the factor twice", {1, 0}, {2, 0}},                    {"half the factor", {2, 400}, {1, 400}},
-    {"the factor's sign turned", {-0.5f, 0}, {0.5f, 0}},     {"units three times", {0, -400}, {0, -1200}},
-    {"the sign of the units turned", {0, -400}, {0, 400}},   {"an offset where there is none", {0, 0}, {0, 400}},
+    {"no offset where there is a factor", {1, 0}, {0, 0}},
+    {"no offset where there are units", {0, -400}, {0, 0}},
+    {"the factor twice", {1, 0}, {2, 0}},
+    {"half the factor", {2, 400}, {1, 400}},
+    {"the factor's sign turned", {-0.5f, 0}, {0.5f, 0}},
+    {"units three times", {0, -400}, {0, -1200}},
+    {"the sign of the units turned", {0, -400}, {0, 400}},
+    {"an offset where there is none", {0, 0}, {0, 400}},
     {"factor and units exchanged", {2, 400}, {400, 2}},
 };
 
@@ -174,7 +180,8 @@ TEST_CASE("Depths of another rounding or format are violations") {
     CHECK(violations(scene, pipeline, held_to("unknown"), truncated) == 0);
     CHECK(violations(scene, pipeline, held_to("ideal"), truncated) > 1000);
     CHECK(violations(scene, pipeline, held_to("ideal"), below) > 1000);
-    // For any GPU a code of 16 bits is more than most planes leave open, one of 24 bits is not: 2e-6 is measured of float depth.
+    // For any GPU a code of 16 bits is more than most planes leave open, one of 24 bits is not: 2e-6 is measured of
+    // float depth.
     const double far = format == Format::d16 ? 1 : 200;
     const Capture off = with_depths(truncated, [&](double z) { return z - far / codes; });
     CHECK(violations(scene, pipeline, held_to("unknown"), off) > 100);
@@ -186,7 +193,8 @@ TEST_CASE("Depths of another rounding or format are violations") {
   CHECK(violations(scene, pipeline_of(Format::d16, {0, 0}), held_to("ideal"), scaled) > 100);
 }
 
-TEST_CASE("Row 26: where a driver says nothing of itself a slope is anything from the larger one, 8e-4, to the norm, 1e-3") {
+TEST_CASE(
+    "Row 26: where a driver says nothing of itself a slope is anything from the larger one, 8e-4, to the norm, 1e-3") {
   const Scene scene = testing::window_scene({{{{0, 0, -.5}, {256, 0, -.5 + 512 * 3e-4}, {0, 256, -.5 + 512 * 4e-4}}}});
   Pipeline pipeline = testing::window_pipeline();
   pipeline.geometry.polygon_offset_factor = 2;

@@ -17,7 +17,8 @@ namespace {
 std::vector<Profile> profiles_of(const GlContext& context) {
   std::vector<Profile> profiles = {*profile_named("unknown")};
   profiles[0].subpixel_bits = context.info().subpixel_bits;
-  if (context.info().line().find("Mesa 22.3") != std::string::npos) profiles.push_back(*profile_named("mesa-llvmpipe-22.3"));
+  if (context.info().line().find("Mesa 22.3") != std::string::npos)
+    profiles.push_back(*profile_named("mesa-llvmpipe-22.3"));
   return profiles;
 }
 

@@ -1,10 +1,12 @@
 #include "tests/intervals/drivers.h"
 
-#include "tests/catch.hpp"
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
+
+#include "tests/catch.hpp"
 
 namespace trueshade::testing {
 
@@ -56,8 +58,10 @@ void hand_over(const Capture& capture) {
 
 std::optional<Capture> drawn_elsewhere(const std::string& drawer) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string file = (std::filesystem::temp_directory_path() / ("trueshade_" + std::to_string(getpid()) + ".capture")).string();
-  const std::string command = std::string(kHandOver) + "='" + file + "' '" + self + "' '" + drawer + "' >'" + file + ".log' 2>&1";
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("trueshade_" + std::to_string(getpid()) + ".capture")).string();
+  const std::string command =
+      std::string(kHandOver) + "='" + file + "' '" + self + "' '" + drawer + "' >'" + file + ".log' 2>&1";
   const int status = std::system(command.c_str());
   std::optional<Capture> capture;
   if (std::ifstream in(file, std::ios::binary); in) {

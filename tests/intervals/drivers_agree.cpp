@@ -1,11 +1,12 @@
-// GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge explains it.
-#include "tests/catch.hpp"
+// GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
+// explains it.
 #include <cstdio>
 
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/validate.h"
 #include "scenes/pcg32.h"
 #include "scenes/shapes.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/drivers.h"
 
 using namespace trueshade;
@@ -101,12 +102,15 @@ TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pix
       if (object && !explained) ++unexplained;
       int apart = 0;
       for (int k = 0; k < 3; ++k)
-        apart = std::max(apart, std::abs(int(captures[0]->color.texel(x, y)[k]) - int(captures[1]->color.texel(x, y)[k])));
+        apart =
+            std::max(apart, std::abs(int(captures[0]->color.texel(x, y)[k]) - int(captures[1]->color.texel(x, y)[k])));
       codes += apart > 0 ? 1 : 0;
       off_by_more += apart > 1 ? 1 : 0;
     }
-  std::printf("llvmpipe and softpipe: %d px of another object, %d px of another surface, %d unexplained; %d lit px differ, %d by more than a code\n",
-              objects, surfaces, unexplained, codes, off_by_more);
+  std::printf(
+      "llvmpipe and softpipe: %d px of another object, %d px of another surface, %d unexplained; %d lit px differ, %d "
+      "by more than a code\n",
+      objects, surfaces, unexplained, codes, off_by_more);
   CHECK(unexplained == 0);
   CHECK(surfaces > 0);  // else there was nothing to explain
 }

@@ -1,11 +1,12 @@
-// GL_RULES row 57 on real drivers: 256 x 128 pixels, N lights, shininess s, lighting judged from the driver's own planes.
-#include "tests/catch.hpp"
+// GL_RULES row 57 on real drivers: 256 x 128 pixels, N lights, shininess s, lighting judged from the driver's own
+// planes.
 #include <cmath>
 #include <cstdio>
 
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/judge.h"
 #include "scenes/pcg32.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/drivers.h"
 
 using namespace trueshade;
@@ -45,7 +46,8 @@ Scene wavy_scene(int count, float shininess) {
   for (int i = 0; i < count; ++i) {
     Light light;
     light.position = {random.between(-3, 3), random.between(-3, 3), random.between(0.5, 4)};
-    light.color = glm::vec3(float(1.0 / count)) * glm::vec3{random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1)};
+    light.color = glm::vec3(float(1.0 / count)) *
+                  glm::vec3{random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1)};
     light.range = float(random.between(3, 9));
     scene.lights.push_back(light);
   }
@@ -68,10 +70,13 @@ void judge_cases(GlDriver which, std::initializer_list<int> counts) {
       const StageVerdict floats = judge_lighting(scene, pipeline, unknown, renderer.draw(pipeline).capture);
       pipeline.target = Format::rgba8;
       const StageVerdict codes = judge_lighting(scene, pipeline, unknown, renderer.draw(pipeline).capture);
-      std::printf("%s N %3d s %3.0f: rgba32f error / bound %.3f, %d BRANCH, %d VIOLATION; rgba8 %d EXACT, %d STORE-2, %d BRANCH, %d VIOLATION\n",
-                  which == GlDriver::softpipe ? "softpipe" : "llvmpipe", count, double(s), floats.worst_error,
-                  int(floats.count(PixelClass::branch)), int(floats.count(PixelClass::violation)), int(codes.count(PixelClass::exact)),
-                  int(codes.count(PixelClass::store_2)), int(codes.count(PixelClass::branch)), int(codes.count(PixelClass::violation)));
+      std::printf(
+          "%s N %3d s %3.0f: rgba32f error / bound %.3f, %d BRANCH, %d VIOLATION; rgba8 %d EXACT, %d STORE-2, %d "
+          "BRANCH, %d VIOLATION\n",
+          which == GlDriver::softpipe ? "softpipe" : "llvmpipe", count, double(s), floats.worst_error,
+          int(floats.count(PixelClass::branch)), int(floats.count(PixelClass::violation)),
+          int(codes.count(PixelClass::exact)), int(codes.count(PixelClass::store_2)),
+          int(codes.count(PixelClass::branch)), int(codes.count(PixelClass::violation)));
       std::fflush(stdout);
       CAPTURE(count, s);
       CHECK(floats.covered == uint64_t(kWidth) * kHeight);
@@ -86,7 +91,11 @@ void judge_cases(GlDriver which, std::initializer_list<int> counts) {
 
 }  // namespace
 
-TEST_CASE("Row 57: what llvmpipe lights is within a fifth of the bound") { judge_cases(GlDriver::llvmpipe, {1, 8, 64}); }
+TEST_CASE("Row 57: what llvmpipe lights is within a fifth of the bound") {
+  judge_cases(GlDriver::llvmpipe, {1, 8, 64});
+}
 TEST_CASE("Row 57: what softpipe lights is within a fifth of the bound") { judge_cases(GlDriver::softpipe, {1, 8}); }
 TEST_CASE("Row 57: what llvmpipe lights with 256 lights is too", "[long]") { judge_cases(GlDriver::llvmpipe, {256}); }
-TEST_CASE("Row 57: what softpipe lights with 64 and 256 lights is too", "[long]") { judge_cases(GlDriver::softpipe, {64, 256}); }
+TEST_CASE("Row 57: what softpipe lights with 64 and 256 lights is too", "[long]") {
+  judge_cases(GlDriver::softpipe, {64, 256});
+}

@@ -1,9 +1,10 @@
-// No false alarm on a driver: random scenes by llvmpipe, triangles begun at any vertex, the picture moved by whole pixels.
-#include "tests/catch.hpp"
+// No false alarm on a driver: random scenes by llvmpipe, triangles begun at any vertex, the picture moved by whole
+// pixels.
 #include <cstdio>
 
 #include "oracle/gl/renderer.h"
 #include "oracle/intervals/validate.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/drivers.h"
 #include "tests/intervals/random_scene.h"
 
@@ -17,7 +18,8 @@ struct Alarms {
 };
 
 /// Every stage; light by light and object by object where `watched` draws the image again.
-bool alarm(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture, GlRenderer* watched, const std::string& what) {
+bool alarm(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+           GlRenderer* watched, const std::string& what) {
   ValidateOptions options{profile, false, {}, {}};
   const auto shown = [&](StepSink GlDraw::*show) -> LightSteps {
     return [watched, show, pipeline](const StepSink& sink) {
@@ -33,8 +35,9 @@ bool alarm(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
     if (v.passes()) continue;
     alarm = true;
     const WorstPixel& w = v.worst.front();
-    WARN(what << ", " << profile.name << " " << v.stage << " " << v.count(PixelClass::violation) << " px, (" << w.x << ", " << w.y << ") "
-              << w.plane << " [" << w.low << ", " << w.high << "] given " << w.given << " " << w.note);
+    WARN(what << ", " << profile.name << " " << v.stage << " " << v.count(PixelClass::violation) << " px, (" << w.x
+              << ", " << w.y << ") " << w.plane << " [" << w.low << ", " << w.high << "] given " << w.given << " "
+              << w.note);
   }
   return alarm;
 }
@@ -74,8 +77,9 @@ Alarms turned_and_moved(const GlContext& context, int scenes, uint64_t first_see
           draw.shift_y = int(random.below(200));
         }
         const Capture capture = renderer.draw(pipeline, draw).capture;
-        const std::string what = "scene " + std::to_string(first_seed + uint64_t(i)) + " turned by " + std::to_string(rotation) + ", moved by (" +
-                                 std::to_string(draw.shift_x) + ", " + std::to_string(draw.shift_y) + ")";
+        const std::string what = "scene " + std::to_string(first_seed + uint64_t(i)) + " turned by " +
+                                 std::to_string(rotation) + ", moved by (" + std::to_string(draw.shift_x) + ", " +
+                                 std::to_string(draw.shift_y) + ")";
         GlRenderer* const watched = move == 0 ? &renderer : nullptr;
         ++alarms.images;
         alarms.rejected += alarm(scene, pipeline, unknown, capture, watched, what) ? 1 : 0;
@@ -83,7 +87,8 @@ Alarms turned_and_moved(const GlContext& context, int scenes, uint64_t first_see
       }
     }
   }
-  std::printf("llvmpipe turned and moved: %d images, %d rejected, %d by its own profile\n", alarms.images, alarms.rejected, alarms.rejected_by_own);
+  std::printf("llvmpipe turned and moved: %d images, %d rejected, %d by its own profile\n", alarms.images,
+              alarms.rejected, alarms.rejected_by_own);
   return alarms;
 }
 
@@ -98,7 +103,8 @@ TEST_CASE("Of seventy-two images by llvmpipe, triangles turned and pictures move
   CHECK(alarms.rejected_by_own == 0);
 }
 
-TEST_CASE("Of ten thousand images by llvmpipe, triangles turned and pictures moved, at most one is rejected", "[long]") {
+TEST_CASE("Of ten thousand images by llvmpipe, triangles turned and pictures moved, at most one is rejected",
+          "[long]") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Alarms alarms = turned_and_moved(*context, 834, 1000);

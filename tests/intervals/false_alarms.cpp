@@ -1,11 +1,11 @@
 // Images drawn by legal means of every kind must be accepted; and the bound of lighting must hold without being slack.
-#include "tests/catch.hpp"
 #include <cmath>
 #include <cstdio>
 #include <set>
 
 #include "oracle/intervals/judge.h"
 #include "oracle/intervals/shading.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/loose_renderer.h"
 #include "tests/intervals/random_scene.h"
@@ -76,20 +76,22 @@ int rejected(const char* profile_name, int count, uint64_t first_seed) {
     const Liberties liberties = d3d ? d3d_liberties(random) : random_liberties(random);
     const Capture capture = testing::loose_frame(scene, asked, liberties, first_seed + uint64_t(i));
     const Pipeline pipeline = testing::with_surface_planes(asked);
-    const StageVerdict stages[] = {judge_gbuffer(scene, pipeline, profile, capture), judge_lighting(scene, pipeline, profile, capture)};
+    const StageVerdict stages[] = {judge_gbuffer(scene, pipeline, profile, capture),
+                                   judge_lighting(scene, pipeline, profile, capture)};
     bool alarm = false;
     for (const StageVerdict& v : stages) {
       if (v.passes()) continue;
       alarm = true;
       const WorstPixel& w = v.worst.front();
-      WARN("image " << first_seed + uint64_t(i) << " bits " << liberties.subpixel_bits << " snapped " << liberties.snapped_planes << ", "
-                             << name_of(asked.strategy) << " " << info(asked.target).name << ", " << v.stage << " "
-                             << v.count(PixelClass::violation) << " px, (" << w.x << ", " << w.y << ") " << w.plane << " [" << w.low << ", "
-                             << w.high << "] given " << w.given << " " << w.note);
+      WARN("image " << first_seed + uint64_t(i) << " bits " << liberties.subpixel_bits << " snapped "
+                    << liberties.snapped_planes << ", " << name_of(asked.strategy) << " " << info(asked.target).name
+                    << ", " << v.stage << " " << v.count(PixelClass::violation) << " px, (" << w.x << ", " << w.y
+                    << ") " << w.plane << " [" << w.low << ", " << w.high << "] given " << w.given << " " << w.note);
     }
     alarms += alarm ? 1 : 0;
   }
-  std::printf("legal images: %d in %zu pairs of strategy and target, %d rejected by %s\n", count, ways.size(), alarms, profile_name);
+  std::printf("legal images: %d in %zu pairs of strategy and target, %d rejected by %s\n", count, ways.size(), alarms,
+              profile_name);
   CHECK((ways.size() == std::size(kStrategyNames) * std::size(kTargetFormats) || count < 300));
   return alarms;
 }
@@ -98,9 +100,13 @@ int rejected(const char* profile_name, int count, uint64_t first_seed) {
 
 TEST_CASE("Of three hundred legal images none is rejected") { CHECK(rejected("unknown", 300, 1) == 0); }
 
-TEST_CASE("Of a hundred and fifty images as D3D11.3 has them none is rejected by its profile") { CHECK(rejected("d3d-class", 150, 1) == 0); }
+TEST_CASE("Of a hundred and fifty images as D3D11.3 has them none is rejected by its profile") {
+  CHECK(rejected("d3d-class", 150, 1) == 0);
+}
 
-TEST_CASE("Of ten thousand legal images at most one is rejected", "[long]") { CHECK(rejected("unknown", 10000, 1000) <= 1); }
+TEST_CASE("Of ten thousand legal images at most one is rejected", "[long]") {
+  CHECK(rejected("unknown", 10000, 1000) <= 1);
+}
 
 TEST_CASE("Of ten thousand images as D3D11.3 has them at most one is rejected by its profile", "[long]") {
   CHECK(rejected("d3d-class", 10000, 1000) <= 1);
@@ -116,15 +122,17 @@ Scene lights_around(int count, uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     Light light;
     light.position = {random.between(-3, 3), random.between(-3, 3), random.between(0.5, 4)};
-    light.color = glm::vec3(float(1.0 / count)) * glm::vec3(random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1));
+    light.color = glm::vec3(float(1.0 / count)) *
+                  glm::vec3(random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1));
     light.range = float(random.between(3, 9));
     scene.lights.push_back(light);
   }
   return scene;
 }
 
-/// GL_RULES row 57: N lights and shininess s on a wavy sheet of 256 x 128 pixels, of which every `step`th along both axes is lit.
-/// Arithmetic as llvmpipe's (to nearest) keeps within a fifth of the bound; arithmetic that errs as far as GLSL lets it stays inside.
+/// GL_RULES row 57: N lights and shininess s on a wavy sheet of 256 x 128 pixels, of which every `step`th along both
+/// axes is lit. Arithmetic as llvmpipe's (to nearest) keeps within a fifth of the bound; arithmetic that errs as far as
+/// GLSL lets it stays inside.
 void check_bound(int count, float s, int step) {
   const Scene scene = lights_around(count, uint64_t(count) * 1000 + uint64_t(s));
   LightModel model;
@@ -136,7 +144,8 @@ void check_bound(int count, float s, int step) {
     for (int x = 0; x < 256; x += step) {
       const double u = (x + 0.5) / 128 - 1, v = (y + 0.5) / 64 - 1;
       const float position[3] = {float(2 * u), float(v), float(0.3 * std::sin(4 * u) * std::cos(3 * v))};
-      const float normal[3] = {float(-0.6 * std::cos(4 * u) * std::cos(3 * v)), float(0.9 * std::sin(4 * u) * std::sin(3 * v)), 1};
+      const float normal[3] = {float(-0.6 * std::cos(4 * u) * std::cos(3 * v)),
+                               float(0.9 * std::sin(4 * u) * std::sin(3 * v)), 1};
       const float albedo[3] = {0.5f, 0.75f, 0.25f};
       ShadedSurface surface;
       for (size_t k = 0; k < 3; ++k) {
@@ -160,8 +169,8 @@ void check_bound(int count, float s, int step) {
         }
       }
     }
-  std::printf("N %3d s %3.0f: error / bound %.3f to nearest, %.3f at liberty; largest bound %.2e, %d px ambiguous\n", count, double(s),
-              nearest_ratio, loose_ratio, largest_bound, branches);
+  std::printf("N %3d s %3.0f: error / bound %.3f to nearest, %.3f at liberty; largest bound %.2e, %d px ambiguous\n",
+              count, double(s), nearest_ratio, loose_ratio, largest_bound, branches);
   CAPTURE(count, s, step);
   CHECK(nearest_ratio <= 0.2);
   CHECK(loose_ratio <= 1);

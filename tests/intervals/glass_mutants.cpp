@@ -76,8 +76,8 @@ void try_glass_mutant(const GlassMutant& mutant, const Scene& scene, const Pipel
   const Capture wrong = mutant.wrong != nullptr ? mutant.wrong(scene, pipeline, renderer.draw)
                                                 : renderer.draw(wrong_scene, wrong_pipeline);
   if (!differ(right.capture, wrong)) return;
-  const bool steps = mutant.wrong == nullptr && wrong_pipeline.transparency.mode == pipeline.transparency.mode &&
-                     right.objects;
+  const bool steps =
+      mutant.wrong == nullptr && wrong_pipeline.transparency.mode == pipeline.transparency.mode && right.objects;
   for (const Profile& profile : profiles) {
     CAPTURE(mutant.name, scene.spec, name_of(pipeline.strategy), profile.name,
             kTransparencyNames[size_t(pipeline.transparency.mode)]);
@@ -88,7 +88,8 @@ void try_glass_mutant(const GlassMutant& mutant, const Scene& scene, const Pipel
     uint64_t by_object = 0;
     if (steps && (found == 0 || pipeline.strategy == Strategy::deferred_loop)) {
       const Drawn drawn(renderer, wrong_scene, wrong_pipeline);
-      by_object = validate_capture(scene, pipeline, drawn.capture, {profile, false, drawn.lights, drawn.objects}).violations();
+      by_object =
+          validate_capture(scene, pipeline, drawn.capture, {profile, false, drawn.lights, drawn.objects}).violations();
       ++score.tries;
       score.by_object += by_object > 0 ? 1 : 0;
     }
@@ -114,9 +115,9 @@ void try_glass_mutants(std::span<const Profile> profiles, const GlassRenderer& r
         for (const Profile& profile : profiles)
           for (const bool by_object : {false, true}) {
             if (by_object && !right.objects) continue;
-            const Verdict v = validate_capture(scene, pipeline, right.capture,
-                                               {profile, false, by_object ? right.lights : LightSteps{},
-                                                by_object ? right.objects : LightSteps{}});
+            const Verdict v = validate_capture(
+                scene, pipeline, right.capture,
+                {profile, false, by_object ? right.lights : LightSteps{}, by_object ? right.objects : LightSteps{}});
             INFO(scene.spec << ", " << name_of(pipeline.strategy) << ", " << kTransparencyNames[size_t(mode)] << ", "
                             << profile.name << (by_object ? ", by object: " : ": ") << told(v));
             CHECK(v.violations() == 0);
@@ -126,7 +127,8 @@ void try_glass_mutants(std::span<const Profile> profiles, const GlassRenderer& r
             try_glass_mutant(mutant, scene, pipeline, right, profiles, renderer, scores[mutant.name]);
         ++picture;
       }
-  std::printf("%-34s %7s %8s %8s %9s %7s %9s\n", "mutant", "changed", "rejected", "by steps", "rejected", "scenes", "pixels");
+  std::printf("%-34s %7s %8s %8s %9s %7s %9s\n", "mutant", "changed", "rejected", "by steps", "rejected", "scenes",
+              "pixels");
   for (const GlassMutant& mutant : glass_mutants()) {
     GlassScore& s = scores[mutant.name];
     size_t scenes = SIZE_MAX;
@@ -144,12 +146,13 @@ void try_glass_mutants(std::span<const Profile> profiles, const GlassRenderer& r
 namespace {
 
 void try_ours(testing::Tries tries) {
-  const testing::GlassRenderer renderer{[](const Scene& s, const Pipeline& p) { return testing::captured(s, p); },
-                                        [](const Scene& s, const Pipeline& p, const StepSink& light, const StepSink& object) {
-                                          if (light) testing::steps_of(s, p)(light);
-                                          if (object) testing::objects_of(s, p)(object);
-                                          return testing::captured(s, p);
-                                        }};
+  const testing::GlassRenderer renderer{
+      [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); },
+      [](const Scene& s, const Pipeline& p, const StepSink& light, const StepSink& object) {
+        if (light) testing::steps_of(s, p)(light);
+        if (object) testing::objects_of(s, p)(object);
+        return testing::captured(s, p);
+      }};
   std::vector<Profile> profiles;
   for (const char* name : {"ideal", "unknown"}) {
     profiles.push_back(*profile_named(name));
@@ -160,5 +163,9 @@ void try_ours(testing::Tries tries) {
 
 }  // namespace
 
-TEST_CASE("Wrong ways of drawing transparent surfaces are rejected, right ones explained") { try_ours(testing::Tries::half); }
-TEST_CASE("Wrong ways of drawing transparent surfaces are rejected on every picture", "[long]") { try_ours(testing::Tries::all); }
+TEST_CASE("Wrong ways of drawing transparent surfaces are rejected, right ones explained") {
+  try_ours(testing::Tries::half);
+}
+TEST_CASE("Wrong ways of drawing transparent surfaces are rejected on every picture", "[long]") {
+  try_ours(testing::Tries::all);
+}

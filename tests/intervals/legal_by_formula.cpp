@@ -21,7 +21,8 @@ constexpr double kDepthCeiling = 2 * 4e-6;  // depth in 32 bits
 /// Exactly snapped triangles, and whether an edge passes a sample closely.
 class Edges {
  public:
-  Edges(const Scene& scene, const Pipeline& pipeline) : height_(pipeline.height), frame_(scalar_frame(scene, pipeline)) {}
+  Edges(const Scene& scene, const Pipeline& pipeline)
+      : height_(pipeline.height), frame_(scalar_frame(scene, pipeline)) {}
 
   /// Within 1/256 pixel of the sample along either axis.
   bool near(int x, int y_from_top) const {
@@ -38,15 +39,17 @@ class Edges {
     return false;
   }
 
-  /// How much a driver's attribute may be off for making its plane from the window's corner in floats (docs/validation.md, False
-  /// alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
-  double plane_error(size_t value, Interpolation interpolation, const GeometryState& state, int x, int y_from_top) const {
+  /// How much a driver's attribute may be off for making its plane from the window's corner in floats
+  /// (docs/validation.md, False alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
+  double plane_error(size_t value, Interpolation interpolation, const GeometryState& state, int x,
+                     int y_from_top) const {
     const int y = height_ - 1 - y_from_top;
     const Visible seen = visible_fragment(frame_.at(x, y), state);
     if (!seen.fragment) return 0;
     const DrawnTriangle& t = frame_.triangles[frame_.at(x, y)[*seen.fragment].window];
     const auto at = [&](int dx, int dy) { return value_at(t, value, interpolation, x + dx, y + dy).value; };
-    return double(10 * 0x1p-23L * (std::fabs(at(1, 0) - at(0, 0)) * (x + 1) + std::fabs(at(0, 1) - at(0, 0)) * (y + 1)));
+    return double(10 * 0x1p-23L *
+                  (std::fabs(at(1, 0) - at(0, 0)) * (x + 1) + std::fabs(at(0, 1) - at(0, 0)) * (y + 1)));
   }
 
  private:
@@ -94,7 +97,8 @@ std::optional<Surface> surface_at(const Capture& c, int x, int y) {
   Surface s;
   for (int k = 0; k < 3; ++k) {
     const auto i = size_t(k);
-    s.position[i] = position->value(x, y, k), s.normal[i] = normal->value(x, y, k), s.albedo[i] = albedo->value(x, y, k);
+    s.position[i] = position->value(x, y, k), s.normal[i] = normal->value(x, y, k),
+    s.albedo[i] = albedo->value(x, y, k);
     if (fixed(*normal)) s.normal[i] = 2 * s.normal[i] - 1;
     if (specular != nullptr) s.specular[i] = specular->value(x, y, k);
     if (emission != nullptr) s.emission[i] = emission->value(x, y, k);
@@ -130,7 +134,8 @@ bool stores(const Image& color, int x, int y, int k, double value, double error,
   const FormatInfo layout = info(color.format);
   if (fixed(color)) {
     const double largest = double(layout.largest_code(k)), code = double(color.code(x, y, k));
-    const double low = largest * std::clamp(value - error, 0.0, 1.0), high = largest * std::clamp(value + error, 0.0, 1.0);
+    const double low = largest * std::clamp(value - error, 0.0, 1.0),
+                 high = largest * std::clamp(value + error, 0.0, 1.0);
     return code >= std::floor(low) - more_codes && code <= std::ceil(high) + more_codes;
   }
   const double stored = color.value(x, y, k);
@@ -141,7 +146,10 @@ bool stores(const Image& color, int x, int y, int k, double value, double error,
 class Prover {
  public:
   Prover(const Scene& scene, const Pipeline& pipeline, const Capture& right, const Capture& wrong)
-      : scene_(scene), pipeline_(pipeline), right_(right), wrong_(wrong),
+      : scene_(scene),
+        pipeline_(pipeline),
+        right_(right),
+        wrong_(wrong),
         axis_(view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height))) {
     for (const NamedImage& plane : right.planes)
       ceilings_.push_back(plane.name == "depth" ? kDepthCeiling : kPlaneCeiling * largest_of(plane.image));
@@ -170,7 +178,8 @@ class Prover {
       const bool whole = info(a->format).number_class == NumberClass::integer;
       for (int k = 0; k < info(a->format).channels; ++k)
         if (whole ? a->code(x, y, k) != b->code(x, y, k)
-                  : !same_value(*a, *b, x, y, k, ceilings_[i]) && !same_value(*a, *b, x, y, k, ceilings_[i] + 2 * plane_error(plane.name, k, x, y)))
+                  : !same_value(*a, *b, x, y, k, ceilings_[i]) &&
+                        !same_value(*a, *b, x, y, k, ceilings_[i] + 2 * plane_error(plane.name, k, x, y)))
           return plane.name + " (" + std::to_string(a->value(x, y, k)) + ", " + std::to_string(b->value(x, y, k)) + ")";
     }
     return {};
@@ -179,7 +188,8 @@ class Prover {
   double plane_error(const std::string& plane, int channel, int x, int y) {
     const std::optional<size_t> value = value_of(plane);
     if (!value || channel == 3) return 0;
-    return edges().plane_error(*value + size_t(channel), pipeline_.gbuffer.normal.interpolation, pipeline_.geometry, x, y);
+    return edges().plane_error(*value + size_t(channel), pipeline_.gbuffer.normal.interpolation, pipeline_.geometry, x,
+                               y);
   }
 
   const Edges& edges() {
@@ -198,7 +208,8 @@ class Prover {
     const LightVolumes& v = pipeline_.light_volumes;
     const LightMeshes meshes(v);
     Pipeline drawn = pipeline_;
-    drawn.geometry.cull_face = v.cull_face, drawn.geometry.front_face = FrontFace::ccw, drawn.geometry.depth_clamp = v.depth_clamp;
+    drawn.geometry.cull_face = v.cull_face, drawn.geometry.front_face = FrontFace::ccw,
+    drawn.geometry.depth_clamp = v.depth_clamp;
     for (const Light& light : scene_.lights) {
       LightDraw& draw = draws_.emplace_back();
       draw.alone.camera = scene_.camera, draw.alone.lights = {light};
@@ -211,7 +222,8 @@ class Prover {
       geometry.camera = scene_.camera;
       Mesh& mesh = geometry.meshes.emplace_back();
       for (const glm::vec3& p : vertices)
-        for (int k = 0; k < 3; ++k) mesh.position[size_t(k)].push_back(p[k]), mesh.normal[size_t(k)].push_back(k == 0 ? 1.0f : 0.0f);
+        for (int k = 0; k < 3; ++k)
+          mesh.position[size_t(k)].push_back(p[k]), mesh.normal[size_t(k)].push_back(k == 0 ? 1.0f : 0.0f);
       mesh.indices = meshes[extent].indices;
       geometry.materials.resize(1);
       geometry.instances = {{0, 0, glm::mat4x3(1.0f)}};
@@ -244,7 +256,8 @@ class Prover {
     }
     for (int k = 0; k < 3; ++k) {
       const double middle = (low[size_t(k)] + high[size_t(k)]) / 2, error = (high[size_t(k)] - low[size_t(k)]) / 2;
-      if (!stores(wrong_.color, x, y, k, middle, error, count)) return "other lights blended in channel " + std::to_string(k);
+      if (!stores(wrong_.color, x, y, k, middle, error, count))
+        return "other lights blended in channel " + std::to_string(k);
     }
     return {};
   }
@@ -264,9 +277,11 @@ class Prover {
     if (pipeline_.strategy == Strategy::deferred_volumes) return blended_at(x, y, *s);
     const Lit lit = lit_by(scene_, pipeline_.light_model, *s, axis_);
     for (int k = 0; k < 3; ++k)
-      if (!stores(wrong_.color, x, y, k, lit.value[size_t(k)], lit.error[size_t(k)], 0)) return "another light in channel " + std::to_string(k);
+      if (!stores(wrong_.color, x, y, k, lit.value[size_t(k)], lit.error[size_t(k)], 0))
+        return "another light in channel " + std::to_string(k);
     const double alpha = pipeline_.light_model.alpha_from_albedo ? wrong_.plane("albedo")->value(x, y, 3) : 1;
-    if (info(wrong_.color.format).channels > 3 && !stores(wrong_.color, x, y, 3, alpha, 1e-6, 0)) return "another alpha";
+    if (info(wrong_.color.format).channels > 3 && !stores(wrong_.color, x, y, 3, alpha, 1e-6, 0))
+      return "another alpha";
     return {};
   }
 

@@ -1,6 +1,5 @@
-// Lights judged in lanes against the same lights judged one by one, operation by operation: no smaller a bound, hardly a
-// larger one, the same lights, on every SIMD target.
-#include "tests/catch.hpp"
+// Lights judged in lanes against the same lights judged one by one, operation by operation: no smaller a bound, hardly
+// a larger one, the same lights, on every SIMD target.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -9,6 +8,7 @@
 #include "oracle/intervals/shading.h"
 #include "raster/simd_target.h"
 #include "scenes/pcg32.h"
+#include "tests/catch.hpp"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -25,12 +25,16 @@ Scene scene_of(Pcg32& random) {
   scene.camera.eye = somewhere(random, 4);
   for (int i = 0; i < 61; ++i) {
     Light light;
-    light.type = i % 13 == 5 ? LightType::directional : i % 13 == 7 ? LightType::ambient : i % 13 == 9 ? LightType::spot : LightType::point;
+    light.type = i % 13 == 5   ? LightType::directional
+                 : i % 13 == 7 ? LightType::ambient
+                 : i % 13 == 9 ? LightType::spot
+                               : LightType::point;
     light.position = somewhere(random, 3);
     light.direction = {0.0f, -0.6f, -0.8f};
     light.color = {random.between(0, 2), random.between(0, 2), i % 7 == 0 ? 0 : random.between(0, 2)};
     if (i % 5 != 0) light.range = float(random.between(1, 8));
-    light.attenuation = {float(random.between(0.5, 1)), i % 3 == 0 ? 0 : float(random.between(0, 1)), float(random.between(0, 1))};
+    light.attenuation = {float(random.between(0.5, 1)), i % 3 == 0 ? 0 : float(random.between(0, 1)),
+                         float(random.between(0, 1))};
     if (i % 11 == 3) light.ambient = {0.5f, 0.0f, 0.25f};
     light.cone_rad = 1.0f, light.penumbra_rad = 0.5f;
     scene.lights.push_back(light);
@@ -40,8 +44,10 @@ Scene scene_of(Pcg32& random) {
 }
 
 LightModel model_of(Pcg32& random) {
-  constexpr Falloff falloffs[] = {Falloff::linear_range, Falloff::quadratic, Falloff::none, Falloff::linear, Falloff::attenuation, Falloff::inverse_square};
-  constexpr TermOrder orders[] = {TermOrder::factored, TermOrder::separate, TermOrder::albedo_last, TermOrder::with_ambient};
+  constexpr Falloff falloffs[] = {Falloff::linear_range, Falloff::quadratic,   Falloff::none,
+                                  Falloff::linear,       Falloff::attenuation, Falloff::inverse_square};
+  constexpr TermOrder orders[] = {TermOrder::factored, TermOrder::separate, TermOrder::albedo_last,
+                                  TermOrder::with_ambient};
   constexpr SpecularSource sources[] = {SpecularSource::model, SpecularSource::albedo, SpecularSource::material};
   constexpr float shininess[] = {1, 7, 32, 256, 8192, 7.5f};
   LightModel m;
@@ -77,7 +83,10 @@ ShadedSurface surface_of(Pcg32& random, bool at_origin, bool exact) {
 /// Lights and a model at random, ready for any surface; a quarter with extents, a quarter by ideal arithmetic.
 struct RandomLights {
   explicit RandomLights(Pcg32& random)
-      : scene(scene_of(random)), model(model_of(random)), volumes(volumes_of(random)), ideal(random.below(4) == 0),
+      : scene(scene_of(random)),
+        model(model_of(random)),
+        volumes(volumes_of(random)),
+        ideal(random.below(4) == 0),
         bounds(scene, model, {0, 0, 1}, profile_named(ideal ? "ideal" : "unknown")->arithmetic, ideal, volumes) {}
   static LightVolumes volumes_of(Pcg32& random) {
     LightVolumes v;
@@ -107,7 +116,8 @@ TEST_CASE("Lights in lanes have the bounds of lights one by one, on every SIMD t
       for (int i = 0; i < 6; ++i) {
         const ShadedSurface surface = surface_of(random, i == 3, i < 4);
         const LitRange lanes = lights.bounds.at(surface), single = lights.bounds.one_by_one(surface);
-        CAPTURE(std::string(target), round, i, int(model.falloff), int(model.order), int(model.specular), model.shininess, lights.ideal);
+        CAPTURE(std::string(target), round, i, int(model.falloff), int(model.order), int(model.specular),
+                model.shininess, lights.ideal);
         CHECK(lanes.undefined == single.undefined);
         CHECK(lanes.branches.size() == single.branches.size());
         CHECK(lanes.lights_low <= single.lights_low);
@@ -128,7 +138,8 @@ TEST_CASE("Lights in lanes have the bounds of lights one by one, on every SIMD t
       }
     }
     CHECK(other_counts <= pixels / 100);
-    std::printf("%-6s %d pixels, bound in lanes %.9f to %.6f of one by one, %d other counts\n", std::string(target).c_str(), pixels, least, most, other_counts);
+    std::printf("%-6s %d pixels, bound in lanes %.9f to %.6f of one by one, %d other counts\n",
+                std::string(target).c_str(), pixels, least, most, other_counts);
   }
 }
 

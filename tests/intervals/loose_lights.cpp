@@ -36,7 +36,8 @@ float LooseFloat::pow(float x, float y) {
   if (x == 0) return 0;
   const double exact = std::log2(double(x));
   float log2_x = float(exact);
-  if (any_) log2_x = x >= 0.5f && x <= 2 ? float(exact + (0x1p-21 - 0x1p-24) * random_.between(-1, 1)) : off_by(exact, 3);
+  if (any_)
+    log2_x = x >= 0.5f && x <= 2 ? float(exact + (0x1p-21 - 0x1p-24) * random_.between(-1, 1)) : off_by(exact, 3);
   const float e = mul(y, log2_x);
   return off_by(std::exp2(double(e)), 3 + 2 * std::fabs(double(e)));
 }
@@ -65,7 +66,8 @@ float loose_smoothstep(LooseFloat& f, float e0, float e1, float c) {
 float loose_cone(LooseFloat& f, const Light& light, Cone cone, const float l[3]) {
   if (light.type != LightType::spot || cone == Cone::none) return 1;
   const float axis[3] = {-light.direction.x, -light.direction.y, -light.direction.z}, c = f.dot(l, axis);
-  const double outer = std::cos(double(light.cone_rad) + double(light.penumbra_rad)), inner = std::cos(double(light.cone_rad));
+  const double outer = std::cos(double(light.cone_rad) + double(light.penumbra_rad)),
+               inner = std::cos(double(light.cone_rad));
   switch (cone) {
     case Cone::smooth_cutoff:
       return loose_smoothstep(f, float(outer), float(outer * 0.9 + 0.1), c);
@@ -114,7 +116,8 @@ void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, boo
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[reverse ? scene.lights.size() - 1 - i : i];
     if (light.type == LightType::ambient) {
-      for (int k = 0; k < 3; ++k) sum[k] = last ? f.add(sum[k], light.color[k]) : f.mad(albedo[k], light.color[k], sum[k]);
+      for (int k = 0; k < 3; ++k)
+        sum[k] = last ? f.add(sum[k], light.color[k]) : f.mad(albedo[k], light.color[k], sum[k]);
       continue;
     }
     float l[3], falloff = 1;
@@ -135,15 +138,17 @@ void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, boo
     f.unit(h, unit_h);
     const float s = f.pow(std::max(f.dot(n, unit_h), 0.0f), gloss != nullptr ? gloss[3] : model.shininess);
     for (int k = 0; k < 3; ++k) {
-      const float strength = f.mul(light.color[k], falloff), ks = gloss != nullptr                                        ? gloss[k]
-                                                                    : model.specular_source == SpecularSource::albedo ? albedo[k]
-                                                                                                                      : model.specular_color[k];
+      const float strength = f.mul(light.color[k], falloff), ks = gloss != nullptr ? gloss[k]
+                                                                  : model.specular_source == SpecularSource::albedo
+                                                                      ? albedo[k]
+                                                                      : model.specular_color[k];
       if (last)
         sum[k] = f.mad(f.add(c, s), strength, sum[k]);
       else if (model.order == TermOrder::factored)
         sum[k] = f.mad(f.mad(albedo[k], c, f.mul(ks, s)), strength, sum[k]);
       else
-        sum[k] = f.add(sum[k], f.add(f.mul(f.mul(f.mul(c, albedo[k]), light.color[k]), falloff), f.mul(f.mul(f.mul(light.color[k], s), ks), falloff)));
+        sum[k] = f.add(sum[k], f.add(f.mul(f.mul(f.mul(c, albedo[k]), light.color[k]), falloff),
+                                     f.mul(f.mul(f.mul(light.color[k], s), ks), falloff)));
     }
   }
   for (int k = 0; k < 3; ++k) color[k] = last ? f.mul(albedo[k], sum[k]) : sum[k];

@@ -24,15 +24,23 @@ struct LooseVertex {
 class Drawing {
  public:
   Drawing(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed)
-      : scene_(scene), pipeline_(pipeline), free_(liberties), f_(seed, liberties.any_rounding), textures_(scene, liberties),
+      : scene_(scene),
+        pipeline_(pipeline),
+        free_(liberties),
+        f_(seed, liberties.any_rounding),
+        textures_(scene, liberties),
         projection_(oracle::projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
     const int w = pipeline.width, h = pipeline.height;
     capture_.color = Image(w, h, pipeline.target);
     const bool stores = !is_forward(pipeline.strategy);
-    const Format normal = stores ? pipeline.gbuffer.normal.format : Format::rgba32f, albedo = stores ? Format::rgba8 : Format::rgba32f;
+    const Format normal = stores ? pipeline.gbuffer.normal.format : Format::rgba32f,
+                 albedo = stores ? Format::rgba8 : Format::rgba32f;
     tied_.resize(size_t(w) * size_t(h));
-    for (const auto& [name, format] : {std::pair<const char*, Format>{"depth", Format::d32f}, {"position", Format::rgba32f},
-                                       {"normal", normal}, {"albedo", albedo}, {"id.object", Format::r32ui},
+    for (const auto& [name, format] : {std::pair<const char*, Format>{"depth", Format::d32f},
+                                       {"position", Format::rgba32f},
+                                       {"normal", normal},
+                                       {"albedo", albedo},
+                                       {"id.object", Format::r32ui},
                                        {"specular", Format::rgba32f}})
       capture_.planes.push_back({name, Image(w, h, format)});
     if (!reads_specular_plane(pipeline.light_model)) capture_.planes.pop_back();
@@ -41,7 +49,8 @@ class Drawing {
   }
 
   Capture draw() {
-    const TransparencyMode mode = draws_transparent(scene_, pipeline_) ? pipeline_.transparency.mode : TransparencyMode::none;
+    const TransparencyMode mode =
+        draws_transparent(scene_, pipeline_) ? pipeline_.transparency.mode : TransparencyMode::none;
     apart_ = mode != TransparencyMode::none;
     draw_instances(Pass::opaque);
     if (mode == TransparencyMode::into_albedo) draw_instances(Pass::into_albedo);
@@ -70,8 +79,12 @@ class Drawing {
     }
   }
 
-  void put(size_t plane, int x, int y, int channel, float v) { std::memcpy(capture_.planes[plane].image.texel(x, y) + 4 * channel, &v, 4); }
-  float get(size_t plane, int x, int y, int channel) const { return float(capture_.planes[plane].image.value(x, y, channel)); }
+  void put(size_t plane, int x, int y, int channel, float v) {
+    std::memcpy(capture_.planes[plane].image.texel(x, y) + 4 * channel, &v, 4);
+  }
+  float get(size_t plane, int x, int y, int channel) const {
+    return float(capture_.planes[plane].image.value(x, y, channel));
+  }
 
   float row(const float m[4], const float p[3]) {  // four terms, contracted or not
     return f_.mad(m[0], p[0], f_.mad(m[1], p[1], f_.mad(m[2], p[2], m[3])));
@@ -85,7 +98,8 @@ class Drawing {
       if (!same) continue;
       const LooseVertex& first = vertices[earlier];
       LooseVertex& now = vertices[v];
-      now.x = first.x, now.y = first.y, now.plane_x = first.plane_x, now.plane_y = first.plane_y, now.z = first.z, now.u = first.u;
+      now.x = first.x, now.y = first.y, now.plane_x = first.plane_x, now.plane_y = first.plane_y, now.z = first.z,
+      now.u = first.u;
       return;
     }
   }
@@ -114,7 +128,8 @@ class Drawing {
     v.y = free_.subpixel_bits > 0 ? float(loose_neighbour(f_, nearly(), double(v.plane_y * grid))) / grid : v.plane_y;
     if (free_.snapped_planes) v.plane_x = v.x, v.plane_y = v.y;
     for (int r = 0; r < 3; ++r) {
-      const float m[4] = {instance.world_from_object[0][r], instance.world_from_object[1][r], instance.world_from_object[2][r], instance.world_from_object[3][r]};
+      const float m[4] = {instance.world_from_object[0][r], instance.world_from_object[1][r],
+                          instance.world_from_object[2][r], instance.world_from_object[3][r]};
       v.attribute[r] = row(m, p);
     }
     normal_of(instance, mesh, index, v.attribute + 3);
@@ -131,7 +146,8 @@ class Drawing {
     float world[3];
     for (int r = 0; r < 3; ++r) {
       float m[3];
-      for (int c = 0; c < 3; ++c) m[c] = float((a(c + 1, r + 1) * a(c + 2, r + 2) - a(c + 1, r + 2) * a(c + 2, r + 1)) / det);
+      for (int c = 0; c < 3; ++c)
+        m[c] = float((a(c + 1, r + 1) * a(c + 2, r + 2) - a(c + 1, r + 2) * a(c + 2, r + 1)) / det);
       world[r] = f_.dot(m, n);
     }
     f_.unit(world, out);
@@ -173,7 +189,8 @@ class Drawing {
     const auto change = [&](const std::vector<float>& stream, size_t i) {
       return double(stream[mesh.indices[t + i]]) - double(stream[mesh.indices[t]]);
     };
-    const double a1 = change(mesh.uv[0], 1), b1 = change(mesh.uv[1], 1), a2 = change(mesh.uv[0], 2), b2 = change(mesh.uv[1], 2);
+    const double a1 = change(mesh.uv[0], 1), b1 = change(mesh.uv[1], 1), a2 = change(mesh.uv[0], 2),
+                 b2 = change(mesh.uv[1], 2);
     const double area = a1 * b2 - a2 * b1, sign = area < 0 ? -1 : area > 0 ? 1 : 0;
     float object[2][3];
     for (size_t k = 0; k < 3; ++k) {
@@ -182,7 +199,8 @@ class Drawing {
     }
     for (int axis = 0; axis < 2; ++axis)
       for (int r = 0; r < 3; ++r) {
-        const float m[3] = {drawn.world_from_object[0][r], drawn.world_from_object[1][r], drawn.world_from_object[2][r]};
+        const float m[3] = {drawn.world_from_object[0][r], drawn.world_from_object[1][r],
+                            drawn.world_from_object[2][r]};
         along[axis][r] = f_.dot(m, object[axis]);
       }
   }
@@ -192,7 +210,8 @@ class Drawing {
   };
 
   /// What the fragment shader makes of a sample.
-  LooseSurface surface(uint32_t instance, size_t t, const std::array<Plane, 12>& planes, const Plane& divisor, float sx, float sy) {
+  LooseSurface surface(uint32_t instance, size_t t, const std::array<Plane, 12>& planes, const Plane& divisor, float sx,
+                       float sy) {
     const Material& material = scene_.materials[scene_.instances[instance].material];
     const auto lookup = [&](const TextureSlot& slot) {
       return slot.used() ? textures_.texel(f_, slot, place(planes, divisor, sx, sy)) : std::array<float, 4>{1, 1, 1, 1};
@@ -204,10 +223,12 @@ class Drawing {
     }
     const std::array<float, 4> texel = lookup(material.color_map);
     for (int k = 0; k < 4; ++k)
-      out.albedo[k] = f_.mul(material.color_map.used() ? f_.mul(out.albedo[k], texel[size_t(k)]) : out.albedo[k], material.base_color[k]);
+      out.albedo[k] = f_.mul(material.color_map.used() ? f_.mul(out.albedo[k], texel[size_t(k)]) : out.albedo[k],
+                             material.base_color[k]);
     const std::array<float, 4> gloss = lookup(material.specular_map);
     for (int k = 0; k < 3; ++k)
-      out.gloss[k] = material.specular_map.used() ? f_.mul(material.specular_color[k], gloss[size_t(k)]) : material.specular_color[k];
+      out.gloss[k] = material.specular_map.used() ? f_.mul(material.specular_color[k], gloss[size_t(k)])
+                                                  : material.specular_color[k];
     out.gloss[3] = material.shininess;
     if (!material.normal_map.used()) return out;
     float along[2][3];
@@ -244,7 +265,8 @@ class Drawing {
     const FormatInfo layout = info(image.format);
     const bool codes = layout.number_class == NumberClass::unorm;
     std::array<double, 4> stored{};
-    for (int k = 0; k < layout.channels; ++k) stored[size_t(k)] = codes ? double(image.code(x, y, k)) : image.value(x, y, k);
+    for (int k = 0; k < layout.channels; ++k)
+      stored[size_t(k)] = codes ? double(image.code(x, y, k)) : image.value(x, y, k);
     const std::array<double, 4> left = loose_blend(f_, state, image.format, free_, source, stored);
     for (int k = 0; k < layout.channels; ++k) {
       if (!state.mask[size_t(k)]) continue;
@@ -263,7 +285,8 @@ class Drawing {
     const Plane depth = plane(v, z), divisor = plane(v, u);
     std::array<Plane, 12> planes{};
     for (size_t k = 0; k < 12; ++k) {
-      const float n[3] = {f_.mul(v[0]->attribute[k], u[0]), f_.mul(v[1]->attribute[k], u[1]), f_.mul(v[2]->attribute[k], u[2])};
+      const float n[3] = {f_.mul(v[0]->attribute[k], u[0]), f_.mul(v[1]->attribute[k], u[1]),
+                          f_.mul(v[2]->attribute[k], u[2])};
       planes[k] = plane(v, n);
     }
     for (int y = 0; y < pipeline_.height; ++y)
@@ -296,7 +319,10 @@ class Drawing {
         const float px = at_pixel == 1 ? x + next : x, py = at_pixel == 2 ? y + next : y;
         uv[at_pixel][k] = f_.div(at(planes[10 + k], px, py), at(divisor, px, py));
       }
-    const auto change = [&](int pixel, int k) { return (static_cast<long double>(uv[pixel][k]) - static_cast<long double>(uv[0][k])) * static_cast<long double>(next); };
+    const auto change = [&](int pixel, int k) {
+      return (static_cast<long double>(uv[pixel][k]) - static_cast<long double>(uv[0][k])) *
+             static_cast<long double>(next);
+    };
     return {uv[0][0], uv[0][1], change(1, 0), change(1, 1), change(2, 0), change(2, 1)};
   }
 
@@ -333,7 +359,9 @@ class Drawing {
     const bool coded = info(albedo.format).number_class == NumberClass::unorm;
     for (int k = 0; k < 3; ++k) {
       s.position[k] = get(1, x, y, k);
-      s.normal[k] = halved ? f_.mad(2, f_.div(float(normals.code(x, y, k)), float(info(normals.format).largest_code(k))), -1) : get(2, x, y, k);
+      s.normal[k] =
+          halved ? f_.mad(2, f_.div(float(normals.code(x, y, k)), float(info(normals.format).largest_code(k))), -1)
+                 : get(2, x, y, k);
       s.albedo[k] = coded ? f_.div(float(albedo.code(x, y, k)), 255) : get(3, x, y, k);
     }
     for (int k = 0; k < 4 && capture_.planes.size() > 5; ++k) s.gloss[k] = get(5, x, y, k);

@@ -1,8 +1,8 @@
 #pragma once
-// A renderer that takes every liberty OpenGL gives: rounding up or down at random, sums in any order, contraction or not,
-// divisions and roots off by the ulps GLSL allows, any subpixel grid, planes from snapped or unsnapped vertices, any fill
-// rule, either neighbour in every store, textures of few weight bits and any legal level. Independent of the renderer and
-// of the judge; small scenes only, nothing may cross the near or far plane.
+// A renderer that takes every liberty OpenGL gives: rounding up or down at random, sums in any order, contraction or
+// not, divisions and roots off by the ulps GLSL allows, any subpixel grid, planes from snapped or unsnapped vertices,
+// any fill rule, either neighbour in every store, textures of few weight bits and any legal level. Independent of the
+// renderer and of the judge; small scenes only, nothing may cross the near or far plane.
 #include <array>
 #include <vector>
 
@@ -15,19 +15,19 @@
 namespace trueshade::testing {
 
 struct Liberties {
-  bool any_rounding = true;    ///< otherwise to nearest, divisions and roots correct, as llvmpipe
-  int subpixel_bits = 8;       ///< 0: vertices are not snapped
+  bool any_rounding = true;  ///< otherwise to nearest, divisions and roots correct, as llvmpipe
+  int subpixel_bits = 8;     ///< 0: vertices are not snapped
   bool snapped_planes = false;
   bool turn_ties = false;      ///< samples on an edge belong to the other side
   bool any_neighbour = false;  ///< stores of unorm, half, sRGB and fixed-point depth take either neighbour
   double reach = 0.5;          ///< otherwise any neighbour that is as near as that, of stores and of the subpixel grid
   bool reverse_lights = false;
-  int weight_bits = 0;         ///< of texture filters; 0: exact
-  bool decode_late = false;    ///< sRGB textures are filtered in 8 bits, then decoded
-  bool any_level = false;      ///< rho anywhere between OpenGL's limits, else the longer gradient
-  int depth_unit = 1;          ///< codes of fixed-point depth that a unit of polygon offset is
-  double slope_norm = 0;       ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
-  bool blends_codes = false;   ///< fixed-point targets are blended in their own codes
+  int weight_bits = 0;        ///< of texture filters; 0: exact
+  bool decode_late = false;   ///< sRGB textures are filtered in 8 bits, then decoded
+  bool any_level = false;     ///< rho anywhere between OpenGL's limits, else the longer gradient
+  int depth_unit = 1;         ///< codes of fixed-point depth that a unit of polygon offset is
+  double slope_norm = 0;      ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
+  bool blends_codes = false;  ///< fixed-point targets are blended in their own codes
 };
 
 /// Arithmetic that errs as GLSL 4.60, 4.7.1 allows.
@@ -76,8 +76,8 @@ double loose_neighbour(LooseFloat& f, const Liberties& liberties, double scaled)
 /// One channel, as its format may store it.
 void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, float v);
 
-/// The same of what a blend in floats made of a stored value: that floats miss a code by their own errors is no reason to
-/// store the one below it (GL 4.6 core, 17.3.6: precision no less than the target's).
+/// The same of what a blend in floats made of a stored value: that floats miss a code by their own errors is no reason
+/// to store the one below it (GL 4.6 core, 17.3.6: precision no less than the target's).
 void loose_store_blended(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, double v);
 
 /// Texels as a lookup may give them.
@@ -93,9 +93,9 @@ class LooseTextures {
   std::vector<Texture> encoded_;  ///< sRGB textures as if they were not
 };
 
-/// The whole capture: depth, position, normal, albedo, id.object, specular and the target; of deferred strategies normals in the
-/// pipeline's format and albedo in rgba8, of forward ones floats. Any strategy and target; of deferred-volumes lights drawn as
-/// quads alone, blended as kAddLight says.
+/// The whole capture: depth, position, normal, albedo, id.object, specular and the target; of deferred strategies
+/// normals in the pipeline's format and albedo in rgba8, of forward ones floats. Any strategy and target; of
+/// deferred-volumes lights drawn as quads alone, blended as kAddLight says.
 oracle::Capture loose_frame(const Scene& scene, const Pipeline& pipeline, const Liberties& liberties, uint64_t seed);
 
 }  // namespace trueshade::testing

@@ -48,7 +48,8 @@ uint32_t small_bits(LooseFloat& f, const Liberties& liberties, const FormatInfo&
   const int exponent = size == 0 ? -14 : std::max(std::ilogb(size), -14);
   const double units = std::ldexp(size, fraction - exponent);  // 2^fraction and up but for denormals
   const bool cuts = !liberties.any_neighbour || (f.random().next() & 1) != 0;
-  const uint32_t magnitude = uint32_t(cuts ? std::floor(units) : std::ceil(units)) + uint32_t(exponent + 14) * (1u << fraction);
+  const uint32_t magnitude =
+      uint32_t(cuts ? std::floor(units) : std::ceil(units)) + uint32_t(exponent + 14) * (1u << fraction);
   return magnitude | (std::signbit(v) && bits == 16 ? 0x8000u : 0u);
 }
 
@@ -65,7 +66,8 @@ void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x,
   const FormatInfo layout = info(image.format);
   uint32_t bits = 0;
   if (layout.number_class == NumberClass::unorm) {
-    bits = uint32_t(loose_neighbour(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
+    bits = uint32_t(
+        loose_neighbour(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
   } else if (layout.small_float()) {
     bits = small_bits(f, liberties, layout, channel, v);
   } else {
@@ -79,7 +81,8 @@ void loose_store_blended(LooseFloat& f, const Liberties& liberties, Image& image
   if (layout.number_class != NumberClass::unorm) return loose_store(f, liberties, image, x, y, channel, float(v));
   const double largest = double(layout.largest_code(channel)), code = largest * encoded(layout, channel, v);
   const double slope = layout.srgb_channel(channel) ? 12.92 : 1;
-  if (std::fabs(code - std::nearbyint(code)) > slope * largest * 0x1p-20) return loose_store(f, liberties, image, x, y, channel, float(v));
+  if (std::fabs(code - std::nearbyint(code)) > slope * largest * 0x1p-20)
+    return loose_store(f, liberties, image, x, y, channel, float(v));
   image.set_code(x, y, channel, uint32_t(std::nearbyint(code)));
 }
 
@@ -133,7 +136,8 @@ std::array<double, 4> loose_blend(LooseFloat& f, const BlendState& state, Format
       s[k] = (f.random().next() & 1) != 0 ? std::floor(s[k] * largest) : std::ceil(s[k] * largest);
       continue;
     }
-    if (fixed) d[k] = layout.srgb_channel(int(k)) ? decoded(d[k] / largest) : double(f.div(float(d[k]), float(largest)));
+    if (fixed)
+      d[k] = layout.srgb_channel(int(k)) ? decoded(d[k] / largest) : double(f.div(float(d[k]), float(largest)));
   }
   for (size_t k = 0; k < 4; ++k) {
     const BlendTerm& term = k == 3 ? state.alpha : state.rgb;

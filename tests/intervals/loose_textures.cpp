@@ -24,7 +24,8 @@ LooseTextures::LooseTextures(const Scene& scene, const Liberties& liberties)
     if (t.format == TextureFormat::srgb8_a8) t.format = TextureFormat::rgba8;
 }
 
-std::array<float, 4> LooseTextures::texel(LooseFloat& f, const TextureSlot& slot, const oracle::TexturePlace& place) const {
+std::array<float, 4> LooseTextures::texel(LooseFloat& f, const TextureSlot& slot,
+                                          const oracle::TexturePlace& place) const {
   const auto index = size_t(slot.texture);
   const Texture& texture = scene_.textures[index];
   const Sampler& s = slot.sampler;
@@ -35,13 +36,16 @@ std::array<float, 4> LooseTextures::texel(LooseFloat& f, const TextureSlot& slot
     lod = std::clamp<long double>(chosen + s.lod_bias, s.lod_min, s.lod_max);
   }
   const bool srgb = texture.format == TextureFormat::srgb8_a8, late = srgb && free_.decode_late;
-  const oracle::Rgba exact = oracle::filtered(late ? encoded_[index] : texture, s, place.u, place.v, lod, free_.weight_bits);
+  const oracle::Rgba exact =
+      oracle::filtered(late ? encoded_[index] : texture, s, place.u, place.v, lod, free_.weight_bits);
   const double off = free_.weight_bits > 0 ? 0.95 * steps_of(s, lod) / 255 : 0;  // as if filtered in 8 bits
   std::array<float, 4> out{};
   for (size_t c = 0; c < 4; ++c) {
     auto value = double(exact[c]);
-    if (late || texture.format == TextureFormat::rgba8) value = std::clamp(value + off * f.random().between(-1, 1), 0.0, 1.0);
-    if (srgb && c < 3 && free_.any_neighbour) {  // half a code: OpenGL gives a whole one to each texel, not to their mean
+    if (late || texture.format == TextureFormat::rgba8)
+      value = std::clamp(value + off * f.random().between(-1, 1), 0.0, 1.0);
+    if (srgb && c < 3 &&
+        free_.any_neighbour) {  // half a code: OpenGL gives a whole one to each texel, not to their mean
       const double s8 = (late ? value : encoded(value)) + 0.5 / 255 * f.random().between(-1, 1);
       value = decoded(std::min(s8, 1.0));
     } else if (late && c < 3) {

@@ -24,4 +24,6 @@ void try_ours(testing::Tries tries) {
 }  // namespace
 
 TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") { try_ours(testing::Tries::half); }
-TEST_CASE("Wrong renderers are rejected on every picture where they leave the legal sets", "[long]") { try_ours(testing::Tries::all); }
+TEST_CASE("Wrong renderers are rejected on every picture where they leave the legal sets", "[long]") {
+  try_ours(testing::Tries::all);
+}

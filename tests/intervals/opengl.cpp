@@ -1,5 +1,4 @@
 // A real driver judged: GL_RULES rows 62 and 63. Skipped, saying why, where there is no such driver.
-#include "tests/catch.hpp"
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "scenes/builtin.h"
 #include "scenes/pcg32.h"
 #include "scenes/presets.h"
+#include "tests/catch.hpp"
 #include "tests/gl/opened_driver.h"
 
 using namespace trueshade;
@@ -24,7 +24,8 @@ namespace {
 struct Watched {
   Watched(GlRenderer& renderer, const Pipeline& pipeline) {
     GlDraw draw;
-    if (blends_lights(pipeline.strategy)) draw.after_light = [this](int, const Image& target) { after_light.push_back(target); };
+    if (blends_lights(pipeline.strategy))
+      draw.after_light = [this](int, const Image& target) { after_light.push_back(target); };
     draw.after_object = [this](int i, const Image& target) { after_object.emplace_back(i, target); };
     capture = renderer.draw(pipeline, draw).capture;
     if (draw.after_light) lights = steps_from(after_light);
@@ -75,7 +76,8 @@ void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& sc
 void check_density(const std::map<std::string, Others>& others) {
   CHECK(!others.empty());
   for (const auto& [what, sum] : others) {
-    std::printf("%s: %llu pixels of another surface or branch, %.1f predicted\n", what.c_str(), static_cast<unsigned long long>(sum.seen), sum.predicted);
+    std::printf("%s: %llu pixels of another surface or branch, %.1f predicted\n", what.c_str(),
+                static_cast<unsigned long long>(sum.seen), sum.predicted);
     CAPTURE(what, sum.seen, sum.predicted);
     CHECK(double(sum.seen) <= 2 * sum.predicted);
   }
@@ -158,11 +160,14 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
       pipeline.width = 48, pipeline.height = 36;
       pipeline.target = target;
       pipeline.strategy = Strategy::deferred_volumes;
-      pipeline.light_volumes.point = pipeline.light_volumes.spot = i % 2 == 0 ? LightExtent::sphere : LightExtent::range;
+      pipeline.light_volumes.point = pipeline.light_volumes.spot =
+          i % 2 == 0 ? LightExtent::sphere : LightExtent::range;
       pipeline.light_model.alpha_from_albedo = true;
       if (i > 0) {
-        pipeline.blend.rgb = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)), BlendFactor(random.below(kBlendFactors))};
-        pipeline.blend.alpha = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)), BlendFactor(random.below(kBlendFactors))};
+        pipeline.blend.rgb = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)),
+                              BlendFactor(random.below(kBlendFactors))};
+        pipeline.blend.alpha = {BlendEquation(random.below(kBlendEquations)), BlendFactor(random.below(kBlendFactors)),
+                                BlendFactor(random.below(kBlendFactors))};
         pipeline.blend.constant = {0.75f, 0.5f, 0.25f, 0.5f};
         pipeline.blend.mask[3] = true;
       }
@@ -178,11 +183,12 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
         Profile profile = *profile_named(name);
         profile.subpixel_bits = 8;
         const StageVerdict v = judge_blending(scene, pipeline, profile, drawn->capture, drawn->lights);
-        CAPTURE(info(target).name, name, i, int(pipeline.blend.rgb.equation), int(pipeline.blend.rgb.src), int(pipeline.blend.rgb.dst),
-                int(pipeline.blend.alpha.equation), int(pipeline.blend.alpha.src), int(pipeline.blend.alpha.dst));
+        CAPTURE(info(target).name, name, i, int(pipeline.blend.rgb.equation), int(pipeline.blend.rgb.src),
+                int(pipeline.blend.rgb.dst), int(pipeline.blend.alpha.equation), int(pipeline.blend.alpha.src),
+                int(pipeline.blend.alpha.dst));
         if (v.worst.size() > 0)
-          UNSCOPED_INFO(v.worst[0].x << ',' << v.worst[0].y << ' ' << v.worst[0].plane << ' ' << v.worst[0].low << ".." << v.worst[0].high << " given "
-                                     << v.worst[0].given << ' ' << v.worst[0].note);
+          UNSCOPED_INFO(v.worst[0].x << ',' << v.worst[0].y << ' ' << v.worst[0].plane << ' ' << v.worst[0].low << ".."
+                                     << v.worst[0].high << " given " << v.worst[0].given << ' ' << v.worst[0].note);
         CHECK(v.passes());
         CHECK(judge_lighting(scene, pipeline, profile, drawn->capture).passes());
       }
@@ -244,7 +250,9 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
         for (const StageVerdict& s : v.stages) {
           std::printf("%-8s %-13s %-19s %-9s", name, preset.pipeline.preset.c_str(), profile_name, s.stage.c_str());
           for (size_t c = 0; c < kPixelClasses; ++c)
-            if (s.counts[c] > 0) std::printf(" %s %llu", std::string(text(PixelClass(c))).c_str(), static_cast<unsigned long long>(s.counts[c]));
+            if (s.counts[c] > 0)
+              std::printf(" %s %llu", std::string(text(PixelClass(c))).c_str(),
+                          static_cast<unsigned long long>(s.counts[c]));
           std::printf("; predicted %.1f, error / bound %.3f\n", s.predicted_other, s.worst_error);
           CHECK(s.count(PixelClass::exact) + s.count(PixelClass::store_2) >= uint64_t(0.99 * 200 * 150));
           Others& sum = others[std::string(profile_name) + ", " + s.stage];

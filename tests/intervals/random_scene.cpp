@@ -21,14 +21,16 @@ void add_textures(Scene& scene, Pcg32& random) {
     p.width = 16 << random.below(2), p.height = 12 + int(random.below(30));
     p.columns = p.rows = 4;
     p.format = TextureFormat(random.below(4));
-    p.colors = {glm::vec4(random.between(0, 1), random.between(0, 1), random.between(0, 1), 1), glm::vec4(random.between(0, 1), 0.1f, 0.4f, 0.5f)};
+    p.colors = {glm::vec4(random.between(0, 1), random.between(0, 1), random.between(0, 1), 1),
+                glm::vec4(random.between(0, 1), 0.1f, 0.4f, 0.5f)};
     scene.textures.push_back(texture_of(p));
     build_mip_chain(scene.textures.back());
     Material& m = scene.materials[size_t(k)];
     m.color_map.texture = k - 1;
     Sampler& s = m.color_map.sampler;
     s.wrap = {Wrap(random.below(5)), Wrap(random.below(5))};
-    s.mag_filter = Filter(random.below(2)), s.min_filter = Filter(random.below(2)), s.mip_filter = MipFilter(random.below(3));
+    s.mag_filter = Filter(random.below(2)), s.min_filter = Filter(random.below(2)),
+    s.mip_filter = MipFilter(random.below(3));
     s.lod_bias = random.below(4) == 0 ? -0.75f : 0.0f;
   }
 }
@@ -69,7 +71,8 @@ Scene random_scene(Pcg32& random) {
   Scene scene;
   scene.spec = "random";
   scene.meshes = {cube_mesh(), sphere_mesh(2), plane_mesh(2)};
-  for (int k = 0; k < 3; ++k) scene.materials.push_back({"", {random.between(0, 1), random.between(0, 1), random.between(0, 1), 1}});
+  for (int k = 0; k < 3; ++k)
+    scene.materials.push_back({"", {random.between(0, 1), random.between(0, 1), random.between(0, 1), 1}});
   for (Material& m : scene.materials) {
     m.specular_color = {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
     m.shininess = float(1 + random.below(40));
@@ -87,14 +90,16 @@ Scene random_scene(Pcg32& random) {
   for (uint32_t i = 0; i < objects; ++i) {
     Instance instance{random.below(3), random.below(3), {}};
     const auto coordinate = [&](double reach) { return random.between(-reach, reach); };
-    instance.world_from_object = placed({coordinate(1.5), coordinate(1), coordinate(1.5)},
-                                        {random.between(0.2, 1.5), random.between(0.2, 1.5), random.between(0.2, 1.5)}, random.between(0, 6));
+    instance.world_from_object =
+        placed({coordinate(1.5), coordinate(1), coordinate(1.5)},
+               {random.between(0.2, 1.5), random.between(0.2, 1.5), random.between(0.2, 1.5)}, random.between(0, 6));
     scene.instances.push_back(instance);
   }
   const uint32_t lights = random.below(6);
   for (uint32_t i = 0; i < lights; ++i) {
     Light light;
-    constexpr LightType kinds[] = {LightType::directional, LightType::spot, LightType::spot, LightType::point, LightType::point, LightType::point};
+    constexpr LightType kinds[] = {LightType::directional, LightType::spot,  LightType::spot,
+                                   LightType::point,       LightType::point, LightType::point};
     light.type = kinds[random.below(6)];
     light.position = {random.between(-2, 2), random.between(-2, 2), random.between(-1, 4)};
     light.direction = {0.0f, -0.6f, -0.8f};
@@ -120,8 +125,8 @@ Pipeline random_pipeline(Pcg32& random) {
   p.light_model.shininess = shininess[random.below(5)];
   p.light_model.renormalize = random.below(2) == 0;
   p.light_model.specular_masked = random.below(2) == 0;
-  constexpr Falloff falloffs[] = {Falloff::linear_range, Falloff::linear_range, Falloff::quadratic, Falloff::none, Falloff::linear,
-                                  Falloff::attenuation, Falloff::inverse_square};
+  constexpr Falloff falloffs[] = {Falloff::linear_range, Falloff::linear_range, Falloff::quadratic,     Falloff::none,
+                                  Falloff::linear,       Falloff::attenuation,  Falloff::inverse_square};
   constexpr TermOrder orders[] = {TermOrder::factored, TermOrder::separate, TermOrder::albedo_last};
   constexpr Format targets[] = {Format::rgba8, Format::rgba32f, Format::rgba16f, Format::srgb8_a8};
   constexpr Format depths[] = {Format::d32f, Format::d32f, Format::d24, Format::d16};
@@ -130,7 +135,8 @@ Pipeline random_pipeline(Pcg32& random) {
   p.light_model.cone = Cone(random.below(5));
   const bool of_albedo = random.below(4) == 0;
   // The albedo can come last only where the highlight has its colour too.
-  if (of_albedo || p.light_model.order == TermOrder::albedo_last) p.light_model.specular_source = SpecularSource::albedo;
+  if (of_albedo || p.light_model.order == TermOrder::albedo_last)
+    p.light_model.specular_source = SpecularSource::albedo;
   p.target = targets[random.below(4)];
   constexpr Format normals[] = {Format::rgba32f, Format::rgba16f, Format::rgba16f, Format::rgb10_a2};
   p.gbuffer.normal.format = normals[random.below(4)];

@@ -1,6 +1,7 @@
-// What the judge found in Mesa's softpipe: a target that is not read between draws stays in a cache of floats, where the first
-// draw's negative colours are kept although OpenGL stores 0 (4.6 core, 17.3.6). The pixels are rejected, and the reason is
-// the one given: a model of that cache gives softpipe's picture, and without negative first colours nothing is rejected.
+// What the judge found in Mesa's softpipe: a target that is not read between draws stays in a cache of floats, where
+// the first draw's negative colours are kept although OpenGL stores 0 (4.6 core, 17.3.6). The pixels are rejected, and
+// the reason is the one given: a model of that cache gives softpipe's picture, and without negative first colours
+// nothing is rejected.
 #include <cmath>
 #include <cstdio>
 

@@ -1,5 +1,5 @@
-// sRGB targets: GL_FRAMEBUFFER_SRGB is on, what a driver encodes is what OpenGL allows, and how far llvmpipe's power is off.
-#include "tests/catch.hpp"
+// sRGB targets: GL_FRAMEBUFFER_SRGB is on, what a driver encodes is what OpenGL allows, and how far llvmpipe's power is
+// off.
 #include <cmath>
 #include <cstdio>
 
@@ -8,6 +8,7 @@
 #include "oracle/intervals/validate.h"
 #include "scenes/builtin.h"
 #include "scenes/shapes.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
 
@@ -28,7 +29,8 @@ Scene ramp(float most) {
     m.color[3].push_back(1);
   }
   scene.materials.resize(1);
-  scene.instances = {{0, 0, glm::mat4x3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0))}};
+  scene.instances = {
+      {0, 0, glm::mat4x3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0))}};
   scene.camera.clip_from_world = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scene.lights.resize(1);
   scene.lights[0].type = LightType::ambient;
@@ -65,10 +67,13 @@ TEST_CASE("Frames into an sRGB target are explained, ours and llvmpipe's; one th
   if (context == nullptr) return;
   const Capture theirs = GlRenderer(*context, scene).draw(pipeline).capture;
   CHECK(violations(theirs, "unknown") == 0);
-  if (context->info().line().find("Mesa 22.3") != std::string::npos) CHECK(violations(theirs, "mesa-llvmpipe-22.3") == 0);
+  if (context->info().line().find("Mesa 22.3") != std::string::npos)
+    CHECK(violations(theirs, "mesa-llvmpipe-22.3") == 0);
 }
 
-TEST_CASE("llvmpipe's sRGB and ten-bit codes are its profile's nominal ones; any GPU's takes them for a lean, and none for wrong") {
+TEST_CASE(
+    "llvmpipe's sRGB and ten-bit codes are its profile's nominal ones; any GPU's takes them for a lean, and none for "
+    "wrong") {
   const GlContext* context = testing::opened_mesa_22_3();
   if (context == nullptr) return;
   const Scene scene = builtin_scene("cornell");
@@ -114,12 +119,13 @@ TEST_CASE("llvmpipe encodes sRGB within its profile's reach of the real code, an
     for (int y = 0; y < 512; ++y)
       for (int x = 0; x < 1024; ++x)
         for (int k = 0; k < 3; ++k) {
-          const double off = std::fabs(255 * encoded(capture.plane("albedo")->value(x, y, k)) - double(capture.color.code(x, y, k)));
+          const double off =
+              std::fabs(255 * encoded(capture.plane("albedo")->value(x, y, k)) - double(capture.color.code(x, y, k)));
           most = std::max(most, off), beyond_half += off > 0.5, ++values;
         }
   }
-  std::printf("llvmpipe's sRGB encode: %llu of %llu values beyond half a code, at most %.4f\n", static_cast<unsigned long long>(beyond_half),
-              static_cast<unsigned long long>(values), most);
+  std::printf("llvmpipe's sRGB encode: %llu of %llu values beyond half a code, at most %.4f\n",
+              static_cast<unsigned long long>(beyond_half), static_cast<unsigned long long>(values), most);
   CHECK(most <= profile_named("mesa-llvmpipe-22.3")->srgb_reach);
   CHECK(beyond_half > values / 1000);
 }

@@ -1,6 +1,5 @@
-// Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups do
-// not.
-#include "tests/catch.hpp"
+// Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups
+// do not.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include "scenes/presets.h"
 #include "scenes/shapes.h"
 #include "scenes/texture_pattern.h"
+#include "tests/catch.hpp"
 #include "tests/intervals/captured.h"
 #include "tests/intervals/drivers.h"
 
@@ -57,9 +57,11 @@ Scene textured_room(int variant) {
     m.alpha_cutoff = i == 2 ? 0.45f : 0.0f;
     scene.materials.push_back(m);
   }
-  scene.instances = {{0, 0, glm::mat4x3(glm::vec3(6, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 12), glm::vec3(0, -1, -3))},
-                     {0, 1, glm::mat4x3(glm::vec3(4, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -3, 0.5f), glm::vec3(0, 0, -4))},
-                     {1, 2, glm::mat4x3(glm::vec3(0.8f, 0, 0), glm::vec3(0, 0.8f, 0), glm::vec3(0, 0, 0.8f), glm::vec3(0.2f, 0, -1.5f))}};
+  scene.instances = {
+      {0, 0, glm::mat4x3(glm::vec3(6, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 12), glm::vec3(0, -1, -3))},
+      {0, 1, glm::mat4x3(glm::vec3(4, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -3, 0.5f), glm::vec3(0, 0, -4))},
+      {1, 2,
+       glm::mat4x3(glm::vec3(0.8f, 0, 0), glm::vec3(0, 0.8f, 0), glm::vec3(0, 0, 0.8f), glm::vec3(0.2f, 0, -1.5f))}};
   Light light;
   light.position = {1, 2, 1};
   light.range = 10.0f;
@@ -75,7 +77,8 @@ Pipeline pipeline_of() {
   return pipeline;
 }
 
-Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const char* profile_name, int bits) {
+Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const char* profile_name,
+               int bits) {
   Profile profile = *profile_named(profile_name);
   if (profile.name == "unknown") profile.subpixel_bits = bits;
   const Verdict v = validate_capture(scene, pipeline, capture, {profile, false});
@@ -147,7 +150,9 @@ TEST_CASE("Wrong lookups are violations: another wrap, another filter, a shifted
     CHECK(violations(half_a_texel) > 100);
     CHECK(violations([i](Scene& s) {
             Texture& t = s.textures[size_t(i)];
-            t.format = t.format == TextureFormat::rgba8 ? TextureFormat::srgb8_a8 : t.format == TextureFormat::srgb8_a8 ? TextureFormat::rgba8 : t.format;
+            t.format = t.format == TextureFormat::rgba8      ? TextureFormat::srgb8_a8
+                       : t.format == TextureFormat::srgb8_a8 ? TextureFormat::rgba8
+                                                             : t.format;
             if (t.format >= TextureFormat::rgba16f) t.levels.resize(1), s.materials[size_t(i)].base_color.x *= 0.9f;
           }) > 100);
   }
@@ -164,7 +169,8 @@ Texture row_of(TextureFormat format, const std::vector<uint8_t>& codes) {
 }
 
 TextureSample at(double u) {
-  return {{u, u, u}, {0.5, 0.5, 0.5}, {u, 0.5, 1e-3, 0, 0, 1e-3}, {u, 0.5, 1e-3, 0, 0, 1e-3}, {u, 0.5, 1e-3, 0, 0, 1e-3}};
+  return {
+      {u, u, u}, {0.5, 0.5, 0.5}, {u, 0.5, 1e-3, 0, 0, 1e-3}, {u, 0.5, 1e-3, 0, 0, 1e-3}, {u, 0.5, 1e-3, 0, 0, 1e-3}};
 }
 
 bool allows(std::string_view profile, const Texture& texture, const Sampler& sampler, double u, double value) {
@@ -251,7 +257,8 @@ TEST_CASE("llvmpipe decodes sRGB by the polynomial of its profile: all 256 codes
   m.color_map.texture = 0;
   m.color_map.sampler = clamped(Filter::nearest);
   scene.materials = {m};
-  scene.instances = {{0, 0, glm::mat4x3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0))}};
+  scene.instances = {
+      {0, 0, glm::mat4x3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0))}};
   scene.camera.clip_from_world = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   Pipeline pipeline = pipeline_of();
   pipeline.width = 256, pipeline.height = 4;

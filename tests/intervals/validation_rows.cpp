@@ -1,11 +1,11 @@
-// Draws built-in scenes under every preset and some strategies with a driver of this machine, each frame once, and judges
-// it by several profiles: one line a stage, appended to a file. A frame whose lines are there already is not drawn again,
-// so a long run may be broken off and gone on with. Made into tables by scripts/validation_table.sh.
+// Draws built-in scenes under every preset and some strategies with a driver of this machine, each frame once, and
+// judges it by several profiles: one line a stage, appended to a file. A frame whose lines are there already is not
+// drawn again, so a long run may be broken off and gone on with. Made into tables by scripts/validation_table.sh.
 //
 //   validation_rows DRIVER SUBPIXEL-BITS SIZE PROFILE,... STRATEGY,... FILE SCENE...
 //
-// Tab-separated: scene, strategy, preset, profile, driver, size, stage, pixels with a surface, the classes' counts, pixels
-// of other surfaces or branches, how many were predicted, failed tests of the whole image, s that judging took.
+// Tab-separated: scene, strategy, preset, profile, driver, size, stage, pixels with a surface, the classes' counts,
+// pixels of other surfaces or branches, how many were predicted, failed tests of the whole image, s that judging took.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -43,8 +43,8 @@ struct Request {
 
 /// What a line begins with, up to its stage.
 std::string key_of(const Request& r, const std::string& scene, const Pipeline& p, const Profile& profile) {
-  return scene + '\t' + std::string(name_of(p.strategy)) + '\t' + p.preset + '\t' + profile.name + '\t' + r.driver_name +
-         '\t' + r.size;
+  return scene + '\t' + std::string(name_of(p.strategy)) + '\t' + p.preset + '\t' + profile.name + '\t' +
+         r.driver_name + '\t' + r.size;
 }
 
 /// Of frames whose target is judged: the last of their lines.
@@ -71,7 +71,8 @@ void append(const Request& r, const std::string& key, const StageVerdict& v, dou
   std::fflush(stdout);
   if (!v.worst.empty() && v.worst.front().pixel_class == PixelClass::violation) {
     const WorstPixel& w = v.worst.front();
-    std::printf("  %d,%d %s %.9g to %.9g given %.9g: %s\n", w.x, w.y, w.plane.c_str(), w.low, w.high, w.given, w.note.c_str());
+    std::printf("  %d,%d %s %.9g to %.9g given %.9g: %s\n", w.x, w.y, w.plane.c_str(), w.low, w.high, w.given,
+                w.note.c_str());
   }
 }
 
@@ -121,7 +122,8 @@ class Table {
   }
 
   /// Presets and strategies share G-buffers: what has the same bits in the same formats has the same verdict.
-  std::pair<StageVerdict, double> judged_geometry(const Pipeline& asked, const Capture& capture, const Profile& profile) {
+  std::pair<StageVerdict, double> judged_geometry(const Pipeline& asked, const Capture& capture,
+                                                  const Profile& profile) {
     Capture planes = capture;
     planes.color = {};
     std::string bits;
@@ -157,7 +159,9 @@ class Table {
 Request request_of(char** argument) {
   Request r;
   r.driver_name = argument[1];
-  r.driver = r.driver_name == "softpipe" ? GlDriver::softpipe : r.driver_name == "llvmpipe" ? GlDriver::llvmpipe : GlDriver::any;
+  r.driver = r.driver_name == "softpipe"   ? GlDriver::softpipe
+             : r.driver_name == "llvmpipe" ? GlDriver::llvmpipe
+                                           : GlDriver::any;
   r.size = argument[3];
   if (std::sscanf(argument[3], "%dx%d", &r.width, &r.height) != 2)
     throw Error(ErrorKind::usage, "size", "is not WxH", "say 400x300");
@@ -198,7 +202,8 @@ int main(int count, char** argument) {
           try {
             table->add(pipeline, left);
           } catch (const Error& error) {
-            std::printf("%s %s %s: %s\n", argument[i], std::string(preset.name).c_str(), std::string(name_of(strategy)).c_str(), error.what());
+            std::printf("%s %s %s: %s\n", argument[i], std::string(preset.name).c_str(),
+                        std::string(name_of(strategy)).c_str(), error.what());
           }
         }
     }

@@ -6,10 +6,12 @@
 
 namespace trueshade::testing {
 
-/// How many pixels of the first stage that has any, the surfaces or the target's last state, are violations: a picture is rejected by one.
-///   legal: null, or a picture of the same scene and pipeline that passes under the profile; surfaces that are its own, byte by
+/// How many pixels of the first stage that has any, the surfaces or the target's last state, are violations: a picture
+/// is rejected by one.
+///   legal: null, or a picture of the same scene and pipeline that passes under the profile; surfaces that are its own,
+///   byte by
 ///          byte, are not judged again
-uint64_t violations(const Scene& scene, const Pipeline& pipeline, const oracle::Profile& profile, const oracle::Capture& capture,
-                    const oracle::Capture* legal);
+uint64_t violations(const Scene& scene, const Pipeline& pipeline, const oracle::Profile& profile,
+                    const oracle::Capture& capture, const oracle::Capture* legal);
 
 }  // namespace trueshade::testing

@@ -31,14 +31,16 @@ Scene rectangles(const char* name, int wide, int tall, int step) {
   for (int i = 0; i < 6; ++i) {
     Instance instance{0, uint32_t(i % 2), {}};
     // Object x and z in [-1/2, 1/2] become odd numbers of pixels of the window, corners on samples; y is depth.
-    instance.world_from_object = placed({10.0 + step * i, 30.0 + 3 * (i % 3), -0.1 * i}, {double(wide), 1, double(tall)});
+    instance.world_from_object =
+        placed({10.0 + step * i, 30.0 + 3 * (i % 3), -0.1 * i}, {double(wide), 1, double(tall)});
     std::swap(instance.world_from_object[2].y, instance.world_from_object[2].z);
     std::swap(instance.world_from_object[1].y, instance.world_from_object[1].z);
     scene.instances.push_back(instance);
   }
   scene.lights.resize(2);
   scene.lights[0].position = {30.0f, 30.0f, 20.0f}, scene.lights[0].range = 60;
-  scene.lights[1].position = {70.0f, 40.0f, 30.0f}, scene.lights[1].range = 50, scene.lights[1].color = {0.5f, 0.25f, 1.0f};
+  scene.lights[1].position = {70.0f, 40.0f, 30.0f}, scene.lights[1].range = 50,
+  scene.lights[1].color = {0.5f, 0.25f, 1.0f};
   scene.camera.eye = {48.0f, 36.0f, 50.0f};
   scene.camera.target = {48.0f, 36.0f, 0.0f};
   scene.camera.clip_from_world = {2 / 96.0f, 0, 0, 0, 0, 2 / 72.0f, 0, 0, 0, 0, -0.25f, 0, -1, -1, 0, 1};
@@ -51,10 +53,12 @@ Scene balls() {
   scene.spec = "balls";
   scene.meshes = {sphere_mesh(2)};
   scene.materials = {{"", {0.8f, 0.6f, 0.4f, 0.5f}}};
-  for (int i = 0; i < 4; ++i) scene.instances.push_back({0, 0, placed({1.4 * i - 2.1, 0.3 * (i % 2), 0}, {0.9, 0.9, 0.9}, i)});
+  for (int i = 0; i < 4; ++i)
+    scene.instances.push_back({0, 0, placed({1.4 * i - 2.1, 0.3 * (i % 2), 0}, {0.9, 0.9, 0.9}, i)});
   scene.lights.resize(2);
   scene.lights[0].position = {2.0f, 3.0f, 4.0f}, scene.lights[0].range = 12;
-  scene.lights[1].position = {-3.0f, 1.0f, 3.0f}, scene.lights[1].range = 9, scene.lights[1].color = {0.25f, 0.5f, 1.0f};
+  scene.lights[1].position = {-3.0f, 1.0f, 3.0f}, scene.lights[1].range = 9,
+  scene.lights[1].color = {0.25f, 0.5f, 1.0f};
   scene.camera.eye = {0.0f, 1.0f, 6.0f};
   return scene;
 }
@@ -66,8 +70,10 @@ struct Shown {
 };
 
 std::vector<Shown> scenes_of_mutants() {
-  std::vector<Shown> shown = {{rectangles("squares", 17, 17, 13), 96, 72}, {rectangles("bars", 23, 9, 14), 96, 72}, {balls()}};
-  for (const char* name : {"city,lights=60,objects=300", "sphere,lights=40", "cornell", "circle"}) shown.push_back({builtin_scene(name)});
+  std::vector<Shown> shown = {
+      {rectangles("squares", 17, 17, 13), 96, 72}, {rectangles("bars", 23, 9, 14), 96, 72}, {balls()}};
+  for (const char* name : {"city,lights=60,objects=300", "sphere,lights=40", "cornell", "circle"})
+    shown.push_back({builtin_scene(name)});
   return shown;
 }
 
@@ -133,9 +139,12 @@ void try_mutants(std::span<const Profile> profiles, const Renderer& renderer, si
   for (const Mutant& mutant : mutants()) {
     const MutantScore& s = scores[mutant.name];
     total += s.tries, rejected += s.rejected;
-    std::printf("%-46s %7d %8d %6d %7zu %7zu %9llu\n", std::string(mutant.name).c_str(), s.tries, s.rejected, s.tries - s.rejected,
-                s.scenes.size(), s.scenes_by_any.size(), static_cast<unsigned long long>(s.pixels));
-    const auto is_in = [&](std::span<const std::string_view> names) { return std::find(names.begin(), names.end(), mutant.name) != names.end(); };
+    std::printf("%-46s %7d %8d %6d %7zu %7zu %9llu\n", std::string(mutant.name).c_str(), s.tries, s.rejected,
+                s.tries - s.rejected, s.scenes.size(), s.scenes_by_any.size(),
+                static_cast<unsigned long long>(s.pixels));
+    const auto is_in = [&](std::span<const std::string_view> names) {
+      return std::find(names.begin(), names.end(), mutant.name) != names.end();
+    };
     check_score(mutant, s, is_in(same), is_in(inside) || mutant.latitude == Latitude::always_legal);
   }
   std::printf("%-46s %7d %8d %6d\n", "all", total, rejected, total - rejected);

@@ -9,17 +9,18 @@
 
 namespace trueshade::testing {
 
-/// What became of the tries of one wrong renderer: a try is a picture that differs from the right one, judged by one profile.
+/// What became of the tries of one wrong renderer: a try is a picture that differs from the right one, judged by one
+/// profile.
 struct MutantScore {
   int tries = 0, rejected = 0;
-  std::set<std::string> scenes;                ///< that any profile rejects it on
-  std::set<std::string> scenes_by_any;         ///< the same by `unknown`
+  std::set<std::string> scenes;         ///< that any profile rejects it on
+  std::set<std::string> scenes_by_any;  ///< the same by `unknown`
   uint64_t pixels = 0;
 };
 
-/// Every wrong renderer of `mutants()` on seven scenes, where `renderer` draws. Each try must be rejected, or its picture shown to
-/// be legal without the judge (legal_by_formula.h); each renderer be rejected on two scenes at least, by any GPU's rules too where
-/// these leave no latitude. Prints the counts.
+/// Every wrong renderer of `mutants()` on seven scenes, where `renderer` draws. Each try must be rejected, or its
+/// picture shown to be legal without the judge (legal_by_formula.h); each renderer be rejected on two scenes at least,
+/// by any GPU's rules too where these leave no latitude. Prints the counts.
 ///   presets: how many of presets() are tried on every scene; on cornell all are
 ///   same: those that change no picture here
 ///   inside: those whose pictures are all legal here, beside those of Latitude::always_legal

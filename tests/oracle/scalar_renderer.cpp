@@ -1,9 +1,9 @@
 // The scalar renderer against numbers computed by hand: GL_RULES section 8 rows 20, 21, 28, 31, 52 and simple lights.
-#include "oracle/scalar_light.h"
 #include "oracle/scalar_renderer.h"
 
 #include <cmath>
 
+#include "oracle/scalar_light.h"
 #include "tests/catch.hpp"
 
 using namespace trueshade;

@@ -92,29 +92,30 @@ TEST_CASE("a pipeline's text reads back as the same pipeline over any base, and 
 }
 
 TEST_CASE("the text of the default pipeline stays as it is") {
-  CHECK(pipeline_json({}) ==
-        R"({"version":1,"preset":"many-lights","width":800,"height":800,"geometry":{"viewport":{"x":0,"y":0,"width":0,)"
-        R"("height":0},"depth_near":0,"depth_far":1,"depth_func":"less","clear_depth":1,"depth_clamp":false,)"
-        R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
-        R"("provoking":"last","depth_format":"d32f","polygon_offset_factor":0,"polygon_offset_units":0},)"
-        R"("gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
-        R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
-        R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
-        R"("position_from_depth":false,"half_round":"toward_zero"},)"
-        R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
-        R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
-        R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
-        R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"unbounded",)"
-        R"("spot":"unbounded","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
-        R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
-        R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"transparency":{"mode":"after-lights","blend":{)"
-        R"("enabled":true,"rgb":{"equation":"add","src":"src_alpha","dst":"one_minus_src_alpha"},)"
-        R"("alpha":{"equation":"add","src":"one","dst":"one_minus_src_alpha"},"constant":[0,0,0,0],)"
-        R"("mask":[true,true,true,true]}},"strategy":"deferred-loop",)"
-        R"("target":"rgba8","profile":"ideal",)"
-        R"("post":{"samples":1,"marker_radius":0,"bloom":{"strength":0,"threshold":1,"radius":8,"passes":1},)"
-        R"("tone_map":"none","key":0.18,"white":0,"log_offset":1e-04,"encode":"linear","edge_filter":false,)"
-        R"("output":"rgba8"},"view":"lit"})");
+  CHECK(
+      pipeline_json({}) ==
+      R"({"version":1,"preset":"many-lights","width":800,"height":800,"geometry":{"viewport":{"x":0,"y":0,"width":0,)"
+      R"("height":0},"depth_near":0,"depth_far":1,"depth_func":"less","clear_depth":1,"depth_clamp":false,)"
+      R"("cull_face":"none","front_face":"ccw","clip_origin":"lower_left","clip_depth":"negative_one_to_one",)"
+      R"("provoking":"last","depth_format":"d32f","polygon_offset_factor":0,"polygon_offset_units":0},)"
+      R"("gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
+      R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
+      R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
+      R"("position_from_depth":false,"half_round":"toward_zero"},)"
+      R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
+      R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
+      R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"
+      R"("global_ambient":[0,0,0],"damping":1,"clamp_result":false},"light_volumes":{"point":"unbounded",)"
+      R"("spot":"unbounded","slices":16,"stacks":8,"cull_face":"none","depth_clamp":true,"base":true},"blend":)"
+      R"({"enabled":true,"rgb":{"equation":"add","src":"one","dst":"one"},"alpha":{"equation":"add","src":"one",)"
+      R"("dst":"one"},"constant":[0,0,0,0],"mask":[true,true,true,false]},"transparency":{"mode":"after-lights","blend":{)"
+      R"("enabled":true,"rgb":{"equation":"add","src":"src_alpha","dst":"one_minus_src_alpha"},)"
+      R"("alpha":{"equation":"add","src":"one","dst":"one_minus_src_alpha"},"constant":[0,0,0,0],)"
+      R"("mask":[true,true,true,true]}},"strategy":"deferred-loop",)"
+      R"("target":"rgba8","profile":"ideal",)"
+      R"("post":{"samples":1,"marker_radius":0,"bloom":{"strength":0,"threshold":1,"radius":8,"passes":1},)"
+      R"("tone_map":"none","key":0.18,"white":0,"log_offset":1e-04,"encode":"linear","edge_filter":false,)"
+      R"("output":"rgba8"},"view":"lit"})");
 }
 
 TEST_CASE("keys present replace, a preset replaces all, whatever their order") {
@@ -133,7 +134,9 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"([])", "p.json: found an array (an object)"},
       {R"({"colour": 1})", "p.json: /colour: this key is unknown"},
       {R"({"version": 2})", "p.json: /version: found 2"},
-      {R"({"preset": "nonesuch"})", "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual lecture light-volumes light-volumes-literal redsdk)"},
+      {R"({"preset": "nonesuch"})",
+       "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual lecture light-volumes "
+       "light-volumes-literal redsdk)"},
       {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 65536)"},
       {R"({"width": 65537})", "p.json: /width: found 65537"},
       {R"({"width": 1.5})", "p.json: /width: found 1.5"},
@@ -170,7 +173,8 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"transparency": {"blend": {"rgb": {"dst": "alpha"}}}})",
        "p.json: /transparency/blend/rgb/dst: found \"alpha\" (one of zero"},
       {R"({"strategy": "forward-loop", "transparency": {"mode": "into-albedo"}})",
-       "p.json: transparency into-albedo with strategy forward-loop, which has no G-buffer (after-lights, or a deferred"},
+       "p.json: transparency into-albedo with strategy forward-loop, which has no G-buffer (after-lights, or a "
+       "deferred"},
       {R"({"transparency": {"mode": "into-albedo"}, "strategy": "forward-multipass"})",
        "p.json: transparency into-albedo with strategy forward-multipass"},
       {R"({"preset": "lecture", "transparency": {"mode": "into-albedo"}})",

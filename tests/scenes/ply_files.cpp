@@ -182,10 +182,12 @@ TEST_CASE("a header of too many elements or properties is refused before names a
     }
     return bytes_of(text + "end_header\n");
   };
-  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { mesh_from_ply(header(200000, 0), "m.ply", MissingNormals::flat); }),
-                    "m.ply: line 259: there are too many elements");
-  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { mesh_from_ply(header(1, 200000), "m.ply", MissingNormals::flat); }),
-                    "m.ply: line 260: there are too many properties");
+  CHECK_STARTS_WITH(
+      error_of(ErrorKind::limit, [&] { mesh_from_ply(header(200000, 0), "m.ply", MissingNormals::flat); }),
+      "m.ply: line 259: there are too many elements");
+  CHECK_STARTS_WITH(
+      error_of(ErrorKind::limit, [&] { mesh_from_ply(header(1, 200000), "m.ply", MissingNormals::flat); }),
+      "m.ply: line 260: there are too many properties");
 }
 
 TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
