@@ -26,15 +26,20 @@ struct BlockBox {
   int count() const { return (x1 - x0 + 1) * (y1 - y0 + 1); }
 };
 
-/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Four rows at a time, the
-/// last again where there are fewer: how many there are is anyone's guess, and one missed costs as much as all.
+/// The first column of blocks of the vector that holds column `x`; 0 where a vector holds all that a tile has.
+HWY_INLINE int vector_column(int x) {
+  constexpr int kLanes = int(hn::MaxLanes(hn::ScalableTag<float>()));
+  return kLanes >= kMaxTile / kBlockSize ? 0 : x & ~(kLanes - 1);
+}
+
+/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Several rows at a time,
+/// the last again where there are fewer: how many there are is anyone's guess, and one missed costs as much as all.
 HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near) {
   const hn::ScalableTag<float> d;
-  constexpr int kRows = 4;
-  const int lanes = int(hn::Lanes(d));
+  constexpr int kLanes = int(hn::MaxLanes(d)), kRows = kLanes == 16 ? 8 : 4;
   const auto mine = hn::Set(d, near);
-  for (int x = box.x0 / lanes * lanes; x <= box.x1; x += lanes) {
-    const uint32_t columns = range_bits(box.x0, box.x1, x, lanes);
+  for (int x = vector_column(box.x0); x <= box.x1; x += kLanes) {
+    const uint32_t columns = range_bits(box.x0, box.x1, x, kLanes);
     for (int y = box.y0; y <= box.y1; y += kRows) {
       auto far = hn::LoadU(d, tile.far + y * blocks + x);
       for (int row = 1; row < kRows; ++row)
@@ -63,7 +68,7 @@ HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox
     for (int row = 0; row < kRows; ++row) {
       const float* const far = tile.far + std::min(y + row, box.y1) * blocks;
       uint32_t bits = 0;
-      for (int x = box.x0 / lanes * lanes; x <= box.x1; x += lanes)
+      for (int x = vector_column(box.x0); x <= box.x1; x += lanes)
         bits |= lane_bits(d, hn::Not(hn::Gt(mine, hn::LoadU(d, far + x)))) << x;
       bits &= columns;
       out.row[y + row] = uint16_t(bits);
@@ -85,14 +90,11 @@ HWY_INLINE BlockBox blocks_of(const WindowBox& box, const TileRect& rect) {
           std::clamp(box.y1 >> 10, 0, last)};
 }
 
-/// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
-HWY_INLINE bool hidden_draw(const VisibilityTile& tile, const TileRect& rect, const ClusterDraw& draw,
-                            const WindowTransform& t) {
+/// The blocks of a tile that a cluster may touch, by its bounds.
+HWY_INLINE BlockBox blocks_of(const ClusterDraw& draw, const TileRect& rect) {
   const int last = rect.size - 1;
   const auto block = [last](int pixel) { return std::clamp(pixel, 0, last) / kBlockSize; };
-  const BlockBox box{block(draw.x0 - rect.x), block(draw.y0 - rect.y), block(draw.x1 - rect.x),
-                     block(draw.y1 - rect.y)};
-  return hidden_blocks(tile, rect.size / kBlockSize, box, near_bound(double(draw.near_depth), t));
+  return {block(draw.x0 - rect.x), block(draw.y0 - rect.y), block(draw.x1 - rect.x), block(draw.y1 - rect.y)};
 }
 
 /// Whether the blocks under a triangle's box hide it: cheaper than setting it up.
