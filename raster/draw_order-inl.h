@@ -50,7 +50,7 @@ HWY_INLINE bool hidden_draw(const VisibilityTile& tile, int blocks, const Listed
 /// steps of depth, which is order enough. In memory of the thread, until its next call.
 inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& rect) {
   constexpr int kSteps = 256;
-  constexpr size_t kAhead = 16;
+  constexpr size_t kAhead = 48;
   const size_t count = in.list.size();
   thread_local std::vector<float> nearest;
   nearest.resize(std::max(nearest.size(), count));
