@@ -26,15 +26,26 @@ struct BlockBox {
   int count() const { return (x1 - x0 + 1) * (y1 - y0 + 1); }
 };
 
-/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Four rows at a time, the
-/// last again where there are fewer: how many there are is anyone's guess, and one missed costs as much as all.
+/// The columns of blocks, a vector at a time, of a box: all of a tile where a vector holds them.
+class VectorColumns {
+  static constexpr int kLanes = int(hn::MaxLanes(hn::ScalableTag<float>()));
+  static constexpr bool kWhole = kLanes >= kMaxTile / kBlockSize;
+
+ public:
+  HWY_INLINE explicit VectorColumns(const BlockBox& box)
+      : first(kWhole ? 0 : box.x0 & ~(kLanes - 1)), end(kWhole ? kLanes : box.x1 + 1) {}
+  const int first, end;
+};
+
+/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Several rows at a time,
+/// the last again where there are fewer: how many there are is anyone's guess, and one missed costs as much as all.
 HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near) {
   const hn::ScalableTag<float> d;
-  constexpr int kRows = 4;
-  const int lanes = int(hn::Lanes(d));
+  constexpr int kLanes = int(hn::MaxLanes(d)), kRows = kLanes == 16 ? 8 : 4;
   const auto mine = hn::Set(d, near);
-  for (int x = box.x0 / lanes * lanes; x <= box.x1; x += lanes) {
-    const uint32_t columns = range_bits(box.x0, box.x1, x, lanes);
+  const VectorColumns at(box);
+  for (int x = at.first; x < at.end; x += kLanes) {
+    const uint32_t columns = range_bits(box.x0, box.x1, x, kLanes);
     for (int y = box.y0; y <= box.y1; y += kRows) {
       auto far = hn::LoadU(d, tile.far + y * blocks + x);
       for (int row = 1; row < kRows; ++row)
@@ -54,16 +65,16 @@ struct OpenBlocks {
 /// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
 HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, OpenBlocks& out) {
   const hn::ScalableTag<float> d;
-  constexpr int kRows = 4;
-  const int lanes = int(hn::Lanes(d));
+  constexpr int kLanes = int(hn::MaxLanes(d)), kRows = 4;
   const auto mine = hn::Set(d, near);
+  const VectorColumns at(box);
   const uint32_t columns = range_bits(box.x0, box.x1, 0, blocks);
   uint32_t any = 0, all = columns;
   for (int y = box.y0; y <= box.y1; y += kRows)
     for (int row = 0; row < kRows; ++row) {
       const float* const far = tile.far + std::min(y + row, box.y1) * blocks;
       uint32_t bits = 0;
-      for (int x = box.x0 / lanes * lanes; x <= box.x1; x += lanes)
+      for (int x = at.first; x < at.end; x += kLanes)
         bits |= lane_bits(d, hn::Not(hn::Gt(mine, hn::LoadU(d, far + x)))) << x;
       bits &= columns;
       out.row[y + row] = uint16_t(bits);
@@ -85,14 +96,14 @@ HWY_INLINE BlockBox blocks_of(const WindowBox& box, const TileRect& rect) {
           std::clamp(box.y1 >> 10, 0, last)};
 }
 
-/// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
-HWY_INLINE bool hidden_draw(const VisibilityTile& tile, const TileRect& rect, const ClusterDraw& draw,
-                            const WindowTransform& t) {
-  const int last = rect.size - 1;
-  const auto block = [last](int pixel) { return std::clamp(pixel, 0, last) / kBlockSize; };
-  const BlockBox box{block(draw.x0 - rect.x), block(draw.y0 - rect.y), block(draw.x1 - rect.x),
-                     block(draw.y1 - rect.y)};
-  return hidden_blocks(tile, rect.size / kBlockSize, box, near_bound(double(draw.near_depth), t));
+/// The blocks of a tile that a cluster may touch, by its bounds; no branch on which of them lie in the tile.
+HWY_INLINE BlockBox blocks_of(const ClusterDraw& draw, const TileRect& rect) {
+  const int first_x = rect.x / kBlockSize, first_y = rect.y / kBlockSize, last = rect.size / kBlockSize - 1;
+  const auto block = [last](int pixel, int first) {
+    const int at = pixel / kBlockSize - first, low = at & ~(at >> 31), past = (last - low) >> 31;
+    return (low & ~past) | (last & past);
+  };
+  return {block(draw.x0, first_x), block(draw.y0, first_y), block(draw.x1, first_x), block(draw.y1, first_y)};
 }
 
 /// Whether the blocks under a triangle's box hide it: cheaper than setting it up.

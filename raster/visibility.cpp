@@ -104,14 +104,13 @@ DepthCommit& depth_test(DepthCommit& commit) { return commit; }
 DepthCommit& depth_test(ListCommit& commit) { return commit.test; }
 
 template <class Commit>
-void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& listed, ClusterScratch& work,
+void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& draw, ClusterScratch& work,
                   Commit& commit, RasterCounts& counts) {
-  const ClusterDraw& draw = listed.draw;
-  const uint32_t position = listed.position;
+  const uint32_t position = draw.position;
   const WindowTransform& t = in.view.window;
   // Corners' depths bound fragments from below unless an offset may bring these nearer.
   const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
-  if (cull && hidden_draw(commit.tile, rect, draw, t)) return;
+  if (cull && hidden_draw(commit.tile, rect.size / kBlockSize, draw)) return;
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
@@ -203,7 +202,7 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   ClusterScratch work;
   if (!commit.skip_hidden) {
     for (uint32_t i = 0; i < in.list.size(); ++i)
-      draw_cluster(in, rect, {in.draws[in.list[i]], i}, work, commit, counts);
+      draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, commit, counts);
   } else {
     for_each_open(in, rect, out, !commit.rule.may_come_nearer(),
                   [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, commit, counts); });
@@ -231,7 +230,7 @@ void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc
   RasterCounts uncounted;
   ClusterScratch work;
   for (uint32_t i = 0; i < in.list.size(); ++i)
-    draw_cluster(in, rect, {in.draws[in.list[i]], i}, work, commit, uncounted);
+    draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, commit, uncounted);
   std::sort(out.begin(), out.end(), [](const DepthFragment& a, const DepthFragment& b) {
     return a.at < b.at || (a.at == b.at && a.id < b.id);
   });
