@@ -144,23 +144,23 @@ HWY_INLINE void store_lanes_or_all(hn::Vec<D> v, hn::Mask<D> mask, bool all, D d
     store_lanes(v, mask, d, to);
 }
 
-/// Pairs of 64-bit words at from[0], from[2], from[4] ...: a vector full.
-template <class D>
-HWY_INLINE hn::Vec<D> every_second_pair(D d, const uint64_t* const* from) {
+/// Pairs of 64-bit words at from(first), from(first + 2), from(first + 4) ...: a vector full.
+template <class D, class From>
+HWY_INLINE hn::Vec<D> every_second_pair(D d, const From& from, size_t first) {
   if constexpr (hn::MaxLanes(D()) <= 2) {
-    return hn::LoadU(d, *from);
+    return hn::LoadU(d, from(first));
   } else {
     const hn::Half<D> half;
-    return Combine(d, every_second_pair(half, from + hn::MaxLanes(half)), every_second_pair(half, from));
+    return Combine(d, every_second_pair(half, from, first + hn::MaxLanes(half)), every_second_pair(half, from, first));
   }
 }
-/// Of the pairs at from[0], from[1] ... the first words and the second.
-template <class D>
-HWY_INLINE void load_pairs(D d, const uint64_t* const* from, hn::Vec<D>& first, hn::Vec<D>& second) {
+/// Of the pairs at from(0), from(1) ... the first words and the second.
+template <class D, class From>
+HWY_INLINE void load_pairs(D d, const From& from, hn::Vec<D>& first, hn::Vec<D>& second) {
   if constexpr (hn::MaxLanes(D()) == 1) {
-    first = hn::LoadU(d, *from), second = hn::LoadU(d, *from + 1);
+    first = hn::LoadU(d, from(0)), second = hn::LoadU(d, from(0) + 1);
   } else {
-    const hn::Vec<D> even = every_second_pair(d, from), odd = every_second_pair(d, from + 1);
+    const hn::Vec<D> even = every_second_pair(d, from, 0), odd = every_second_pair(d, from, 1);
     first = InterleaveLower(d, even, odd), second = InterleaveUpper(d, even, odd);
   }
 }

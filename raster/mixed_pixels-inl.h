@@ -42,7 +42,7 @@ struct MixedPixels {
   HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted,
                               SurfaceTile& out) {
     for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, {in.place[block.at + i], in.corners[block.at + i]}, i);
-    for (int h = 0; h < kHalves; ++h) set_weights(block.column(h), block.row(h), h);
+    for (int h = 0; h < kHalves; ++h) set_weights(in, block.column(h), block.row(h), h);
     for (int row = 0; row < kBlockSize; ++row) set_rows<false>(in, wanted, row * kBlockSize, block.at, out);
   }
 
@@ -59,11 +59,9 @@ struct MixedPixels {
   HWY_NOINLINE void finish(const VisibleTriangles& in, WantedValues wanted, SurfaceTile& out) {
     const D64 d;
     if (count == 0) return;
-    for (int i = count; i < kBlockPixels; ++i) {  // whole vectors of something
-      vertices[i] = vertices[0];
-      for (auto& of : placed) of[i] = of[0];
-    }
-    for (int h = 0; h * kHalf < count; ++h) set_weights(hn::Load(d, x + h * kHalf), hn::Load(d, y + h * kHalf), h);
+    for (int i = count; i < kBlockPixels; ++i)  // whole vectors of something
+      for (auto& of : vertex) of[i] = of[0];
+    for (int h = 0; h * kHalf < count; ++h) set_weights(in, hn::Load(d, x + h * kHalf), hn::Load(d, y + h * kHalf), h);
     for (int first = 0; first < count; first += kBlockSize) set_rows<true>(in, wanted, first, 0, out);
     count = 0;
   }
@@ -71,17 +69,14 @@ struct MixedPixels {
  private:
   using DU64 = hn::RebindToUnsigned<D64>;
   static constexpr int kGroup = kHalf == 1 ? 1 : std::max(kHalf, 4);  // attributes side by side
-  const uint64_t* placed[3][kBlockPixels];
-  alignas(64) uint64_t vertices[kBlockPixels];  // of each pixel, 16 bits each, the first lowest
+  alignas(64) uint64_t vertex[3][kBlockPixels];                       // of each pixel, for vertex_at()
   alignas(64) double b1[kBlockPixels], b2[kBlockPixels];
   alignas(64) double x[kBlockPixels] = {}, y[kBlockPixels] = {};  // of pixels from anywhere
   int at[kBlockPixels], count = 0;
 
   HWY_INLINE void set_triangle(const VisibleTriangles& in, SeenTriangle triangle, int i) {
     const SubmittedVertices of(in, triangle);
-    const PlacedVertex* const first = in.placed.data();
-    vertices[i] = of.vertex[0] | uint64_t(of.vertex[1]) << 16 | uint64_t(of.vertex[2]) << 32;
-    for (int k = 0; k < 3; ++k) placed[k][i] = &vertex_at(first, of.vertex[k]).key;
+    for (int k = 0; k < 3; ++k) vertex[k][i] = of.vertex[k];
   }
 
   /// Turns the vertices of a vector of pixels into canonical order, with them what is given of them.
@@ -92,17 +87,16 @@ struct MixedPixels {
     const auto turned = [&](auto a, auto from_b, auto from_c) {
       return hn::IfThenElse(from_2, from_c, hn::IfThenElse(from_1, from_b, a));
     };
-    for (auto* of : {key, inverse}) {
+    hn::Vec<DU64> name[3];
+    for (int k = 0; k < 3; ++k) name[k] = hn::Load(d, vertex[k] + h * kHalf);
+    for (auto* of : {key, inverse, name}) {
       const auto v0 = of[0], v1 = of[1], v2 = of[2];
       of[0] = turned(v0, v1, v2), of[1] = turned(v1, v2, v0), of[2] = turned(v2, v0, v1);
     }
-    const auto all = hn::Load(d, vertices + h * kHalf);
-    hn::Store(turned(all, hn::Or(hn::ShiftRight<16>(all), hn::ShiftLeft<32>(all)),
-                     hn::Or(hn::ShiftRight<32>(all), hn::ShiftLeft<16>(all))),
-              d, vertices + h * kHalf);
+    for (int k = 0; k < 3; ++k) hn::Store(name[k], d, vertex[k] + h * kHalf);
   }
 
-  HWY_INLINE void set_weights(V64 column, V64 row, int h) {
+  HWY_INLINE void set_weights(const VisibleTriangles& in, V64 column, V64 row, int h) {
     const D64 d;
     const DU64 du;
     V64 rx[3], ry[3], u[3];
@@ -111,7 +105,10 @@ struct MixedPixels {
     const V64 sx = hn::Add(zero, hn::Mul(column, pixel)), sy = hn::Add(zero, hn::Mul(row, pixel));
     const auto exponent = hn::Set(du, 0x4330000000000000u), low = hn::Set(du, 0xFFFFFFFFu);
     hn::Vec<DU64> key[3], inverse[3];
-    for (int k = 0; k < 3; ++k) load_pairs(du, placed[k] + h * kHalf, key[k], inverse[k]);
+    const PlacedVertex* const placed = in.placed.data();
+    for (int k = 0; k < 3; ++k)
+      load_pairs(
+          du, [&](size_t i) { return &vertex_at(placed, vertex[k][size_t(h * kHalf) + i]).key; }, key[k], inverse[k]);
     turn(key, inverse, h);
     for (int k = 0; k < 3; ++k) {
       rx[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key[k], low), exponent)), sx);
@@ -202,7 +199,7 @@ struct MixedPixels {
   template <class D>
   HWY_INLINE hn::Vec<D> pairs_at(D d, const VertexRest* rest, int pixel, int k) const {
     if constexpr (hn::MaxLanes(D()) == 2) {
-      return hn::Load(d, vertex_at(rest, uint16_t(vertices[pixel] >> (16 * k))).value);
+      return hn::Load(d, vertex_at(rest, vertex[k][pixel]).value);
     } else {
       const hn::Half<D> half;
       return Combine(d, pairs_at(half, rest, pixel + int(hn::MaxLanes(half)) / 2, k), pairs_at(half, rest, pixel, k));
@@ -243,10 +240,9 @@ struct MixedPixels {
   /// Attributes of pixel i side by side, from place `from` on.
   template <class D, class Record>
   HWY_INLINE hn::Vec<D> values(D d, const Record* records, int from, int i) const {
-    const uint64_t vertex = vertices[i];
-    const float* const at_0 = vertex_at(records, uint16_t(vertex)).value + from;
-    const float* const at_1 = vertex_at(records, uint16_t(vertex >> 16)).value + from;
-    const float* const at_2 = vertex_at(records, uint16_t(vertex >> 32)).value + from;
+    const float* const at_0 = vertex_at(records, vertex[0][i]).value + from;
+    const float* const at_1 = vertex_at(records, vertex[1][i]).value + from;
+    const float* const at_2 = vertex_at(records, vertex[2][i]).value + from;
     const hn::CappedTag<double, hn::MaxLanes(D())> wide;
     const hn::Rebind<float, decltype(wide)> df;
     const auto w1 = hn::Set(wide, b1[i]), w2 = hn::Set(wide, b2[i]);

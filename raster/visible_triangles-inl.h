@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lists a cluster that is seen.
+/// Lists a cluster that is seen; returns the place of its first triangle.
 HWY_NOINLINE inline uint32_t add_cluster(const TileDraws& in, uint32_t position, VisibleTriangles& work) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const Instance& instance = in.scene.instances[draw.instance];
@@ -37,7 +37,7 @@ HWY_NOINLINE inline uint32_t add_cluster(const TileDraws& in, uint32_t position,
     seen.corner[c] = &mesh.corner[c][first];
     for (size_t line = 0; line < kTrianglePlaces; line += 64) hwy::Prefetch(seen.corner[c] + line);
   }
-  return slot;
+  return slot * kTrianglePlaces;
 }
 
 /// Empties the lists and makes room for what a tile can show.
@@ -46,12 +46,11 @@ inline void begin_lists(const TileDraws& in, int pixels, VisibleTriangles& work)
   if (work.slot_of.size() < in.list.size() + 1) work.slot_of.resize(in.list.size() + 1, VisibleTriangles::kNoSlot);
   if (work.cluster.size() < most) {
     work.cluster.resize(most);
-    work.used.resize(most * kClusterVertices, 0);
     work.first_run.resize(most * kTrianglePlaces, VisibleTriangles::kNoRun);
   }
   work.slot_of[0] = 0;
   static constexpr uint8_t kNothing[kTrianglePlaces] = {};
-  work.cluster[0] = {0, 0, 0, 0, 0, {kNothing, kNothing, kNothing}};
+  work.cluster[0] = {{}, {kNothing, kNothing, kNothing}, 1, 0, 0, 0, 0};
   work.clusters = 1;
   work.runs = work.manys = 0;
 }
@@ -89,21 +88,21 @@ struct TriangleFinder {
   uint32_t* const slot_of = work.slot_of.data();
   VisibleCluster* const cluster = work.cluster.data();
 
+  /// Place of the first triangle of a pixel's cluster.
   HWY_INLINE uint32_t slot_at(uint32_t id) const {
     uint32_t& slot = slot_of[id >> 8];
     if (HWY_UNLIKELY(slot == VisibleTriangles::kNoSlot)) slot = add_cluster(in, id_position(id), work);
     return slot;
   }
   HWY_INLINE void add_run(int at, uint32_t pixels, uint32_t slot, uint32_t id) const {
-    work.run[work.runs++] = {
-        uint16_t(at / kBlockPixels), uint16_t(pixels), {slot * kTrianglePlaces + id_triangle(id), 0}};
+    work.run[work.runs++] = {uint16_t(at / kBlockPixels), uint16_t(pixels), {slot + id_triangle(id), 0}};
   }
 
   /// A block whose pixels all see one triangle.
   HWY_INLINE void one(const uint32_t* id, int at) const {
     const uint32_t slot = slot_at(id[0]);
     add_run(at, 0xFFFF, slot, id[0]);
-    set_object(cluster[slot], at, out);
+    set_object(cluster_at(cluster, slot), at, out);
   }
 
   /// A block of few triangles.
@@ -119,13 +118,13 @@ struct TriangleFinder {
       for (int v = 0; v < kBlockVectors; ++v)
         mine |= lane_bits(d, hn::Eq(here[v], hn::Set(d, one))) << (v * kBlockLanes);
       slot = slot_at(one);
-      if (rest != covered) objects |= cluster[slot].object ^ cluster[before].object;
+      if (rest != covered) objects |= cluster_at(cluster, slot).object ^ cluster_at(cluster, before).object;
       rest &= ~mine;
       add_run(at, mine, slot, one);
     }
-    set_object(cluster[slot], at, out);
+    set_object(cluster_at(cluster, slot), at, out);
     for (uint32_t i = first; i < work.runs && objects != 0; ++i) {
-      const VisibleCluster& its = cluster[work.run[i].triangle.place / kTrianglePlaces];
+      const VisibleCluster& its = cluster_at(cluster, work.run[i].triangle.place);
       for (int v = 0; v < kBlockVectors; ++v) {
         const auto mask = lane_mask(d, uint32_t(work.run[i].pixels) >> (v * kBlockLanes));
         store_lanes(hn::Set(d, its.object), mask, d, out.object + at + v * kBlockLanes);
@@ -138,28 +137,29 @@ struct TriangleFinder {
   HWY_INLINE void many(const uint32_t* id, int at, uint32_t covered) const {
     const DBlock d;
     work.many[work.manys++] = uint16_t(at / kBlockPixels);
-    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id), object = cluster[first].object;
+    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id);
+    const uint32_t object = cluster_at(cluster, first).object;
     if (of_one_cluster(id, first_id)) {
       for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
         const auto here = hn::Load(d, id + k);
         const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, kTrianglePlaces - 1));
-        const auto place = hn::Add(triangle, hn::Set(d, first * kTrianglePlaces));
+        const auto place = hn::Add(triangle, hn::Set(d, first));
         hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), place), d, work.place + at + k);
       }
-      set_object(cluster[first], at, out);
+      set_object(cluster_at(cluster, first), at, out);
       return;
     }
     uint32_t others = 0;
     cluster[0].object = object;  // of what is not covered
     for (int k = 0; k < kBlockPixels; ++k) {
       const uint32_t slot = slot_at(id[k]);
-      others |= cluster[slot].object ^ object;
-      work.place[at + k] = slot * kTrianglePlaces + id_triangle(id[k]);
+      others |= cluster_at(cluster, slot).object ^ object;
+      work.place[at + k] = slot + id_triangle(id[k]);
     }
-    if (others == 0) return set_object(cluster[first], at, out);
+    if (others == 0) return set_object(cluster_at(cluster, first), at, out);
     cluster[0].object = 0;
     for (int k = 0; k < kBlockPixels; ++k) {
-      const VisibleCluster& seen = cluster[work.place[at + k] / kTrianglePlaces];
+      const VisibleCluster& seen = cluster_at(cluster, work.place[at + k]);
       out.object[at + k] = seen.object;
       out.material[at + k] = seen.material;
     }
@@ -204,24 +204,23 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
 }
 
 /// The corners of the triangle at a place, whose vertices become used ones.
-HWY_INLINE uint32_t corners_at(uint32_t place, const VisibleCluster* cluster, uint8_t* used) {
-  const uint32_t slot = place / kTrianglePlaces, triangle = place % kTrianglePlaces;
-  const VisibleCluster& its = cluster[slot];
-  const uint32_t a = its.corner[0][triangle], b = its.corner[1][triangle], c = its.corner[2][triangle];
-  uint8_t* const mark = used + slot * kClusterVertices;
-  mark[a] = mark[b] = mark[c] = 1;
-  return a | b << 8 | c << 16;
+HWY_INLINE uint32_t corners_at(uint32_t place, VisibleCluster* cluster) {
+  const uint32_t triangle = place % kTrianglePlaces;
+  VisibleCluster& its = cluster_at(cluster, place);
+  const size_t a = its.corner[0][triangle], b = its.corner[1][triangle], c = its.corner[2][triangle];
+  its.mark[a] = its.mark[b] = its.mark[c] = 1;
+  return uint32_t(a | b << 8 | c << 16);
 }
 
 /// Takes the marks of a cluster's used vertices away and returns them as bits.
-HWY_INLINE uint64_t taken_marks(uint8_t* used) {
+HWY_INLINE uint64_t taken_marks(uint8_t* mark) {
   const hn::CappedTag<uint8_t, kClusterVertices> d;
   uint64_t marks = 0;
   for (size_t k = 0; k < kClusterVertices; k += hn::Lanes(d)) {
     uint64_t bits = 0;
-    hn::StoreMaskBits(d, hn::Ne(hn::LoadU(d, used + k), hn::Zero(d)), reinterpret_cast<uint8_t*>(&bits));
+    hn::StoreMaskBits(d, hn::Ne(hn::Load(d, mark + k), hn::Zero(d)), reinterpret_cast<uint8_t*>(&bits));
     marks |= bits << k;
-    hn::StoreU(hn::Zero(d), d, used + k);
+    hn::Store(hn::Zero(d), d, mark + k);
   }
   return marks;
 }
@@ -229,16 +228,15 @@ HWY_INLINE uint64_t taken_marks(uint8_t* used) {
 /// Finds the corners of the triangles that are seen and transforms the vertices that these use.
 inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams wanted, VisibleTriangles& work) {
   VisibleCluster* const cluster = work.cluster.data();
-  uint8_t* const used = work.used.data();
   for (uint32_t i = 0; i < work.manys; ++i)
     for (int k = work.many[i] * kBlockPixels, end = k + kBlockPixels; k < end; ++k)
-      work.corners[k] = corners_at(work.place[k], cluster, used);
+      work.corners[k] = corners_at(work.place[k], cluster);
   for (uint32_t i = 0; i < work.runs; ++i)
-    work.run[i].triangle.corners = corners_at(work.run[i].triangle.place, cluster, used);
+    work.run[i].triangle.corners = corners_at(work.run[i].triangle.place, cluster);
   uint32_t vertices = 0;
-  taken_marks(used);  // of nothing
+  taken_marks(cluster[0].mark);  // of nothing
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {
-    cluster[slot].used = taken_marks(used + slot * kClusterVertices);
+    cluster[slot].used = taken_marks(cluster[slot].mark);
     cluster[slot].first_vertex = vertices * kVertexStep;
     vertices += uint32_t(std::popcount(cluster[slot].used));
   }
@@ -264,8 +262,8 @@ struct SubmittedVertices {
   uint32_t vertex[3];
 
   HWY_INLINE SubmittedVertices(const VisibleTriangles& in, SeenTriangle triangle) {
-    const VisibleCluster& cluster = in.cluster.data()[triangle.place / kTrianglePlaces];
-    for (int k = 0; k < 3; ++k) vertex[k] = vertex_of(cluster, (triangle.corners >> (8 * k)) & 255);
+    const VisibleCluster& cluster = cluster_at(in.cluster.data(), triangle.place);
+    for (int k = 0; k < 3; ++k) vertex[k] = vertex_of(cluster, ~triangle.corners >> (8 * k));
   }
 };
 

@@ -33,18 +33,19 @@ struct alignas(16) VertexRest {
 /// Vertices are named by four times their place, so that the place of what they have is one address.
 inline constexpr uint32_t kVertexStep = 4;
 template <class T>
-const T& vertex_at(const T* first, uint32_t vertex) {
+const T& vertex_at(const T* first, size_t vertex) {
   return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + vertex * (sizeof(T) / kVertexStep));
 }
 static_assert(3 * kMaxTilePixels * kVertexStep <= UINT16_MAX);
 
 /// A cluster of which a triangle is seen.
-struct VisibleCluster {
-  uint32_t position;          ///< in the tile's list
-  uint32_t object, material;  ///< index + 1
-  uint32_t first_vertex;      ///< of its vertices in VisibleTriangles, for vertex_at()
-  uint64_t used;              ///< a bit for each of its vertices that a visible triangle has
-  const uint8_t* corner[3];   ///< cluster-local vertex of each triangle's corner
+struct alignas(64) VisibleCluster {
+  uint8_t mark[kClusterVertices];  ///< 1 where a visible triangle has a vertex, until `used` is set; then 0
+  const uint8_t* corner[3];        ///< cluster-local vertex of each triangle's corner
+  uint64_t used;                   ///< a bit for each of its vertices that a visible triangle has
+  uint32_t position;               ///< in the tile's list
+  uint32_t object, material;       ///< index + 1
+  uint32_t first_vertex;           ///< of its vertices in VisibleTriangles, for vertex_at()
 };
 
 /// A triangle that is seen: its place is its cluster's times kTrianglePlaces plus its own in that; its corners are
@@ -55,6 +56,13 @@ struct SeenTriangle {
   uint32_t place, corners;
 };
 
+/// The cluster of a triangle by its place, of which the cluster's own in bytes is a part.
+template <class T>
+T& cluster_at(T* first, uint32_t place) {
+  static_assert(sizeof(T) == kTrianglePlaces);
+  return *reinterpret_cast<T*>(uintptr_t(first) + (place & ~(kTrianglePlaces - 1)));
+}
+
 /// Pixels of a block that see one triangle.
 struct SeenRun {
   uint16_t block, pixels;  ///< a bit a pixel
@@ -64,10 +72,10 @@ struct SeenRun {
 /// The triangles that are seen in a tile and the vertices they have: scratch of resolve_surfaces(), kept between tiles.
 struct VisibleTriangles {
   static constexpr uint32_t kNoSlot = ~0u;
-  std::vector<uint32_t> slot_of;  ///< cluster by position in the tile's list, plus 1; 0 where none, kNoSlot: not seen
+  /// Place of a cluster's first triangle by position in the tile's list, plus 1; 0 where none, kNoSlot: not seen.
+  std::vector<uint32_t> slot_of;
   std::vector<VisibleCluster> cluster;  ///< the first stands for nothing
   uint32_t clusters;
-  std::vector<uint8_t> used;  ///< kClusterVertices a cluster: 1 where a vertex is used. All 0 between tiles
   std::vector<PlacedVertex> placed;
   std::vector<VertexRecord> record;
   std::vector<VertexRest> rest;
@@ -84,9 +92,11 @@ struct VisibleTriangles {
   alignas(64) uint32_t place[kMaxTilePixels], corners[kMaxTilePixels];  ///< of the triangles their pixels see
 };
 
-/// Vertex of a cluster, for vertex_at(): used ones lie side by side.
-inline uint32_t vertex_of(const VisibleCluster& cluster, uint32_t corner) {
-  return cluster.first_vertex + kVertexStep * uint32_t(std::popcount(cluster.used & ((uint64_t(1) << corner) - 1)));
+/// Vertex of a cluster, for vertex_at(), by the complement of a corner, whose upper bits are anyone's: used ones, of
+/// which it is one, lie side by side.
+inline uint32_t vertex_of(const VisibleCluster& cluster, uint32_t complement) {
+  static_assert(kClusterVertices == 64);
+  return cluster.first_vertex + kVertexStep * uint32_t(std::popcount(cluster.used << (complement & 63))) - kVertexStep;
 }
 
 }  // namespace trueshade
