@@ -249,9 +249,10 @@ void window_errors_from(const LightTable& table, const PlainLights& plain, const
   if constexpr (settles_window<Shape>()) {
     const DF d;
     const LightTerms<Shape> terms(table, model, Shape());
-    WindowList list;
-    for (list.count = 0; list.count < table.size(); ++list.count) list.light[list.count] = int32_t(list.count);
-    list.end(uint32_t(table.size()));
+    StepScratch scratch;
+    WindowSteps steps(scratch);
+    for (size_t k = 0; k < table.size(); ++k) steps.light[k] = int32_t(k);
+    steps.end(0, table.size(), uint32_t(table.size()));
     for (int i = 0; i < kSettledPixels; i += int(kLanes)) {
       PixelVector px;
       px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
@@ -263,12 +264,14 @@ void window_errors_from(const LightTable& table, const PlainLights& plain, const
       }
       LightSum sum;
       for (const LightRow& row : table.row) add_term(terms, px, terms(px, row), sum);
-      WindowSum<Shape, Root> estimate(px);
-      estimate.add(terms, plain.window.data(), list);
+      WindowSum<Shape, Root> estimate;
+      estimate.begin(px);
+      for (size_t k = 0; k < steps.count; ++k)
+        estimate.add(terms, plain.window.data(), steps.light + k * WindowSteps::kTogether);
       VF value[3], bound[3];
-      for (int c = 0; c < 3; ++c) value[c] = estimate.value(hn::Zero(d), c);
-      estimate.bound(value, plain.most_color, 0, bound);
-      const MF settled = estimate.settled(value, plain.most_color, 0);
+      for (int c = 0; c < 3; ++c) value[c] = estimate.value(px, hn::Zero(d), c);
+      estimate.bound(px, value, plain.most_color, 0, bound);
+      const MF settled = estimate.settled(px, value, plain.most_color, 0);
       const uint64_t bits = mask_bits(settled);
       MF wrong = hn::RebindMask(d, hn::Ne(estimate.lights, sum.lights));
       wrong = hn::And(wrong, px.covered);
