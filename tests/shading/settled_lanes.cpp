@@ -133,12 +133,12 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   SettledPairs<1, Root> pairs;
   pairs.px[0] = &px, pairs.open[0] = plain;
   Estimates of;
-  VF weight[1];
-  pairs.weigh(lanes, weight);
+  typename SettledPairs<1, Root>::Weights weights;
+  pairs.weigh(lanes, weights);
   const LightTerm term = term_of(terms, px, of);
   const uint64_t lit = mask_bits(pairs.open[0]);
   for (int c = 0; c < 3; ++c) {
-    hn::Store(pairs.estimate(lanes, 0, c, weight[0]), d, of.x[c]);
+    hn::Store(pairs.estimate(lanes, 0, c, weights.weight[0]), d, of.x[c]);
     const int window = light.bias[c] - (1 << 30) - (1 << (kBelowCode - 1));
     for (int i = 0; i < kSettledPixels; ++i)
       of.allowed[c][i] = (lit >> i & 1) != 0 && light.clear[c] != 0 ? window - 0.5 : 0.0;
@@ -149,7 +149,8 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
   pairs.open[0] = plain;
-  pairs.settle(lanes, to);
+  pairs.weigh(lanes, weights);
+  pairs.settle(lanes, weights, to);
   codes.settle(true);
   check_codes(term, codes, plain, pairs.open[0], out);
 }
@@ -187,7 +188,8 @@ void phong_errors(const LightTable& table, const LightModel& model, const Settle
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
   pairs.open[0] = plain;
-  pairs.settle(lanes, to);
+  pairs.weigh(lanes, weights);
+  pairs.settle(lanes, weights, to);
   codes.settle(false);
   check_codes(term, codes, plain, pairs.open[0], out);
 }
