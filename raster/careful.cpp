@@ -1,5 +1,8 @@
 #include "raster/careful.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <optional>
 #include <tuple>
 
@@ -9,15 +12,15 @@ namespace trueshade {
 namespace {
 
 struct Placed {
-  int64_t x, y;  // relative to the origin
+  int64_t x, y;
   double z;
 };
 
-std::optional<Placed> place(const ClipCorner& corner, const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
+std::optional<Placed> place(const ClipCorner& corner, const WindowTransform& t) {
   const auto x = snapped(t, 0, corner.c[0], corner.c[3]), y = snapped(t, 1, corner.c[1], corner.c[3]);
   if (!x || !y) return std::nullopt;  // not reached: the far-away box keeps corners in range
   const double u = 1.0 / corner.c[3];
-  return Placed{*x - origin_x, *y - origin_y, (corner.c[2] * u) * t.z_scale + t.z_offset};
+  return Placed{*x, *y, (corner.c[2] * u) * t.z_scale + t.z_offset};
 }
 
 // Where the fan starts: it must not depend on which vertex the triangle names first.
@@ -36,9 +39,8 @@ __int128 doubled_area(const WindowTriangle& t) {
   return __int128(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - __int128(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
 }
 
-}  // namespace
-
-CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
+// About the origin (0, 0).
+CarefulPieces pieces_in_window(const ClipVertex v[3], const WindowTransform& t) {
   CarefulPieces out;
   out.polygon = clip_triangle(v, t);
   __int128 total = 0;
@@ -46,7 +48,7 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
   const int corners = out.polygon.corners;
   Placed placed[ClippedPolygon::kCorners];
   for (int i = 0; i < corners; ++i) {
-    const std::optional<Placed> at = place(out.polygon.at(i), t, origin_x, origin_y);
+    const std::optional<Placed> at = place(out.polygon.at(i), t);
     if (!at) return {};
     placed[i] = *at;
   }
@@ -70,6 +72,42 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
   out.facing = (total > 0) - (total < 0);
   out.turned = signs != out.count && signs != -out.count;
   if (out.facing == 0) out.count = 0;
+  return out;
+}
+
+// A triangle that was clipped last: it is the same in each tile.
+struct KeptPieces {
+  bool any = false;
+  ClipVertex v[3];
+  WindowTransform window;
+  CarefulPieces pieces;
+
+  // Bit for bit, of what clipping and snapping read.
+  bool holds(const ClipVertex of[3], const WindowTransform& t) const {
+    const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    return any && std::memcmp(v, of, sizeof v) == 0 && same(window.scale, t.scale) && same(window.offset, t.offset) &&
+           same(window.z_scale, t.z_scale) && same(window.z_offset, t.z_offset) &&
+           same(window.half_size, t.half_size) && same(window.center, t.center) &&
+           window.zero_to_one == t.zero_to_one && window.depth_clamp == t.depth_clamp &&
+           window.float_snap == t.float_snap;
+  }
+};
+
+}  // namespace
+
+CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
+  thread_local std::array<KeptPieces, 8> kept;
+  thread_local size_t next = 0;
+  auto found = std::find_if(kept.begin(), kept.end(), [&](const KeptPieces& one) { return one.holds(v, t); });
+  if (found == kept.end()) {
+    found = kept.begin() + next++ % kept.size();
+    found->pieces = pieces_in_window(v, t);
+    std::copy_n(v, 3, found->v);
+    found->window = t, found->any = true;
+  }
+  CarefulPieces out = found->pieces;
+  for (int i = 0; i < out.count; ++i)
+    for (int k = 0; k < 3; ++k) out.piece[i].triangle.x[k] -= origin_x, out.piece[i].triangle.y[k] -= origin_y;
   return out;
 }
 

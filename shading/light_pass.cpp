@@ -109,58 +109,88 @@ void light_near_region(const TileWork& in, const LightTerms<Shape>& terms, const
   if (count > 0) add(vectors[(count - 1) % 2]);
 }
 
-/// Colours of the vector of pixels at i: its sum by bounds, over the lights of `lane`'s block. Notes the pixels that
-/// these leave open.
+// What the lights without a window add to the vector of pixels at i.
 template <class Shape>
-HWY_NOINLINE void settle_block(const TileWork& in, const LightTerms<Shape>& terms, RegionWindows& lights, size_t lane,
-                               int i) {
-  const PlainLights& plain = *in.shortcuts.plain;
+HWY_NOINLINE void add_others(const TileWork& in, const LightTerms<Shape>& terms, const RegionWindows& lights, int i,
+                             LightSum& sum) {
   const PixelVector px = terms.load(in.surface, i);
-  LightSum sum;
   for (size_t k = 0; k < lights.others; ++k) {
     LightHit hit{lights.other[k], {}};
     hn::StoreMaskBits(DF(), px.covered, hit.adds);
     add_one(terms, px, hit, sum);
   }
-  WindowList list;
-  if constexpr (kLanes == kBlockPixels)
-    lights.list(lane, list);
-  else
-    lights.list(terms, px, plain.window.data(), list);
-  WindowSum<Shape> estimate(px);
-  estimate.add(terms, plain.window.data(), list);
-  for (int c = 0; c < 3; ++c) sum.color[c] = estimate.value(sum.color[c], c);
-  const MF settled = estimate.settled(sum.color, plain.most_color, lights.others);
+}
+
+// Sums of a region's vectors over the lights of their steps.
+template <class Shape>
+HWY_NOINLINE void add_steps(const LightTerms<Shape>& terms, const WindowLight* lights, const WindowSteps& steps,
+                            WindowSum<Shape>* sum) {
+  for (size_t k = 0; k < steps.count; ++k)
+    sum[steps.vector[k]].add(terms, lights, steps.light + k * WindowSteps::kTogether);
+}
+
+/// Colours of the vector of pixels at i by bounds. Notes the pixels that these leave open.
+template <class Shape>
+HWY_INLINE void store_settled(const TileWork& in, const LightTerms<Shape>& terms, const RegionWindows& lights,
+                              const WindowSum<Shape>& estimate, int i) {
+  const PixelVector px = terms.load(in.surface, i);
+  LightSum sum;
+  if (HWY_UNLIKELY(lights.others > 0)) add_others(in, terms, lights, i, sum);
+  for (int c = 0; c < 3; ++c) sum.color[c] = estimate.value(px, sum.color[c], c);
+  const MF settled = estimate.settled(px, sum.color, in.shortcuts.plain->most_color, lights.others);
   for_each_lane(hn::AndNot(settled, px.covered), size_t(i), size_t(i) + kLanes,
                 [&](size_t at) { in.work.open.push_back(uint16_t(at)); });
   sum.lights = hn::Add(sum.lights, estimate.lights);
-  in.counts.evaluated_pairs += (list.count + sum.evaluated) * kLanes;
+  in.counts.evaluated_pairs += sum.evaluated * kLanes;
   store_sum(in, terms, px, sum, i);
 }
 
-/// The same of a region.
+// The lights of a region, with the blocks that each reaches where a block is a vector.
+inline void list_windows(const TileWork& in, const Region& r, RegionCull cull, RegionWindows& out) {
+  const std::span<const ListedLight> lights = in.work.region.light;
+  const LightRow* const row = in.lights.row.data();
+  for (const ListedLight& listed : lights)
+    if (!listed.placed) out.other[out.others++] = listed.light;
+  if constexpr (kLanes == kBlockPixels) {
+    const BlockBalls balls(r.blocks, cull);
+    for (const ListedLight& listed : lights)
+      if (listed.placed) out.add(uint32_t(listed.light - row), uint32_t(mask_bits(balls.reached(listed))));
+  } else {
+    for (const ListedLight& listed : lights)
+      if (listed.placed) out.add(uint32_t(listed.light - row), 0);
+  }
+  out.end();
+}
+
+/// The same of a region: all of its vectors are begun, then all lights added, then all sums settled, so that none waits
+/// for another.
 template <class Shape>
 void settle_region(const TileWork& in, const LightTerms<Shape>& terms, const Region& r, RegionCull cull,
                    const BlockOrder& order) {
   const int blocks = in.tile / kBlockSize;
+  const WindowLight* const window = in.shortcuts.plain->window.data();
   RegionWindows lights(uint32_t(in.lights.size()));
-  const auto window_of = [&](const ListedLight& listed) { return uint32_t(listed.light - in.lights.row.data()); };
-  for (const ListedLight& listed : in.work.region.light)
-    if (!listed.placed) lights.other[lights.others++] = listed.light;
-  if constexpr (kLanes == kBlockPixels) {
-    const BlockBalls balls(r.blocks, cull);
-    for (const ListedLight& listed : in.work.region.light)
-      if (listed.placed) lights.add(window_of(listed), uint32_t(mask_bits(balls.reached(listed))));
-  } else {
-    for (const ListedLight& listed : in.work.region.light)
-      if (listed.placed) lights.add(window_of(listed), 0);
-  }
+  list_windows(in, r, cull, lights);
+  WindowSteps steps(in.work.steps);
+  WindowSum<Shape> sum[WindowSteps::kVectors];
+  int at[WindowSteps::kVectors];
+  size_t count = 0;
   for (size_t lane = 0; lane < kRegionBlockCount; ++lane) {
     const auto k = size_t(order.block[lane]);
-    const int at = r.block(int(k), blocks) * kBlockPixels;
-    for (int i = at; r.covered[k] != 0 && i < at + kBlockPixels; i += int(kLanes))
-      settle_block(in, terms, lights, lane, i);
+    const int first = r.block(int(k), blocks) * kBlockPixels;
+    for (int i = first; r.covered[k] != 0 && i < first + kBlockPixels; i += int(kLanes)) {
+      const PixelVector px = terms.load(in.surface, i);
+      sum[count].begin(px);
+      if constexpr (kLanes == kBlockPixels)
+        lights.list(lane, count, steps);
+      else
+        lights.list(terms, px, window, count, steps);
+      at[count++] = i;
+    }
   }
+  add_steps(terms, window, steps, sum);
+  in.counts.evaluated_pairs += steps.listed * kLanes;
+  for (size_t k = 0; k < count; ++k) store_settled(in, terms, lights, sum[k], at[k]);
 }
 
 // Of pixels without a surface.

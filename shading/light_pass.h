@@ -34,6 +34,7 @@ struct LightLists {
   TileLights tile, region;
   std::vector<ListedLight> block;
   PairScratch pairs;
+  StepScratch steps;
   PlainLists plain;
   PixelGroups groups;
   std::vector<uint16_t> open;           ///< pixels whose sums bounds have not settled

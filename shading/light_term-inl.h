@@ -104,7 +104,8 @@ struct LightTerms {
   HWY_INLINE void place(const PixelVector& px, bool directional, LightChain& at) const {
     place(px, directional, at.light->position, at);
   }
-  HWY_INLINE void place(const PixelVector& px, bool directional, const float* position, LightChain& at) const {
+  template <class Pixels>
+  HWY_INLINE void place(const Pixels& px, bool directional, const float* position, LightChain& at) const {
     const DF d;
     for (int c = 0; c < 3; ++c) {
       const VF place = hn::Set(d, position[c]);

@@ -31,21 +31,36 @@ constexpr bool settles_window() {
   return false;
 }
 
-/// Lights of a vector of pixels, as places in PlainLights::window.
-struct WindowList {
+/// Lights of the vectors of a region, as places in PlainLights::window: some of one vector a step, so that a region is
+/// one loop and no branch depends on how many lights a vector has.
+struct WindowSteps {
   static constexpr size_t kTogether = kLanes == kBlockPixels ? 4 : 2;
-  HWY_ALIGN int32_t light[256 + 2 * kBlockPixels];  ///< kTogether more than `count` may be read: these light nothing
-  size_t count;
+  static constexpr size_t kMostLights = 256, kVectors = kRegionBlockCount * kBlockPixels / kLanes;
+  int32_t *light, *vector;       ///< kTogether a step; of each step
+  size_t count = 0, listed = 0;  ///< steps; lights in them
 
-  HWY_INLINE void end(uint32_t none) {
-    for (size_t k = 0; k < kTogether; ++k) light[count + k] = int32_t(none);
+  explicit WindowSteps(StepScratch& scratch) {
+    constexpr size_t kMost = kVectors * (kMostLights + kTogether) + 2 * kBlockPixels;
+    if (scratch.light.size() < kMost) scratch.light.resize(kMost), scratch.vector.resize(kMost);
+    light = scratch.light.data(), vector = scratch.vector.data();
+  }
+
+  /// Where the next lights go; room for a vector more.
+  HWY_INLINE int32_t* next() const { return light + count * kTogether; }
+  /// The next `lights` of them are those of a vector. `none`: a light that lights nothing.
+  HWY_INLINE void end(size_t of, size_t lights, uint32_t none) {
+    const DI di;
+    for (size_t k = 0; k + 1 < kTogether; k += kLanes) hn::StoreU(hn::Set(di, int32_t(none)), di, next() + lights + k);
+    const size_t steps = (lights + kTogether - 1) / kTogether;
+    for (size_t k = 0; k < steps; k += kLanes) hn::StoreU(hn::Set(di, int32_t(of)), di, vector + count + k);
+    count += steps, listed += lights;
   }
 };
 
 /// The lights of a region: those with a window, with the blocks that each reaches, a bit for each lane of BlockBalls;
 /// and all others.
 struct RegionWindows {
-  static constexpr size_t kMost = 256;
+  static constexpr size_t kMost = WindowSteps::kMostLights;
   HWY_ALIGN int32_t light[kMost + kBlockPixels], reached[kMost + kBlockPixels];
   const LightRow* other[kMost];
   size_t count = 0, others = 0;
@@ -57,32 +72,36 @@ struct RegionWindows {
     light[count] = int32_t(window);
     reached[count++] = int32_t(blocks);
   }
-  /// Those that reach a lane's block.
-  HWY_INLINE void list(size_t lane, WindowList& out) {
+  /// After the last.
+  HWY_INLINE void end() { hn::StoreU(hn::Zero(DI()), DI(), reached + count); }
+
+  /// Lists those that reach a lane's block as those of a vector.
+  HWY_INLINE void list(size_t lane, size_t vector, WindowSteps& out) const {
     const DI di;
-    hn::StoreU(hn::Zero(di), di, reached + count);
-    out.count = 0;
+    int32_t* const to = out.next();
+    size_t listed = 0;
     for (size_t i = 0; i < count; i += kLanes) {
       const auto mask = hn::TestBit(hn::Load(di, reached + i), hn::Set(di, 1 << lane));
-      hn::StoreU(hn::Compress(hn::Load(di, light + i), mask), di, out.light + out.count);
-      out.count += hn::CountTrue(di, mask);
+      hn::StoreU(hn::Compress(hn::Load(di, light + i), mask), di, to + listed);
+      listed += hn::CountTrue(di, mask);
     }
-    out.end(none);
+    out.end(vector, listed, none);
   }
-  /// Those that light one of the pixels.
+  /// The same of those that light one of the pixels.
   template <class Shape>
-  HWY_INLINE void list(const LightTerms<Shape>& terms, const PixelVector& px, const WindowLight* lights,
-                       WindowList& out) const {
-    out.count = 0;
+  HWY_INLINE void list(const LightTerms<Shape>& terms, const PixelVector& px, const WindowLight* lights, size_t vector,
+                       WindowSteps& out) const {
+    int32_t* const to = out.next();
+    size_t listed = 0;
     for (size_t i = 0; i < count; ++i) {
       LightChain at;
       const WindowLight& of = lights[light[i]];
       terms.place(px, false, of.position, at);
       terms.reach(px.covered, false, of.cut2, at);
-      out.light[out.count] = light[i];
-      out.count += hn::AllFalse(DF(), at.term.adds) ? 0u : 1u;
+      to[listed] = light[i];
+      listed += hn::AllFalse(DF(), at.term.adds) ? 0u : 1u;
     }
-    out.end(none);
+    out.end(vector, listed, none);
   }
 };
 
@@ -110,17 +129,20 @@ HWY_INLINE MF window_pixels(const PixelVector& px, VF view2) {
 /// Sums of a vector of pixels over estimates of their terms.
 template <class Shape, class Root = EstimatedRoot>
 struct WindowSum {
-  const PixelVector& px;
+  VF p[3], n[3];               ///< of the pixels
   VF view4[3], half4, along2;  ///< 4 V, 4 (1 + V . V), 2 N . V
-  MF plain;
+  MF covered, plain;
   VF diffuse[3], shine[3];  ///< twice N . L, and powers: times falloffs and colours
   VF facing, least4;        ///< sum of twice N . L; the least 4 H . H
   hn::Vec<DI> lights;       ///< that light each pixel: exact
 
-  HWY_INLINE explicit WindowSum(const PixelVector& pixels) : px(pixels) {
+  /// Before any light.
+  HWY_INLINE void begin(const PixelVector& px) {
     const DF d;
+    covered = px.covered;
     const VF four = hn::Set(d, 4.0f), along = dot3(px.n, px.v), view2 = dot3(px.v, px.v);
     for (int c = 0; c < 3; ++c) {
+      p[c] = px.p[c], n[c] = px.n[c];
       view4[c] = hn::Mul(four, px.v[c]);
       diffuse[c] = shine[c] = hn::Zero(d);
     }
@@ -131,23 +153,23 @@ struct WindowSum {
     lights = hn::Zero(DI());
   }
 
-  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* lights, const WindowList& list) {
-    for (size_t k = 0; k < list.count; k += WindowList::kTogether)
-      add(terms, lights, list.light + k, std::make_index_sequence<WindowList::kTogether>());
+  /// The lights of a step.
+  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* all, const int32_t* step) {
+    add(terms, all, step, std::make_index_sequence<WindowSteps::kTogether>());
   }
 
-  /// What is stored where it is settled; base: the sum of other lights, which came first.
-  HWY_INLINE VF value(VF base, int c) const {
+  /// What is stored where it is settled; base: the sum of other lights, which came first. `px`: the same pixels.
+  HWY_INLINE VF value(const PixelVector& px, VF base, int c) const {
     const VF half = hn::Mul(px.albedo[c], hn::Set(DF(), 0.5f));
     return hn::Add(base, hn::Add(hn::Mul(half, diffuse[c]), hn::Mul(px.specular[c], shine[c])));
   }
 
   /// What |value - sum| is at most, for colours up to `most` and with some other lights.
-  HWY_INLINE void bound(const VF value[3], float most, size_t others, VF out[3]) const {
+  HWY_INLINE void bound(const PixelVector& px, const VF value[3], float most, size_t others, VF out[3]) const {
     const DF d;
     constexpr float u = kSlack * 0x1p-24f;
-    const VF n = hn::ConvertTo(d, lights), bright = hn::Mul(n, hn::Set(d, most));
-    const VF relative = hn::Mul(hn::Add(hn::Add(n, n), hn::Set(d, 10.0f + 2.0f * float(others))), hn::Set(d, u));
+    const VF m = hn::ConvertTo(d, lights), bright = hn::Mul(m, hn::Set(d, most));
+    const VF relative = hn::Mul(hn::Add(hn::Add(m, m), hn::Set(d, 10.0f + 2.0f * float(others))), hn::Set(d, u));
     const VF edge = hn::Mul(facing, hn::Set(d, 0.5f * kEdge * u * most));
     const VF power = hn::Mul(hn::Add(hn::Set(d, kPower), hn::Div(hn::Set(d, 4.0f * kSlant), least4)), hn::Set(d, u));
     const VF faint = hn::Mul(bright, hn::Add(hn::Set(d, kEdge * u), hn::Mul(power, hn::Set(d, kFaint))));
@@ -157,11 +179,11 @@ struct WindowSum {
   }
 
   /// Pixels whose codes of 8 bits are those of `value` for certain.
-  HWY_INLINE MF settled(const VF value[3], float most, size_t others) const {
+  HWY_INLINE MF settled(const PixelVector& px, const VF value[3], float most, size_t others) const {
     const DF d;
     const VF one = hn::Set(d, 1.0f), largest = hn::Set(d, 255.0f);
     VF off[3];
-    bound(value, most, others, off);
+    bound(px, value, most, others, off);
     MF all = less_within(plain, hn::Set(d, 4.0f * kLeastHalf2), least4);
     for (int c = 0; c < 3; ++c) {
       const VF x = hn::Mul(hn::Min(value[c], one), largest);
@@ -178,17 +200,17 @@ struct WindowSum {
 
   // Some lights, a step of each after the other.
   template <size_t... k>
-  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* lights, const int32_t* list,
+  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* all, const int32_t* step,
                       std::index_sequence<k...>) {
-    Step at[sizeof...(k)];
-    ((at[k].light = lights + list[k]), ...);
-    (terms.place(px, false, at[k].light->position, at[k].chain), ...);
+    Step at[WindowSteps::kTogether];
+    ((at[k].light = all + step[k]), ...);
+    (terms.place(*this, false, at[k].light->position, at[k].chain), ...);
     (estimate(at[k]), ...);
     (refine(at[k]), ...);
     (reflect(at[k]), ...);
     (fall_off(at[k]), ...);
     ((at[k].power = integer_power<Shape::shape.power>(at[k].power)), ...);
-    (sum(at[k]), ...);
+    sum(at);
   }
 
   struct Step {
@@ -200,7 +222,7 @@ struct WindowSum {
 
   HWY_INLINE void estimate(Step& at) const {
     const DF d;
-    at.lit = less_within(less_within(px.covered, at.chain.d2, hn::Set(d, at.light->cut2)), hn::Zero(d), at.chain.nl);
+    at.lit = less_within(less_within(covered, at.chain.d2, hn::Set(d, at.light->cut2)), hn::Zero(d), at.chain.nl);
     at.root = Root::reciprocal(at.chain.d2);
   }
   HWY_INLINE void refine(Step& at) const {  // 2 / sqrt
@@ -218,18 +240,29 @@ struct WindowSum {
     const VF share = hn::Mul(hn::Mul(at.chain.d2, hn::Set(d, at.light->half_share)), at.root);
     at.falloff = hn::Sub(hn::Set(d, 1.0f), share);
   }
-  HWY_INLINE void sum(const Step& at) {
+  // Each number is read and written once.
+  HWY_INLINE void sum(const Step (&at)[WindowSteps::kTogether]) {
     const DF d;
     const DI di;
-    const VF w = hn::IfThenElseZero(at.lit, hn::Mul(at.toward, at.falloff));
-    const VF s = hn::IfThenElseZero(at.lit, hn::Mul(at.power, at.falloff));
-    facing = hn::Add(facing, hn::IfThenElseZero(at.lit, at.toward));
-    least4 = hn::IfThenElse(at.lit, hn::Min(at.half, least4), least4);
-    lights = hn::Add(lights, hn::IfThenElseZero(hn::RebindMask(di, at.lit), hn::Set(di, 1)));
+    VF all_facing = facing, least = least4, w[WindowSteps::kTogether], s[WindowSteps::kTogether];
+    auto count = lights;
+    for (size_t k = 0; k < WindowSteps::kTogether; ++k) {
+      const MF lit = at[k].lit;
+      w[k] = hn::IfThenElseZero(lit, hn::Mul(at[k].toward, at[k].falloff));
+      s[k] = hn::IfThenElseZero(lit, hn::Mul(at[k].power, at[k].falloff));
+      all_facing = hn::Add(all_facing, hn::IfThenElseZero(lit, at[k].toward));
+      least = hn::IfThenElse(lit, hn::Min(at[k].half, least), least);
+      count = hn::Add(count, hn::IfThenElseZero(hn::RebindMask(di, lit), hn::Set(di, 1)));
+    }
+    facing = all_facing, least4 = least, lights = count;
     for (int c = 0; c < 3; ++c) {
-      const VF color = hn::Set(d, at.light->color[c]);
-      diffuse[c] = hn::Add(diffuse[c], hn::Mul(color, w));
-      shine[c] = hn::Add(shine[c], hn::Mul(color, s));
+      VF all = diffuse[c], all_shine = shine[c];
+      for (size_t k = 0; k < WindowSteps::kTogether; ++k) {
+        const VF color = hn::Set(d, at[k].light->color[c]);
+        all = hn::Add(all, hn::Mul(color, w[k]));
+        all_shine = hn::Add(all_shine, hn::Mul(color, s[k]));
+      }
+      diffuse[c] = all, shine[c] = all_shine;
     }
   }
 };

@@ -179,8 +179,13 @@ struct SettledPairs {
   const PixelVector* px[kMany];
   MF open[kMany];  ///< at first the pixels in question, then those that are lit and not settled
 
-  /// What the colours are multiplied by, 2 N . L f where all is exact. Leaves `open` to the pixels that are lit.
-  HWY_INLINE void weigh(const Lanes& light, VF weight[kMany]) {
+  /// What the colours are multiplied by, 2 N . L f where all is exact.
+  struct Weights {
+    VF weight[kMany];
+  };
+
+  /// Leaves `open` to the pixels that are lit.
+  HWY_INLINE void weigh(const Lanes& light, Weights& of) {
     const DF d;
     VF d2[kMany], nl[kMany], root[kMany];
     for (size_t k = 0; k < kMany; ++k) {
@@ -196,7 +201,7 @@ struct SettledPairs {
       root[k] = hn::Mul(root[k], hn::Sub(hn::Set(d, 3.0f), hn::Mul(d2[k], hn::Mul(root[k], root[k]))));
     for (size_t k = 0; k < kMany; ++k) {
       const VF share = hn::Mul(hn::Mul(d2[k], light.half_share), root[k]);
-      weight[k] = hn::Mul(hn::Mul(nl[k], root[k]), hn::Sub(hn::Set(d, 1.0f), share));
+      of.weight[k] = hn::Mul(hn::Mul(nl[k], root[k]), hn::Sub(hn::Set(d, 1.0f), share));
     }
   }
 
@@ -206,17 +211,15 @@ struct SettledPairs {
   }
 
   /// Adds the codes that are settled.
-  HWY_INLINE void settle(const Lanes& light, SettledCodes* const out[kMany]) {
+  HWY_INLINE void settle(const Lanes& light, const Weights& of, SettledCodes* const out[kMany]) {
     const DF d;
     const DI di;
-    VF weight[kMany];
     hn::Vec<DI> t[kMany][3];
     MF settled[kMany];
-    weigh(light, weight);
     for (size_t k = 0; k < kMany; ++k) {
       settled[k] = open[k];
       for (int c = 0; c < 3; ++c) {
-        t[k][c] = hn::BitCast(di, hn::Add(estimate(light, k, c, weight[k]), hn::BitCast(d, light.bias[c])));
+        t[k][c] = hn::BitCast(di, hn::Add(estimate(light, k, c, of.weight[k]), hn::BitCast(d, light.bias[c])));
         settled[k] = has_any(settled[k], t[k][c], light.clear[c]);
       }
     }

@@ -25,33 +25,55 @@ struct SettledRegion {
   SettledCodes codes[kRegionBlockCount];
 };
 
-/// Adds the codes that bounds settle; returns how many pairs are left, with the pixels whose codes are open. The pairs
-/// of a step are of one light, so that its numbers are spread once.
+/// A step of settle_pairs: pairs of one light, so that its numbers are spread once.
 template <class Pairs>
-HWY_NOINLINE size_t settle_pairs(std::span<const ListedLight> list, uint32_t* pair, size_t count, SettledRegion& in) {
-  constexpr size_t kTogether = Pairs::kCount;
-  static_assert(kPairedLights <= kCodesAtOnce);
-  typename Pairs::Light light[kPairedLights];
-  for (size_t i = 0; i < list.size(); ++i) light[i].set(list[i]);
-  size_t left = 0;
-  for (size_t first = 0; first < count; first += kTogether) {
-    Pairs some;
-    uint32_t word[kTogether];
-    SettledCodes* out[kTogether];
+struct SettledStep {
+  static constexpr size_t kTogether = Pairs::kCount;
+  Pairs some;
+  typename Pairs::Weights weights;
+  uint32_t word[kTogether];
+
+  HWY_INLINE void begin(const typename Pairs::Light* light, const uint32_t* pair, const SettledRegion& in) {
     for (size_t k = 0; k < kTogether; ++k) {
-      word[k] = pair[first + k];
+      word[k] = pair[k];
       const size_t block = pair_block(word[k]);
-      out[k] = in.codes + block;
       some.px[k] = in.px + block;
       if constexpr (Pairs::kSpecular) some.facing2[k] = in.facing2 + block;
       some.open[k] = pair_pixels(word[k]);
     }
-    some.settle(typename Pairs::Lanes(light[pair_light(word[0])]), out);
+    some.weigh(typename Pairs::Lanes(light[pair_light(word[0])]), weights);
+  }
+  /// Appends the pairs that are left.
+  HWY_INLINE size_t end(const typename Pairs::Light* light, SettledRegion& in, uint32_t* pair, size_t left) {
+    SettledCodes* out[kTogether];
+    for (size_t k = 0; k < kTogether; ++k) out[k] = in.codes + pair_block(word[k]);
+    some.settle(typename Pairs::Lanes(light[pair_light(word[0])]), weights, out);
     for (size_t k = 0; k < kTogether; ++k) {
       const auto pixels = uint32_t(mask_bits(some.open[k]));
       pair[left] = (word[k] & ~kPairPixels) | pixels;
       left += pixels != 0;
     }
+    return left;
+  }
+};
+
+/// Adds the codes that bounds settle; returns how many pairs are left, with the pixels whose codes are open. The first
+/// half of the next step stands before the second half of this one, which need not wait for it.
+template <class Pairs>
+HWY_NOINLINE size_t settle_pairs(std::span<const ListedLight> list, uint32_t* pair, size_t count, SettledRegion& in) {
+  constexpr size_t kTogether = Pairs::kCount;
+  static_assert(kPairedLights <= kCodesAtOnce);
+  if (count == 0) return 0;
+  typename Pairs::Light light[kPairedLights];
+  for (size_t i = 0; i < list.size(); ++i) light[i].set(list[i]);
+  for (size_t k = 0; k < kTogether; ++k) pair[count + k] = pair[count - 1] & ~kPairPixels;  // add nothing
+  size_t left = 0;
+  SettledStep<Pairs> step, next;
+  step.begin(light, pair, in);
+  for (size_t first = 0; first < count; first += kTogether) {
+    next.begin(light, pair + first + kTogether, in);
+    left = step.end(light, in, pair, left);
+    step = next;
   }
   return left;
 }

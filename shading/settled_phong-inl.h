@@ -139,11 +139,9 @@ struct PhongPairs {
   }
 
   /// Adds the codes that are settled.
-  HWY_INLINE void settle(const Lanes& light, SettledCodes* const out[kMany]) {
+  HWY_INLINE void settle(const Lanes& light, Weights& of, SettledCodes* const out[kMany]) {
     const DF d;
     const DI di;
-    Weights of;
-    weigh(light, of);
     for (size_t k = 0; k < kMany; ++k) {
       MF& settled = of.settled[k];
       const auto near = hn::ConvertTo(di, of.bound[k]), nearer = hn::Add(near, near);

@@ -54,6 +54,11 @@ struct PairScratch {
   std::vector<uint32_t> pair, torn;
 };
 
+/// Numbers of lights and of vectors of pixels, by steps, one region at a time.
+struct StepScratch {
+  std::vector<int32_t> light, vector;
+};
+
 /// Of a tile's block, `blocks` of them a row: pixels that the light's geometry covers, bit by bit.
 inline unsigned cover_of_block(const TileLights& lights, const ListedLight& listed, int block, int blocks) {
   if (listed.crossing == 0) return 0xFFFF;

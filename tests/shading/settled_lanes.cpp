@@ -133,12 +133,12 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   SettledPairs<1, Root> pairs;
   pairs.px[0] = &px, pairs.open[0] = plain;
   Estimates of;
-  VF weight[1];
-  pairs.weigh(lanes, weight);
+  typename SettledPairs<1, Root>::Weights weights;
+  pairs.weigh(lanes, weights);
   const LightTerm term = term_of(terms, px, of);
   const uint64_t lit = mask_bits(pairs.open[0]);
   for (int c = 0; c < 3; ++c) {
-    hn::Store(pairs.estimate(lanes, 0, c, weight[0]), d, of.x[c]);
+    hn::Store(pairs.estimate(lanes, 0, c, weights.weight[0]), d, of.x[c]);
     const int window = light.bias[c] - (1 << 30) - (1 << (kBelowCode - 1));
     for (int i = 0; i < kSettledPixels; ++i)
       of.allowed[c][i] = (lit >> i & 1) != 0 && light.clear[c] != 0 ? window - 0.5 : 0.0;
@@ -149,7 +149,8 @@ void lambert_errors(const LightTable& table, const LightModel& model, const Sett
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
   pairs.open[0] = plain;
-  pairs.settle(lanes, to);
+  pairs.weigh(lanes, weights);
+  pairs.settle(lanes, weights, to);
   codes.settle(true);
   check_codes(term, codes, plain, pairs.open[0], out);
 }
@@ -187,7 +188,8 @@ void phong_errors(const LightTable& table, const LightModel& model, const Settle
   SettledCodes codes, *const to[1] = {&codes};
   codes.clear();
   pairs.open[0] = plain;
-  pairs.settle(lanes, to);
+  pairs.weigh(lanes, weights);
+  pairs.settle(lanes, weights, to);
   codes.settle(false);
   check_codes(term, codes, plain, pairs.open[0], out);
 }
@@ -249,9 +251,10 @@ void window_errors_from(const LightTable& table, const PlainLights& plain, const
   if constexpr (settles_window<Shape>()) {
     const DF d;
     const LightTerms<Shape> terms(table, model, Shape());
-    WindowList list;
-    for (list.count = 0; list.count < table.size(); ++list.count) list.light[list.count] = int32_t(list.count);
-    list.end(uint32_t(table.size()));
+    StepScratch scratch;
+    WindowSteps steps(scratch);
+    for (size_t k = 0; k < table.size(); ++k) steps.light[k] = int32_t(k);
+    steps.end(0, table.size(), uint32_t(table.size()));
     for (int i = 0; i < kSettledPixels; i += int(kLanes)) {
       PixelVector px;
       px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
@@ -263,12 +266,14 @@ void window_errors_from(const LightTable& table, const PlainLights& plain, const
       }
       LightSum sum;
       for (const LightRow& row : table.row) add_term(terms, px, terms(px, row), sum);
-      WindowSum<Shape, Root> estimate(px);
-      estimate.add(terms, plain.window.data(), list);
+      WindowSum<Shape, Root> estimate;
+      estimate.begin(px);
+      for (size_t k = 0; k < steps.count; ++k)
+        estimate.add(terms, plain.window.data(), steps.light + k * WindowSteps::kTogether);
       VF value[3], bound[3];
-      for (int c = 0; c < 3; ++c) value[c] = estimate.value(hn::Zero(d), c);
-      estimate.bound(value, plain.most_color, 0, bound);
-      const MF settled = estimate.settled(value, plain.most_color, 0);
+      for (int c = 0; c < 3; ++c) value[c] = estimate.value(px, hn::Zero(d), c);
+      estimate.bound(px, value, plain.most_color, 0, bound);
+      const MF settled = estimate.settled(px, value, plain.most_color, 0);
       const uint64_t bits = mask_bits(settled);
       MF wrong = hn::RebindMask(d, hn::Ne(estimate.lights, sum.lights));
       wrong = hn::And(wrong, px.covered);
