@@ -83,7 +83,7 @@ struct MappedBlocks {
   }
 
  private:
-  static constexpr int kUvPlace = 6;
+  static constexpr int kNormalPlace = 3, kUvPlace = 6;
   const MaterialMaps& maps_of(SeenTriangle triangle) const {
     return in.view.maps.material[seen.cluster[triangle.place / kTrianglePlaces].material - 1];
   }
@@ -118,8 +118,16 @@ struct MappedBlocks {
     }
     if (!maps_of(triangle).normal) return;
     const TangentFrame frame = frame_of(triangle);
-    const V64 of[6] = {frame.u.x, frame.u.y, frame.u.z, frame.v.x, frame.v.y, frame.v.z};
-    for (int k = 0; k < 6; ++k) value[MappedTriangle::kFrame + k] = hn::GetLane(of[k]);
+    const auto put = [&](int at, const Vector3& of) {
+      value[at] = hn::GetLane(of.x), value[at + 1] = hn::GetLane(of.y), value[at + 2] = hn::GetLane(of.z);
+    };
+    put(MappedTriangle::kFrame, frame.u), put(MappedTriangle::kFrame + 3, frame.v);
+    constexpr uint32_t kNormalBits = 7u << kNormalPlace;
+    if ((run.constant & kNormalBits) != kNormalBits) return;
+    const auto normal = [&](int c) { return hn::Set(D64(), double(float(run.a0[kNormalPlace + c]) + 0.0f)); };
+    const BumpFrame bump = bump_frame(frame, {normal(0), normal(1), normal(2)});
+    put(MappedTriangle::kBumpFrame, bump.t), put(MappedTriangle::kBumpFrame + 3, bump.b);
+    value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
   }
 
   /// The same in all lanes.
@@ -162,7 +170,7 @@ struct MappedBlocks {
         const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
         map_piece(
             s, barycentrics(e, u, hn::Set(d, s.area)), lane_mask(d, owned), at, in.view.maps,
-            [&](int) { return frame; }, out);
+            [&](int, const Vector3& normal) { return bump_frame(frame, normal); }, out);
         open &= ~owned;
       }
     }

@@ -22,10 +22,11 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// What the maps of a triangle's pixels want of it: edge functions at the tile's first sample and their changes to the
-/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents.
+/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents;
+/// of triangles of one normal also what bump_frame() makes of them.
 struct alignas(64) MappedTriangle {
   enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
-  enum Frame { kFrame = 22, kValues = 32 };
+  enum Frame { kFrame = 22, kBumpFrame = 28, kOneNormal = 34, kValues = 40 };
   double value[kValues];
 };
 
@@ -71,9 +72,12 @@ HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoin
 }
 
 template <class Triangle>
-HWY_INLINE TangentFrame frame_at(const Triangle& triangle) {
-  const auto value = [&](int k) { return triangle(MappedTriangle::kFrame + k); };
-  return {{value(0), value(1), value(2)}, {value(3), value(4), value(5)}};
+HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3& normal) {
+  const auto vector = [&](int k) { return Vector3{triangle(k), triangle(k + 1), triangle(k + 2)}; };
+  const auto ready = hn::Gt(triangle(MappedTriangle::kOneNormal), hn::Zero(D64()));
+  if (hn::AllTrue(D64(), ready))
+    return {vector(MappedTriangle::kBumpFrame), vector(MappedTriangle::kBumpFrame + 3), ready};
+  return bump_frame({vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3)}, normal);
 }
 
 /// Blocks whose maps are applied at once, so that none waits for the quotients and sums of one alone.
@@ -85,7 +89,7 @@ struct WaitingBlocks {
   SurfaceTile& out;
   int count = 0;
   alignas(64) int64_t place[kBlocks * kBlockPixels] = {};  ///< of each pixel's triangle among all values
-  int64_t first[kVectors] = {};  ///< triangles of vectors, none where there are more than two
+  int64_t first[kVectors] = {};                            ///< triangles of vectors, none where there are more than two
   int64_t second[kVectors] = {};
   M64 of_second[kVectors] = {}, owned[kVectors] = {};
   UvPoint uv[kVectors] = {};
@@ -140,8 +144,8 @@ struct WaitingBlocks {
       owned[h] = lane_mask(D64(), 0);
       pixel[h] = pixel[0], uv[h] = uv[0];
     }
-    const auto frames = [&](int h) {
-      return with_triangles(h, [&](const auto& triangle) { return frame_at(triangle); });
+    const auto frames = [&](int h, const Vector3& normal) {
+      return with_triangles(h, [&](const auto& triangle) { return bump_frame_at(triangle, normal); });
     };
     apply_maps<kVectors>(maps, uv, owned, pixel, frames, out);
     count = 0;
