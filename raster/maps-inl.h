@@ -143,7 +143,7 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Ma
   const auto texels = [&](const TextureView& texture, uint32_t channels) {
     if (!placed || !maps.one_place) {
       MipChoice mip[kVectors];
-      for (int h = 0; h < kVectors; ++h) mip[h] = mip_choice(texture, at[h]);
+      choose_mips<kVectors>(texture, at, mip);
       for (int h = 0; h < kVectors; ++h) places[h].set(texture, mip[h], at[h].uv, mine[h]);
     }
     placed = true;

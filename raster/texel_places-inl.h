@@ -1,5 +1,5 @@
-// Where vectors of lookups read a texture: levels, texels along each axis and weights. Included once per SIMD target.
-// docs/arithmetic.md section 13.
+// Where vectors of lookups read a level of a texture: texels along each axis and weights. Included once per SIMD
+// target. docs/arithmetic.md section 13.
 #if defined(TRUESHADE_RASTER_TEXEL_PLACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_TEXEL_PLACES_INL_H_
 #undef TRUESHADE_RASTER_TEXEL_PLACES_INL_H_
@@ -9,91 +9,13 @@
 
 #include <hwy/highway.h>
 
+#include "raster/mip_levels-inl.h"
 #include "raster/texture.h"
-#include "raster/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using Mask64 = hn::Mask<D64>;
 inline constexpr size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
-
-/// Texture coordinates of pixels, floats held in f64, and their derivatives from pixel to pixel.
-struct UvPoint {
-  V64 uv[2], x[2], y[2];
-};
-
-/// log2 as docs/arithmetic.md section 9 has it, of what lies in [2^-1000, 2^1000].
-HWY_INLINE V64 log2_of(V64 value) {
-  const D64 d;
-  const hn::RebindToUnsigned<D64> du;
-  const auto bits = hn::BitCast(du, value);
-  // An integer below 2^52 in the last bits of 2^52 is a double without conversion.
-  const auto shifted = hn::Or(hn::ShiftRight<52>(bits), hn::Set(du, 0x4330000000000000ull));
-  V64 exponent = hn::Sub(hn::BitCast(d, shifted), hn::Set(d, 0x1p52 + 1022.0));
-  V64 m = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(du, 0x000FFFFFFFFFFFFFull)), hn::Set(du, 0x3FE0000000000000ull)));
-  const auto low = hn::Lt(m, hn::Set(d, 0.70710678118654752440));
-  m = hn::IfThenElse(low, hn::Mul(m, hn::Set(d, 2.0)), m);
-  exponent = hn::IfThenElse(low, hn::Sub(exponent, hn::Set(d, 1.0)), exponent);
-  const V64 one = hn::Set(d, 1.0), s = hn::Div(hn::Sub(m, one), hn::Add(m, one)), z = hn::Mul(s, s);
-  V64 sum = hn::Set(d, 1.0 / 21.0);
-  for (int k = 19; k >= 1; k -= 2) sum = hn::Add(hn::Mul(sum, z), hn::Set(d, 1.0 / double(k)));
-  return hn::Add(hn::Mul(hn::Mul(s, hn::Set(d, 2.8853900817779268147)), sum), exponent);
-}
-
-/// Level of detail: log2 of the longer of the pixel's two sides in texels of level 0, biased, clamped.
-HWY_INLINE V64 level_of_detail(const TextureView& texture, const UvPoint& at) {
-  const D64 d;
-  const V64 width = hn::Set(d, double(texture.level[0].width)), height = hn::Set(d, double(texture.level[0].height));
-  const auto length2 = [&](const V64 side[2]) {
-    const V64 a = hn::Mul(side[0], width), b = hn::Mul(side[1], height);
-    return hn::Add(hn::Mul(a, a), hn::Mul(b, b));
-  };
-  const V64 x2 = length2(at.x), y2 = length2(at.y);
-  V64 rho2 = hn::IfThenElse(hn::Gt(y2, x2), y2, x2);
-  rho2 = hn::IfThenElse(hn::Gt(rho2, hn::Set(d, 0x1p-1000)), rho2, hn::Set(d, 0x1p-1000));
-  rho2 = hn::IfThenElse(hn::Lt(rho2, hn::Set(d, 0x1p1000)), rho2, hn::Set(d, 0x1p1000));
-  const Sampler& s = texture.sampler;
-  V64 lod = hn::Add(hn::Mul(hn::Set(d, 0.5), log2_of(rho2)), hn::Set(d, double(s.lod_bias)));
-  const V64 low = hn::Set(d, double(s.lod_min)), high = hn::Set(d, double(s.lod_max));
-  lod = hn::IfThenElse(hn::Lt(lod, low), low, lod);
-  return hn::IfThenElse(hn::Gt(lod, high), high, lod);
-}
-
-/// The level a lookup reads first, an integer, the share of the next one, and whether texels are mixed.
-struct MipChoice {
-  V64 level, part;
-  Mask64 linear;
-};
-
-HWY_INLINE MipChoice mip_choice(const TextureView& texture, const UvPoint& at) {
-  const D64 d;
-  const Sampler& s = texture.sampler;
-  const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
-  const V64 last = hn::Set(d, double(texture.levels - 1));
-  V64 level = zero, part = zero;
-  auto minified = hn::Gt(zero, zero);
-  if (s.mip_filter != MipFilter::none || s.mag_filter != s.min_filter) {
-    const V64 lod = level_of_detail(texture, at);
-    minified = hn::Gt(lod, zero);
-    if (s.mip_filter == MipFilter::nearest) {
-      const V64 positive = hn::IfThenElseZero(minified, lod), below = hn::Floor(positive);
-      const V64 chosen = hn::Add(below, hn::IfThenElseZero(hn::Gt(hn::Sub(positive, below), half), one));
-      level = hn::IfThenElse(hn::Gt(chosen, last), last, chosen);
-    } else if (s.mip_filter == MipFilter::linear) {
-      const V64 positive = hn::IfThenElseZero(minified, lod);
-      const V64 held = hn::IfThenElse(hn::Gt(positive, last), last, positive);
-      level = hn::Floor(held);
-      part = hn::Sub(held, level);
-    }
-  }
-  const bool mag_linear = s.mag_filter == Filter::linear, min_linear = s.min_filter == Filter::linear;
-  const auto all = hn::Eq(zero, zero), none = hn::Gt(zero, zero);
-  return {level, part,
-          mag_linear == min_linear ? (mag_linear ? all : none)
-          : min_linear             ? minified
-                                   : hn::Not(minified)};
-}
 
 /// A coordinate's two texels along one axis and the weight of the second, 0 where the filter is nearest.
 struct AxisTexels {
@@ -166,8 +88,10 @@ struct LevelTexels {
   V64 u_weight, v_weight;
   bool together;  ///< all of one level, each texel's right neighbour the next one: of words alone
   int level;      ///< where together
-  alignas(64) uint64_t offset[2][kMostLanes];  ///< where together: of the left texels of both rows, in bytes
-  V64 levels, x[2], y[2];                      ///< elsewhere
+  /// Of words: of both rows' left texels and, where not together, right ones, in bytes from each lane's level on.
+  alignas(64) uint64_t offset[2][2][kMostLanes];
+  alignas(64) uint64_t level_of[kMostLanes];  ///< where not together
+  V64 levels, x[2], y[2];                     ///< of all but words
 
   HWY_INLINE void set(const TextureView& texture, V64 at, const V64 uv[2], Mask64 linear) {
     const D64 d;
@@ -206,18 +130,26 @@ struct LevelTexels {
     const D64 d;
     const hn::RebindToUnsigned<D64> du;
     u_weight = u.weight, v_weight = v.weight;
-    const auto adjoining = hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0)));
-    together = hn::MaxLanes(d) > 1 && one_level && reads_words(texture) && hn::AllTrue(d, adjoining);
-    if (!together) {
+    if (hn::MaxLanes(d) == 1 || !reads_words(texture)) {
+      together = false;
       levels = at, x[0] = u.first, x[1] = u.second, y[0] = v.first, y[1] = v.second;
       return;
     }
+    together = one_level && hn::AllTrue(d, hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0))));
     // A double 2^52 + n has the bits of n at its end.
-    const V64 four = hn::Set(d, 4.0), line = hn::Mul(width, four);
-    const V64 across = hn::Add(hn::Mul(u.first, four), hn::Set(d, 0x1p52));
-    const auto exponent = hn::Set(du, 0x4330000000000000u);
-    hn::Store(hn::Sub(hn::BitCast(du, hn::Add(hn::Mul(v.first, line), across)), exponent), du, offset[0]);
-    hn::Store(hn::Sub(hn::BitCast(du, hn::Add(hn::Mul(v.second, line), across)), exponent), du, offset[1]);
+    const V64 end = hn::Set(d, 0x1p52), four = hn::Set(d, 4.0), line = hn::Mul(width, four);
+    const auto store = [&](V64 moved, uint64_t* to) {
+      hn::Store(hn::Sub(hn::BitCast(du, moved), hn::Set(du, 0x4330000000000000u)), du, to);
+    };
+    const V64 rows[2] = {hn::Mul(v.first, line), hn::Mul(v.second, line)};
+    const auto store_side = [&](int side, V64 texel) {
+      const V64 across = hn::Add(hn::Mul(texel, four), end);
+      for (int j = 0; j < 2; ++j) store(hn::Add(rows[j], across), offset[j][side]);
+    };
+    store_side(0, u.first);
+    if (HWY_LIKELY(together)) return;
+    store_side(1, u.second);
+    store(hn::Add(at, end), level_of);
   }
 };
 

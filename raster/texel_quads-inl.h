@@ -65,21 +65,16 @@ struct TexelQuadsOf {
     const auto apart = hn::SetTableIndices(DW(), kApart.data());
 #pragma GCC unroll 2
     for (int j = 0; j < 2; ++j)
-      row[j] = hn::TableLookupLanes(hn::BitCast(DW(), words_at(du, bytes, at.offset[j])), apart);
+      row[j] = hn::TableLookupLanes(hn::BitCast(DW(), words_at(du, bytes, at.offset[j][0])), apart);
   }
 
   /// The same of texels that lie anywhere.
   static HWY_NOINLINE void fetch_apart(const TextureView& texture, const LevelTexels& at, Words row[2]) {
-    const D64 d;
-    alignas(64) double level[kLanes], x[2][kLanes], y[2][kLanes];
-    hn::Store(at.levels, d, level);
-    for (int k = 0; k < 2; ++k) hn::Store(at.x[k], d, x[k]), hn::Store(at.y[k], d, y[k]);
     alignas(64) uint32_t word[2][2 * kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      const TextureView::Level& l = texture.level[int(level[i])];
+      const uint8_t* const bytes = texture.level[at.level_of[i]].bytes;
       for (int j = 0; j < 2; ++j)
-        for (int k = 0; k < 2; ++k)
-          std::memcpy(&word[j][k * kLanes + i], l.bytes + 4 * (size_t(y[j][i]) * size_t(l.width) + size_t(x[k][i])), 4);
+        for (int k = 0; k < 2; ++k) std::memcpy(&word[j][k * kLanes + i], bytes + at.offset[j][k][i], 4);
     }
     for (int j = 0; j < 2; ++j) row[j] = hn::Load(DW(), word[j]);
   }
