@@ -86,9 +86,10 @@ inline bool reads_words(const TextureView& texture) {
 /// What lookups read of a level each.
 struct LevelTexels {
   V64 u_weight, v_weight;
-  bool together;  ///< all of one level, each texel's right neighbour the next one: of words alone
-  int level;      ///< where together
-  /// Of words: of both rows' left texels and, where not together, right ones, in bytes from each lane's level on.
+  bool adjoining;  ///< each texel's right neighbour is the next one: of words alone
+  bool together;   ///< and all are of one level
+  int level;       ///< where together
+  /// Of words: of both rows' left texels and, where not adjoining, right ones, in bytes from each lane's level on.
   alignas(64) uint64_t offset[2][2][kMostLanes];
   alignas(64) uint64_t level_of[kMostLanes];  ///< where not together
   V64 levels, x[2], y[2];                     ///< of all but words
@@ -114,8 +115,13 @@ struct LevelTexels {
   }
 
  private:
+  using DU = hn::RebindToUnsigned<D64>;
+  using DW = hn::ScalableTag<uint32_t>;
+
   HWY_INLINE void set_texels(const TextureView& texture, V64 at, bool one_level, const V64 uv[2], Mask64 linear,
                              V64 width, V64 height, V64 inverse_width, V64 inverse_height) {
+    if constexpr (hn::MaxLanes(D64()) > 1)
+      if (HWY_LIKELY(texture.masks)) return set_masked(at, one_level, uv, linear, width, height);
     const auto& wrap = texture.sampler.wrap;
     if (HWY_LIKELY(wrap[0] == Wrap::repeat && wrap[1] == Wrap::repeat))  // known to the compiler
       set_axes(texture, at, one_level, width, axis_texels(Wrap::repeat, uv[0], width, inverse_width, linear),
@@ -125,31 +131,57 @@ struct LevelTexels {
                axis_texels(wrap[1], uv[1], height, inverse_height, linear));
   }
 
+  /// Of words, both axes repeating and of 2^k texels: what lies within a side are the last bits.
+  HWY_INLINE void set_masked(V64 at, bool one_level, const V64 uv[2], Mask64 linear, V64 width, V64 height) {
+    const D64 d;
+    const DU du;
+    const auto one = hn::Set(du, 1);
+    const auto below = [&](V64 coordinate, V64 n, V64& weight) {
+      const V64 place = hn::Sub(hn::Mul(coordinate, n), hn::IfThenElseZero(linear, hn::Set(d, 0.5)));
+      const V64 floor = hn::Floor(place);
+      weight = hn::IfThenElseZero(linear, hn::Sub(place, floor));
+      return hn::BitCast(du, hn::Add(floor, hn::Set(d, 0x1.8p52)));  // below 2^40, two's complement at the end
+    };
+    const auto end_x = hn::Sub(integer(width), one), end_y = hn::Sub(integer(height), one);
+    const auto u = below(uv[0], width, u_weight), v = below(uv[1], height, v_weight);
+    const auto left = hn::And(u, end_x);
+    adjoining = hn::AllTrue(du, hn::Ne(left, end_x)), together = adjoining && one_level;
+    const auto line = hn::BitCast(DW(), hn::ShiftLeft<2>(integer(width)));
+    const auto row = [&](hn::Vec<DU> y) { return hn::MulEven(hn::BitCast(DW(), hn::And(y, end_y)), line); };
+    const hn::Vec<DU> rows[2] = {row(v), row(hn::Add(v, one))};
+    store_offsets(at, rows, left, hn::And(hn::Add(left, one), end_x));
+  }
+
   HWY_INLINE void set_axes(const TextureView& texture, V64 at, bool one_level, V64 width, const AxisTexels& u,
                            const AxisTexels& v) {
     const D64 d;
-    const hn::RebindToUnsigned<D64> du;
     u_weight = u.weight, v_weight = v.weight;
     if (hn::MaxLanes(d) == 1 || !reads_words(texture)) {
-      together = false;
+      adjoining = together = false;
       levels = at, x[0] = u.first, x[1] = u.second, y[0] = v.first, y[1] = v.second;
       return;
     }
-    together = one_level && hn::AllTrue(d, hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0))));
-    // A double 2^52 + n has the bits of n at its end.
-    const V64 end = hn::Set(d, 0x1p52), four = hn::Set(d, 4.0), line = hn::Mul(width, four);
-    const auto store = [&](V64 moved, uint64_t* to) {
-      hn::Store(hn::Sub(hn::BitCast(du, moved), hn::Set(du, 0x4330000000000000u)), du, to);
+    adjoining = hn::AllTrue(d, hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0)))), together = adjoining && one_level;
+    const V64 line = hn::Mul(width, hn::Set(d, 4.0));
+    const hn::Vec<DU> rows[2] = {integer(hn::Mul(v.first, line)), integer(hn::Mul(v.second, line))};
+    store_offsets(at, rows, integer(u.first), integer(u.second));
+  }
+
+  HWY_INLINE void store_offsets(V64 at, const hn::Vec<DU> row[2], hn::Vec<DU> left, hn::Vec<DU> right) {
+    const DU du;
+    const auto store = [&](int side, hn::Vec<DU> texel) {
+      for (int j = 0; j < 2; ++j) hn::Store(hn::Add(row[j], hn::ShiftLeft<2>(texel)), du, offset[j][side]);
     };
-    const V64 rows[2] = {hn::Mul(v.first, line), hn::Mul(v.second, line)};
-    const auto store_side = [&](int side, V64 texel) {
-      const V64 across = hn::Add(hn::Mul(texel, four), end);
-      for (int j = 0; j < 2; ++j) store(hn::Add(rows[j], across), offset[j][side]);
-    };
-    store_side(0, u.first);
+    store(0, left);
     if (HWY_LIKELY(together)) return;
-    store_side(1, u.second);
-    store(hn::Add(at, end), level_of);
+    if (!adjoining) store(1, right);
+    hn::Store(integer(at), du, level_of);
+  }
+
+  /// Of [0, 2^52): a double 2^52 + n has the bits of n at its end.
+  static HWY_INLINE hn::Vec<DU> integer(V64 n) {
+    const V64 end = hn::Set(D64(), 0x1p52);
+    return hn::Sub(hn::BitCast(DU(), hn::Add(n, end)), hn::BitCast(DU(), end));
   }
 };
 
