@@ -14,21 +14,12 @@
 #include <vector>
 
 #include "raster/careful_surfaces-inl.h"
-#include "raster/maps-inl.h"
 #include "raster/run_triangle-inl.h"
-#include "raster/surfaces.h"
+#include "raster/waiting_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// What the maps of a triangle's pixels want of it: edge functions at the tile's first sample and their changes to the
-/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents.
-struct alignas(64) MappedTriangle {
-  enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
-  enum Frame { kFrame = 22, kValues = 32 };
-  double value[kValues];
-};
 
 /// The triangles of a tile whose materials have maps, and pieces of those that needed care: scratch of a thread.
 struct MappedTriangles {
@@ -40,65 +31,6 @@ inline MappedTriangles& mapped_scratch() {
   return scratch;
 }
 
-/// Values of the triangle that a vector of pixels see, and of several.
-struct OneTriangle {
-  const double* at;
-  HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
-};
-struct TwoTriangles {
-  const double *first, *second;
-  M64 of_second;
-  HWY_INLINE V64 operator()(int k) const {
-    return hn::IfThenElse(of_second, hn::Set(D64(), second[k]), hn::Set(D64(), first[k]));
-  }
-};
-struct SeveralTriangles {
-  using DI = hn::RebindToSigned<D64>;
-  const double* first;
-  hn::Vec<DI> at;  ///< of each lane
-  HWY_INLINE V64 operator()(int k) const { return hn::GatherIndex(D64(), first + k, at); }
-};
-
-/// How texture coordinates change from pixel to pixel: `slopes` and `affine_slope` of interpolate-inl.h.
-template <class Triangle>
-HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
-  V64 e[3], u[3];
-  for (int k = 0; k < 3; ++k) {
-    e[k] = hn::Add(hn::Add(triangle(MappedTriangle::kEdge + k), hn::Mul(column, triangle(MappedTriangle::kEdgeX + k))),
-                   hn::Mul(row, triangle(MappedTriangle::kEdgeY + k)));
-    u[k] = triangle(MappedTriangle::kInverseW + k);
-  }
-  const Barycentrics w = barycentrics(e, u, e[0]);  // what is smooth does not ask for the area
-  const auto slope = [&](int along, int k) {
-    return hn::Mul(hn::Sub(triangle(along + k), hn::Mul(w.smooth[k], triangle(along + 2))), w.r);
-  };
-  const V64 x[2] = {slope(MappedTriangle::kAlongX, 0), slope(MappedTriangle::kAlongX, 1)};
-  const V64 y[2] = {slope(MappedTriangle::kAlongY, 0), slope(MappedTriangle::kAlongY, 1)};
-  for (int c = 0; c < 2; ++c) {
-    const V64 to_1 = triangle(MappedTriangle::kUv1 + c), to_2 = triangle(MappedTriangle::kUv2 + c);
-    uv.x[c] = hn::Add(hn::Mul(x[0], to_1), hn::Mul(x[1], to_2));
-    uv.y[c] = hn::Add(hn::Mul(y[0], to_1), hn::Mul(y[1], to_2));
-  }
-}
-
-template <class Triangle>
-HWY_INLINE TangentFrame frame_at(const Triangle& triangle) {
-  const auto value = [&](int k) { return triangle(MappedTriangle::kFrame + k); };
-  return {{value(0), value(1), value(2)}, {value(3), value(4), value(5)}};
-}
-
-/// Blocks whose maps are applied at once, so that none waits for the quotients and sums of one alone.
-struct WaitingBlocks {
-  static constexpr int kBlocks = kHalves <= 2 ? 2 : 1, kVectors = kBlocks * kHalves;
-  static constexpr int64_t kNone = -1;
-  int count;
-  alignas(64) int64_t place[kBlocks * kBlockPixels];  ///< of each pixel's triangle among all values
-  int64_t first[kVectors], second[kVectors];  ///< triangles of vectors, the second where two; none where there are more
-  M64 of_second[kVectors], owned[kVectors];
-  UvPoint uv[kVectors];
-  int pixel[kVectors];  ///< the first
-};
-
 struct MappedBlocks {
   const TileDraws& in;
   const TileRect& rect;
@@ -109,7 +41,7 @@ struct MappedBlocks {
   const int blocks = rect.size / kBlockSize;  ///< a row
   MappedTriangles& mapped = mapped_scratch();
   uint32_t listed = 0;  ///< triangles
-  WaitingBlocks waiting{};
+  WaitingBlocks waiting{in.view.maps, mapped.triangle, out};
 
   void run() {
     mapped.triangle.clear();
@@ -126,12 +58,11 @@ struct MappedBlocks {
           continue;
         }
         const int64_t at = triangle_at(run.triangle);
-        int64_t* const place = waiting.place + waiting.count * kBlockPixels;
-        if (pixels == 0) std::fill_n(place, kBlockPixels, at);
+        int64_t* const place = waiting.next(pixels != 0, at);
         for (uint32_t bits = run.pixels; bits != 0 && pixels != 0; bits &= bits - 1) place[std::countr_zero(bits)] = at;
         pixels |= run.pixels;
       }
-      map_block(block, pixels);
+      waiting.add(BlockPlace(block, blocks), pixels);
     }
     for (uint32_t i = 0; i < seen.manys; ++i) {
       const uint16_t block = seen.many[i];
@@ -141,19 +72,18 @@ struct MappedBlocks {
         const SeenTriangle triangle{seen.place[block * kBlockPixels + k], seen.corners[block * kBlockPixels + k]};
         if (!maps_of(triangle).any()) continue;
         const int64_t at = triangle_at(triangle);
-        int64_t* const place = waiting.place + waiting.count * kBlockPixels;
-        if (pixels == 0) std::fill_n(place, kBlockPixels, at);
+        int64_t* const place = waiting.next(pixels != 0, at);
         place[k] = at;
         pixels |= 1u << k;
       }
-      map_block(block, pixels);
+      waiting.add(BlockPlace(block, blocks), pixels);
     }
-    map_waiting();
+    waiting.finish();
     for (uint32_t i = 0; i < listed; ++i) seen.first_run[seen.chain[i]] = VisibleTriangles::kNoRun;
   }
 
  private:
-  static constexpr int kUvPlace = 6;
+  static constexpr int kNormalPlace = 3, kUvPlace = 6;
   const MaterialMaps& maps_of(SeenTriangle triangle) const {
     return in.view.maps.material[seen.cluster[triangle.place / kTrianglePlaces].material - 1];
   }
@@ -188,8 +118,16 @@ struct MappedBlocks {
     }
     if (!maps_of(triangle).normal) return;
     const TangentFrame frame = frame_of(triangle);
-    const V64 of[6] = {frame.u.x, frame.u.y, frame.u.z, frame.v.x, frame.v.y, frame.v.z};
-    for (int k = 0; k < 6; ++k) value[MappedTriangle::kFrame + k] = hn::GetLane(of[k]);
+    const auto put = [&](int at, const Vector3& of) {
+      value[at] = hn::GetLane(of.x), value[at + 1] = hn::GetLane(of.y), value[at + 2] = hn::GetLane(of.z);
+    };
+    put(MappedTriangle::kFrame, frame.u), put(MappedTriangle::kFrame + 3, frame.v);
+    constexpr uint32_t kNormalBits = 7u << kNormalPlace;
+    if ((run.constant & kNormalBits) != kNormalBits) return;
+    const auto normal = [&](int c) { return hn::Set(D64(), double(float(run.a0[kNormalPlace + c]) + 0.0f)); };
+    const BumpFrame bump = bump_frame(frame, {normal(0), normal(1), normal(2)});
+    put(MappedTriangle::kBumpFrame, bump.t), put(MappedTriangle::kBumpFrame + 3, bump.b);
+    value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
   }
 
   /// The same in all lanes.
@@ -202,56 +140,6 @@ struct MappedBlocks {
         corner[k].value[c] = hn::Set(D64(), double(record[c < 3 ? c : kUvPlace + c - 3]));
     }
     return tangent_frame(corner);
-  }
-
-  /// Values of the triangles that a vector sees: gathers are for those of more than two.
-  template <class Use>
-  HWY_INLINE auto with_triangles(int h, const Use& use) const {
-    const double* const values = mapped.triangle[0].value;
-    if (waiting.first[h] != WaitingBlocks::kNone && waiting.second[h] == WaitingBlocks::kNone)
-      return use(OneTriangle{values + waiting.first[h]});
-    if (waiting.first[h] != WaitingBlocks::kNone)
-      return use(TwoTriangles{values + waiting.first[h], values + waiting.second[h], waiting.of_second[h]});
-    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), waiting.place + h * kHalf)});
-  }
-
-  void map_block(uint16_t block, uint32_t pixels) {
-    if (pixels == 0) return;
-    const D64 d;
-    const SeveralTriangles::DI di;
-    const BlockPlace where(block, blocks);
-    for (int part = 0; part < kHalves; ++part) {
-      const int h = waiting.count * kHalves + part;
-      const uint32_t bits = pixels >> part * kHalf & kHalfBits;
-      waiting.owned[h] = lane_mask(d, bits);
-      waiting.pixel[h] = where.at + part * kHalf;
-      const int64_t* const at = waiting.place + h * kHalf;
-      const auto places = hn::Load(di, at);
-      const auto beside = [&](int64_t triangle) { return hn::Ne(places, hn::Set(di, triangle)); };
-      waiting.first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], waiting.second[h] = WaitingBlocks::kNone;
-      const auto others = beside(waiting.first[h]);
-      if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
-        waiting.second[h] = at[std::countr_zero(left)];
-        waiting.of_second[h] = hn::RebindMask(d, others);
-        if ((lane_bits(di, beside(waiting.second[h])) & left) != 0) waiting.first[h] = WaitingBlocks::kNone;
-      }
-      with_triangles(
-          h, [&](const auto& triangle) { set_slopes(triangle, where.column(part), where.row(part), waiting.uv[h]); });
-    }
-    if (++waiting.count == WaitingBlocks::kBlocks) map_waiting();
-  }
-
-  HWY_INLINE void map_waiting() {
-    if (waiting.count == 0) return;
-    for (int h = waiting.count * kHalves; h < WaitingBlocks::kVectors; ++h) {  // nobody's
-      waiting.owned[h] = lane_mask(D64(), 0);
-      waiting.pixel[h] = waiting.pixel[0], waiting.uv[h] = waiting.uv[0];
-    }
-    const auto frames = [&](int h) {
-      return with_triangles(h, [&](const auto& triangle) { return frame_at(triangle); });
-    };
-    apply_maps<WaitingBlocks::kVectors>(in.view.maps, waiting.uv, waiting.owned, waiting.pixel, frames, out);
-    waiting.count = 0;
   }
 
   HWY_NOINLINE void map_careful(uint16_t block, SeenTriangle triangle) {
@@ -282,7 +170,7 @@ struct MappedBlocks {
         const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
         map_piece(
             s, barycentrics(e, u, hn::Set(d, s.area)), lane_mask(d, owned), at, in.view.maps,
-            [&](int) { return frame; }, out);
+            [&](int, const Vector3& normal) { return bump_frame(frame, normal); }, out);
         open &= ~owned;
       }
     }

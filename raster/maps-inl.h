@@ -77,37 +77,48 @@ HWY_INLINE TangentFrame tangent_frame(const MapCorner corner[3]) {
           where(any, scaled(scaled(e2, a1) - scaled(e1, a2), sign))};
 }
 
-/// The normals that texels of a normal map make of n, both not of unit length; n itself where there is no frame.
-HWY_INLINE void bend_normals(const TangentFrame& frame, const V32 texel[3], double scale, V32 n[3]) {
+/// What the texels of a normal map count along beside the normal itself.
+struct BumpFrame {
+  Vector3 t, b;
+  Mask64 bends;  ///< the normal stays where not
+};
+
+HWY_INLINE BumpFrame bump_frame(const TangentFrame& frame, const Vector3& normal) {
   const D64 d;
-  const D32 df;
-  const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
-  const Vector3 normal{hn::PromoteTo(d, n[0]), hn::PromoteTo(d, n[1]), hn::PromoteTo(d, n[2])};
+  const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const V64 n2 = dot3(normal, normal);
   const Vector3 along = frame.u - scaled(normal, hn::Div(dot3(normal, frame.u), n2));
   const V64 t2 = dot3(along, along);
-  const auto bends = hn::And(hn::Gt(n2, zero), hn::Gt(t2, zero));
   const Vector3 t = scaled(along, hn::Div(one, hn::Sqrt(t2)));
   const Vector3 c{hn::Sub(hn::Mul(normal.y, t.z), hn::Mul(normal.z, t.y)),
                   hn::Sub(hn::Mul(normal.z, t.x), hn::Mul(normal.x, t.z)),
                   hn::Sub(hn::Mul(normal.x, t.y), hn::Mul(normal.y, t.x))};
   const V64 length = hn::Div(one, hn::Sqrt(n2));
-  const Vector3 b = scaled(c, hn::IfThenElse(hn::Lt(dot3(c, frame.v), zero), hn::Neg(length), length));
+  return {t, scaled(c, hn::IfThenElse(hn::Lt(dot3(c, frame.v), zero), hn::Neg(length), length)),
+          hn::And(hn::Gt(n2, zero), hn::Gt(t2, zero))};
+}
+
+/// The normals that texels of a normal map make of n, not of unit length.
+HWY_INLINE void bend_normals(const BumpFrame& frame, const Vector3& normal, const V32 texel[3], double scale,
+                             V32 n[3]) {
+  const D64 d;
+  const V64 one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
   const auto moved = [&](int k) { return hn::Sub(hn::Mul(two, hn::PromoteTo(d, texel[k])), one); };
   const V64 x = hn::Mul(moved(0), hn::Set(d, scale)), y = hn::Mul(moved(1), hn::Set(d, scale)), z = moved(2);
   const auto sum = [&](V64 t_k, V64 b_k, V64 n_k) {
     return hn::Add(hn::Add(hn::Mul(t_k, x), hn::Mul(b_k, y)), hn::Mul(n_k, z));
   };
-  const V64 bent[3] = {sum(t.x, b.x, normal.x), sum(t.y, b.y, normal.y), sum(t.z, b.z, normal.z)};
-  const auto here = float_mask(bends);
-  for (int k = 0; k < 3; ++k) n[k] = hn::IfThenElse(here, hn::DemoteTo(df, bent[k]), n[k]);
+  const V64 bent[3] = {sum(frame.t.x, frame.b.x, normal.x), sum(frame.t.y, frame.b.y, normal.y),
+                       sum(frame.t.z, frame.b.z, normal.z)};
+  const auto here = float_mask(frame.bends);
+  for (int k = 0; k < 3; ++k) n[k] = hn::IfThenElse(here, hn::DemoteTo(D32(), bent[k]), n[k]);
 }
 
 /// Of vectors of pixels of the general path.
 struct GatheredFrames {
   const VisibleVertices& work;
   int at;  ///< the first pixel
-  HWY_INLINE TangentFrame operator()(int) const {
+  HWY_INLINE BumpFrame operator()(int, const Vector3& normal) const {
     MapCorner corner[3];
     for (int k = 0; k < 3; ++k) {
       const auto vertex = hn::LoadU(I32(), reinterpret_cast<const int32_t*>(work.corner[k].data()) + at);
@@ -115,13 +126,13 @@ struct GatheredFrames {
         corner[k].value[c] =
             hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[MapCorner::kStream[c]].data(), vertex));
     }
-    return tangent_frame(corner);
+    return bump_frame(tangent_frame(corner), normal);
   }
 };
 
 /// Lanes of one material in vectors, each from a pixel on: colour times texel, normal bent; the specular texel
-/// waits for the material's own colour. `frames` makes a vector's tangent frames if they are wanted. What one vector
-/// waits for the others do not.
+/// waits for the material's own colour. `frames` makes a vector's frames of its normals if they are wanted. What one
+/// vector waits for the others do not.
 template <int kVectors, class Frames>
 inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Mask64* mine, const int* pixel,
                            const Frames& frames, SurfaceTile& out) {
@@ -132,7 +143,7 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Ma
   const auto texels = [&](const TextureView& texture, uint32_t channels) {
     if (!placed || !maps.one_place) {
       MipChoice mip[kVectors];
-      for (int h = 0; h < kVectors; ++h) mip[h] = mip_choice(texture, at[h]);
+      choose_mips<kVectors>(texture, at, mip);
       for (int h = 0; h < kVectors; ++h) places[h].set(texture, mip[h], at[h].uv, mine[h]);
     }
     placed = true;
@@ -158,7 +169,8 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const Ma
   for (int h = 0; h < kVectors; ++h) {
     V32 n[3];
     for (int c = 0; c < 3; ++c) n[c] = there(h, kNormal + c);
-    bend_normals(frames(h), rgba[h], double(maps.normal_scale), n);
+    const Vector3 normal{hn::PromoteTo(D64(), n[0]), hn::PromoteTo(D64(), n[1]), hn::PromoteTo(D64(), n[2])};
+    bend_normals(frames(h, normal), normal, rgba[h], double(maps.normal_scale), n);
     for (int c = 0; c < 3; ++c) put(h, kNormal + c, there(h, kNormal + c), n[c]);
   }
 }

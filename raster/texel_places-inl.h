@@ -1,5 +1,5 @@
-// Where vectors of lookups read a texture: levels, texels along each axis and weights. Included once per SIMD target.
-// docs/arithmetic.md section 13.
+// Where vectors of lookups read a level of a texture: texels along each axis and weights. Included once per SIMD
+// target. docs/arithmetic.md section 13.
 #if defined(TRUESHADE_RASTER_TEXEL_PLACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_TEXEL_PLACES_INL_H_
 #undef TRUESHADE_RASTER_TEXEL_PLACES_INL_H_
@@ -9,91 +9,13 @@
 
 #include <hwy/highway.h>
 
+#include "raster/mip_levels-inl.h"
 #include "raster/texture.h"
-#include "raster/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using Mask64 = hn::Mask<D64>;
 inline constexpr size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
-
-/// Texture coordinates of pixels, floats held in f64, and their derivatives from pixel to pixel.
-struct UvPoint {
-  V64 uv[2], x[2], y[2];
-};
-
-/// log2 as docs/arithmetic.md section 9 has it, of what lies in [2^-1000, 2^1000].
-HWY_INLINE V64 log2_of(V64 value) {
-  const D64 d;
-  const hn::RebindToUnsigned<D64> du;
-  const auto bits = hn::BitCast(du, value);
-  // An integer below 2^52 in the last bits of 2^52 is a double without conversion.
-  const auto shifted = hn::Or(hn::ShiftRight<52>(bits), hn::Set(du, 0x4330000000000000ull));
-  V64 exponent = hn::Sub(hn::BitCast(d, shifted), hn::Set(d, 0x1p52 + 1022.0));
-  V64 m = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(du, 0x000FFFFFFFFFFFFFull)), hn::Set(du, 0x3FE0000000000000ull)));
-  const auto low = hn::Lt(m, hn::Set(d, 0.70710678118654752440));
-  m = hn::IfThenElse(low, hn::Mul(m, hn::Set(d, 2.0)), m);
-  exponent = hn::IfThenElse(low, hn::Sub(exponent, hn::Set(d, 1.0)), exponent);
-  const V64 one = hn::Set(d, 1.0), s = hn::Div(hn::Sub(m, one), hn::Add(m, one)), z = hn::Mul(s, s);
-  V64 sum = hn::Set(d, 1.0 / 21.0);
-  for (int k = 19; k >= 1; k -= 2) sum = hn::Add(hn::Mul(sum, z), hn::Set(d, 1.0 / double(k)));
-  return hn::Add(hn::Mul(hn::Mul(s, hn::Set(d, 2.8853900817779268147)), sum), exponent);
-}
-
-/// Level of detail: log2 of the longer of the pixel's two sides in texels of level 0, biased, clamped.
-HWY_INLINE V64 level_of_detail(const TextureView& texture, const UvPoint& at) {
-  const D64 d;
-  const V64 width = hn::Set(d, double(texture.level[0].width)), height = hn::Set(d, double(texture.level[0].height));
-  const auto length2 = [&](const V64 side[2]) {
-    const V64 a = hn::Mul(side[0], width), b = hn::Mul(side[1], height);
-    return hn::Add(hn::Mul(a, a), hn::Mul(b, b));
-  };
-  const V64 x2 = length2(at.x), y2 = length2(at.y);
-  V64 rho2 = hn::IfThenElse(hn::Gt(y2, x2), y2, x2);
-  rho2 = hn::IfThenElse(hn::Gt(rho2, hn::Set(d, 0x1p-1000)), rho2, hn::Set(d, 0x1p-1000));
-  rho2 = hn::IfThenElse(hn::Lt(rho2, hn::Set(d, 0x1p1000)), rho2, hn::Set(d, 0x1p1000));
-  const Sampler& s = texture.sampler;
-  V64 lod = hn::Add(hn::Mul(hn::Set(d, 0.5), log2_of(rho2)), hn::Set(d, double(s.lod_bias)));
-  const V64 low = hn::Set(d, double(s.lod_min)), high = hn::Set(d, double(s.lod_max));
-  lod = hn::IfThenElse(hn::Lt(lod, low), low, lod);
-  return hn::IfThenElse(hn::Gt(lod, high), high, lod);
-}
-
-/// The level a lookup reads first, an integer, the share of the next one, and whether texels are mixed.
-struct MipChoice {
-  V64 level, part;
-  Mask64 linear;
-};
-
-HWY_INLINE MipChoice mip_choice(const TextureView& texture, const UvPoint& at) {
-  const D64 d;
-  const Sampler& s = texture.sampler;
-  const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
-  const V64 last = hn::Set(d, double(texture.levels - 1));
-  V64 level = zero, part = zero;
-  auto minified = hn::Gt(zero, zero);
-  if (s.mip_filter != MipFilter::none || s.mag_filter != s.min_filter) {
-    const V64 lod = level_of_detail(texture, at);
-    minified = hn::Gt(lod, zero);
-    if (s.mip_filter == MipFilter::nearest) {
-      const V64 positive = hn::IfThenElseZero(minified, lod), below = hn::Floor(positive);
-      const V64 chosen = hn::Add(below, hn::IfThenElseZero(hn::Gt(hn::Sub(positive, below), half), one));
-      level = hn::IfThenElse(hn::Gt(chosen, last), last, chosen);
-    } else if (s.mip_filter == MipFilter::linear) {
-      const V64 positive = hn::IfThenElseZero(minified, lod);
-      const V64 held = hn::IfThenElse(hn::Gt(positive, last), last, positive);
-      level = hn::Floor(held);
-      part = hn::Sub(held, level);
-    }
-  }
-  const bool mag_linear = s.mag_filter == Filter::linear, min_linear = s.min_filter == Filter::linear;
-  const auto all = hn::Eq(zero, zero), none = hn::Gt(zero, zero);
-  return {level, part,
-          mag_linear == min_linear ? (mag_linear ? all : none)
-          : min_linear             ? minified
-                                   : hn::Not(minified)};
-}
 
 /// A coordinate's two texels along one axis and the weight of the second, 0 where the filter is nearest.
 struct AxisTexels {
@@ -164,10 +86,13 @@ inline bool reads_words(const TextureView& texture) {
 /// What lookups read of a level each.
 struct LevelTexels {
   V64 u_weight, v_weight;
-  bool together;  ///< all of one level, each texel's right neighbour the next one: of words alone
-  int level;      ///< where together
-  alignas(64) uint64_t offset[2][kMostLanes];  ///< where together: of the left texels of both rows, in bytes
-  V64 levels, x[2], y[2];                      ///< elsewhere
+  bool adjoining;  ///< each texel's right neighbour is the next one: of words alone
+  bool together;   ///< and all are of one level
+  int level;       ///< where together
+  /// Of words: of both rows' left texels and, where not adjoining, right ones, in bytes from each lane's level on.
+  alignas(64) uint64_t offset[2][2][kMostLanes];
+  alignas(64) uint64_t level_of[kMostLanes];  ///< where not together
+  V64 levels, x[2], y[2];                     ///< of all but words
 
   HWY_INLINE void set(const TextureView& texture, V64 at, const V64 uv[2], Mask64 linear) {
     const D64 d;
@@ -190,8 +115,13 @@ struct LevelTexels {
   }
 
  private:
+  using DU = hn::RebindToUnsigned<D64>;
+  using DW = hn::ScalableTag<uint32_t>;
+
   HWY_INLINE void set_texels(const TextureView& texture, V64 at, bool one_level, const V64 uv[2], Mask64 linear,
                              V64 width, V64 height, V64 inverse_width, V64 inverse_height) {
+    if constexpr (hn::MaxLanes(D64()) > 1)
+      if (HWY_LIKELY(texture.masks)) return set_masked(at, one_level, uv, linear, width, height);
     const auto& wrap = texture.sampler.wrap;
     if (HWY_LIKELY(wrap[0] == Wrap::repeat && wrap[1] == Wrap::repeat))  // known to the compiler
       set_axes(texture, at, one_level, width, axis_texels(Wrap::repeat, uv[0], width, inverse_width, linear),
@@ -201,23 +131,57 @@ struct LevelTexels {
                axis_texels(wrap[1], uv[1], height, inverse_height, linear));
   }
 
+  /// Of words, both axes repeating and of 2^k texels: what lies within a side are the last bits.
+  HWY_INLINE void set_masked(V64 at, bool one_level, const V64 uv[2], Mask64 linear, V64 width, V64 height) {
+    const D64 d;
+    const DU du;
+    const auto one = hn::Set(du, 1);
+    const auto below = [&](V64 coordinate, V64 n, V64& weight) {
+      const V64 place = hn::Sub(hn::Mul(coordinate, n), hn::IfThenElseZero(linear, hn::Set(d, 0.5)));
+      const V64 floor = hn::Floor(place);
+      weight = hn::IfThenElseZero(linear, hn::Sub(place, floor));
+      return hn::BitCast(du, hn::Add(floor, hn::Set(d, 0x1.8p52)));  // below 2^40, two's complement at the end
+    };
+    const auto end_x = hn::Sub(integer(width), one), end_y = hn::Sub(integer(height), one);
+    const auto u = below(uv[0], width, u_weight), v = below(uv[1], height, v_weight);
+    const auto left = hn::And(u, end_x);
+    adjoining = hn::AllTrue(du, hn::Ne(left, end_x)), together = adjoining && one_level;
+    const auto line = hn::BitCast(DW(), hn::ShiftLeft<2>(integer(width)));
+    const auto row = [&](hn::Vec<DU> y) { return hn::MulEven(hn::BitCast(DW(), hn::And(y, end_y)), line); };
+    const hn::Vec<DU> rows[2] = {row(v), row(hn::Add(v, one))};
+    store_offsets(at, rows, left, hn::And(hn::Add(left, one), end_x));
+  }
+
   HWY_INLINE void set_axes(const TextureView& texture, V64 at, bool one_level, V64 width, const AxisTexels& u,
                            const AxisTexels& v) {
     const D64 d;
-    const hn::RebindToUnsigned<D64> du;
     u_weight = u.weight, v_weight = v.weight;
-    const auto adjoining = hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0)));
-    together = hn::MaxLanes(d) > 1 && one_level && reads_words(texture) && hn::AllTrue(d, adjoining);
-    if (!together) {
+    if (hn::MaxLanes(d) == 1 || !reads_words(texture)) {
+      adjoining = together = false;
       levels = at, x[0] = u.first, x[1] = u.second, y[0] = v.first, y[1] = v.second;
       return;
     }
-    // A double 2^52 + n has the bits of n at its end.
-    const V64 four = hn::Set(d, 4.0), line = hn::Mul(width, four);
-    const V64 across = hn::Add(hn::Mul(u.first, four), hn::Set(d, 0x1p52));
-    const auto exponent = hn::Set(du, 0x4330000000000000u);
-    hn::Store(hn::Sub(hn::BitCast(du, hn::Add(hn::Mul(v.first, line), across)), exponent), du, offset[0]);
-    hn::Store(hn::Sub(hn::BitCast(du, hn::Add(hn::Mul(v.second, line), across)), exponent), du, offset[1]);
+    adjoining = hn::AllTrue(d, hn::Eq(u.second, hn::Add(u.first, hn::Set(d, 1.0)))), together = adjoining && one_level;
+    const V64 line = hn::Mul(width, hn::Set(d, 4.0));
+    const hn::Vec<DU> rows[2] = {integer(hn::Mul(v.first, line)), integer(hn::Mul(v.second, line))};
+    store_offsets(at, rows, integer(u.first), integer(u.second));
+  }
+
+  HWY_INLINE void store_offsets(V64 at, const hn::Vec<DU> row[2], hn::Vec<DU> left, hn::Vec<DU> right) {
+    const DU du;
+    const auto store = [&](int side, hn::Vec<DU> texel) {
+      for (int j = 0; j < 2; ++j) hn::Store(hn::Add(row[j], hn::ShiftLeft<2>(texel)), du, offset[j][side]);
+    };
+    store(0, left);
+    if (HWY_LIKELY(together)) return;
+    if (!adjoining) store(1, right);
+    hn::Store(integer(at), du, level_of);
+  }
+
+  /// Of [0, 2^52): a double 2^52 + n has the bits of n at its end.
+  static HWY_INLINE hn::Vec<DU> integer(V64 n) {
+    const V64 end = hn::Set(D64(), 0x1p52);
+    return hn::Sub(hn::BitCast(DU(), hn::Add(n, end)), hn::BitCast(DU(), end));
   }
 };
 

@@ -54,9 +54,31 @@ struct TexelQuadsOf {
  private:
   /// The quads of one level, a row each.
   static HWY_INLINE void fetch_rows(const TextureView& texture, const LevelTexels& at, Words row[2]) {
-    if (HWY_UNLIKELY(!at.together)) return fetch_apart(texture, at, row);
-    const hn::RebindToUnsigned<D64> du;
+    if (HWY_UNLIKELY(!at.together))
+      return at.adjoining ? fetch_levels(texture, at, row) : fetch_apart(texture, at, row);
     const uint8_t* const bytes = texture.level[at.level].bytes;
+    pairs(row, [&](int j, size_t lane) { return bytes + at.offset[j][0][lane]; });
+  }
+
+  /// The same of several levels.
+  static HWY_NOINLINE void fetch_levels(const TextureView& texture, const LevelTexels& at, Words row[2]) {
+    pairs(row, [&](int j, size_t lane) { return texture.level[at.level_of[lane]].bytes + at.offset[j][0][lane]; });
+  }
+
+  /// The same of texels that lie anywhere.
+  static HWY_NOINLINE void fetch_apart(const TextureView& texture, const LevelTexels& at, Words row[2]) {
+    alignas(64) uint32_t word[2][2 * kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      const uint8_t* const bytes = texture.level[at.level_of[i]].bytes;
+      for (int j = 0; j < 2; ++j)
+        for (int k = 0; k < 2; ++k) std::memcpy(&word[j][k * kLanes + i], bytes + at.offset[j][k][i], 4);
+    }
+    for (int j = 0; j < 2; ++j) row[j] = hn::Load(DW(), word[j]);
+  }
+
+  /// Of texels side by side: address(row, lane) is that of the left one.
+  template <class Address>
+  static HWY_INLINE void pairs(Words row[2], const Address& address) {
     alignas(64) static constexpr std::array<uint32_t, 2 * kLanes> kApart = [] {
       std::array<uint32_t, 2 * kLanes> order{};
       for (uint32_t i = 0; i < kLanes; ++i) order[i] = 2 * i, order[kLanes + i] = 2 * i + 1;
@@ -64,36 +86,22 @@ struct TexelQuadsOf {
     }();
     const auto apart = hn::SetTableIndices(DW(), kApart.data());
 #pragma GCC unroll 2
-    for (int j = 0; j < 2; ++j)
-      row[j] = hn::TableLookupLanes(hn::BitCast(DW(), words_at(du, bytes, at.offset[j])), apart);
-  }
-
-  /// The same of texels that lie anywhere.
-  static HWY_NOINLINE void fetch_apart(const TextureView& texture, const LevelTexels& at, Words row[2]) {
-    const D64 d;
-    alignas(64) double level[kLanes], x[2][kLanes], y[2][kLanes];
-    hn::Store(at.levels, d, level);
-    for (int k = 0; k < 2; ++k) hn::Store(at.x[k], d, x[k]), hn::Store(at.y[k], d, y[k]);
-    alignas(64) uint32_t word[2][2 * kLanes];
-    for (int i = 0; i < kLanes; ++i) {
-      const TextureView::Level& l = texture.level[int(level[i])];
-      for (int j = 0; j < 2; ++j)
-        for (int k = 0; k < 2; ++k)
-          std::memcpy(&word[j][k * kLanes + i], l.bytes + 4 * (size_t(y[j][i]) * size_t(l.width) + size_t(x[k][i])), 4);
+    for (int j = 0; j < 2; ++j) {
+      const auto words = words_at(hn::RebindToUnsigned<D64>(), 0, [&](size_t lane) { return address(j, lane); });
+      row[j] = hn::TableLookupLanes(hn::BitCast(DW(), words), apart);
     }
-    for (int j = 0; j < 2; ++j) row[j] = hn::Load(DW(), word[j]);
   }
 
-  /// Words of eight bytes at byte offsets.
-  template <class D>
-  static HWY_INLINE hn::Vec<D> words_at(D d, const uint8_t* bytes, const uint64_t* offset) {
+  /// Words of eight bytes at each lane's address.
+  template <class D, class Address>
+  static HWY_INLINE hn::Vec<D> words_at(D d, size_t lane, const Address& address) {
     if constexpr (hn::MaxLanes(D()) == 1) {
       uint64_t word;
-      std::memcpy(&word, bytes + *offset, sizeof word);
+      std::memcpy(&word, address(lane), sizeof word);
       return hn::Set(d, word);
     } else {
       const hn::Half<D> half;
-      return Combine(d, words_at(half, bytes, offset + hn::MaxLanes(half)), words_at(half, bytes, offset));
+      return Combine(d, words_at(half, lane + hn::MaxLanes(half), address), words_at(half, lane, address));
     }
   }
 

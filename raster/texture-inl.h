@@ -97,8 +97,10 @@ inline void sample(const TextureView& texture, const LookupPlaces& at, Mask64 va
 
 /// The same from texture coordinates.
 inline void sample(const TextureView& texture, const UvPoint& at, Mask64 valid, V32 rgba[4], uint32_t channels) {
+  MipChoice mip;
+  choose_mips<1>(texture, &at, &mip);
   LookupPlaces places{};
-  places.set(texture, mip_choice(texture, at), at.uv, valid);
+  places.set(texture, mip, at.uv, valid);
   sample(texture, places, valid, rgba, channels);
 }
 

@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "raster/texture-inl.h"
 
@@ -50,10 +51,13 @@ void look_up(const TextureView& texture, std::span<const TexturePoint> points, s
 }
 
 TextureView view_of(const Texture& texture, const Sampler& sampler) {
-  TextureView view{texture.format, int(texture.levels.size()), {}, sampler};
+  const bool repeats = sampler.wrap[0] == Wrap::repeat && sampler.wrap[1] == Wrap::repeat;
+  TextureView view{
+      texture.format, int(texture.levels.size()), {}, sampler, repeats && bytes_per_texel(texture.format) == 4};
   for (size_t k = 0; k < texture.levels.size(); ++k) {
     const TextureLevel& from = texture.levels[k];
     view.level[k] = {from.bytes.data(), from.width, from.height, 1.0 / from.width, 1.0 / from.height};
+    view.masks = view.masks && std::has_single_bit(unsigned(from.width)) && std::has_single_bit(unsigned(from.height));
   }
   return view;
 }

@@ -21,6 +21,7 @@ struct TextureView {
   int levels;
   Level level[kMaxTextureLevels];
   Sampler sampler;
+  bool masks;  ///< four bytes a texel, both axes repeat and all sides are powers of two
 };
 TextureView view_of(const Texture& texture, const Sampler& sampler);
 
