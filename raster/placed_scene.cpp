@@ -12,6 +12,7 @@
 #include "raster/cluster_bounds.h"
 #include "raster/coverage-inl.h"
 #include "raster/hidden-inl.h"
+#include "raster/slender-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -81,13 +82,16 @@ void place_instances_simd(const Scene& scene, const ClusteredScene& clusters, co
   }
 }
 
-void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const GeometryState& state,
-                   const TileRect& rect, bool cull, DepthCommit& commit) {
-  bool usual = true;
+bool fits_vectors(const WindowTriangle& window) {
+  bool fits = true;
   for (int k = 0; k < 3; ++k)
-    usual = usual && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
-  if (!usual) return draw_window_triangle(window, state, t.upper_left, rect, commit);
-  if (cull && hidden_triangle(commit.tile, rect, window, t)) return;
+    fits = fits && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
+  return fits;
+}
+
+void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const GeometryState& state,
+                   const TileRect& rect, DepthCommit& commit) {
+  if (!fits_vectors(window)) return draw_window_triangle(window, state, t.upper_left, rect, commit);
   TriangleSetup<double> setup;
   if (!set_up_triangle(window, state, t.upper_left, rect.limit, setup)) return;
   if (setup.samples() <= 4)
@@ -95,6 +99,64 @@ void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const
   else
     cover(setup, rect, commit);
 }
+
+/// Usual triangles of a tile that wait for others to be set up with, a lane each.
+class TriangleBatch {
+ public:
+  TriangleBatch(const GeometryState& state, bool upper_left, const TileRect& rect, DepthCommit& commit)
+      : in_{vertices_, state, upper_left, rect}, commit_(commit) {
+    const int* limit = rect.limit;
+    limited_ = ((limit[0] | limit[1] | limit[2] | limit[3]) & (kBlockSize - 1)) != 0;
+  }
+
+  HWY_INLINE void add(const WindowTriangle& window) {
+    for (int k = 0; k < 3; ++k) {
+      vertices_.x[3 * count_ + k] = int32_t(window.x[k]);
+      vertices_.y[3 * count_ + k] = int32_t(window.y[k]);
+      vertices_.z[3 * count_ + k] = window.z[k];
+    }
+    corners_[count_] = 3 * count_ * 0x10101 + 0x20100;
+    id_[count_] = commit_.id;
+    if (++count_ == int(hn::Lanes(DT()))) draw();
+  }
+
+  HWY_INLINE void draw() {
+    LargeSetups setups;
+    SlenderSetups slender;
+    SlenderSamples samples;
+    set_up_large(in_, corners_, count_, commit_, setups);
+    set_up_slender(setups, in_.rect, slender);
+    for (int i = 0; i < count_; ++i) {
+      commit_.id = id_[i];
+      if ((setups.too_long >> i & 1) != 0) {
+        WindowTriangle window;
+        for (int k = 0; k < 3; ++k) {
+          window.x[k] = vertices_.x[3 * i + k], window.y[k] = vertices_.y[3 * i + k];
+          window.z[k] = vertices_.z[3 * i + k];
+        }
+        draw_window_triangle(window, in_.state, in_.upper_left, in_.rect, commit_);
+      } else if ((setups.drawn >> i & 1) == 0) {
+        continue;
+      } else if ((slender.slender >> i & 1) == 0) {
+        LargeTriangle(setups, i).draw(in_.rect, limited_, commit_);
+      } else {
+        samples.count = 0;
+        cover_slender(setups, slender, i, in_.rect, samples);
+        commit_slender(setups, i, in_.rect.size, samples, commit_);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  WindowVertices vertices_;
+  LargeDraw in_;
+  DepthCommit& commit_;
+  bool limited_;
+  int count_ = 0;
+  alignas(64) int32_t corners_[LargeSetups::kMost] = {};
+  uint32_t id_[LargeSetups::kMost];
+};
 
 void draw_placed_simd(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
                       bool fast_paths, VisibilityTile& out) {
@@ -105,6 +167,8 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
   DepthCommit commit{out, state.depth_func, t.depth_low, t.depth_high, culling && nearest_wins, t.depth};
   commit.fast = fast_paths && commit.skip_hidden;
   const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
+  const bool batched = commit.fast && !t.depth.offsets();
+  TriangleBatch batch(state, t.upper_left, rect, commit);
   for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
   for (const PlacedChunk& chunk : placed.chunks)
     for (uint32_t i = chunk.first[size_t(tile)]; i < chunk.first[size_t(tile) + 1]; ++i) {
@@ -116,8 +180,14 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
       }
       WindowTriangle window = triangle.window;
       for (int k = 0; k < 3; ++k) window.x[k] -= origin.x, window.y[k] -= origin.y;
-      draw_triangle(window, t, state, rect, cull, commit);
+      const bool fits = fits_vectors(window);
+      if (fits && cull && hidden_triangle(out, rect, window, t)) continue;
+      if (fits && batched)
+        batch.add(window);
+      else
+        draw_triangle(window, t, state, rect, commit);
     }
+  if (batched) batch.draw();
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
