@@ -2,11 +2,14 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/placed_scene.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/parallel_for.h"
 #include "raster/cluster_bounds.h"
@@ -32,6 +35,13 @@ int facing_of(const WindowTriangle& t) {
   return (area > 0) - (area < 0);
 }
 
+bool fits_vectors(const WindowTriangle& window) {
+  bool fits = true;
+  for (int k = 0; k < 3; ++k)
+    fits = fits && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
+  return fits;
+}
+
 void place_careful(const Placing& in, const ClipVertex v[3], uint32_t instance) {
   const CarefulPieces fan = careful_pieces(v, in.view.window, 0, 0);
   if (fan.count == 0 || !in.keeps(fan.facing)) return;
@@ -40,7 +50,10 @@ void place_careful(const Placing& in, const ClipVertex v[3], uint32_t instance) 
     in.out.turned.push_back({v[0], v[1], v[2]});
     return;
   }
-  for (int i = 0; i < fan.count; ++i) in.out.triangles.push_back({fan.piece[i].triangle, instance, -1});
+  for (int i = 0; i < fan.count; ++i) {
+    const WindowTriangle& piece = fan.piece[i].triangle;
+    in.out.triangles.push_back({piece, instance, fits_vectors(piece) ? PlacedTriangle::kUsual : PlacedTriangle::kWide});
+  }
 }
 
 void place_cluster(const Placing& in, const ClusteredMesh& mesh, const Cluster& cluster, uint32_t instance,
@@ -61,7 +74,7 @@ void place_cluster(const Placing& in, const ClusteredMesh& mesh, const Cluster& 
       place_careful(in, clip, instance);
       continue;
     }
-    PlacedTriangle placed{{}, instance, -1};
+    PlacedTriangle placed{{}, instance, PlacedTriangle::kUsual};
     for (size_t k = 0; k < 3; ++k) {
       placed.window.x[k] = v.x[corner[k]];
       placed.window.y[k] = v.y[corner[k]];
@@ -82,16 +95,9 @@ void place_instances_simd(const Scene& scene, const ClusteredScene& clusters, co
   }
 }
 
-bool fits_vectors(const WindowTriangle& window) {
-  bool fits = true;
-  for (int k = 0; k < 3; ++k)
-    fits = fits && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
-  return fits;
-}
-
+/// One whose coordinates fit vectors.
 void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const GeometryState& state,
                    const TileRect& rect, DepthCommit& commit) {
-  if (!fits_vectors(window)) return draw_window_triangle(window, state, t.upper_left, rect, commit);
   TriangleSetup<double> setup;
   if (!set_up_triangle(window, state, t.upper_left, rect.limit, setup)) return;
   if (setup.samples() <= 4)
@@ -158,6 +164,8 @@ class TriangleBatch {
   uint32_t id_[LargeSetups::kMost];
 };
 
+constexpr uint32_t kAhead = 8;  // triangles fetched ahead: they lie scattered
+
 void draw_placed_simd(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
                       bool fast_paths, VisibilityTile& out) {
   const WindowTransform& t = view.window;
@@ -172,7 +180,11 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
   for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
   for (const PlacedChunk& chunk : placed.chunks)
     for (uint32_t i = chunk.first[size_t(tile)]; i < chunk.first[size_t(tile) + 1]; ++i) {
-      const PlacedTriangle& triangle = chunk.triangles[chunk.list[i]];
+      const TilePlace& place = chunk.list[i];
+      if (i + kAhead < chunk.list.size()) hwy::Prefetch(&chunk.triangles[chunk.list[i + kAhead].triangle]);
+      if (cull && hidden_blocks(out, rect.size / kBlockSize, {place.x0, place.y0, place.x1, place.y1}, place.near))
+        continue;
+      const PlacedTriangle& triangle = chunk.triangles[place.triangle];
       commit.id = triangle.instance + 1;
       if (triangle.turned >= 0) {
         draw_careful(chunk.turned[size_t(triangle.turned)].data(), t, origin, state, rect, commit);
@@ -180,9 +192,9 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
       }
       WindowTriangle window = triangle.window;
       for (int k = 0; k < 3; ++k) window.x[k] -= origin.x, window.y[k] -= origin.y;
-      const bool fits = fits_vectors(window);
-      if (fits && cull && hidden_triangle(out, rect, window, t)) continue;
-      if (fits && batched)
+      if (triangle.turned == PlacedTriangle::kWide)
+        draw_window_triangle(window, state, t.upper_left, rect, commit);
+      else if (batched)
         batch.add(window);
       else
         draw_triangle(window, t, state, rect, commit);
@@ -240,7 +252,7 @@ class WindowEdges {
   double x_[3], y_[3], across_[3], up_[3];
 };
 
-/// Calls use(tile) for the tiles that a triangle may touch.
+/// Calls use(tile, blocks) for the tiles that a triangle may touch.
 template <class Use>
 void for_each_tile(const PlacedTriangle& triangle, const WindowTransform& t, const PlacedScene& grid, const Use& use) {
   PixelSpan across{t.x0, t.x1 - 1}, up{t.y0, t.y1 - 1};
@@ -253,33 +265,50 @@ void for_each_tile(const PlacedTriangle& triangle, const WindowTransform& t, con
   if (across.first > across.last || up.first > up.last) return;
   const int x0 = across.first / grid.tile, x1 = across.last / grid.tile;
   const int y0 = up.first / grid.tile, y1 = up.last / grid.tile;
-  const WindowEdges edges(w);
+  const bool several = triangle.turned < 0 && (x0 != x1 || y0 != y1);
+  std::optional<WindowEdges> edges;
+  if (several) edges.emplace(w);
+  const auto block = [&](int pixel, int column) {
+    return uint8_t(std::clamp(pixel - column * grid.tile, 0, grid.tile - 1) / kBlockSize);
+  };
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const double left = double(x * grid.tile) * 256.0, bottom = double(y * grid.tile) * 256.0;
       const double side = double(grid.tile) * 256.0;
-      if (triangle.turned < 0 && (x0 != x1 || y0 != y1) && edges.beside(left, bottom, left + side, bottom + side))
-        continue;
-      use(uint32_t(y * grid.tiles_x + x));
+      if (several && edges->beside(left, bottom, left + side, bottom + side)) continue;
+      use(uint32_t(y * grid.tiles_x + x),
+          TilePlace{0, 0.0f, block(across.first, x), block(up.first, y), block(across.last, x), block(up.last, y)});
     }
+}
+
+/// The least depth of a triangle that is compared; of what clipping leaves of any other nothing is known.
+float near_depth(const PlacedTriangle& triangle, const WindowTransform& t) {
+  if (triangle.turned != PlacedTriangle::kUsual) return -std::numeric_limits<float>::infinity();
+  const auto least = float(std::min({triangle.window.z[0], triangle.window.z[1], triangle.window.z[2]}));
+  return t.depth.stored(std::min(std::max(least, t.depth_low), t.depth_high));
 }
 
 /// Lists a chunk's triangles by tile.
 void list_by_tile(const WindowTransform& t, const PlacedScene& grid, PlacedChunk& chunk) {
   struct Touch {
-    uint32_t tile, triangle;
+    uint32_t tile;
+    TilePlace place;
   };
   std::vector<Touch> touches;
+  touches.reserve(2 * chunk.triangles.size());
   chunk.first.assign(size_t(grid.tiles()) + 1, 0);
-  for (uint32_t i = 0; i < chunk.triangles.size(); ++i)
-    for_each_tile(chunk.triangles[i], t, grid, [&](uint32_t tile) {
-      touches.push_back({tile, i});
+  for (uint32_t i = 0; i < chunk.triangles.size(); ++i) {
+    const float near = near_depth(chunk.triangles[i], t);
+    for_each_tile(chunk.triangles[i], t, grid, [&](uint32_t tile, TilePlace place) {
+      place.triangle = i, place.near = near;
+      touches.push_back({tile, place});
       ++chunk.first[tile + 1];
     });
+  }
   for (size_t tile = 1; tile < chunk.first.size(); ++tile) chunk.first[tile] += chunk.first[tile - 1];
   chunk.list.resize(touches.size());
   std::vector<uint32_t> next(chunk.first.begin(), chunk.first.end() - 1);
-  for (const Touch& touch : touches) chunk.list[next[touch.tile]++] = touch.triangle;
+  for (const Touch& touch : touches) chunk.list[next[touch.tile]++] = touch.place;
 }
 
 }  // namespace

@@ -140,6 +140,7 @@ HWY_INLINE V32 slender_depths(const LargeSetups& s, int t, const int32_t* place)
 HWY_INLINE void commit_slender(const LargeSetups& s, int t, int size, SlenderSamples& samples, DepthCommit& commit) {
   const DT d;
   const DWF df;
+  const hn::RebindToUnsigned<DT> du;
   constexpr int kLanes = int(hn::MaxLanes(DT())), kHalf = int(hn::MaxLanes(D64()));
   hn::StoreU(hn::Zero(d), d, samples.place + samples.count);
   alignas(64) float z_of[kLanes];
@@ -151,15 +152,19 @@ HWY_INLINE void commit_slender(const LargeSetups& s, int t, int size, SlenderSam
         joined(df, slender_depths(s, t, samples.place + i), slender_depths(s, t, samples.place + i + kLanes - kHalf)));
     const VWF there = hn::GatherIndex(df, commit.tile.depth, at);
     const auto present = hn::FirstN(df, size_t(samples.count - i));
-    uint32_t pass = lane_bits(df, hn::And(present, hn::Not(hn::Gt(z, there))));
-    if (pass == 0) continue;
+    auto pass = hn::And(present, hn::Lt(z, there));
+    const auto tied = hn::And(present, hn::Eq(z, there));
+    if (HWY_UNLIKELY(!hn::AllFalse(df, tied))) {
+      const auto mine = hn::Set(du, commit.id), other = hn::GatherIndex(du, commit.tile.id, at);
+      const auto wins = commit.func == DepthFunc::less ? hn::Lt(mine, other) : hn::Gt(mine, other);
+      pass = hn::Or(pass, hn::And(tied, hn::RebindMask(df, wins)));
+    }
     hn::Store(z, df, z_of);
     hn::Store(at, d, at_of);
-    for (; pass != 0; pass &= pass - 1) {
-      const int k = std::countr_zero(pass), place = at_of[k];
-      if (!passes(commit.func, z_of[k], commit.tile.depth[place], commit.id, commit.tile.id[place])) continue;
-      commit.tile.depth[place] = z_of[k];
-      commit.tile.id[place] = commit.id;
+    for (uint32_t bits = lane_bits(df, pass); bits != 0; bits &= bits - 1) {
+      const int k = std::countr_zero(bits);
+      commit.tile.depth[at_of[k]] = z_of[k];
+      commit.tile.id[at_of[k]] = commit.id;
     }
   }
 }

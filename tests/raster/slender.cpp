@@ -44,6 +44,12 @@ Image random_depths(Pcg32& random) {
   return out;
 }
 
+size_t unlike_bytes(const Image& a, const Image& b) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.texels.size(); ++i) count += a.texels[i] != b.texels[i];
+  return count;
+}
+
 }  // namespace
 
 TEST_CASE("Slender triangles have the general path's samples and depths on every target, in every tile", "[slender]") {
@@ -64,7 +70,8 @@ TEST_CASE("Slender triangles have the general path's samples and depths on every
       for (const std::string_view simd : simd_targets())
         for (const int tile : {8, 48, 64}) {
           CAPTURE(width, int(func), simd, tile);
-          CHECK(overlay(scene, pipeline, {.tile = tile, .simd = simd}, depth).texels == general.texels);
+          const Image fast = overlay(scene, pipeline, {.tile = tile, .simd = simd}, depth);
+          CHECK(unlike_bytes(fast, general) == 0);
         }
     }
   }
