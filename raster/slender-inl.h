@@ -33,7 +33,9 @@ struct SlenderSetups {
   uint32_t steep, slender;                                                  ///< a bit a triangle: along rows; swept
 };
 
-/// Of corners within 4096 pixels: below that floats are off by less than 1/256 pixel in all.
+/// Of corners within 4096 pixels, 2^20 units of 1/256: differences are exact below 2^24, the slope is off by 2^-24 at
+/// most, its two products with 2^20 and 2^21 and the sums by 1/8 to 1/4 each, the middle by less than 1 unit in all,
+/// and at 64 steps by no more than 2^-12 pixel beside. So four units added to the width leave no sample out.
 HWY_INLINE void set_up_slender(const LargeSetups& s, const TileRect& rect, SlenderSetups& out) {
   const DT d;
   const DWF df;
