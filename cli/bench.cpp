@@ -156,8 +156,9 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
 }  // namespace
 
 void bench(const BenchOptions& options) {
+  const bool json_printed = options.json_file == "-";
   for (const auto& file : {options.json_file, options.report})
-    if (file) check_writable(*file);
+    if (file && *file != "-") check_writable(*file);
   BenchResult result;
   result.machine = this_machine();
   result.execution = options.execution;
@@ -166,14 +167,16 @@ void bench(const BenchOptions& options) {
   result.simd = options.simd == "best" ? simd_targets().front() : options.simd;
   for (const std::string& spec : options.scenes) {
     result.scenes.push_back(measured(options, spec, result.execution));
-    print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
+    if (!json_printed)
+      print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
   }
   if (options.report) result.scaling = scaling_curves(options, result.execution);
   const auto write = [](const std::string& path, const std::string& text) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   };
-  if (options.json_file) write(*options.json_file, bench_json(result));
+  if (options.json_file && !json_printed) write(*options.json_file, bench_json(result));
   if (options.report) write(*options.report, bench_page(result));
+  if (json_printed) print(bench_json(result));
 }
 
 }  // namespace trueshade

@@ -199,7 +199,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
                     "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
                     "and ours otherwise: "
                     "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
-  bench->add_option("--json", options.json_file, "JSON document to write");
+  bench->add_option("--json", options.json_file, "JSON document to write; - prints it instead of the text");
   bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");
   return bench;
 }

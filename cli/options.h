@@ -81,7 +81,7 @@ struct BenchOptions : PipelineOptions {
   std::vector<std::string> against;  ///< gl, gl=DESIGN+..., embree, and KEY=VALUE: ours drawn otherwise
   std::string simd = "best";         ///< stays alive for the execution
   Execution execution;
-  std::optional<std::string> json_file, report;  ///< files to write; the report is .html
+  std::optional<std::string> json_file, report;  ///< files to write; the report is .html, and JSON named - is printed
 };
 
 /// `--help` and `--version`: what to print.

@@ -2,16 +2,20 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/placed_scene.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/parallel_for.h"
 #include "raster/cluster_bounds.h"
 #include "raster/coverage-inl.h"
 #include "raster/hidden-inl.h"
+#include "raster/slender-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -31,6 +35,13 @@ int facing_of(const WindowTriangle& t) {
   return (area > 0) - (area < 0);
 }
 
+bool fits_vectors(const WindowTriangle& window) {
+  bool fits = true;
+  for (int k = 0; k < 3; ++k)
+    fits = fits && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
+  return fits;
+}
+
 void place_careful(const Placing& in, const ClipVertex v[3], uint32_t instance) {
   const CarefulPieces fan = careful_pieces(v, in.view.window, 0, 0);
   if (fan.count == 0 || !in.keeps(fan.facing)) return;
@@ -39,7 +50,10 @@ void place_careful(const Placing& in, const ClipVertex v[3], uint32_t instance) 
     in.out.turned.push_back({v[0], v[1], v[2]});
     return;
   }
-  for (int i = 0; i < fan.count; ++i) in.out.triangles.push_back({fan.piece[i].triangle, instance, -1});
+  for (int i = 0; i < fan.count; ++i) {
+    const WindowTriangle& piece = fan.piece[i].triangle;
+    in.out.triangles.push_back({piece, instance, fits_vectors(piece) ? PlacedTriangle::kUsual : PlacedTriangle::kWide});
+  }
 }
 
 void place_cluster(const Placing& in, const ClusteredMesh& mesh, const Cluster& cluster, uint32_t instance,
@@ -60,7 +74,7 @@ void place_cluster(const Placing& in, const ClusteredMesh& mesh, const Cluster& 
       place_careful(in, clip, instance);
       continue;
     }
-    PlacedTriangle placed{{}, instance, -1};
+    PlacedTriangle placed{{}, instance, PlacedTriangle::kUsual};
     for (size_t k = 0; k < 3; ++k) {
       placed.window.x[k] = v.x[corner[k]];
       placed.window.y[k] = v.y[corner[k]];
@@ -81,13 +95,9 @@ void place_instances_simd(const Scene& scene, const ClusteredScene& clusters, co
   }
 }
 
+/// One whose coordinates fit vectors.
 void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const GeometryState& state,
-                   const TileRect& rect, bool cull, DepthCommit& commit) {
-  bool usual = true;
-  for (int k = 0; k < 3; ++k)
-    usual = usual && std::abs(window.x[k]) < kVectorLimit && std::abs(window.y[k]) < kVectorLimit;
-  if (!usual) return draw_window_triangle(window, state, t.upper_left, rect, commit);
-  if (cull && hidden_triangle(commit.tile, rect, window, t)) return;
+                   const TileRect& rect, DepthCommit& commit) {
   TriangleSetup<double> setup;
   if (!set_up_triangle(window, state, t.upper_left, rect.limit, setup)) return;
   if (setup.samples() <= 4)
@@ -95,6 +105,66 @@ void draw_triangle(const WindowTriangle& window, const WindowTransform& t, const
   else
     cover(setup, rect, commit);
 }
+
+/// Usual triangles of a tile that wait for others to be set up with, a lane each.
+class TriangleBatch {
+ public:
+  TriangleBatch(const GeometryState& state, bool upper_left, const TileRect& rect, DepthCommit& commit)
+      : in_{vertices_, state, upper_left, rect}, commit_(commit) {
+    const int* limit = rect.limit;
+    limited_ = ((limit[0] | limit[1] | limit[2] | limit[3]) & (kBlockSize - 1)) != 0;
+  }
+
+  HWY_INLINE void add(const WindowTriangle& window) {
+    for (int k = 0; k < 3; ++k) {
+      vertices_.x[3 * count_ + k] = int32_t(window.x[k]);
+      vertices_.y[3 * count_ + k] = int32_t(window.y[k]);
+      vertices_.z[3 * count_ + k] = window.z[k];
+    }
+    corners_[count_] = 3 * count_ * 0x10101 + 0x20100;
+    id_[count_] = commit_.id;
+    if (++count_ == int(hn::Lanes(DT()))) draw();
+  }
+
+  HWY_INLINE void draw() {
+    LargeSetups setups;
+    SlenderSetups slender;
+    SlenderSamples samples;
+    set_up_large(in_, corners_, count_, commit_, setups);
+    set_up_slender(setups, in_.rect, slender);
+    for (int i = 0; i < count_; ++i) {
+      commit_.id = id_[i];
+      if ((setups.too_long >> i & 1) != 0) {
+        WindowTriangle window;
+        for (int k = 0; k < 3; ++k) {
+          window.x[k] = vertices_.x[3 * i + k], window.y[k] = vertices_.y[3 * i + k];
+          window.z[k] = vertices_.z[3 * i + k];
+        }
+        draw_window_triangle(window, in_.state, in_.upper_left, in_.rect, commit_);
+      } else if ((setups.drawn >> i & 1) == 0) {
+        continue;
+      } else if ((slender.slender >> i & 1) == 0) {
+        LargeTriangle(setups, i).draw(in_.rect, limited_, commit_);
+      } else {
+        samples.count = 0;
+        cover_slender(setups, slender, i, in_.rect, samples);
+        commit_slender(setups, i, in_.rect.size, samples, commit_);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  WindowVertices vertices_;
+  LargeDraw in_;
+  DepthCommit& commit_;
+  bool limited_;
+  int count_ = 0;
+  alignas(64) int32_t corners_[LargeSetups::kMost] = {};
+  uint32_t id_[LargeSetups::kMost];
+};
+
+constexpr uint32_t kAhead = 8;  // triangles fetched ahead: they lie scattered
 
 void draw_placed_simd(const PlacedScene& placed, const View& view, const GeometryState& state, int tile, bool culling,
                       bool fast_paths, VisibilityTile& out) {
@@ -105,10 +175,16 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
   DepthCommit commit{out, state.depth_func, t.depth_low, t.depth_high, culling && nearest_wins, t.depth};
   commit.fast = fast_paths && commit.skip_hidden;
   const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
+  const bool batched = commit.fast && !t.depth.offsets();
+  TriangleBatch batch(state, t.upper_left, rect, commit);
   for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
   for (const PlacedChunk& chunk : placed.chunks)
     for (uint32_t i = chunk.first[size_t(tile)]; i < chunk.first[size_t(tile) + 1]; ++i) {
-      const PlacedTriangle& triangle = chunk.triangles[chunk.list[i]];
+      const TilePlace& place = chunk.list[i];
+      if (i + kAhead < chunk.list.size()) hwy::Prefetch(&chunk.triangles[chunk.list[i + kAhead].triangle]);
+      if (cull && hidden_blocks(out, rect.size / kBlockSize, {place.x0, place.y0, place.x1, place.y1}, place.near))
+        continue;
+      const PlacedTriangle& triangle = chunk.triangles[place.triangle];
       commit.id = triangle.instance + 1;
       if (triangle.turned >= 0) {
         draw_careful(chunk.turned[size_t(triangle.turned)].data(), t, origin, state, rect, commit);
@@ -116,8 +192,14 @@ void draw_placed_simd(const PlacedScene& placed, const View& view, const Geometr
       }
       WindowTriangle window = triangle.window;
       for (int k = 0; k < 3; ++k) window.x[k] -= origin.x, window.y[k] -= origin.y;
-      draw_triangle(window, t, state, rect, cull, commit);
+      if (triangle.turned == PlacedTriangle::kWide)
+        draw_window_triangle(window, state, t.upper_left, rect, commit);
+      else if (batched)
+        batch.add(window);
+      else
+        draw_triangle(window, t, state, rect, commit);
     }
+  if (batched) batch.draw();
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
@@ -170,7 +252,7 @@ class WindowEdges {
   double x_[3], y_[3], across_[3], up_[3];
 };
 
-/// Calls use(tile) for the tiles that a triangle may touch.
+/// Calls use(tile, blocks) for the tiles that a triangle may touch.
 template <class Use>
 void for_each_tile(const PlacedTriangle& triangle, const WindowTransform& t, const PlacedScene& grid, const Use& use) {
   PixelSpan across{t.x0, t.x1 - 1}, up{t.y0, t.y1 - 1};
@@ -183,33 +265,50 @@ void for_each_tile(const PlacedTriangle& triangle, const WindowTransform& t, con
   if (across.first > across.last || up.first > up.last) return;
   const int x0 = across.first / grid.tile, x1 = across.last / grid.tile;
   const int y0 = up.first / grid.tile, y1 = up.last / grid.tile;
-  const WindowEdges edges(w);
+  const bool several = triangle.turned < 0 && (x0 != x1 || y0 != y1);
+  std::optional<WindowEdges> edges;
+  if (several) edges.emplace(w);
+  const auto block = [&](int pixel, int column) {
+    return uint8_t(std::clamp(pixel - column * grid.tile, 0, grid.tile - 1) / kBlockSize);
+  };
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const double left = double(x * grid.tile) * 256.0, bottom = double(y * grid.tile) * 256.0;
       const double side = double(grid.tile) * 256.0;
-      if (triangle.turned < 0 && (x0 != x1 || y0 != y1) && edges.beside(left, bottom, left + side, bottom + side))
-        continue;
-      use(uint32_t(y * grid.tiles_x + x));
+      if (several && edges->beside(left, bottom, left + side, bottom + side)) continue;
+      use(uint32_t(y * grid.tiles_x + x),
+          TilePlace{0, 0.0f, block(across.first, x), block(up.first, y), block(across.last, x), block(up.last, y)});
     }
+}
+
+/// The least depth of a triangle that is compared; of what clipping leaves of any other nothing is known.
+float near_depth(const PlacedTriangle& triangle, const WindowTransform& t) {
+  if (triangle.turned != PlacedTriangle::kUsual) return -std::numeric_limits<float>::infinity();
+  const auto least = float(std::min({triangle.window.z[0], triangle.window.z[1], triangle.window.z[2]}));
+  return t.depth.stored(std::min(std::max(least, t.depth_low), t.depth_high));
 }
 
 /// Lists a chunk's triangles by tile.
 void list_by_tile(const WindowTransform& t, const PlacedScene& grid, PlacedChunk& chunk) {
   struct Touch {
-    uint32_t tile, triangle;
+    uint32_t tile;
+    TilePlace place;
   };
   std::vector<Touch> touches;
+  touches.reserve(2 * chunk.triangles.size());
   chunk.first.assign(size_t(grid.tiles()) + 1, 0);
-  for (uint32_t i = 0; i < chunk.triangles.size(); ++i)
-    for_each_tile(chunk.triangles[i], t, grid, [&](uint32_t tile) {
-      touches.push_back({tile, i});
+  for (uint32_t i = 0; i < chunk.triangles.size(); ++i) {
+    const float near = near_depth(chunk.triangles[i], t);
+    for_each_tile(chunk.triangles[i], t, grid, [&](uint32_t tile, TilePlace place) {
+      place.triangle = i, place.near = near;
+      touches.push_back({tile, place});
       ++chunk.first[tile + 1];
     });
+  }
   for (size_t tile = 1; tile < chunk.first.size(); ++tile) chunk.first[tile] += chunk.first[tile - 1];
   chunk.list.resize(touches.size());
   std::vector<uint32_t> next(chunk.first.begin(), chunk.first.end() - 1);
-  for (const Touch& touch : touches) chunk.list[next[touch.tile]++] = touch.triangle;
+  for (const Touch& touch : touches) chunk.list[next[touch.tile]++] = touch.place;
 }
 
 }  // namespace

@@ -14,16 +14,25 @@ namespace trueshade {
 
 /// A triangle, or a piece of a clipped one, that face culling leaves; in the window, relative to its corner (0, 0).
 struct PlacedTriangle {
+  static constexpr int32_t kUsual = -1, kWide = -2;
   WindowTriangle window;
   uint32_t instance;
-  int32_t turned;  ///< into PlacedChunk::turned: what to draw instead; -1: none
+  int32_t turned;  ///< into PlacedChunk::turned: what to draw instead; kWide: leaves the vectors' range
+};
+
+/// A triangle that may touch a tile.
+struct TilePlace {
+  uint32_t triangle;       ///< of the chunk
+  float near;              ///< no depth of it that is compared is less, but under an offset
+  uint8_t x0, y0, x1, y1;  ///< blocks of the tile that its box touches, inclusive
 };
 
 /// The triangles of some instances, and for each tile those that may touch it, in order of submission.
 struct PlacedChunk {
   std::vector<PlacedTriangle> triangles;
   std::vector<std::array<ClipVertex, 3>> turned;  ///< triangles of whose fan snapping has turned a piece over
-  std::vector<uint32_t> first, list;              ///< a tile's are list[first[tile]] to list[first[tile + 1]]
+  std::vector<uint32_t> first;                    ///< a tile's are list[first[tile]] to list[first[tile + 1]]
+  std::vector<TilePlace> list;
 };
 
 /// A scene of large opaque triangles that share tiles with few others: each is transformed, clipped, snapped and culled

@@ -24,9 +24,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert((64 + 1) * 16 <= kMostFragments);
 
+/// Vertices of a cluster some of which need care.
+struct CarefulVertices {
+  alignas(64) float clip[4][kClusterVertices];
+  alignas(64) int32_t beside[kClusterVertices];  ///< a bit for each side of the tile that the vertex lies beyond
+};
+
 /// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
 struct ClusterScratch {
   WindowVertices vertices;
+  CarefulVertices careful;
   AlphaTest alpha;  ///< of the cluster at work, where its material has one
   alignas(64) int32_t packed[kClusterVertices];
   alignas(64) uint8_t triangle[kMostCandidates];

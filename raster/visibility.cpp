@@ -62,25 +62,36 @@ int all_triangles(const Cluster& cluster, uint8_t* out) {
   return cluster.triangles;
 }
 
-// Whether a triangle, clipped or not, lies wholly beyond one side of the tile: in clip space a half space through the
-// eye, seen from the near side of which all of its corners are outside. With slack for roundings and the snap.
-bool beside_tile(const ClipVertex v[3], const WindowTransform& t, const TileRect& rect) {
+// Clip positions of a cluster's vertices, and beyond which sides of the tile they lie. In clip space a side is a half
+// space through the eye: a triangle, clipped or not, all of whose corners are outside as seen from its near side covers
+// nothing of the tile. With slack for roundings and the snap.
+void place_careful_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
+                            const WindowTransform& t, const TileRect& rect, CarefulVertices& out) {
   constexpr double kMargin = 2.0;  // pixels
-  const int low[2] = {rect.x, rect.y};
-  for (size_t axis = 0; axis < 2; ++axis) {
-    const double scale = double(t.scale[axis]) / 256.0, offset = double(t.offset[axis]) / 256.0;
-    for (const double side : {-1.0, 1.0}) {
-      const double edge = side < 0.0 ? low[axis] - kMargin : low[axis] + rect.size + kMargin;
-      bool outside = true;
-      for (int k = 0; k < 3; ++k) {
-        // Of w > 0: window coordinate minus edge, times w.
-        const double a = scale * double(v[k].c[axis]), b = (offset - edge) * double(v[k].c[3]);
-        outside = outside && side * (a + b) > (std::abs(a) + std::abs(b)) * 0x1p-20;
-      }
-      if (outside) return true;
+  const D64 d;
+  const D32 df;
+  const I32 di;
+  const double low[2] = {double(rect.x) - kMargin, double(rect.y) - kMargin}, size = rect.size + 2.0 * kMargin;
+  for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(d)) {
+    V32 p[3], clip[4];
+    for (size_t c = 0; c < 3; ++c) p[c] = hn::LoadU(df, mesh.position[c].data() + cluster.first_vertex + i);
+    for (int r = 0; r < 4; ++r) {
+      clip[r] = affine_row(instance.clip[r], p[0], p[1], p[2]);
+      hn::Store(clip[r], df, out.clip[r] + i);
     }
+    auto beside = hn::Zero(di);
+    for (int axis = 0; axis < 2; ++axis)
+      for (int far = 0; far < 2; ++far) {
+        // Of w > 0: window coordinate minus edge, times w.
+        const double side = far == 0 ? -1.0 : 1.0, edge = low[axis] + far * size;
+        const V64 a = hn::Mul(hn::PromoteTo(d, clip[axis]), hn::Set(d, side * double(t.scale[axis]) / 256.0));
+        const V64 b = hn::Mul(hn::PromoteTo(d, clip[3]), hn::Set(d, side * (double(t.offset[axis]) / 256.0 - edge)));
+        const auto outside = hn::Gt(hn::Add(a, b), hn::Mul(hn::Add(hn::Abs(a), hn::Abs(b)), hn::Set(d, 0x1p-20)));
+        const V64 bit = hn::IfThenElseZero(outside, hn::Set(d, double(1 << (2 * axis + far))));
+        beside = hn::Or(beside, hn::DemoteTo(di, bit));
+      }
+    hn::Store(beside, di, out.beside + i);
   }
-  return false;
 }
 
 // The alpha test of the cluster's material; null if it has none.
@@ -121,6 +132,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
   uint8_t* triangle = work.triangle;
   int count = 0;
   if (v.any_needs_care) {
+    place_careful_vertices(mesh, cluster, in.view.instances[draw.instance], t, rect, work.careful);
     count = all_triangles(cluster, triangle);
   } else {
     const WindowBox& box = v.box;
@@ -156,14 +168,17 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
   for (int i = 0; i < count; ++i) {
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
+    const CarefulVertices& placed = work.careful;
+    if (v.any_needs_care && (placed.beside[corner[0]] & placed.beside[corner[1]] & placed.beside[corner[2]]) != 0)
+      continue;
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
     commit.id = visible_id(position, triangle[i], careful);
     if (masked != nullptr) set_source(in, instance, cluster, corner, work.alpha);
     if (careful) {
       ClipVertex clip[3];
-      clip_corners(in, position, triangle[i], clip);
-      if (beside_tile(clip, t, rect)) continue;
+      for (size_t k = 0; k < 3; ++k)
+        for (int r = 0; r < 4; ++r) clip[k].c[r] = placed.clip[r][corner[k]];
       draw_careful(clip, t, origin, in.state, rect, commit);
       continue;
     }

@@ -37,7 +37,7 @@ glm::vec3 full_color(const glm::vec3& color) {
   return most > 0.0f ? color / most : glm::vec3(0.0f);
 }
 
-/// The twelve edges of [-1/2, 1/2]^3 as boxes of `thickness`.
+/// The twelve edges of [-1/2, 1/2]^3 as boxes of `thickness`, whose faces share corners: nobody asks for their normals.
 Mesh frame_mesh(double thickness) {
   const Mesh cube = cube_mesh();
   Mesh frame;
@@ -49,11 +49,13 @@ Mesh frame_mesh(double thickness) {
     center[first] = (bar % 2 == 0 ? -0.5 : 0.5) * (1.0 - thickness);
     center[second] = (bar / 2 % 2 == 0 ? -0.5 : 0.5) * (1.0 - thickness);
     const auto base = uint32_t(frame.vertex_count());
-    for (size_t v = 0; v < cube.vertex_count(); ++v) {
-      const glm::dvec3 corner(cube.position[0][v], cube.position[1][v], cube.position[2][v]);
-      add_vertex(frame, center + size * corner, {cube.normal[0][v], cube.normal[1][v], cube.normal[2][v]});
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 corner(k % 2 - 0.5, k / 2 % 2 - 0.5, k / 4 - 0.5);
+      add_vertex(frame, center + size * corner, corner / std::sqrt(0.75));
     }
-    for (const uint32_t index : cube.indices) frame.indices.push_back(base + index);
+    for (const uint32_t index : cube.indices)
+      frame.indices.push_back(base + (cube.position[0][index] > 0.0f ? 1u : 0u) +
+                              (cube.position[1][index] > 0.0f ? 2u : 0u) + (cube.position[2][index] > 0.0f ? 4u : 0u));
   }
   return frame;
 }

@@ -173,15 +173,20 @@ Image view_image(ImageView view, int threads, std::span<const NamedImage> planes
 
 Image boxes_image(const Scene& boxes, const Image& boxed, int threads, std::span<const NamedImage> planes) {
   Image out = picture<3>(plane_named(planes, "albedo"), plane_named(planes, "id.object"), threads, linear_color);
-  std::vector<std::array<uint8_t, 4>> color(boxes.instances.size() + 1);
+  std::vector<uint32_t> color(boxes.instances.size() + 1);
   for (uint32_t object = 1; object < color.size(); ++object) {
     const Rgb rgb = linear_color(&overlay_color(boxes, object)[0]);
-    color[object] = {rgb[0], rgb[1], rgb[2], 255};
+    const uint8_t texel[4] = {rgb[0], rgb[1], rgb[2], 255};
+    std::memcpy(&color[object], texel, 4);
   }
   for_each_row(boxed, 0, boxed, threads, [&](int y, const float*, const uint32_t* objects) {
-    uint8_t* const texels = out.texel(0, y);
-    for (int x = 0; x < out.width; ++x)
-      if (objects[x] != 0) std::memcpy(texels + 4 * x, color[objects[x]].data(), 4);
+    uint8_t* texel = out.texel(0, y);
+    for (int x = 0; x < out.width; ++x, texel += 4) {  // no branch on where bars are: it is anyone's guess
+      uint32_t under;
+      std::memcpy(&under, texel, 4);
+      const uint32_t box = color[objects[x]], shown = objects[x] != 0 ? box : under;
+      std::memcpy(texel, &shown, 4);
+    }
   });
   return out;
 }

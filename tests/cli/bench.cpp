@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -44,6 +45,21 @@ TEST_CASE("bench times the frame that render draws, beside Embree, and writes it
   const Outcome render = run_command({"render", "builtin:circle,lights=3", "--size", "64x48", "--hash"});
   CHECK(render.out.substr(0, render.out.find(' ')) == scene["hash"].get<std::string>());
   CHECK(json["machine"]["clock_ghz"].get<double>() > 0.0);
+}
+
+TEST_CASE("bench --json - prints the document and nothing else") {
+  const ScratchFolder folder;
+  const Outcome bench = run_command({"bench", "builtin:cornell", "builtin:circle,lights=3", "--preset", "many-lights",
+                                     "--size", "32x24", "--json", "-"},
+                                    folder.path(""));
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  CHECK(bench.err.empty());
+  const auto json = nlohmann::json::parse(bench.out);  // throws unless this is one document
+  REQUIRE(json["scenes"].size() == 2);
+  CHECK(json["scenes"][1]["scene"] == "builtin:circle,lights=3");
+  CHECK(std::filesystem::is_empty(folder.path("")));
+  check_refused(run_command({"bench", "builtin:cornell", "--json", "-", "-o", "-"}), 2, "'-'");
 }
 
 TEST_CASE("bench times OpenGL under presets that draw lights as geometry, and says which picture each design draws") {
