@@ -40,7 +40,7 @@ TEST_CASE("Contenders draw in turn, and the warm-up is not timed") {
   CHECK(t[1].spread() == 0.0);
 }
 
-TEST_CASE("A contender sits out when its time is used up; one slow frame is better than none") {
+TEST_CASE("A contender sits out when its time is used up, one slow frame is better than none") {
   std::string calls;
   const std::vector<Contender> three{pretender("a", {1}, calls), pretender("b", {40}, calls),
                                      pretender("c", {500}, calls)};

@@ -85,7 +85,7 @@ TEST_CASE("a bad pipeline file is refused with its place") {
   CHECK(folder.entries() == std::vector<std::string>{"p.json"});
 }
 
-TEST_CASE("a pipeline that contradicts itself is refused with its file; one that options contradict, as a mistake") {
+TEST_CASE("a pipeline that contradicts itself is refused with its file, one that options contradict, as a mistake") {
   const ScratchFolder folder;
   const std::string both = R"({"strategy": "forward-loop", "transparency": {"mode": "into-albedo"}})";
   std::ofstream(folder.path("p.json")) << both;

@@ -17,7 +17,7 @@ double value_of(uint32_t code, int fraction_bits) {
   return exponent == 0 ? std::ldexp(fraction * scale, -14) : std::ldexp(1.0 + fraction * scale, exponent - 15);
 }
 
-TEST_CASE("unsigned 11- and 10-bit floats are what OpenGL defines, and come back; between two the rounding decides") {
+TEST_CASE("unsigned 11- and 10-bit floats are what OpenGL defines, and come back, between two the rounding decides") {
   for (const int bits : {11, 10}) {
     const int fraction = bits - 5;
     const uint32_t infinity = 31u << fraction;

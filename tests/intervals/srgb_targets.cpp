@@ -49,7 +49,7 @@ double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(
 
 }  // namespace
 
-TEST_CASE("Frames into an sRGB target are explained, ours and llvmpipe's; one that holds linear codes is not") {
+TEST_CASE("Frames into an sRGB target are explained, ours and llvmpipe's, one that holds linear codes is not") {
   const Scene scene = ramp(1);
   const Pipeline pipeline = pipeline_of(320, 200);
   const auto violations = [&](const Capture& capture, const char* name) {
@@ -72,7 +72,7 @@ TEST_CASE("Frames into an sRGB target are explained, ours and llvmpipe's; one th
 }
 
 TEST_CASE(
-    "llvmpipe's sRGB and ten-bit codes are its profile's nominal ones; any GPU's takes them for a lean, and none for "
+    "llvmpipe's sRGB and ten-bit codes are its profile's nominal ones, any GPU's takes them for a lean, and none for "
     "wrong") {
   const GlContext* context = testing::opened_mesa_22_3();
   if (context == nullptr) return;

@@ -86,7 +86,7 @@ TEST_CASE("cameras by angle along either axis and by matrix") {
 }
 
 TEST_CASE(
-    "a material has a specular colour, emission and glTF's two numbers; lights an ambient share and an exponent") {
+    "a material has a specular colour, emission and glTF's two numbers, lights an ambient share and an exponent") {
   const Scene scene = load(with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "b", "color": [1, 1, 1],
       "specular_color": [0.1, 0.2, 0.3], "shininess": 60, "emission": [1, 2, 3], "metallic": 0.25, "roughness": 0.5}])"));
   const Material& plain = scene.materials.at(0);
@@ -200,7 +200,7 @@ void collect_keys(const json::Value& value, std::set<std::string>& keys) {
     }
 }
 
-TEST_CASE("the scenes of the documentation load at every time; every key is in one of them or named beside them") {
+TEST_CASE("the scenes of the documentation load at every time, every key is in one of them or named beside them") {
   const std::string page = documentation();
   const std::vector<std::string> scenes = documented_scenes(page);
   REQUIRE(scenes.size() >= 2);

@@ -136,7 +136,7 @@ TEST_CASE("Row 34: half stores truncate, and keep -0, infinity and denormals") {
   });
 }
 
-TEST_CASE("Row 38: code 3 reads as 3C40C0C1, by llvmpipe as 3C40C0C2; the two differ in 126 codes") {
+TEST_CASE("Row 38: code 3 reads as 3C40C0C1, by llvmpipe as 3C40C0C2, the two differ in 126 codes") {
   on_every_simd([&](std::string_view simd) {
     PixelPlanes codes(256), ideal(256), mesa(256);
     for (size_t k = 0; k < 256; ++k) codes.set(k, grey(float(k)));
@@ -202,7 +202,7 @@ TEST_CASE("Row 47: two products and a sum are three roundings") {
 }
 
 TEST_CASE(
-    "A zero factor drops its term, of NaN or infinity too; MIN and MAX take the destination where the source is NaN") {
+    "A zero factor drops its term, of NaN or infinity too, MIN and MAX take the destination where the source is NaN") {
   on_every_target([&](std::string_view simd, NumericProfile profile) {
     const BlendTarget full = to(Format::rgba32f, profile);
     const BlendTerm drop_source{add, zero, one};

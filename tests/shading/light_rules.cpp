@@ -76,7 +76,7 @@ std::vector<LightModel> bounded_models() {
 
 }  // namespace
 
-TEST_CASE("Row 52: OpenGL's attenuation reads k0 too; a light at infinity has none") {
+TEST_CASE("Row 52: OpenGL's attenuation reads k0 too, a light at infinity has none") {
   Scene scene = flat_square();
   Pipeline pipeline = loop_pipeline("gl-fixed");
   pipeline.light_model.global_ambient = {0, 0, 0};

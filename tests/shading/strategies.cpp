@@ -283,7 +283,7 @@ TEST_CASE("Each light shows where exact integers say its geometry is, as often a
     }
 }
 
-TEST_CASE("Costs are the lecture's: N L, N (L - 1), N L; N L, N; P, 3 P, 3 N + P; N L, 3 N, 3 N + N") {
+TEST_CASE("Costs are the lecture's: N L, N (L - 1), N L, N L, N, P, 3 P, 3 N + P, N L, 3 N, 3 N + N") {
   const Scene scene = builtin_scene("city,lights=30");
   const PreparedScene prepared(scene);
   const uint64_t lights = 30, objects = scene.instances.size();

@@ -247,7 +247,7 @@ TEST_CASE("What lies behind glass is lit in the mixed colour, and by nothing els
   for (const size_t plane : {1u, 2u, 3u}) CHECK(frame.aovs[plane].image.texels == without.aovs[plane].image.texels);
 }
 
-TEST_CASE("Without transparent materials no mode changes a frame; and `none` draws them as opaque ones") {
+TEST_CASE("Without transparent materials no mode changes a frame, and `none` draws them as opaque ones") {
   for (const char* name : {"atrium", "cornell"}) {
     const Scene scene = builtin_scene(name);
     const PreparedScene prepared(scene);

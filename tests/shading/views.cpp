@@ -80,7 +80,7 @@ TEST_CASE("Views of known surfaces have the colours of their formulas", "[views]
   CHECK(shown(ImageView::overdraw, 39, 30) == Rgb{half[0], half[1], half[2]});
 }
 
-TEST_CASE("Light volumes are black boxes among the surfaces, tested for depth; one about the camera is not drawn",
+TEST_CASE("Light volumes are black boxes among the surfaces, tested for depth, one about the camera is not drawn",
           "[views]") {
   Scene scene = two_squares();
   Pipeline pipeline = pipeline_of("many-lights", 60, 60);
