@@ -123,7 +123,7 @@ HWY_NOINLINE void add_others(const TileWork& in, const LightTerms<Shape>& terms,
 
 // Sums of a region's vectors over the lights of their steps.
 template <class Shape>
-HWY_NOINLINE void add_steps(const LightTerms<Shape>& terms, const WindowLight* lights, const WindowSteps& steps,
+HWY_NOINLINE void settle_steps(const LightTerms<Shape>& terms, const WindowLight* lights, const WindowSteps& steps,
                             WindowSum<Shape>* sum) {
   for (size_t k = 0; k < steps.count; ++k)
     sum[steps.vector[k]].add(terms, lights, steps.light + k * WindowSteps::kTogether);
@@ -188,7 +188,7 @@ void settle_region(const TileWork& in, const LightTerms<Shape>& terms, const Reg
       at[count++] = i;
     }
   }
-  add_steps(terms, window, steps, sum);
+  settle_steps(terms, window, steps, sum);
   in.counts.evaluated_pairs += steps.listed * kLanes;
   for (size_t k = 0; k < count; ++k) store_settled(in, terms, lights, sum[k], at[k]);
 }
