@@ -169,7 +169,7 @@ struct DepthCommit {
   HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D32 df;
     const U32 du;
-    fragments += hn::CountTrue(D64(), covered);
+    fragments += uint64_t(lane_count(D64(), covered));
     const V32 z = depths(covered, e[1], e[2]);
     const V32 there = hn::Load(df, tile.depth + at);
     const auto there_id = hn::Load(du, tile.id + at);

@@ -1,4 +1,4 @@
-// Masks as bits, and halves as wholes: a vector of floats is as long as two of doubles, but where there is one lane.
+// Masks from bits, and halves as wholes: a vector of floats is as long as two of doubles, but where there is one lane.
 // Included once per SIMD target.
 #if defined(TRUESHADE_RASTER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_LANES_INL_H_
@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "raster/front_order.h"
+#include "raster/lane_bits-inl.h"
 #include "raster/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,21 +23,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DWF = hn::ScalableTag<float>;  // whole vectors
 using VWF = hn::Vec<DWF>;
 using M64 = hn::Mask<D64>;
-
-/// A bit for each lane of a mask.
-template <class D>
-HWY_INLINE uint32_t lane_bits([[maybe_unused]] D d, hn::Mask<D> mask) {
-#if HWY_TARGET == HWY_AVX3
-  static_assert(hn::MaxLanes(D()) >= 8);  // below that masks have bits that mean nothing
-  return mask.raw;
-#else
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  uint32_t bits;
-  std::memcpy(&bits, bytes, sizeof(bits));
-  return bits;
-#endif
-}
 
 /// The lowest `count` of 32 bits, or all.
 HWY_INLINE uint32_t first_bits(int count) { return uint32_t((uint64_t(1) << std::min(count, 32)) - 1); }

@@ -303,7 +303,7 @@ class LargeTriangle {
                  hn::Add(pixels_[2][p], hn::Set(d, first[2])));
       auto covered = hn::RebindMask(df, hn::Gt(e, hn::Set(d, -1)));
       if (allowed != 0xFFFF) covered = hn::And(covered, lane_mask(df, allowed >> (p * kLanes)));
-      commit.fragments += uint64_t(hn::CountTrue(df, covered));
+      commit.fragments += uint64_t(lane_count(df, covered));
       const int part = p * (kLanes / kHalf);
       const VWF z = commit.stored(joined(df, depths(e1, e2, part), depths(e1, e2, part + kLanes / kHalf - 1)));
       const VWF there = hn::Load(df, depth);

@@ -257,10 +257,10 @@ HWY_INLINE void cover_one_by_one(const SmallDraw& in, const SmallSetups& s, cons
 template <int kSide>
 HWY_INLINE void cover_small(const SmallDraw& in, const OrderedTriangles& triangles, const SampleBoxes& box,
                             hn::Mask<DT> which, FragmentList& out) {
-  constexpr size_t kFew = 10;  // from there on lanes are as fast
+  constexpr int kFew = 10;  // from there on lanes are as fast
   SmallSetups setups(in, triangles, box, which);
   if constexpr (kSide == 4 && hn::MaxLanes(DT()) == kBlockPixels)
-    if (hn::CountTrue(DT(), setups.drawn) <= kFew) return cover_one_by_one(in, setups, box, triangles.word, out);
+    if (lane_count(DT(), setups.drawn) <= kFew) return cover_one_by_one(in, setups, box, triangles.word, out);
   cover_lanes<kSide>(in, setups, box, triangles.word, out);
 }
 

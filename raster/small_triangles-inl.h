@@ -107,7 +107,7 @@ HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, 
     const ListedTriangles t(in, list, count, i);
     auto rest = t.present;
     const auto upto_8 = hn::And(t.present, t.box.upto(8, in.any_held));
-    if (2 * int(hn::CountTrue(d, upto_8)) >= lanes) {
+    if (2 * lane_count(d, upto_8) >= lanes) {
       into.make_room((64 + 1) * lanes);
       cover_small<8>(in, OrderedTriangles(t.p0, t.p1, t.p2, t.word), t.box, upto_8, into.fragments);
       rest = hn::AndNot(upto_8, t.present);

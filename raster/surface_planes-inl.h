@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -134,9 +135,9 @@ HWY_INLINE void for_each_material(const SurfaceTile& out, int i, Run&& run) {
   const auto here = hn::Load(d, out.material + i);
   auto rest = hn::Ne(here, hn::Zero(d));
   for (bool only = true;; only = false) {
-    const intptr_t first = hn::FindFirstTrue(d, rest);
-    if (first < 0) return;
-    const uint32_t material = out.material[i + first];
+    const uint32_t bits = lane_bits(d, rest);
+    if (bits == 0) return;
+    const uint32_t material = out.material[i + std::countr_zero(bits)];
     const auto mine = hn::Eq(here, hn::Set(d, material));
     rest = hn::AndNot(mine, rest);
     only = only && hn::AllFalse(d, rest);
@@ -244,8 +245,8 @@ inline void fill_plain_materials(const TileDraws& in, const TileRect& rect, cons
   for (int i = 0; i < rect.size * rect.size; i += int(hn::Lanes(d))) {
     const auto here = hn::Load(du, out.material + i), none = hn::Zero(du);
     const auto others = hn::And(hn::Ne(here, hn::Set(du, last.material)), hn::Ne(here, none));
-    if (!hn::AllFalse(du, others)) {
-      const uint32_t material = out.material[i + hn::FindFirstTrue(du, others)];
+    if (const uint32_t bits = lane_bits(du, others); bits != 0) {
+      const uint32_t material = out.material[i + std::countr_zero(bits)];
       if (!hn::AllTrue(du, hn::Or(hn::Eq(here, hn::Set(du, material)), hn::Eq(here, none)))) {
         fill_mixed_materials(i, texels, out);
         continue;

@@ -115,7 +115,7 @@ HWY_INLINE size_t append_pairs(const PairWords& words, MF blocks, uint32_t light
   const hn::RebindToUnsigned<DF> du;
   const auto pairs = hn::Or(hn::Load(du, words.word), hn::Set(du, light << 24));
   hn::StoreU(hn::Compress(pairs, hn::RebindMask(du, blocks)), du, out + count);
-  return count + hn::CountTrue(DF(), blocks);
+  return count + size_t(lane_count(DF(), blocks));
 }
 
 /// Of the pairs from `first` on leaves the pixels that the light's geometry covers; returns how many have any.

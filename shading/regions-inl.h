@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "raster/lane_bits-inl.h"
 #include "raster/region.h"
 #include "raster/surfaces.h"
 #include "shading/specular-inl.h"
@@ -68,17 +69,7 @@ HWY_INLINE MF covered_lanes(const SurfaceTile& s, int i) {
 }
 
 /// A bit for each lane of a mask.
-HWY_INLINE uint64_t mask_bits(MF mask) {
-#if HWY_TARGET <= HWY_AVX3
-  return mask.raw;
-#else
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(DF(), mask, bytes);
-  uint64_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-#endif
-}
+HWY_INLINE uint64_t mask_bits(MF mask) { return lane_bits(DF(), mask); }
 
 /// The lanes of the lowest bits.
 HWY_INLINE MF lanes_of(unsigned bits) {

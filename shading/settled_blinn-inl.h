@@ -83,7 +83,7 @@ struct RegionWindows {
     for (size_t i = 0; i < count; i += kLanes) {
       const auto mask = hn::TestBit(hn::Load(di, reached + i), hn::Set(di, 1 << lane));
       hn::StoreU(hn::Compress(hn::Load(di, light + i), mask), di, to + listed);
-      listed += hn::CountTrue(di, mask);
+      listed += size_t(lane_count(di, mask));
     }
     out.end(vector, listed, none);
   }

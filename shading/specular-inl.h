@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "raster/lane_bits-inl.h"
 #include "shading/power.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -131,8 +132,8 @@ HWY_INLINE SurfaceExponents surface_exponents(VF shininess, MF covered, bool squ
   const VF s = hn::Round(hn::IfThenElse(hn::Gt(low, hn::Set(d, 8192.0f)), hn::Set(d, 8192.0f), low));
   hn::Store(s, d, lane);
   SurfaceExponents out;
-  const intptr_t first = hn::FindFirstTrue(d, covered);
-  const float common = lane[first < 0 ? 0 : first];
+  const uint32_t bits = lane_bits(d, covered);
+  const float common = lane[bits == 0 ? 0 : std::countr_zero(bits)];
   out.agree = hn::AllFalse(d, hn::And(covered, hn::Ne(s, hn::Set(d, common))));
   out.common = exponent_of(common, squares);
   const VF half = hn::Floor(hn::Div(s, two));
