@@ -96,7 +96,8 @@ struct KeptPieces {
 }  // namespace
 
 CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
-  thread_local std::array<KeptPieces, 8> kept;
+  constexpr size_t kKept = 8;  // some 17 KB
+  thread_local std::array<KeptPieces, kKept> kept;
   thread_local size_t next = 0;
   auto found = std::find_if(kept.begin(), kept.end(), [&](const KeptPieces& one) { return one.holds(v, t); });
   if (found == kept.end()) {

@@ -22,7 +22,9 @@ struct CarefulPieces {
   bool turned = false;  ///< some piece has the other sign
 };
 
-/// Clips and snaps. Coordinates come out relative to the sample (origin_x, origin_y), in 1/256 pixel.
+/// Clips and snaps. Coordinates come out relative to the sample (origin_x, origin_y), in 1/256 pixel. The calling
+/// thread keeps the last few triangles, clipped, as each tile asks for them again; what comes out does not depend on
+/// that.
 CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y);
 
 }  // namespace trueshade

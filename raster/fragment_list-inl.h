@@ -116,7 +116,7 @@ HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z
   uint8_t* const touched = fragments.touched;
   size_t blocks = 0;
   const int count = fragments.count;
-  for (int i = 0; i < count; ++i) {  // no branch on what the depth test says: it is anyone's guess
+  for (int i = 0; i < count; ++i) {  // no branch on what the depth test says: that cannot be predicted
     const size_t at = size_t(place[i]);
     const uint32_t id = first_id + ((uint32_t(word[i]) >> 24) << 1);
     const uint64_t mine = uint64_t(std::bit_cast<uint32_t>(z[i])) << 32 | (id ^ turned);

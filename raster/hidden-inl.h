@@ -38,7 +38,8 @@ class VectorColumns {
 };
 
 /// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Several rows at a time,
-/// the last again where there are fewer: how many there are is anyone's guess, and one missed costs as much as all.
+/// the last again where there are fewer: how many there are cannot be predicted, and a branch missed costs as much as
+/// all.
 HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near) {
   const hn::ScalableTag<float> d;
   constexpr int kLanes = int(hn::MaxLanes(d)), kRows = kLanes == 16 ? 8 : 4;

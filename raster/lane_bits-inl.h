@@ -16,10 +16,10 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A bit for each lane of a mask, 0 above. Instead of hn::CountTrue() and hn::FindFirstTrue() too, which widen a mask by
-/// themselves: g++ 12 may spill a mask as 8 or 16 bits and read the place back as 32, whose upper ones are what lay there
-/// (find_triangles() by -O1 never ended). Taken from the register by an instruction that it cannot split, they are 0;
-/// tests/instructions.sh looks for such places.
+/// A bit for each lane of a mask, 0 above. Instead of hn::CountTrue() and hn::FindFirstTrue() too, which widen a mask
+/// by themselves: g++ 12 may spill a mask as 8 or 16 bits and read the place back as 32, whose upper ones are what lay
+/// there (find_triangles() by -O1 never ended). Taken from the register by an instruction that it cannot split, they
+/// are 0; tests/instructions.sh looks for such places.
 template <class D>
 HWY_INLINE uint32_t lane_bits([[maybe_unused]] D d, hn::Mask<D> mask) {
 #if HWY_TARGET == HWY_AVX3

@@ -286,7 +286,7 @@ class LargeTriangle {
     return hn::DemoteTo(D32(), hn::Min(hn::Max(plane, hn::Set(d, s.low[t])), hn::Set(d, s.high[t])));
   }
 
-  /// No branch on what is covered or passes: it is anyone's guess.
+  /// No branch on what is covered or passes: that cannot be predicted.
   HWY_INLINE void draw_block(int block, const int32_t first[3], double first_e1, double first_e2, uint32_t allowed,
                              DepthCommit& commit) const {
     const DT d;

@@ -127,6 +127,7 @@ class TriangleBatch {
   }
 
   HWY_INLINE void draw() {
+    if (count_ == 0) return;
     LargeSetups setups;
     SlenderSetups slender;
     SlenderSamples samples;

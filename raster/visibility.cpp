@@ -169,7 +169,8 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
     const CarefulVertices& placed = work.careful;
-    if (v.any_needs_care && (placed.beside[corner[0]] & placed.beside[corner[1]] & placed.beside[corner[2]]) != 0)
+    if (in.fast_paths && v.any_needs_care &&
+        (placed.beside[corner[0]] & placed.beside[corner[1]] & placed.beside[corner[2]]) != 0)
       continue;
     const bool careful =
         v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;

@@ -270,7 +270,7 @@ struct SubmittedVertices {
 /// The same in canonical order.
 struct CanonicalVertices : SubmittedVertices {
   HWY_INLINE CanonicalVertices(const VisibleTriangles& in, SeenTriangle triangle) : SubmittedVertices(in, triangle) {
-    // No branch on what is anyone's guess.
+    // No branch that cannot be predicted.
     const PlacedVertex* const placed = in.placed.data();
     const uint64_t key_0 = vertex_at(placed, vertex[0]).key, key_1 = vertex_at(placed, vertex[1]).key,
                    key_2 = vertex_at(placed, vertex[2]).key;

@@ -92,7 +92,7 @@ struct VisibleTriangles {
   alignas(64) uint32_t place[kMaxTilePixels], corners[kMaxTilePixels];  ///< of the triangles their pixels see
 };
 
-/// Vertex of a cluster, for vertex_at(), by the complement of a corner, whose upper bits are anyone's: used ones, of
+/// Vertex of a cluster, for vertex_at(), by the complement of a corner, whose upper bits are ignored: used ones, of
 /// which it is one, lie side by side.
 inline uint32_t vertex_of(const VisibleCluster& cluster, uint32_t complement) {
   static_assert(kClusterVertices == 64);

@@ -140,7 +140,7 @@ struct WaitingBlocks {
   /// Applies the maps of those that wait.
   HWY_INLINE void finish() {
     if (count == 0) return;
-    for (int h = count * kHalves; h < kVectors; ++h) {  // nobody's
+    for (int h = count * kHalves; h < kVectors; ++h) {  // unused
       owned[h] = lane_mask(D64(), 0);
       pixel[h] = pixel[0], uv[h] = uv[0];
     }

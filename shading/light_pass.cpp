@@ -124,7 +124,7 @@ HWY_NOINLINE void add_others(const TileWork& in, const LightTerms<Shape>& terms,
 // Sums of a region's vectors over the lights of their steps.
 template <class Shape>
 HWY_NOINLINE void settle_steps(const LightTerms<Shape>& terms, const WindowLight* lights, const WindowSteps& steps,
-                            WindowSum<Shape>* sum) {
+                               WindowSum<Shape>* sum) {
   for (size_t k = 0; k < steps.count; ++k)
     sum[steps.vector[k]].add(terms, lights, steps.light + k * WindowSteps::kTogether);
 }

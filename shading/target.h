@@ -19,8 +19,8 @@ void write_stored(const ColorTile& stored, const TileRect& rect, Image& target);
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,
                const TileRect& rect, HalfRound half_round, Image& plane);
 
-/// `specular`: the specular colour that the light model reads of each surface, its own plane, the albedo, or the model's,
-/// and as alpha the shininess; `emission`: what the model reads of it, alpha 1.
+/// `specular`: the specular colour that the light model reads of each surface, its own plane, the albedo, or the
+/// model's, and as alpha the shininess; `emission`: what the model reads of it, alpha 1.
 void store_material_plane(std::string_view name, const SurfaceTile& surface, const LightModel& model,
                           const TileRect& rect, HalfRound half_round, Image& plane);
 

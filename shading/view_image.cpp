@@ -181,7 +181,7 @@ Image boxes_image(const Scene& boxes, const Image& boxed, int threads, std::span
   }
   for_each_row(boxed, 0, boxed, threads, [&](int y, const float*, const uint32_t* objects) {
     uint8_t* texel = out.texel(0, y);
-    for (int x = 0; x < out.width; ++x, texel += 4) {  // no branch on where bars are: it is anyone's guess
+    for (int x = 0; x < out.width; ++x, texel += 4) {  // no branch on where bars are: that cannot be predicted
       uint32_t under;
       std::memcpy(&under, texel, 4);
       const uint32_t box = color[objects[x]], shown = objects[x] != 0 ? box : under;

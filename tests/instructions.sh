@@ -13,6 +13,35 @@ case $("$objdump" -f "$1" | grep -m 1 architecture) in
   *aarch64*) fused='fn?m(add|sub)|fml[as]' bounded='frsqrte|frecpe' estimates='frecp[esx]|frsqrt[es]' ;;
   *) echo "SKIPPED: no list of instructions for this architecture"; exit 4 ;;
 esac
+# Reads of 32 and 64 bits from where the last write above was of a mask of fewer.
+widened_masks() {
+  awk '
+    /^[0-9a-f]+ <.*>:$/ { name = $2; delete spilled; next }
+    match($0, /-?(0x[0-9a-f]+)?\(%r[sb]p\)/) {
+      slot = substr($0, RSTART, RLENGTH); written = RSTART + RLENGTH > length($0)
+      if (written && $2 ~ /^kmov[bw]$/) spilled[slot] = $2
+      else if (written && $2 ~ /^(v?mov|vextract|kmov)/) delete spilled[slot]
+      else if (!(slot in spilled)) next
+      else if ($2 ~ /^kmov/ ? $2 != spilled[slot] && $2 != "kmovb" : $2 !~ /^(v|movz|movs|lea)/ && ($2 ~ /[lq]$/ || $0 ~ wide)) print name, $0
+    }' wide='%(e[a-d]x|e[sd]i|e[sb]p|r[a-d]x|r[sd]i|r[0-9]+d?[,) ]|r[0-9]+d?$)'
+}
+bad='0 <f>:
+ 1:	kmovb  %k1,0x8(%rsp)
+ 2:	mov    0x8(%rsp),%eax
+ 3:	mov    0x8(%rsp),%ebp
+ 4:	mov    0x8(%rsp),%r9
+ 5:	kmovd  0x8(%rsp),%k2
+ 6:	cmpl   $0x1,0x8(%rsp)'
+fine='0 <f>:
+ 1:	kmovw  %k1,0x8(%rsp)
+ 2:	movzwl 0x8(%rsp),%eax
+ 3:	kmovw  0x8(%rsp),%k1
+ 4:	mov    %r9d,0x8(%rsp)
+ 5:	mov    0x8(%rsp),%eax'
+if [[ $(widened_masks <<<"$bad" | wc -l) != 5 || -n $(widened_masks <<<"$fine") ]]; then
+  echo "widened masks are not told from others"
+  exit 1
+fi
 status=0
 for library in "$@"; do
   found=$("$objdump" -d --no-show-raw-insn "$library" | awk '
@@ -20,14 +49,7 @@ for library in "$@"; do
     $2 ~ /^('"$fused|$estimates"')$/ && !(name ~ /settle_/ && $2 ~ /^('"$bounded"')$/) { print name " " $2 }' | sort | uniq -c | sort -rn)
   instructions=$("$objdump" -d --no-show-raw-insn "$library" | wc -l)
   echo "${library##*/}: $instructions lines of disassembly"
-  widened=$("$objdump" -d --no-show-raw-insn "$library" | awk '
-    /^[0-9a-f]+ <.*>:$/ { name = $2; delete spilled; next }
-    match($0, /-?(0x[0-9a-f]+)?\(%r[sb]p\)/) {
-      slot = substr($0, RSTART, RLENGTH); written = RSTART + RLENGTH > length($0)
-      if (written && $2 ~ /^kmov[bw]$/) spilled[slot] = 1
-      else if (written && $2 ~ /^(v?mov|vextract|kmov)/) delete spilled[slot]
-      else if (slot in spilled && $2 !~ /^(v|kmov|movz|movs)/ && ($2 ~ /l$/ || $0 ~ /%(e[a-d]x|e[sd]i|r[0-9]+d)/)) print name, $0
-    }')
+  widened=$("$objdump" -d --no-show-raw-insn "$library" | widened_masks)
   for lines in "$found" "$widened"; do
     [[ -z $lines ]] && continue
     printf '%s\n' "$lines" | head -n 20

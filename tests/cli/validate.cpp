@@ -76,11 +76,12 @@ TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
 TEST_CASE("a capture of lights blended one by one is judged by its last image, materials from their planes") {
   const ScratchFolder folder;
   const auto drawn = [&](const std::string& planes) {
-    const Outcome outcome = run_command({"render", "builtin:cornell", "--preset", "gl-fixed", "--strategy", "deferred-volumes", "--size",
-                                         "80x60", "-o", "c.exr", "--aov", planes},
+    const Outcome outcome = run_command({"render", "builtin:cornell", "--preset", "gl-fixed", "--strategy",
+                                         "deferred-volumes", "--size", "80x60", "-o", "c.exr", "--aov", planes},
                                         folder.path(""));
     REQUIRE(outcome.exit_code == 0);
-    return judged(folder, {"--gbuffer", "c.exr", "--preset", "gl-fixed", "--strategy", "deferred-volumes", "--subpixel-bits", "8"});
+    return judged(folder, {"--gbuffer", "c.exr", "--preset", "gl-fixed", "--strategy", "deferred-volumes",
+                           "--subpixel-bits", "8"});
   };
   const Outcome whole = drawn("depth,position,normal,albedo,specular,emission,id.object,id.material");
   INFO(whole.out << whole.err);
@@ -112,8 +113,10 @@ TEST_CASE("what the driver drew is saved as a picture, and as a capture that is 
 TEST_CASE("what is saved of any preset, and of normals of ten bits, is a capture") {
   const ScratchFolder folder;
   std::ofstream(folder.path("n.json")) << R"({"gbuffer":{"normal":{"format":"rgb10_a2"}}})";
-  for (const Arguments& pipeline :
-       {Arguments{"--preset", "punctual"}, {"--preset", "gl-fixed"}, {"--preset", "redsdk"}, {"--pipeline", "n.json"}}) {
+  for (const Arguments& pipeline : {Arguments{"--preset", "punctual"},
+                                    {"--preset", "gl-fixed"},
+                                    {"--preset", "redsdk"},
+                                    {"--pipeline", "n.json"}}) {
     Arguments draw{"--driver", "llvmpipe", "--size", "64x48", "--save", "c.exr"};
     Arguments judge{"--gbuffer", "c.exr", "--subpixel-bits", "8"};
     draw.insert(draw.end(), pipeline.begin(), pipeline.end());
@@ -161,7 +164,8 @@ TEST_CASE("stores that lean are a remark where OpenGL allows them, in text and J
     INFO(told.out << told.err);
     CHECK(told.exit_code == 0);
     CHECK(has(told.out, "NOT what chance makes"));
-    CHECK(has(told.out, "every pixel is explained, yet the image is not what chance makes (a remark: each pixel is legal)"));
+    CHECK(has(told.out,
+              "every pixel is explained, yet the image is not what chance makes (a remark: each pixel is legal)"));
     Arguments json = draw;
     json.emplace_back("--json");
     const Outcome listed = judged(folder, json);
@@ -175,7 +179,9 @@ TEST_CASE("a capture without what its picture's lights are judged from is refuse
   const ScratchFolder folder;
   const std::string where = "trueshade: error: few.exr: ";
   const auto with = [&](const char* planes, const Arguments& more) {
-    REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x24", "-o", "few.exr", "--aov", planes}, folder.path("")).exit_code == 0);
+    REQUIRE(
+        run_command({"render", "builtin:cornell", "--size", "32x24", "-o", "few.exr", "--aov", planes}, folder.path(""))
+            .exit_code == 0);
     Arguments options = {"--gbuffer", "few.exr", "--subpixel-bits", "8"};
     options.insert(options.end(), more.begin(), more.end());
     return judged(folder, options);

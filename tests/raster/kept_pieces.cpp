@@ -1,4 +1,5 @@
 // Triangles that a thread keeps clipped from tile to tile are those that are clipped anew.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <random>
@@ -18,12 +19,18 @@ struct Asked {
   int64_t x, y;
 };
 
+bool alike(const ClipCorner& a, const ClipCorner& b) {
+  if (!std::equal(std::begin(a.c), std::end(a.c), b.c) || a.kind != b.kind || a.edges != b.edges) return false;
+  if (a.kind == 0) return a.a == b.a;
+  return a.a == b.a && a.b == b.b && (a.kind == 1 ? a.plane == b.plane : a.t == b.t);
+}
+
 bool alike(const CarefulPieces& a, const CarefulPieces& b) {
   if (a.count != b.count || a.facing != b.facing || a.turned != b.turned) return false;
   if (a.polygon.made != b.polygon.made || a.polygon.corners != b.polygon.corners) return false;
   bool same = true;
-  for (int i = 0; i < a.polygon.made; ++i)
-    for (int k = 0; k < 4; ++k) same = same && a.polygon.all[i].c[k] == b.polygon.all[i].c[k];
+  for (int i = 0; i < a.polygon.made; ++i) same = same && alike(a.polygon.all[i], b.polygon.all[i]);
+  for (int i = 0; i < a.polygon.corners; ++i) same = same && a.polygon.corner[i] == b.polygon.corner[i];
   for (int i = 0; i < a.count; ++i)
     for (int k = 0; k < 3; ++k) {
       const WindowTriangle &p = a.piece[i].triangle, &q = b.piece[i].triangle;

@@ -237,9 +237,8 @@ TEST_CASE("Clip coordinates that no camera makes are cut as exact integers say")
 TEST_CASE("The box far away cuts triangles of any size and any range of w, and what lies inside it stays") {
   // Each second triangle has the first one's coverage, in coordinates so large, or of a w so small, that the cut at the
   // box must neither lose w to rounding nor leave its corner off the box.
-  const std::vector<ClipTriangle> plain[] = {
-      {triangle({{-8, -8, 0, 1}}, {{8, -8, 0, 1}}, {{0, 8, 0, 1}})},
-      {triangle({{0, 0, 0, 1}}, {{20, -10, 0, 1}}, {{20, 10, 0, 1}})}};
+  const std::vector<ClipTriangle> plain[] = {{triangle({{-8, -8, 0, 1}}, {{8, -8, 0, 1}}, {{0, 8, 0, 1}})},
+                                             {triangle({{0, 0, 0, 1}}, {{20, -10, 0, 1}}, {{20, 10, 0, 1}})}};
   const std::vector<ClipTriangle> huge[] = {
       {triangle({{-1e30f, -1e30f, 0, 1}}, {{1e30f, -1e30f, 0, 1}}, {{0, 1e30f, 0, 1}})},
       {triangle({{0, 0, 0, 1e25f}}, {{2, -1, 0, 1e-10f}}, {{2, 1, 0, 1e-10f}})}};

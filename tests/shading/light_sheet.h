@@ -24,7 +24,7 @@ Pipeline loop_pipeline(std::string_view preset);
 struct Result {
   Frame frame;
   std::vector<Material> materials;
-  bool metals;  ///< shininess comes from the roughness
+  bool metals;                      ///< shininess comes from the roughness
   Pixel pixel(int x, int y) const;  ///< y from the top
   bool covered(int x, int y) const { return frame.aovs[3].image.value(x, y, 0) != 0; }
 };
