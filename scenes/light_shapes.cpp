@@ -37,7 +37,7 @@ glm::vec3 full_color(const glm::vec3& color) {
   return most > 0.0f ? color / most : glm::vec3(0.0f);
 }
 
-/// The twelve edges of [-1/2, 1/2]^3 as boxes of `thickness`, whose faces share corners: nobody asks for their normals.
+/// The twelve edges of [-1/2, 1/2]^3 as boxes of `thickness`, whose faces share corners: their normals are not used.
 Mesh frame_mesh(double thickness) {
   const Mesh cube = cube_mesh();
   Mesh frame;

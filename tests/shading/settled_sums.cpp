@@ -75,7 +75,7 @@ TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights
 
 TEST_CASE("So are those of sums under lights with a linear window, among lights of all kinds") {
   Random random(436);
-  int otherwise = 0;
+  int otherwise = 0, frames = 0;
   for (int i = 0; i < 32; ++i) {
     Scene scene = sheet(random);
     if (i % 4 == 1) trouble(random, scene.meshes[0]);
@@ -107,9 +107,11 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
       CHECK(settled.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
       const Frame added = render_frame(prepared, p, {.simd = simd, .settled_sums = false}, kCounts);
       otherwise += settled.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
+      ++frames;
     }
   }
-  CHECK(otherwise > 32);  // that is, sums were settled
+  CAPTURE(otherwise, frames);
+  CHECK(otherwise > frames / 4);  // that is, sums were settled, where lights and target allow it
 }
 
 TEST_CASE("So are codes of sums that lie on the edge between two of them, all over the picture") {
