@@ -2,7 +2,7 @@
 
 #include "bench/peers.h"
 #include "core/error.h"
-#include "core/parallel_for.h"
+#include "core/threads/parallel_for.h"
 #include "oracle/embree_peer.h"
 
 namespace trueshade {

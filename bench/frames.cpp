@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
 using namespace trueshade;

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "bench/peers.h"
-#include "oracle/gl/designs.h"
+#include "gl/driver/designs.h"
 
 namespace trueshade {
 namespace {

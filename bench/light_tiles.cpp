@@ -10,12 +10,12 @@
 #include <string>
 
 #include "core/fp_env.h"
-#include "raster/cluster_bins.h"
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
-#include "shading/blend_pass.h"
+#include "raster/clusters/cluster_bins.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/blend/blend_pass.h"
 #include "shading/frame.h"
-#include "shading/light_pass.h"
+#include "shading/light/light_pass.h"
 
 using namespace trueshade;
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <fstream>
 
-#include "core/parallel_for.h"
+#include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {

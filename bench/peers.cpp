@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "oracle/gl/designs.h"
-#include "scenes/presets.h"
+#include "gl/driver/designs.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 
 using namespace trueshade;

@@ -7,7 +7,7 @@
 
 #include "bench/contest.h"
 #include "bench/picture_check.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -22,7 +22,7 @@ class Peers {
   virtual std::vector<PeerPicture> pictures() { return {}; }
 };
 
-/// Names of the designs of oracle/gl/designs.h; none where OpenGL was not built in.
+/// Names of the designs of gl/driver/designs.h; none where OpenGL was not built in.
 std::span<const std::string_view> gl_design_names();
 
 /// OpenGL in these designs, in all of them where none is named, on the driver at hand. Designs that a user picks for

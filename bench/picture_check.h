@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "core/image.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "shading/frame.h"
 
 namespace trueshade {

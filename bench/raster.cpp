@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "raster/cluster_bins.h"
-#include "raster/clusters.h"
-#include "raster/overdraw.h"
-#include "raster/simd_target.h"
-#include "raster/surfaces.h"
+#include "raster/clusters/cluster_bins.h"
+#include "raster/clusters/clusters.h"
+#include "raster/visibility/overdraw.h"
+#include "core/simd/simd_target.h"
+#include "raster/surfaces/surfaces.h"
 #include "raster/view.h"
-#include "raster/visibility.h"
-#include "scenes/pipeline.h"
+#include "raster/visibility/visibility.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 using namespace trueshade;

@@ -19,15 +19,15 @@
 #include <string>
 
 #include "core/fp_env.h"
-#include "raster/simd_target.h"
-#include "raster/texture.h"
-#include "scenes/presets.h"
-#include "shading/blend_pass.h"
-#include "shading/light_pass.h"
-#include "shading/post.h"
-#include "shading/power.h"
-#include "shading/target.h"
-#include "shading/transparent_blend.h"
+#include "core/simd/simd_target.h"
+#include "raster/textures/texture.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/blend/blend_pass.h"
+#include "shading/light/light_pass.h"
+#include "shading/output/post.h"
+#include "shading/light/power.h"
+#include "shading/output/target.h"
+#include "shading/blend/transparent_blend.h"
 
 using namespace trueshade;
 

@@ -2,7 +2,7 @@
 // each tile took in any round, so that what else the machine does falls out: core ms a frame for visibility and for the
 // surfaces of visible pixels, ns a covered pixel for these; clusters in bins. Rows "back" drop back faces. SIMD targets
 // by --benchmark_filter: the name ends in one.
-#include "raster/surfaces.h"
+#include "raster/surfaces/surfaces.h"
 
 #include <benchmark/benchmark.h>
 
@@ -14,9 +14,9 @@
 #include <string>
 
 #include "core/fp_env.h"
-#include "raster/cluster_bins.h"
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
+#include "raster/clusters/cluster_bins.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
 using namespace trueshade;

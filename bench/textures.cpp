@@ -10,10 +10,10 @@
 #include <numeric>
 #include <string>
 
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
-#include "scenes/shapes.h"
-#include "scenes/texture_pattern.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
+#include "scenes/builtin/shapes.h"
+#include "scenes/builtin/texture_pattern.h"
 #include "shading/frame.h"
 
 using namespace trueshade;

@@ -15,17 +15,17 @@
 #include <vector>
 
 #include "core/fp_env.h"
-#include "raster/cluster_bins.h"
-#include "raster/placed_scene.h"
-#include "raster/simd_target.h"
+#include "raster/clusters/cluster_bins.h"
+#include "raster/visibility/placed_scene.h"
+#include "core/simd/simd_target.h"
 #include "scenes/light_shapes.h"
-#include "scenes/presets.h"
-#include "shading/derived_planes.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/output/derived_planes.h"
 #include "shading/frame.h"
-#include "shading/heat_map.h"
-#include "shading/transparent_blend.h"
-#include "shading/transparent_pass.h"
-#include "shading/view_image.h"
+#include "shading/output/heat_map.h"
+#include "shading/blend/transparent_blend.h"
+#include "shading/blend/transparent_pass.h"
+#include "shading/output/view_image.h"
 
 using namespace trueshade;
 

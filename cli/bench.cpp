@@ -14,8 +14,8 @@
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "core/error.h"
-#include "core/image_io.h"
-#include "core/parallel_for.h"
+#include "core/image_files/image_io.h"
+#include "core/threads/parallel_for.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -9,7 +9,7 @@
 #include "bench/machine.h"
 #include "bench/picture_check.h"
 #include "cli/options.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "shading/frame.h"
 
 namespace trueshade {

@@ -6,8 +6,8 @@
 #include "cli/own_frames.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
-#include "core/image_io.h"
-#include "core/parallel_for.h"
+#include "core/image_files/image_io.h"
+#include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "oracle/gl/context.h"
-#include "oracle/gl/renderer.h"
-#include "scenes/transparency.h"
+#include "gl/driver/context.h"
+#include "gl/driver/renderer.h"
+#include "scenes/pipeline/transparency.h"
 
 namespace trueshade {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/capture.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

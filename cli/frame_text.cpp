@@ -4,7 +4,7 @@
 
 #include "cli/json_text.h"
 #include "cli/version.h"
-#include "core/parallel_for.h"
+#include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "shading/frame.h"
 
 namespace trueshade {

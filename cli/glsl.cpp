@@ -1,4 +1,4 @@
-#include "oracle/gl/glsl.h"
+#include "gl/emit/glsl.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,9 +9,9 @@
 #include "cli/commands.h"
 #include "cli/preparation.h"
 #include "core/error.h"
-#include "core/image_io.h"
-#include "oracle/gl/post_glsl.h"
-#include "oracle/gl/state_list.h"
+#include "core/image_files/image_io.h"
+#include "gl/emit/post_glsl.h"
+#include "gl/emit/state_list.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

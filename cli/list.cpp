@@ -3,9 +3,9 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "core/numeric_profile.h"
-#include "oracle/intervals/profile.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "judge/bounds/profile.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
 namespace trueshade {

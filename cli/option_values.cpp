@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "bench/peers.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 

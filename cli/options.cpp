@@ -6,8 +6,8 @@
 #include "cli/option_values.h"
 #include "cli/version.h"
 #include "core/error.h"
-#include "oracle/intervals/profile.h"
-#include "scenes/presets.h"
+#include "judge/bounds/profile.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
 

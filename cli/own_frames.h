@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/option_values.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "shading/frame.h"
 
 namespace trueshade {

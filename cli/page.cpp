@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 
 namespace trueshade {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scenes/presets.h"
-#include "scenes/scene_files.h"
+#include "scenes/pipeline/presets.h"
+#include "scenes/files/scene_files.h"
 
 namespace trueshade {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "core/error.h"
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 

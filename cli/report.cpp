@@ -5,10 +5,10 @@
 
 #include "cli/page.h"
 #include "cli/version.h"
-#include "core/parallel_for.h"
-#include "shading/derived_planes.h"
-#include "shading/heat_map.h"
-#include "shading/view_image.h"
+#include "core/threads/parallel_for.h"
+#include "shading/output/derived_planes.h"
+#include "shading/output/heat_map.h"
+#include "shading/output/view_image.h"
 
 namespace trueshade {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/preparation.h"
 #include "cli/validation.h"
 #include "cli/validation_capture.h"
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -6,8 +6,8 @@
 
 #include "cli/driver_capture.h"
 #include "oracle/capture.h"
-#include "oracle/intervals/validate.h"
-#include "scenes/pipeline.h"
+#include "judge/stages/validate.h"
+#include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/half.h"
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "oracle/capture.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
 

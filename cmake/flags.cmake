@@ -7,8 +7,7 @@ target_compile_options(
   INTERFACE -ffp-contract=off -fno-fast-math -fno-math-errno -fno-strict-aliasing)
 target_compile_definitions(
   trueshade_flags
-  INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_PURE
-            HWY_DISABLED_TARGETS=HWY_SSSE3)  # its Round loses the sign of -0
+  INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_PURE)
 # Ours only, not a consumer's: warnings are errors, and the hardening of docs/reliability.
 add_library(trueshade_private_flags INTERFACE)
 target_compile_options(
@@ -20,3 +19,6 @@ if(CMAKE_BUILD_TYPE MATCHES "Release|RelWithDebInfo")
 endif()
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 add_link_options(-Wl,-z,relro,-z,now)
+# Kernels are compiled by -O3, as are the other files of their libraries, because the linker keeps one copy of an inline
+# function that several files compile: loops over three components are unrolled, so that vectors stay in registers.
+set(trueshade_kernel_options $<$<CONFIG:Release>:-O3>)

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "oracle/matrices.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

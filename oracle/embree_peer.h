@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

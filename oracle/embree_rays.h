@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 
 namespace trueshade::oracle {
 

@@ -2,7 +2,7 @@
 // Matrices of docs/arithmetic.md section 1, read as mathematics: long double inside, rounded where the page says so.
 #include <array>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

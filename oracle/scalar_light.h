@@ -2,7 +2,7 @@
 // The light of a surface by other means: docs/arithmetic.md section 8 read as mathematics, in long double.
 #include <array>
 
-#include "scenes/light_model.h"
+#include "scenes/pipeline/light_model.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

@@ -8,7 +8,7 @@
 
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {

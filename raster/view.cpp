@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/parallel_for.h"
-#include "raster/triangle_setup.h"
+#include "core/threads/parallel_for.h"
+#include "raster/triangles/triangle_setup.h"
 #include "scenes/camera.h"
 
 namespace trueshade {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "raster/texture.h"
-#include "scenes/pipeline.h"
+#include "raster/textures/texture.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -1,6 +1,6 @@
 #include <glm/vec3.hpp>
 
-#include "scenes/load_ply.h"
+#include "scenes/files/load_ply.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

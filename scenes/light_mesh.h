@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/light.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 
 // What deferred-volumes draws for a light. Computed in double and rounded once to float (docs/arithmetic.md, section
 // 12): a driver that is handed these vertices draws the same triangles.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/shapes.h"
+#include "scenes/builtin/shapes.h"
 
 namespace trueshade {
 namespace {

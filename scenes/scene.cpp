@@ -5,11 +5,11 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
-#include "scenes/builtin.h"
-#include "scenes/light_generators.h"
-#include "scenes/load_geometry.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/builtin/light_generators.h"
+#include "scenes/files/load_geometry.h"
 #include "scenes/scene_defaults.h"
-#include "scenes/scene_json.h"
+#include "scenes/files/scene_json.h"
 
 namespace trueshade {
 namespace {

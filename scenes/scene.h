@@ -19,7 +19,7 @@ namespace trueshade {
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};  ///< linear RGBA, times the vertex colour
-  // What lights beside the albedo; a light model reads the fields it names (scenes/light_model.h).
+  // What lights beside the albedo; a light model reads the fields it names (scenes/pipeline/light_model.h).
   glm::vec3 specular_color{0.25f};  ///< each in [0, 1e18]
   float shininess = 32.0f;          ///< an integer from 0 to 8192
   glm::vec3 emission{0.0f};         ///< each in [0, 1e18]

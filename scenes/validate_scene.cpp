@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/error.h"
-#include "scenes/json_value.h"
+#include "scenes/files/json_value.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The tables of docs/validation.md as Markdown, from the lines that validation_rows wrote (tests/intervals/validation_rows.cpp
+# The tables of docs/validation.md as Markdown, from the lines that validation_rows wrote (tests/judge/validation_rows.cpp
 # says how to make them): a table a driver and profile, a row a scene, size and strategy, pixels summed over the presets.
 # Usage: validation_table.sh FILE...
 #   lit: the least share of a preset's pixels with a surface that are EXACT or STORE-2, or TEX in a G-buffer

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/parallel_for.h"
-#include "raster/simd_target.h"
-#include "scenes/pipeline.h"
+#include "core/threads/parallel_for.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -1,6 +1,6 @@
 #pragma once
 #include "scenes/light_mesh.h"
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 

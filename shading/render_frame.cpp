@@ -4,13 +4,13 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/light_shapes.h"
-#include "shading/derived_planes.h"
+#include "shading/output/derived_planes.h"
 #include "shading/draw_frame.h"
-#include "shading/heat_map.h"
-#include "shading/light_planes.h"
-#include "shading/overlay.h"
-#include "shading/post_frame.h"
-#include "shading/view_image.h"
+#include "shading/output/heat_map.h"
+#include "shading/output/light_planes.h"
+#include "shading/output/overlay.h"
+#include "shading/output/post_frame.h"
+#include "shading/output/view_image.h"
 
 namespace trueshade {
 namespace {

@@ -1,51 +1,43 @@
 #!/bin/bash
-# Fails on an #include against the arrows core <- scenes <- raster <- shading <- bench <- cli; oracle sees core and scenes. Also
-# holds libraries to their places: OpenImageIO in core/image_io.cpp, core/jpeg_pixels.cpp and core/read_image.cpp, TBB in core/thread_pool.cpp, Embree in oracle/ray_scene.h.
-# Usage: include_arrows.sh SOURCE_FOLDER
+# Fails on an #include that tests/include_arrows.txt does not allow. Also holds libraries to their places: OpenImageIO in
+# core/image_files, TBB in core/threads/thread_pool.cpp, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in
+# cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 status=0
-folders='core|scenes|raster|shading|compare|oracle|cli|bench|tests'
-
-# allowed FOLDER NAMES: sources under FOLDER include from these folders of ours only.
-allowed() {
-  local found
-  [[ -d $1 ]] || return 0
-  found=$(grep -rnE "^ *# *include \"($folders)/" "$1" --include='*.h' --include='*.cpp' | grep -vE "\"($2)/" || true)
-  if [[ -n $found ]]; then
-    printf '%s may include from %s only:\n%s\n' "$1" "${2//|/, }" "$found"
-    status=1
-  fi
+fail() {
+  printf '%s:\n%s\n' "$1" "$2"
+  status=1
 }
 
-# only_in PATTERN FILES REGION: a library's headers are included by these files only.
+sources() { find "$@" \( -name '*.h' -o -name '*.cpp' \); }
+
+declare -A arrows
+while IFS=: read -r folder allowed; do
+  [[ -z $folder || $folder == \#* ]] && continue
+  arrows[$folder]=" $folder $allowed "
+done <tests/include_arrows.txt
+
+# Every include of ours, as "folder included_folder file:line".
+while read -r folder included where; do
+  [[ -v arrows[$folder] ]] || { fail "$folder has no row in tests/include_arrows.txt" "$where"; continue; }
+  [[ ${arrows[$folder]} == *" $included "* ]] || fail "$folder may not include from $included" "$where"
+done < <(sources core scenes raster shading oracle judge gl bench cli | xargs grep -nE '^ *# *include "' |
+  sed -nE 's|^(([^:]*)/[^/:]*:[0-9]+): *# *include "(([^"]*)/)?[^/"]*".*|\2 \4 \1|p')
+
+# only_in PATTERN FILES: a library's headers are included by these files only.
 only_in() {
   local found
-  found=$(grep -rnE "^ *# *include [<\"]$1" core scenes raster shading oracle cli --include='*.h' --include='*.cpp' |
-    grep -vE "^($2):" || true)
-  if [[ -n $found ]]; then
-    printf '%s belongs in %s only:\n%s\n' "$1" "$2" "$found"
-    status=1
-  fi
+  found=$(sources core scenes raster shading oracle judge gl cli | xargs grep -nE "^ *# *include [<\"]$1" | grep -vE "^($2):" || true)
+  [[ -z $found ]] || fail "$1 belongs in $2 only" "$found"
 }
-
-allowed core 'core'
-allowed scenes 'core|scenes'
-allowed raster 'core|scenes|raster'
-allowed shading 'core|scenes|raster|shading'
-allowed compare 'core|compare'
-allowed oracle 'core|scenes|oracle'
-allowed bench 'core|scenes|raster|shading|oracle|bench'
-allowed cli 'core|scenes|raster|shading|compare|oracle|bench|cli'
-only_in 'OpenImageIO/' 'core/(image_io|jpeg_pixels|read_image).cpp'
-only_in '(tbb|oneapi)/' 'core/thread_pool.cpp'
-only_in "embree" "oracle/ray_scene.h"
-only_in 'epoxy/' 'oracle/gl/[a-z_]*\.(h|cpp)'
+only_in 'OpenImageIO/' 'core/image_files/[a-z_]*.cpp'
+only_in '(tbb|oneapi)/' 'core/threads/thread_pool.cpp'
+only_in 'embree' 'oracle/ray_scene.h'
+only_in 'epoxy/' 'gl/driver/[a-z_]*\.(h|cpp)'
 only_in 'CLI/' 'cli/options.cpp'
-# The oracle judges our arithmetic, so it must not use it.
-found=$(grep -nE '^ *# *include "(core/(half|srgb|fp_env)|scenes/trig)' oracle/*.h oracle/*.cpp 2>/dev/null || true)
-if [[ -n $found ]]; then
-  printf 'the oracle uses values of ours, never arithmetic:\n%s\n' "$found"
-  status=1
-fi
+
+# The oracle, the judge and the OpenGL twin judge our arithmetic, so they must not use it.
+found=$(sources oracle judge gl | xargs grep -nE '^ *# *include "(core/(half|small_float|srgb|srgb_codes|fp_env)|core/simd/|scenes/trig)' || true)
+[[ -z $found ]] || fail 'the judges use values of ours, never arithmetic' "$found"
 exit "$status"

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "oracle/embree_peer.h"
 #include "oracle/embree_rays.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {

@@ -1,5 +1,5 @@
 // Files are read back through OpenImageIO, which knows nothing of our Image.
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 
 #include <OpenImageIO/imageio.h>
 

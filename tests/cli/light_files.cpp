@@ -2,7 +2,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/scratch_folder.h"

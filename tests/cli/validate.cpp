@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "core/image_io.h"
+#include "core/image_files/image_io.h"
 #include "shading/frame.h"
 
 int main(int, char** arguments) {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/parallel_for.h"
+#include "core/threads/parallel_for.h"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>

@@ -1,4 +1,4 @@
-#include "oracle/gl/context.h"
+#include "gl/driver/context.h"
 
 #include <cstdlib>
 

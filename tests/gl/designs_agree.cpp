@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
-#include "oracle/gl/designs.h"
-#include "oracle/gl/designs_glsl.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "gl/driver/designs.h"
+#include "gl/emit/designs_glsl.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"

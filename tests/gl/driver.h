@@ -1,5 +1,5 @@
 #pragma once
-#include "oracle/gl/renderer.h"
+#include "gl/driver/renderer.h"
 #include "tests/gl/opened_driver.h"
 #include "tests/raster/window_scene.h"
 

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "oracle/gl/post_glsl.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "gl/emit/post_glsl.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 

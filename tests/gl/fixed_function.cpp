@@ -1,12 +1,12 @@
 // OpenGL's own lighting, glLight on points one a pixel, against the fixed-function model: every channel inside what the
 // formula allows a driver's arithmetic. GL_RULES section 8, rows 52 to 54.
-#include "oracle/gl/fixed_function.h"
+#include "gl/driver/fixed_function.h"
 
 #include <cmath>
 #include <random>
 
-#include "oracle/intervals/shading.h"
-#include "scenes/presets.h"
+#include "judge/bounds/shading.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 

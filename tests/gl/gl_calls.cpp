@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "oracle/gl/objects.h"
+#include "gl/driver/objects.h"
 #include "tests/catch.hpp"
 
 namespace trueshade::testing {

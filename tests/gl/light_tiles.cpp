@@ -1,11 +1,11 @@
 // Lists of lights by tile leave out no light that lights a pixel.
-#include "oracle/gl/light_tiles.h"
+#include "gl/driver/light_tiles.h"
 
 #include <cstdio>
 
-#include "oracle/gl/glsl.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "gl/emit/glsl.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 

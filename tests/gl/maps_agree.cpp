@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/intervals/surface_mutants.h"
+#include "tests/judge/mutants/surface_mutants.h"
 #include "oracle/matrices.h"
 #include "oracle/texture_lookup.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "oracle/gl/context.h"
+#include "gl/driver/context.h"
 
 namespace trueshade::testing {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "oracle/gl/post_glsl.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
-#include "shading/post_frame.h"
+#include "gl/emit/post_glsl.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/output/post_frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "oracle/blend.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"

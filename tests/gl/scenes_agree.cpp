@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "oracle/scalar_renderer.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/codes_apart.h"

@@ -5,12 +5,12 @@
 #include <cstring>
 #include <random>
 
-#include "oracle/gl/blend_state.h"
-#include "oracle/gl/geometry_state.h"
-#include "oracle/gl/glsl.h"
-#include "oracle/gl/objects.h"
-#include "oracle/gl/read_back.h"
-#include "raster/coverage_count.h"
+#include "gl/driver/blend_state.h"
+#include "gl/driver/geometry_state.h"
+#include "gl/emit/glsl.h"
+#include "gl/driver/objects.h"
+#include "gl/driver/read_back.h"
+#include "raster/visibility/coverage_count.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 

@@ -7,13 +7,13 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "oracle/gl/read_back.h"
-#include "oracle/gl/scene_buffers.h"
-#include "oracle/gl/surface_uniforms.h"
+#include "gl/driver/read_back.h"
+#include "gl/driver/scene_buffers.h"
+#include "gl/driver/surface_uniforms.h"
 #include "oracle/matrices.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 #include "scenes/light_mesh.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 #include "tests/gl/gl_calls.h"

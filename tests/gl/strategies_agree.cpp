@@ -1,8 +1,8 @@
 // The strategies on a real driver, as real draws with real state, against render_frame().
 #include <cmath>
 
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/codes_apart.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/intervals/validate.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "judge/stages/validate.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/fp_env.h"
-#include "raster/cluster_bins.h"
-#include "scenes/shapes.h"
+#include "raster/clusters/cluster_bins.h"
+#include "scenes/builtin/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/raster/drawn_alike.h"
 

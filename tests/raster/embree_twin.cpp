@@ -3,7 +3,7 @@
 #include <string>
 
 #include "oracle/embree_rays.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 #include "tests/catch.hpp"
 #include "tests/raster/window_scene.h"
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "raster/careful.h"
+#include "raster/triangles/clipped_fan.h"
 #include "tests/catch.hpp"
 
 using namespace trueshade;

@@ -1,5 +1,5 @@
 // What light geometry covers, against exact integers: polygons and triangles, inside and out, every extent and side.
-#include "raster/light_outlines.h"
+#include "raster/light_geometry/light_outlines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/fp_env.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 #include "scenes/trig.h"
 #include "tests/catch.hpp"
 

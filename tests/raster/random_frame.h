@@ -1,7 +1,7 @@
 #pragma once
 #include <random>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "tests/raster/window_scene.h"
 

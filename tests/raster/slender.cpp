@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "core/fp_env.h"
-#include "raster/simd_target.h"
-#include "scenes/pcg32.h"
-#include "shading/overlay.h"
+#include "core/simd/simd_target.h"
+#include "scenes/builtin/pcg32.h"
+#include "shading/output/overlay.h"
 #include "tests/catch.hpp"
 #include "tests/raster/window_scene.h"
 

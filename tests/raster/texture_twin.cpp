@@ -6,8 +6,8 @@
 #include <random>
 
 #include "oracle/texture_lookup.h"
-#include "raster/simd_target.h"
-#include "raster/texture.h"
+#include "core/simd/simd_target.h"
+#include "raster/textures/texture.h"
 #include "tests/catch.hpp"
 
 using namespace trueshade;

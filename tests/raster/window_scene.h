@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "raster/coverage_count.h"
-#include "scenes/pipeline.h"
+#include "raster/visibility/coverage_count.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 

@@ -1,12 +1,12 @@
-#include "scenes/builtin_scenes.h"
+#include "scenes/builtin/builtin_scenes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "expect_error.h"
-#include "scenes/builtin.h"
-#include "scenes/shapes.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/builtin/shapes.h"
 
 namespace trueshade {
 namespace {

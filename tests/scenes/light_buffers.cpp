@@ -1,11 +1,11 @@
 // Lights as buffers: sample i is light i, from numbers, tables and pictures; and what is not so is refused in one line.
-#include "scenes/light_buffers.h"
+#include "scenes/files/light_buffers.h"
 
 #include <cmath>
 #include <cstring>
 
 #include "expect_error.h"
-#include "scenes/pcg32.h"
+#include "scenes/builtin/pcg32.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
 

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "expect_error.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 
 namespace trueshade {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "expect_error.h"
-#include "scenes/load_geometry.h"
+#include "scenes/files/load_geometry.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
 

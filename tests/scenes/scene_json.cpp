@@ -1,11 +1,11 @@
-#include "scenes/scene_json.h"
+#include "scenes/files/scene_json.h"
 
 #include <cmath>
 #include <set>
 
 #include "expect_error.h"
-#include "scenes/json_value.h"
-#include "scenes/pipeline.h"
+#include "scenes/files/json_value.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
 

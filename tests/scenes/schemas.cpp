@@ -2,10 +2,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenes/json_value.h"
-#include "scenes/pipeline_json.h"
-#include "scenes/presets.h"
-#include "scenes/scene_json.h"
+#include "scenes/files/json_value.h"
+#include "scenes/pipeline/pipeline_json.h"
+#include "scenes/pipeline/presets.h"
+#include "scenes/files/scene_json.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {
@@ -44,12 +44,12 @@ void check_agreement(const std::string& name, std::span<const json::ObjectKeys> 
 }
 
 TEST_CASE("readers and schemas list the same keys") {
-  check_agreement("pipeline.schema.json", pipeline_object_keys());
-  check_agreement("scene.schema.json", scene_object_keys());
+  check_agreement("pipeline/pipeline.schema.json", pipeline_object_keys());
+  check_agreement("files/scene.schema.json", scene_object_keys());
 }
 
 TEST_CASE("the pipeline schema lists the presets that exist") {
-  const json::Value value = schema("pipeline.schema.json");
+  const json::Value value = schema("pipeline/pipeline.schema.json");
   const json::Node root(value, "pipeline.schema.json"),
       properties = root.member("properties"), preset = properties.member("preset"), names = preset.member("enum");
   REQUIRE(names.array(1, 100).size() == presets().size());

@@ -5,7 +5,7 @@
 
 #include "expect_error.h"
 #include "scenes/scene.h"
-#include "scenes/texture_pattern.h"
+#include "scenes/builtin/texture_pattern.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {

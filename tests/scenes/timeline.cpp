@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "expect_error.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
 

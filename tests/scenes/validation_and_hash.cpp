@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "expect_error.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 
 namespace trueshade {
 namespace {

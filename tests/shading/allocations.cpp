@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 

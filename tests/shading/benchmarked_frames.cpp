@@ -2,8 +2,8 @@
 // millions of triangles that meet no sample, comes together here.
 #include <string>
 
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/golden/frames.h"

@@ -10,8 +10,8 @@
 #include "core/small_float.h"
 #include "core/srgb.h"
 #include "oracle/blend.h"
-#include "raster/simd_target.h"
-#include "scenes/pcg32.h"
+#include "core/simd/simd_target.h"
+#include "scenes/builtin/pcg32.h"
 #include "tests/catch.hpp"
 #include "tests/shading/blend_pixels.h"
 

@@ -8,7 +8,7 @@
 #include "core/half.h"
 #include "core/small_float.h"
 #include "oracle/blend.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 #include "tests/catch.hpp"
 #include "tests/shading/blend_pixels.h"
 

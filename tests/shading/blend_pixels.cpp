@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/fp_env.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 
 namespace trueshade::testing {
 

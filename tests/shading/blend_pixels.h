@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shading/blend.h"
+#include "shading/blend/blend.h"
 
 namespace trueshade::testing {
 

@@ -5,7 +5,7 @@
 
 #include "core/fp_env.h"
 #include "core/half.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 #include "tests/catch.hpp"
 #include "tests/shading/blend_pixels.h"
 

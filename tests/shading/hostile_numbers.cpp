@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scenes/presets.h"
-#include "scenes/shapes.h"
+#include "scenes/pipeline/presets.h"
+#include "scenes/builtin/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/shading/nan_search.h"
 

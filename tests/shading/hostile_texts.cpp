@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "oracle/scalar_light.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"

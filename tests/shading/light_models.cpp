@@ -1,4 +1,4 @@
-// Every term of scenes/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
+// Every term of scenes/pipeline/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
 // roundings; the kernels compiled for the usual models against the general one.
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "core/half.h"
 #include "oracle/scalar_light.h"
-#include "scenes/presets.h"
-#include "shading/light_shape.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/light/fast/compiled_models.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 

@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 

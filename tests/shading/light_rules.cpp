@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {

@@ -3,7 +3,7 @@
 #include <random>
 #include <string_view>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "shading/frame.h"
 #include "tests/shading/naive_lights.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "scenes/light_model.h"
+#include "scenes/pipeline/light_model.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "scenes/pipeline.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::testing {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 #include "scenes/light_mesh.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"

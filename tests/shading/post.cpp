@@ -1,13 +1,13 @@
 // The post chain against independent formulas (docs/post.md): long double, exact sums, pictures that must not change.
-#include "shading/post.h"
+#include "shading/output/post.h"
 
 #include <cmath>
 #include <cstring>
 #include <random>
 
 #include "core/srgb.h"
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"

@@ -3,7 +3,7 @@
 
 namespace trueshade::testing {
 
-/// The powers of the light kernels (shading/specular-inl.h) on the SIMD target in force; lengths are multiples of 16.
+/// The powers of the light kernels (shading/light/power-inl.h) on the SIMD target in force; lengths are multiples of 16.
 /// `compiled`: as of a shape of lights whose exponent, 16, 30 or 32, is known to the compiler.
 void raise(std::span<const float> x, float exponent, bool compiled, std::span<float> out);
 

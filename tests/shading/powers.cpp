@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/fp_env.h"
-#include "shading/power.h"
+#include "shading/light/power.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 #include "tests/shading/power_lanes.h"

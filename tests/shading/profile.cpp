@@ -5,9 +5,9 @@
 #include <random>
 
 #include "core/blend_state.h"
-#include "raster/coverage_count.h"
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
+#include "raster/visibility/coverage_count.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/raster/window_scene.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/presets.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "raster/simd_target.h"
-#include "scenes/presets.h"
+#include "core/simd/simd_target.h"
+#include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 #include "tests/shading/settled_lanes.h"

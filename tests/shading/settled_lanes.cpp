@@ -9,10 +9,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "raster/store-inl.h"
-#include "shading/light_sum-inl.h"
-#include "shading/settled_blinn-inl.h"
-#include "shading/settled_phong-inl.h"
+#include "core/simd/store-inl.h"
+#include "shading/light/light_sum-inl.h"
+#include "shading/light/bounded/bounded_blinn_sum-inl.h"
+#include "shading/light/bounded/bounded_phong-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "shading/light_table.h"
-#include "shading/plain_lights.h"
+#include "shading/light/light_table.h"
+#include "shading/light/bounded/bounded_lights.h"
 
 namespace trueshade::testing {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "oracle/blend.h"
-#include "raster/simd_target.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "core/simd/simd_target.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 

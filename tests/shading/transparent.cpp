@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "oracle/blend.h"
-#include "raster/simd_target.h"
-#include "scenes/builtin.h"
-#include "scenes/presets.h"
+#include "core/simd/simd_target.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/raster/random_frame.h"

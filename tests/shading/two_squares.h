@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "core/image.h"
-#include "scenes/pipeline.h"
-#include "scenes/presets.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "tests/shading/square_mesh.h"
 

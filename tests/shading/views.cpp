@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/srgb.h"
-#include "raster/simd_target.h"
+#include "core/simd/simd_target.h"
 #include "scenes/light_shapes.h"
 #include "shading/frame.h"
-#include "shading/heat_map.h"
+#include "shading/output/heat_map.h"
 #include "tests/catch.hpp"
 #include "tests/shading/two_squares.h"
 

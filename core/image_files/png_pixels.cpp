@@ -1,0 +1,189 @@
+// W3C, Portable Network Graphics (PNG) Specification (Second Edition), sections 5.3, 9 and 10.
+#include "core/image_files/png_pixels.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace trueshade {
+namespace {
+
+constexpr size_t kSignatureBytes = 8, kChunkOverhead = 12;  // a chunk: length, type, data, CRC
+constexpr size_t kPiece = 65536;
+
+uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
+  return uint32_t(bytes[at]) << 24 | uint32_t(bytes[at + 1]) << 16 | uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
+}
+
+Error refused(const std::string& where, const char* reason, const char* remedy = "write the file again") {
+  return {ErrorKind::bad_input, where, reason, remedy};
+}
+
+/// zlib's inflate of a stream given piece by piece, to no more than `most` bytes.
+class Inflater {
+ public:
+  Inflater(const std::string& where, size_t most) : where_(where), most_(most) {
+    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
+  }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  void add(std::span<const uint8_t> data) {
+    stream_.next_in = const_cast<Bytef*>(data.data());  // zlib reads it only
+    stream_.avail_in = uInt(data.size());               // a PNG chunk is below 2^31
+    while (stream_.avail_in > 0 && !ended_) {
+      const size_t before = out_.size();
+      out_.resize(before + kPiece);
+      stream_.next_out = out_.data() + before;
+      stream_.avail_out = uInt(kPiece);
+      const int status = inflate(&stream_, Z_NO_FLUSH);
+      out_.resize(before + kPiece - stream_.avail_out);
+      ended_ = status == Z_STREAM_END;
+      if (status != Z_OK && !ended_) throw refused(where_, "its compressed texels are damaged");
+      if (out_.size() > most_) throw refused(where_, "it holds more texels than its header says");
+    }
+  }
+  std::vector<uint8_t> finish() {
+    if (!ended_ || out_.size() != most_) throw refused(where_, "it holds fewer texels than its header says");
+    return std::move(out_);
+  }
+
+ private:
+  std::string where_;
+  size_t most_;
+  z_stream stream_{};
+  std::vector<uint8_t> out_;
+  bool ended_ = false;
+};
+
+int paeth(int left, int above, int corner) {
+  const int estimate = left + above - corner;
+  const int a = std::abs(estimate - left), b = std::abs(estimate - above), c = std::abs(estimate - corner);
+  return a <= b && a <= c ? left : b <= c ? above : corner;
+}
+
+/// Undoes a row's filter in place. `above`: the row before it, undone; null for the first.
+void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint8_t* above, size_t bytes,
+              size_t texel_bytes) {
+  if (filter > 4) throw refused(where, "a row has a filter that PNG does not know");
+  for (size_t i = 0; i < bytes; ++i) {
+    const int left = i < texel_bytes ? 0 : row[i - texel_bytes];
+    const int up = above == nullptr ? 0 : above[i];
+    const int corner = i < texel_bytes || above == nullptr ? 0 : above[i - texel_bytes];
+    const int guess = filter == 1   ? left
+                      : filter == 2 ? up
+                      : filter == 3 ? (left + up) / 2
+                      : filter == 4 ? paeth(left, up, corner)
+                                    : 0;
+    row[i] = uint8_t(row[i] + guess);
+  }
+}
+
+enum Kind : uint8_t { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6 };  // PNG's colour types
+
+size_t texel_bytes(uint8_t kind) { return kind == kRgba ? 4 : kind == kRgb ? 3 : kind == kGreyAlpha ? 2 : 1; }
+
+void check_kind(const std::string& where, std::span<const uint8_t> header, PngKinds kinds) {
+  if (kinds == PngKinds::rgba && ((header[8] != 8 && header[8] != 16) || header[9] != kRgba))
+    throw refused(where, "its texels are not RGBA of 8 or 16 bits", "write RGBA: alpha is judged too");
+  if (kinds == PngKinds::any && header[8] != 8)
+    throw refused(where, "its channels are not of 8 bits", "write 8 bits a channel");
+  if (header[10] != 0 || header[11] != 0 || header[12] != 0)
+    throw refused(where, "it is interlaced, or compressed in an unknown way", "write it without interlacing");
+}
+
+struct Palette {
+  uint8_t rgba[256][4] = {};
+  size_t size = 0;
+
+  void set_colors(const std::string& where, std::span<const uint8_t> data) {
+    if (data.empty() || data.size() % 3 != 0 || data.size() > 768) throw refused(where, "its palette is damaged");
+    size = data.size() / 3;
+    for (size_t i = 0; i < size; ++i) {
+      std::copy_n(data.data() + 3 * i, 3, rgba[i]);
+      rgba[i][3] = 255;
+    }
+  }
+  void set_alphas(const std::string& where, std::span<const uint8_t> data) {
+    if (data.size() > size) throw refused(where, "its palette has too many alphas");
+    for (size_t i = 0; i < data.size(); ++i) rgba[i][3] = data[i];
+  }
+};
+
+/// A row of any kind as RGBA: grey spread over R, G and B, alpha 255 where there is none.
+void spread(const std::string& where, uint8_t kind, const Palette& palette, const uint8_t* row, size_t width,
+            uint8_t* out) {
+  const size_t from = texel_bytes(kind);
+  for (size_t x = 0; x < width; ++x) {
+    const uint8_t* texel = row + x * from;
+    uint8_t* rgba = out + 4 * x;
+    if (kind == kPalette) {
+      if (*texel >= palette.size) throw refused(where, "a texel is beyond its palette");
+      std::copy_n(palette.rgba[*texel], 4, rgba);
+      continue;
+    }
+    const bool color = kind == kRgb || kind == kRgba;
+    for (size_t c = 0; c < 3; ++c) rgba[c] = texel[color ? c : 0];
+    rgba[3] = kind == kRgba || kind == kGreyAlpha ? texel[from - 1] : 255;
+  }
+}
+
+}  // namespace
+
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKinds kinds) {
+  std::unique_ptr<Inflater> texels;
+  Palette palette;
+  Image image;
+  uint8_t kind = kRgba;
+  size_t texel = 0;  // bytes, in the file
+  for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
+    const size_t length = word_at(bytes, at);
+    const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
+    if (crc32(0, type.data(), uInt(4 + length)) != word_at(bytes, at + 8 + length))
+      throw refused(where, "a checksum of it is wrong");
+    const std::string name(type.begin(), type.end());
+    if (name == "IHDR") {
+      check_kind(where, data, kinds);
+      kind = data[9], texel = texel_bytes(kind) * data[8] / 8;
+      image.format = data[8] == 16 ? Format::rgba16 : Format::rgba8;
+      image.width = int(word_at(data, 0)), image.height = int(word_at(data, 4));
+      texels = std::make_unique<Inflater>(where, (size_t(image.width) * texel + 1) * size_t(image.height));
+    } else if (name == "PLTE" && kind == kPalette) {
+      palette.set_colors(where, data);
+    } else if (name == "tRNS" && kind != kRgba) {
+      if (kind != kPalette) throw refused(where, "one of its colours stands for transparency", "write RGBA");
+      palette.set_alphas(where, data);
+    } else if (name == "IDAT") {
+      texels->add(data);
+    } else if (name == "IEND") {
+      break;
+    }
+    at += length + kChunkOverhead;
+  }
+  std::vector<uint8_t> rows = texels->finish();
+  image.texels.resize(image.row_bytes() * size_t(image.height));
+  const size_t row_bytes = size_t(image.width) * texel;
+  const uint8_t* above = nullptr;
+  for (int y = 0; y < image.height; ++y) {
+    uint8_t* row = rows.data() + size_t(y) * (row_bytes + 1);
+    unfilter(where, row[0], row + 1, above, row_bytes, texel);
+    if (image.format == Format::rgba8)
+      spread(where, kind, palette, row + 1, size_t(image.width), image.texel(0, y));
+    else
+      std::copy(row + 1, row + 1 + row_bytes, image.texel(0, y));
+    above = row + 1;
+  }
+  if (image.format == Format::rgba16)  // most significant byte first, in the file
+    for (size_t i = 0; i < image.texels.size(); i += 2) std::swap(image.texels[i], image.texels[i + 1]);
+  return image;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,111 @@
+#include "gl/driver/map_textures.h"
+
+#include <algorithm>
+#include <array>
+
+namespace trueshade::oracle {
+
+namespace {
+
+GlFormat gl_format(TextureFormat format) {
+  switch (format) {
+    case TextureFormat::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case TextureFormat::srgb8_a8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case TextureFormat::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
+    case TextureFormat::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+  }
+  return {};
+}
+
+GLint gl_wrap(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return GL_REPEAT;
+    case Wrap::mirrored_repeat:
+      return GL_MIRRORED_REPEAT;
+    case Wrap::clamp_to_edge:
+      return GL_CLAMP_TO_EDGE;
+    case Wrap::clamp_to_border:
+      return GL_CLAMP_TO_BORDER;
+    case Wrap::mirror_clamp_to_edge:
+      return GL_MIRROR_CLAMP_TO_EDGE;
+  }
+  return GL_REPEAT;
+}
+
+GLint gl_min_filter(const Sampler& s) {
+  const bool linear = s.min_filter == Filter::linear;
+  switch (s.mip_filter) {
+    case MipFilter::none:
+      return linear ? GL_LINEAR : GL_NEAREST;
+    case MipFilter::nearest:
+      return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+    case MipFilter::linear:
+      return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+  }
+  return GL_LINEAR;
+}
+
+GlTexture uploaded(const Texture& texture, const Sampler& s) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  GlTexture out(name);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const GlFormat format = gl_format(texture.format);
+  for (size_t k = 0; k < texture.levels.size(); ++k)
+    glTexImage2D(GL_TEXTURE_2D, GLint(k), GLint(format.internal), texture.levels[k].width, texture.levels[k].height, 0,
+                 format.external, format.type, texture.levels[k].bytes.data());
+  const auto set = [](GLenum what, GLint value) { glTexParameteri(GL_TEXTURE_2D, what, value); };
+  set(GL_TEXTURE_MAX_LEVEL, GLint(texture.levels.size()) - 1);
+  set(GL_TEXTURE_WRAP_S, gl_wrap(s.wrap[0]));
+  set(GL_TEXTURE_WRAP_T, gl_wrap(s.wrap[1]));
+  set(GL_TEXTURE_MAG_FILTER, s.mag_filter == Filter::linear ? GL_LINEAR : GL_NEAREST);
+  set(GL_TEXTURE_MIN_FILTER, gl_min_filter(s));
+  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, s.lod_bias);
+  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MIN_LOD, s.lod_min);
+  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_LOD, s.lod_max);
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, &s.border.x);
+  return out;
+}
+
+/// A texture of one texel, so that a lookup gives it exactly.
+Texture constant_texture(const std::array<float, 4>& value) {
+  Texture texture{"", TextureFormat::rgba32f, {{1, 1, {}}}};
+  append_texel(texture.format, value, texture.levels[0].bytes);
+  return texture;
+}
+
+}  // namespace
+
+MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
+  const auto any = [&](auto has) { return std::any_of(scene.materials.begin(), scene.materials.end(), has); };
+  if (!any([](const Material& m) { return m.textured() || m.masked(); })) return;
+  const Texture white = constant_texture({1, 1, 1, 1}), level = constant_texture({0.5f, 0.5f, 1, 1});
+  const auto upload = [&](const TextureSlot Material::*slot, const Texture& none) {
+    std::vector<GlTexture> textures;
+    for (const Material& m : scene.materials)
+      textures.push_back((m.*slot).used() ? uploaded(scene.textures[size_t((m.*slot).texture)], (m.*slot).sampler)
+                                          : uploaded(none, Sampler{}));
+    return textures;
+  };
+  color_ = upload(&Material::color_map, white);
+  if (any([](const Material& m) { return m.specular_map.used(); })) specular_ = upload(&Material::specular_map, white);
+  if (any([](const Material& m) { return m.normal_map.used(); })) normal_ = upload(&Material::normal_map, level);
+}
+
+void MapTextures::bind(GLuint program, uint32_t material) const {
+  constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;  // the last that every OpenGL has
+  bind_texture(program, "color_map", kColorUnit, GL_TEXTURE_2D, color_[material]);
+  set_uniform(program, "alpha_cutoff", scene_->materials[material].alpha_cutoff);
+  if (specular()) bind_texture(program, "specular_map", kSpecularUnit, GL_TEXTURE_2D, specular_[material]);
+  if (!normal()) return;
+  bind_texture(program, "normal_map", kNormalUnit, GL_TEXTURE_2D, normal_[material]);
+  set_uniform(program, "normal_scale", scene_->materials[material].normal_scale);
+}
+
+}  // namespace trueshade::oracle

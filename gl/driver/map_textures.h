@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include "gl/driver/objects.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// The maps of a scene's materials as OpenGL textures, levels as the scene has them. The context must be current.
+class MapTextures {
+ public:
+  explicit MapTextures(const Scene& scene);
+
+  bool used() const { return !color_.empty(); }  ///< some material has a map or a mask
+  bool specular() const { return !specular_.empty(); }
+  bool normal() const { return !normal_.empty(); }
+
+  /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 15.
+  void bind(GLuint program, uint32_t material) const;
+
+ private:
+  const Scene* scene_;
+  std::vector<GlTexture> color_, specular_, normal_;  ///< one a material; where it has none, a texel that does nothing
+};
+
+}  // namespace trueshade::oracle

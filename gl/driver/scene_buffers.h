@@ -1,0 +1,91 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gl/driver/map_textures.h"
+#include "gl/driver/objects.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// A run of instances, consecutive in the scene, of one mesh, all transparent or none, and, where materials have maps,
+/// of one material: one instanced draw.
+struct InstanceRun {
+  uint32_t mesh = 0, material = 0;
+  uint32_t first = 0, count = 0;
+  bool transparent = false;
+};
+
+/// Which surfaces a pass draws.
+enum class Surfaces : uint8_t { all, opaque, transparent };
+
+/// What a draw needs to know of an instance.
+struct InstanceRecord {
+  static constexpr int kFloats = 4 * 4 + 3 * 4 + 3 * 3 + 4;  ///< clip rows, world rows, normal rows, base colour
+  std::array<float, kFloats> values;
+  std::array<uint32_t, 2> ids;
+};
+
+/// A scene on the GPU: each mesh once, lights as texels. Instance matrices follow when a camera and a size are known.
+class SceneBuffers {
+ public:
+  /// `rotation`: triangles start with their vertex 0, 1 or 2; the same picture where a driver keeps GL's promises.
+  /// Borrows the scene, which must outlive it unchanged. The context must be current.
+  explicit SceneBuffers(const Scene& scene, int rotation = 0);
+
+  const Scene& scene() const { return *scene_; }
+  bool has_vertex_colors() const;
+  bool has_type(LightType type) const;
+
+  /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
+  void upload_instances(const Pipeline& pipeline);
+  bool has_transparent() const;
+  /// Every triangle of those surfaces, in submission order, by the program in use; one of GlslOptions::maps where
+  /// maps() are used; texture units 11 (frames of normal maps) and 13 to 15.
+  void draw_instances(Surfaces which = Surfaces::all) const;
+  /// One transparent instance of them.
+  void draw_transparent(uint32_t instance) const;
+  /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
+  void draw_each_instance(GLuint program, Surfaces which = Surfaces::all) const;
+  const MapTextures& maps() const { return maps_; }
+  bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
+  /// Light records in the model's LightLayout; made again when the model changes.
+  GLuint light_texels(const LightModel& model);
+  /// Material records as material_text() reads them.
+  GLuint material_texels(const LightModel& model);
+
+ private:
+  struct MeshBuffers {
+    GlVertexArray array;
+    GlBuffer vertices, indices;
+    GlTexelBuffer tangents;  ///< where there are normal maps
+    GLsizei index_count = 0;
+  };
+  MeshBuffers upload(const Mesh& mesh, int rotation) const;
+  void draw_run(const InstanceRun& run, GLuint program) const;
+
+  const Scene* scene_;
+  MapTextures maps_;
+  std::vector<MeshBuffers> meshes_;
+  std::vector<InstanceRun> runs_;
+  GlBuffer instances_;
+  std::vector<InstanceRecord> records_;  ///< what instances_ holds
+  GlTexelBuffer lights_, materials_;
+  std::optional<LightModel> uploaded_;             ///< whose records lights_ holds
+  std::optional<SpecularSource> material_layout_;  ///< of what materials_ holds
+};
+
+/// A spot light's cone as shaders read it: LightLayout says what the numbers are.
+struct ConeNumbers {
+  bool narrow = false;  ///< false: a light without a cone, or whose cone is the whole sphere
+  float first = 0, second = 0;
+};
+ConeNumbers cone_numbers(const Light& light, Cone cone);
+
+/// The light records as the shaders read them, RGBA a texel.
+std::vector<float> light_records(const Scene& scene, const LightModel& model);
+
+}  // namespace trueshade::oracle

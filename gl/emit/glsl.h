@@ -1,0 +1,126 @@
+#pragma once
+// A pipeline as GLSL: the text the judge compiles is the text `trueshade glsl` writes. Nothing here calls OpenGL.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/pipeline/pipeline.h"
+
+namespace trueshade::oracle {
+
+/// What the text depends on beside the pipeline. As it stands: the judge's shaders on a driver of OpenGL 4.5.
+struct GlslOptions {
+  int version = 450;      ///< 450 or 330; 330 cannot forbid contraction of the position
+  bool ids = true;        ///< planes id.object, id.material (index + 1) and id.primitive (triangle in the mesh + 1)
+  bool primitive = true;  ///< of ids, id.primitive too
+  bool uv = true;         ///< plane uv
+  bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
+  bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
+  bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
+  bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
+  bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
+  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool transparent = false;  ///< surfaces are drawn after the lights
+  bool vertex_color = true;  ///< false: no mesh has any, so the base colour is the albedo
+  bool ambient = true, directional = true;  ///< light types the loop knows beside point
+};
+
+/// What a format is stored as: rgba16f for rgb16f where the driver cannot render to that.
+constexpr Format renderable(Format format, bool rgb16f) {
+  return format == Format::rgb16f && !rgb16f ? Format::rgba16f : format;
+}
+
+/// A plane of the G-buffer: colour attachment i of the geometry pass is the i-th of planes_of().
+struct GlslPlane {
+  std::string name;     ///< as --aov names it
+  std::string output;   ///< of the geometry pass's fragment shader
+  std::string sampler;  ///< of the light pass
+  Format format;
+  bool operator==(const GlslPlane&) const = default;
+};
+
+/// The planes of a pipeline in attachment order.
+std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& options);
+
+/// The plane whose texel tells whether a surface was drawn: its w (1, cleared to 0) or, for ids, the number itself.
+const GlslPlane& coverage_plane(const std::vector<GlslPlane>& planes);
+
+/// The shaders that draw a frame. The files of `trueshade glsl` have these names. Forward strategies light the scene
+/// itself, with light_vert and light_frag; their geometry pass is there to show what is lit. base_frag, with
+/// light_vert: the draw before the lights of deferred-volumes, empty where there is none. transparent_*: the draw of
+/// transparent surfaces after the lights, of GlslOptions::transparent.
+struct GlslShaders {
+  std::string geometry_vert, geometry_frag, light_vert, light_frag, base_frag;
+  std::string transparent_vert{}, transparent_frag{};
+  bool operator==(const GlslShaders&) const = default;
+};
+GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
+/// Of these the light pass, by the pipeline's strategy.
+void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders);
+/// The pipeline as OpenGL draws it: with the planes that surfaces really have.
+inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
+  Pipeline p = pipeline;
+  p.gbuffer = surface_planes(pipeline);
+  return p;
+}
+
+/// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
+/// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers
+/// (cos(outer) and the edge where it is fully lit; exponent: cos(outer), exponent; squared_penumbra: scale, offset);
+/// with an ambient share (ambient, 0). Types: 0 ambient, 1 directional, 2 point, 2.5 a spot that lights all around, 3
+/// spot.
+struct LightLayout {
+  explicit LightLayout(const LightModel& model);
+  bool attenuation, cone, ambient;
+  int texels() const { return 2 + int(attenuation) + 2 * int(cone) + int(ambient); }
+  bool operator==(const LightLayout&) const = default;
+};
+
+// Parts that the peers' shaders are made of too.
+
+std::string glsl_header(int version, std::string_view purpose);
+std::string glsl_float(float value);  ///< a literal that reads back as the same float
+/// Varyings of the geometry pass, declared alike at both ends: `direction` is in or out.
+std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
+/// The surface's colour and its normal, of any length, in a fragment shader with those varyings.
+std::string albedo_text(const GlslOptions& options);
+std::string normal_text(const GlslOptions& options);
+/// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
+/// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
+bool reads_materials(const LightModel& model);
+/// `vec4 albedo` of a fragment, and from its material `vec4 gloss` and `vec3 emission` where the model reads them.
+std::string material_text(const LightModel& model, const GlslOptions& options);
+std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
+std::string fullscreen_vertex_text(int version);
+/// `vec3 lit(P, N, V, albedo, [gloss,] place, color[, k][, axis, cone][, ambient])`: what one light adds; in the order
+/// albedo_last, before the albedo.
+std::string light_function_text(const LightModel& model, const GlslOptions& options);
+/// Samplers and uniforms that read_surface_text() reads, without those of the lights.
+std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
+/// Discards pixels without a surface; then `vec3 P, N, V` and `vec4 albedo` of the pixel, from the planes.
+std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options);
+/// `vec3 N, V` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
+std::string surface_text(const LightModel& model);
+/// What the sum starts from; and the target, as the model makes it of a sum.
+std::string sum_start_text(const LightModel& model);
+std::string target_text(const LightModel& model, const std::string& sum);
+/// `lit(...)` of the light whose first texel in `buffer` is at `index` times LightLayout::texels().
+std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
+
+/// Whether a falloff is 0 from the range on, so that nothing else has to end there.
+bool ends_at_range(Falloff falloff);
+/// Of which lights the shader has to leave out what lies beyond their range.
+struct RangeLimits {
+  bool point = false, spot = false;
+  bool any() const { return point || spot; }
+};
+RangeLimits limits_range(const Pipeline& pipeline);
+/// `bool in_extent(vec3 P, int light)`, where limits_range() says that any is.
+std::string extent_text(const Pipeline& pipeline, const std::string& buffer);
+/// The call where the light reaches P, else 0.
+std::string bounded_call_text(const Pipeline& pipeline, const std::string& buffer, const std::string& light);
+/// Statements that sum lights [first, end) of `buffer` and write the target.
+std::string light_loop_text(const Pipeline& pipeline, const std::string& buffer, const std::string& first,
+                            const std::string& end);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,39 @@
+#include "judge/bounds/bounded.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// Relative error of pow(x, s) itself, x exact, |log2 x| = exponent, |s log2 x| = y.
+double own_error(const Arithmetic& a, bool near_one, double exponent, double y, double s) {
+  if (a.exact_pow) return 0x1p-24;
+  const double ulp = 0x1p-23, log2_error = near_one ? 0x1p-21 : 3 * ulp * exponent;
+  return std::expm1(std::log(2.0) * (s * log2_error + y * a.roundoff)) + (3 + 2 * y) * ulp;
+}
+
+/// x^s where x is not known to a good part of itself: both ends powered.
+Bounded power_of_ends(const Arithmetic& a, double low, double x, double high, double s) {
+  const auto error_at = [&](double v) {
+    const double exponent = std::fabs(std::log2(v));
+    return own_error(a, v >= 0.5 && v <= 2, exponent, s * exponent, s);
+  };
+  const double top = std::pow(high, s) * (1 + error_at(high)), value = x > 0 ? std::pow(x, s) : 0;
+  const double bottom = low > 0 ? std::pow(low, s) * std::max(0.0, 1 - error_at(low)) : 0;
+  return {value, std::max(top - value, value - bottom) + kSmallestFloat};
+}
+
+}  // namespace
+
+Bounded power(const Arithmetic& a, double low, double x, double high, double s) {
+  if (s == 0) return {1, 0};  // x = 0 is the caller's matter: GLSL leaves 0^0 undefined
+  if (!(high > 0)) return {0, kSmallestFloat};
+  const double r = low > 0 ? std::max(high - x, x - low) / low : HUGE_VAL, t = s * r;
+  if (!(t < 0.5)) return power_of_ends(a, low, x, high, s);
+  // (1 + r)^s <= e^t <= 1 + t + t^2 for t <= 1, and 1 - (1 - r)^s <= t for r as divided by the low end.
+  const double log2_x = std::log2(x), exponent = std::fabs(log2_x) + 2 * r;
+  const double value = std::exp2(s * log2_x);
+  const double own = own_error(a, low >= 0.5 && high <= 2, exponent, s * exponent, s);
+  return {value, value * ((t + t * t) * (1 + own) + own + 0x1p-45 * (1 + s * exponent)) + kSmallestFloat};
+}
+
+}  // namespace trueshade::oracle

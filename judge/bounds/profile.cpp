@@ -1,0 +1,124 @@
+#include "judge/bounds/profile.h"
+
+#include <array>
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames = {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"};
+
+/// D3D11.3 functional spec: 3.4.1 and 15.16 (snapping, planes from snapped vertices), 3.2.2 (half toward zero), 3.2.3
+/// (unorm within 0.6), 3.1 (+ - * within half an ulp... of any order; division and roots within 1).
+Profile d3d_class() {
+  Profile p;
+  p.name = "d3d-class";
+  p.subpixel_bits = 8;
+  p.snap = SnapRule::nearest_0_6;
+  p.fill = FillRule::unstated;  // top-left in memory: which way memory lies in a GL window is the driver's secret
+  p.plane_origin = PlaneOrigin::snapped;
+  p.unorm_reach = p.srgb_reach = 0.6;
+  p.half = HalfStore::toward_zero;
+  p.most_depth_unit = 1;  // 15.10
+  p.max_norm_slope = true;
+  // 7.18.16: at least 8 fractional bits of weights and levels. 3.2.3: sRGB within half a code; decoded, then filtered.
+  p.sampling = {0x1p-8, 0x1p-8, 1, 0.5, false, false, true, 0x1p-8};
+  p.fetch_error = 1.25 * 0x1p-23;
+  p.arithmetic.roundoff = 0x1p-24;
+  return p;
+}
+
+/// GL_RULES sections 1 to 6: 24.8 to nearest even, planes from unsnapped positions, clipping at the viewport.
+Profile llvmpipe() {
+  Profile p;
+  p.name = "mesa-llvmpipe-22.3";
+  p.subpixel_bits = 8;
+  p.snap = SnapRule::nearest;
+  p.fill = FillRule::left_low;
+  p.plane_origin = PlaneOrigin::unsnapped;
+  p.unorm_reach = 0.5;
+  p.srgb_reach = 0.67;  // 0.6608 in 4.7 million values (tests/judge/srgb_targets.cpp)
+  p.half = HalfStore::toward_zero;
+  p.blend = BlendRule::mesa_codes;
+  p.least_depth_unit = 2;
+  p.max_norm_slope = true;
+  // RGBA8 with 8-bit weights and results, other formats in floats; rho the longer gradient.
+  p.sampling = {0x1p-8, 0, 1, 0x1p-10, false, true, false, 0.045};
+  p.fetch_error = 1.25 * 0x1p-23;
+  p.arithmetic.roundoff = 0x1p-24;
+  return p;
+}
+
+/// docs/arithmetic.md: only what that page leaves to f32 evaluation is left open here.
+Profile ideal() {
+  Profile p;
+  p.name = "ideal";
+  p.subpixel_bits = 8;
+  p.snap = SnapRule::nearest;
+  p.fill = FillRule::left_low;
+  p.plane_origin = PlaneOrigin::snapped;
+  p.exact_vertices = p.exact_planes = true;
+  p.clips_to_view = false;
+  p.blend = BlendRule::float_once;
+  p.unorm_reach = p.srgb_reach = 0.5;
+  p.half = HalfStore::toward_zero;
+  p.most_depth_unit = 1;
+  p.max_norm_slope = true;
+  p.fetch_error = 0x1p-24;
+  p.sampling = {0, 0, 0, 0, false, false, false, 1e-6, 0x1p-24};
+  // 1 / sqrt is two roundings; the others one, each to nearest.
+  p.arithmetic = {0x1p-24, 0x1p-24, 2 * 0x1p-24, 0x1p-24, true};
+  return p;
+}
+
+}  // namespace
+
+std::span<const std::string_view> profile_names() { return kNames; }
+
+std::optional<Profile> profile_named(std::string_view name) {
+  if (name == kNames[0]) return Profile{};
+  if (name == kNames[1]) return d3d_class();
+  if (name == kNames[2]) return llvmpipe();
+  if (name == kNames[3]) return ideal();
+  return std::nullopt;
+}
+
+const char* text(SnapRule rule) {
+  switch (rule) {
+    case SnapRule::nearest:
+      return "nearest";
+    case SnapRule::nearest_0_6:
+      return "nearest within 0.6";
+    case SnapRule::toward_zero:
+      return "toward zero";
+    case SnapRule::unstated:
+      return "unstated";
+  }
+  return "";
+}
+
+const char* text(PlaneOrigin origin) {
+  switch (origin) {
+    case PlaneOrigin::snapped:
+      return "snapped";
+    case PlaneOrigin::unsnapped:
+      return "unsnapped";
+    case PlaneOrigin::either:
+      return "either";
+  }
+  return "";
+}
+
+const char* text(HalfStore store) {
+  switch (store) {
+    case HalfStore::toward_zero:
+      return "toward zero";
+    case HalfStore::nearest:
+      return "nearest";
+    case HalfStore::either:
+      return "either";
+  }
+  return "";
+}
+
+}  // namespace trueshade::oracle

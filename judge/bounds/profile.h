@@ -1,0 +1,78 @@
+#pragma once
+// What is known of the implementation that drew an image: the knobs of GL_RULES section 0 as values. A tighter profile
+// allows fewer values; `unknown` allows whatever OpenGL allows.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "judge/bounds/bounded.h"
+
+namespace trueshade::oracle {
+
+enum class SnapRule : uint8_t {
+  nearest,      ///< round(w * 2^b), ties to even, of a coordinate that float errors may have moved
+  nearest_0_6,  ///< either neighbour within 0.6 of 2^-b (D3D11.3 functional spec, 3.2.4.1)
+  toward_zero,  ///< floor(w * 2^b): a wrong guess to be told apart when a profile is inferred
+  unstated,     ///< anywhere within half of 2^-b: finer grids, or none at all, lie inside
+};
+enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
+enum class FillRule : uint8_t { left_low, left_high, unstated };  ///< which horizontal edge is in; GL window, y up
+enum class HalfStore : uint8_t { toward_zero, nearest, either };
+enum class BlendRule : uint8_t {
+  any_precision,  ///< no less than the target's (GL 4.6 core, 17.3.6): anything from its codes to real numbers, fused
+                  ///< or not
+  float_once,     ///< docs/arithmetic.md section 10: codes added for ONE, ONE; else float32, rounded once
+  mesa_codes,     ///< section 11: products of codes, rgb10_a2's in 16 bits; float32 for floats and sRGB
+};
+
+/// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
+/// filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers measured do.
+struct Sampling {
+  double weight_error = 0x1p-7;       ///< of a weight between texels of 8 bits a channel (VK-GL-CTS: 7 bits of u and v)
+  double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
+  double lerp_codes = 1;  ///< codes of 255 that one linear step (along u, along v, between levels) of 8-bit texels may
+                          ///< be off: either neighbour of its value. 0: filtered as floats
+  double srgb_codes = 1;  ///< codes that a decoded sRGB texel may be off: either neighbour
+  bool decodes_late = true;  ///< sRGB may be filtered, in 8 bits, before it is decoded (GL 4.6 core, 8.24: "allowed")
+  bool mesa_decode = false;  ///< sRGB is decoded by Mesa 22.3's polynomial; srgb_codes is from there
+  bool any_scale = true;     ///< rho anything 8.14.1 allows; false: equation 8.11
+  double lod_error = 0.05;   ///< of log2 rho: llvmpipe's log2 is 0.043 off
+  double relative = 8 * 0x1p-23;  ///< of a filtered value, in floats
+  bool operator==(const Sampling&) const = default;
+};
+
+struct Profile {
+  std::string name = "unknown";
+  int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
+  SnapRule snap = SnapRule::unstated;
+  FillRule fill = FillRule::unstated;
+  PlaneOrigin plane_origin = PlaneOrigin::either;
+  bool exact_vertices = false;  ///< clip coordinates and vertex attributes are those of docs/arithmetic.md, bit for bit
+  bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
+  bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
+  double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
+  double srgb_reach = 1.0;  ///< the same of an encoded sRGB value; drivers approximate the power (GL_RULES section 3)
+  HalfStore half = HalfStore::either;
+  HalfStore likely_half = HalfStore::toward_zero;    ///< the nominal one of either: resolved() has the pipeline's
+  double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
+  bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
+  BlendRule blend = BlendRule::any_precision;
+  /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25
+  /// ulp at most (GL_RULES section 3).
+  double fetch_error = 2.5 * 0x1p-23;
+  Sampling sampling;
+  Arithmetic arithmetic;
+};
+
+/// Names: unknown, d3d-class, mesa-llvmpipe-22.3, ideal. Nothing for others.
+std::optional<Profile> profile_named(std::string_view name);
+std::span<const std::string_view> profile_names();
+
+/// Ideal's half mode follows the pipeline; the others' is their own.
+const char* text(SnapRule rule);
+const char* text(PlaneOrigin origin);
+const char* text(HalfStore store);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,111 @@
+#pragma once
+// Triangles in the window, as boxes: where an implementation of a profile may have put each vertex (GL_RULES section
+// 9).
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "oracle/exact_coverage.h"
+#include "judge/bounds/profile.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+using Pair = std::array<double, 2>;
+
+/// A vertex in window pixels, y up, and what float arithmetic and snapping may make of it.
+struct WindowVertex {
+  Pair exact{};                    ///< of the real coordinates: equal where two triangles share the vertex
+  Pair low{}, high{};              ///< the box of the snapped vertex, that coverage is computed from
+  Pair plane{}, plane_reach{};     ///< the vertex that attribute planes go through: within reach of plane
+  Pair float_reach{};              ///< what float arithmetic alone makes of `exact`
+  double z = 0, z_error = 0;       ///< window depth
+  double u = 0, u_error = 0;       ///< 1 / w
+  std::array<double, 3> weight{};  ///< in clip space, of the vertices of the triangle submitted
+};
+
+/// A triangle, or a piece of the fan of a clipped one.
+struct Piece {
+  std::array<WindowVertex, 3> v;
+  bool cut = false;          ///< by near, far or w
+  bool leaves_view = false;  ///< has an edge that the profile may cut at the sides of the view
+  bool facing_known = true;
+  int sign = 1;       ///< of the area; -1: edges are turned
+  bool front = true;  ///< meaningful where facing_known
+};
+
+/// How surely a piece has a sample.
+enum class Cover : uint8_t { no, maybe, certain };
+
+/// Coverage of the sample (x, y), pixels; edge i runs from vertex i+1 to vertex i+2. Edge interval: with A and B the
+/// ends relative to the sample, each coordinate in its own interval, E = Ax By - Ay Bx; the four occur once each, so
+/// interval arithmetic gives the exact hull. It contains the sum (|dx| + |dy|) e_v of GL_RULES section 9.
+struct Coverage {
+  Cover cover = Cover::no;
+  unsigned uncertain_edges = 0;  ///< bit i: the edge's interval contains 0
+  double chance_other = 0;       ///< predicted probability that the sample is not where nominal vertices put it
+  bool nominal = true;           ///< covered where every interval is at its middle
+};
+Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y);
+
+/// Signed area times two of (a, b, sample), exactly antisymmetric in a and b; 0 is decided by the edge's direction, so
+/// that a closed mesh of `exact` vertices has a definite winding number about every sample.
+bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y);
+
+/// Vertices of a scene into the window, under a profile.
+class Projector {
+ public:
+  /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
+  Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {});
+
+  /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh
+  /// have none.
+  bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
+
+  /// What is left of the triangle after near, far and w; back to `out`, which is cleared.
+  void pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const;
+
+  /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix
+  /// A).
+  std::array<std::array<float, 4>, 3> clip_of(uint32_t instance, uint32_t triangle) const;
+
+  /// The largest |x|, |y| of the viewport in the driver's window, where planes are made.
+  const Pair& window_reach() const { return window_reach_; }
+  const Matrix4& clip_from_world() const { return clip_from_world_; }
+  const Profile& profile() const { return profile_; }
+  const Pipeline& pipeline() const { return pipeline_; }
+  const Scene& scene() const { return scene_; }
+  int width() const { return pipeline_.width; }
+  int height() const { return pipeline_.height; }
+
+ private:
+  struct ClipVertex {
+    std::array<double, 4> c{}, error{};
+    std::array<double, 4>
+        along{};  ///< how far a cut vertex may lie along its edge: moves coverage, leaves the planes alone
+    std::array<double, 3> weight{};
+  };
+  struct InstanceMatrix {
+    float row[4][4];
+    std::array<double, 4> error;  ///< largest clip error of any vertex of the mesh
+  };
+  ClipVertex clip_vertex(uint32_t instance, uint32_t vertex, size_t corner) const;
+  WindowVertex window_vertex(const ClipVertex& v, bool leaves_view) const;
+  void snap(WindowVertex& v, int axis, const ClipVertex& clip, double error, double along, bool leaves_view) const;
+  void exact_pieces(const std::array<ClipVertex, 3>& corners, std::vector<Piece>& out) const;
+  void cut(std::vector<ClipVertex>& polygon, int plane) const;
+  double plane_distance(const ClipVertex& v, int plane) const;
+  bool face(Piece& piece) const;
+
+  const Scene& scene_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  Viewport viewport_;
+  std::array<int, 2> drawn_at_;
+  Pair window_reach_{};
+  Matrix4 clip_from_world_;
+  std::vector<InstanceMatrix> matrices_;
+  double z_scale_, z_offset_;
+};
+
+}  // namespace trueshade::oracle

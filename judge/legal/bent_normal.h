@@ -1,0 +1,28 @@
+#pragma once
+// What a texel of a normal map may make of a surface's normal (docs/arithmetic.md section 13).
+#include "judge/legal/surface.h"
+
+namespace trueshade::oracle {
+
+/// The directions along which u and v grow on a triangle, in the world, of any length; zero where uv has no area.
+struct TangentFrame {
+  Bounded3 u, v;
+};
+
+/// Of vertices in the world, as docs/arithmetic.md has it, in double; unless the profile has exact vertices, or of
+/// vertices in the object, turned into the world by the shader: three products of a row with one rounding each, two
+/// sums, and the rounding of the matrix element and of the direction, 5 v sum |m| |u|.
+TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
+                           const TriangleValues& values);
+
+/// (T x + B y) + N z, of N as interpolated and x, y, z = 2 t - 1, x and y times `scale`.
+///
+/// Roundings are carried operation by operation for the N in the middle of its ranges. Another N, e away, is turned by
+/// theta <= e / (|N| - e). With phi the angle from N to U, the unit vectors T and B move by dtheta / sin phi
+/// (T = U's part across N: dT = -N (d.T) - cot(phi) (d.B) B for a turn d; B = N x T), and sin phi >= sin phi_0 - theta
+/// on the way: so by theta / (sin phi_0 - theta) in all. Where that may be 0 both may be any unit vectors; where C.V
+/// may be of either sign, B may be turned.
+std::array<Range, 3> bent_normal(const std::array<Range, 3>& normal, const TangentFrame& frame,
+                                 const std::array<Range, 4>& texel, double scale, const Profile& profile);
+
+}  // namespace trueshade::oracle

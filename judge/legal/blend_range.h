@@ -1,0 +1,40 @@
+#pragma once
+// From what a fragment may output and what a pixel may hold to what the pixel may hold afterwards (GL_RULES section 4).
+#include <array>
+
+#include "core/blend_state.h"
+#include "judge/legal/store.h"
+
+namespace trueshade::oracle {
+
+/// Fixed-point formats in codes, others in values; channels a format lacks are not read.
+using Texel = std::array<LegalTexel, 4>;
+
+/// A texel that is known.
+LegalTexel known_texel(double stored);
+
+/// One fragment blended, or stored where blending is off; channels masked off stay as they are.
+///   source: of each channel, alpha last, before any clamp
+///   stored: what the pixel may hold before
+/// By the profile's BlendRule. any_precision (GL 4.6 core, 17.3.6): sources, factors and constants clamped for fixed
+/// point; each of them, each product and the result may be a neighbour in the target's own format, or none rounded at
+/// all. Every step is the hull of an interval, so what is read twice (a destination that is a factor too) may come out
+/// wider than the set is; it never comes out narrower. sRGB targets: in linear values, those of codes within
+/// kSrgbDecodeError unless the profile is exact.
+/// A result that is not a number, which OpenGL leaves open (2.3.4), has an infinite range.
+Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
+                    const Texel& stored);
+
+/// What the nominal rule, float32 rounded once to the likelier neighbour, leaves, for the tests of the whole image:
+/// its second_chance is a bound of how often a driver of that rule stores another. Profiles that state their blend:
+/// theirs.
+Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
+                   const Texel& stored);
+
+/// What drivers' decoding of an sRGB code was found to be off at most (GL_RULES section 3), with room for its rounding.
+inline constexpr double kSrgbDecodeError = 1.3e-3;
+
+/// The smallest texel that holds both; the first one's nominal value.
+LegalTexel hull(const LegalTexel& a, const LegalTexel& b);
+
+}  // namespace trueshade::oracle

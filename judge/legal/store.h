@@ -1,0 +1,44 @@
+#pragma once
+// From the interval a value lies in to the texels it may be stored as (GL_RULES section 3).
+#include "core/format.h"
+#include "judge/bounds/profile.h"
+
+namespace trueshade::oracle {
+
+/// Values a shader may output: the most likely one and the ends.
+struct Range {
+  double value = 0, low = 0, high = 0;
+};
+
+inline Range range_of(const Bounded& b) { return {b.value, b.low(), b.high()}; }
+
+/// Stored values of one channel, as they read back (unorm: in codes, 0..255): everything from low to high.
+struct LegalTexel {
+  double nominal = 0;  ///< what the store gives for Range::value; unorm and half: on the grid
+  double low = 0, high = 0;
+  double second_chance =
+      0;                ///< predicted probability that not the nominal value is stored, errors uniform in the range
+  int second_side = 0;  ///< where the likelier other value lies: -1 below, 1 above
+  bool contains(double stored) const { return stored >= low && stored <= high; }
+};
+
+/// What a channel of `format` may hold for an output in `range`.
+///   Unorm: codes c with |c - largest x| <= reach (reach 1: < 1, GL 4.6 core 2.3.5.2), x clamped to [0, 1], the
+///   product's rounding to float included. sRGB: the same of the encoded value with Profile::srgb_reach; GL's own
+///   exponent of 0.41666 (17.3.7) is 0.002 off. Of llvmpipe the nominal code is its own (core/llvmpipe_srgb.h). Half:
+///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
+///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
+LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
+
+/// What a draw would output to leave what a clear to `color` leaves: llvmpipe clears 10 and 16 bits by rounding halves
+/// upward, and not by way of 16 bits, and sRGB by a table of its own (docs/arithmetic.md section 11); elsewhere the
+/// colour itself.
+Range cleared_range(double color, Format format, int channel, const Profile& profile);
+
+/// llvmpipe makes 10 and 2 bits of codes of 16, rgba16's (docs/arithmetic.md section 11): whether `profile` says so of
+/// `format`; a stored code in 16 bits, its bits repeated; and a code of 16 bits stored, not always as the nearest.
+bool computes_in_16_bits(Format format, const Profile& profile);
+LegalTexel widened(const LegalTexel& stored, int channel);
+LegalTexel narrowed(const LegalTexel& wide, int channel);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,96 @@
+#pragma once
+// What a piece's planes may give at a sample: depth and attributes as ranges (GL_RULES section 9, "plane origin").
+#include <array>
+#include <memory>
+
+#include "judge/legal/store.h"
+#include "judge/bounds/window.h"
+#include "oracle/scalar_renderer.h"
+
+namespace trueshade::oracle {
+
+/// The planes of one piece about one sample.
+///
+/// Moving vertices v_i by d_i is moving the sample: the plane through (v_i + d_i, z_i) has at p the value that the
+/// plane through (v_i, z_i) has at p - sum(b_i d_i), b_i the barycentrics of p in the moved triangle. So the values
+/// that all vertices of the box allow are those of one plane over a box about p of half width sum |b_i| max|d_i|, with
+/// |b_i| <= (|E_i| + dE_i) / (|A| - sum dE), dE_i what the box does to the edge function. A quotient of two affine
+/// functions is monotone along every line where its divisor keeps its sign: the extremes are at the box's corners.
+///
+/// Float planes a0 + gx x + gy y of the driver's window, |x| <= X, |y| <= Y in pixels from its corner (where Mesa 22.3
+/// has a0: llvmpipe/lp_state_setup.c, emit_coef4), add, with v the roundoff and N the largest vertex value:
+///   setup      gx = (dN1 dy2 - dN2 dy1) / det: 4 v G + |gx| (3 K v + divide + v), G and K the same sums with | | in
+///              place of - over |det|; it acts over the triangle's own extent, since a0 is made from the same gx
+///   anchor     a0 = N - gx x - gy y: 3 v (|gx| X + |gy| Y) + 2 v N
+///   evaluation 3 v (|gx| X + |gy| Y) + 2 v |a0|, |a0| <= N + |gx| X + |gy| Y
+///   stepping from a tile's corner to its pixels: 2 v (|gx| X + |gy| Y)
+/// and a perspective quotient N / D adds (dN + |a| dD) / D and the division.
+///
+/// Where the box allows a triangle without area no plane through its vertices is bounded. Yet a fragment is only there
+/// if the snapped triangle covers the sample, and its values are then a mean of the vertices' (14.6.1: barycentrics in
+/// [0, 1]): their hull, widened by its own width for the gradients of slivers, 8 v span^2 / |A| of the width, span <
+/// 1/4 pixel, |A| at least 2^-24 (the finest grid known, 12 bits). A plane through vertices that are not snapped is
+/// added where the profile has those.
+class SurfacePoint {
+ public:
+  /// reach: the X and Y above, Projector::window_reach().
+  SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
+
+  /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
+  bool bounded() const {
+    return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_);
+  }
+
+  /// Window depth before any offset and clamp.
+  Range depth() const;
+
+  /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
+  /// of both, of the plane through any vertices of the box; r of the profile, in float depth of the largest |z| of the
+  /// vertices, `largest`, or of the triangles that clipping may have cut the piece into.
+  Range depth_offset(const GeometryState& state, double largest) const;
+
+  /// value, error: at the three vertices of the piece.
+  Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
+                  Interpolation interpolation) const;
+
+ private:
+  enum class Tiny : uint8_t { anything, hull, hull_and_plane };
+  void no_plane(double x, double y);
+  Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
+  double plane_error(const std::array<double, 3>& vertex) const;
+  Range affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const;
+
+  const Piece& piece_;
+  const Profile& profile_;
+  bool bounded_ = true;
+  Tiny tiny_ = Tiny::anything;                     ///< what is known where bounded_ is not true
+  std::unique_ptr<Piece> float_piece_;             ///< the piece with vertices not snapped, and
+  std::unique_ptr<SurfacePoint> unsnapped_;        ///< its planes
+  int points_ = 1;                                 ///< 1 where the vertices are points, 5 otherwise
+  std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
+  std::array<double, 3> dx_{}, dy_{};              ///< their gradients, 1/pixel
+  const Pair window_reach_;                        ///< X, Y
+  double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
+};
+
+/// Attributes of the vertices of a triangle as floats and how far a legal vertex shader may be off.
+struct TriangleValues {
+  std::array<VertexValues, 3> value{}, error{};
+};
+TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
+
+/// Of attribute `index` at the vertices of a piece: convex combinations by their weights.
+void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
+                  std::array<double, 3>& error);
+
+/// Depth as the depth buffer may hold it: offset, clamped to the depth range, rounded to its format: fixed-point depth
+/// as k / largest, k the code.
+Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
+
+/// A depth that was read back, or cleared to, as stored_depth() has it: of fixed-point formats the nearest k / largest.
+double held_depth_of(const GeometryState& state, double depth);
+
+/// Whether a depth read back is what the buffer was cleared to: in fixed point either neighbour of clear_depth.
+bool is_clear_depth(const GeometryState& state, double depth);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,53 @@
+#pragma once
+// What a candidate hands to the fragment shader at a sample, and what the material makes of it.
+#include <optional>
+#include <vector>
+
+#include "judge/legal/bent_normal.h"
+#include "judge/legal/possible_surfaces.h"
+#include "judge/legal/map_range.h"
+#include "judge/bounds/shading.h"
+
+namespace trueshade::oracle {
+
+/// One candidate at one sample (x, y), pixels, y up. Borrows the projector.
+class SurfaceValues {
+ public:
+  SurfaceValues(const Projector& projector, const Candidate& candidate, double x, double y);
+
+  bool bounded() const { return point_->bounded(); }
+  // Which channels come from a lookup: the colour's, the specular colour's, the normal's.
+  bool textured() const { return texel_.has_value(); }
+  bool glossy() const { return maps_metals(model_) ? textured() : gloss_.has_value(); }
+  bool bumpy() const { return bent_.has_value(); }
+  const Material& material() const { return *material_; }
+
+  Range depth() const;                                               ///< as the depth buffer may hold it
+  Range attribute(size_t index, Interpolation interpolation) const;  ///< a ValueIndex plus a component
+  Range normal(int k, Interpolation interpolation) const;            ///< bent, where there is a map
+  Range base_color(int k, Interpolation interpolation) const;        ///< vertex colour times texel times base colour
+  Range albedo(const Range& base) const;                             ///< of the base colour: less what is metal
+  Range specular(const Range& base, int k) const;
+  double shininess() const;
+
+ private:
+  Range tinted(const Range& r, double tint) const;
+
+  const Projector& projector_;
+  const LightModel& model_;
+  const Material* material_;
+  std::vector<Piece> pieces_;
+  const Piece* piece_;
+  std::optional<SurfacePoint> point_;
+  TriangleValues values_;
+  std::optional<std::array<Range, 4>> texel_, gloss_;
+  std::optional<std::array<Range, 3>> bent_;
+};
+
+/// A candidate's fragment as lights read it where no plane is between.
+ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
+
+/// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
+Range halved_normal(const Range& n, const Profile& profile);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,26 @@
+#pragma once
+// What a texture lookup may give: the union over the places, levels of detail and weights that a profile leaves open
+// (GL_RULES sections 5 and 9). The class TEX.
+#include <array>
+
+#include "judge/legal/surface.h"
+#include "oracle/texture_lookup.h"
+
+namespace trueshade::oracle {
+
+/// A piece about one sample, as lookups see it.
+struct TextureSample {
+  Range u, v;                ///< texture coordinates
+  TexturePlace nominal;      ///< and their derivatives in the middle of what is open
+  TexturePlace least, most;  ///< |derivatives| over the sample and its neighbours: a GPU takes differences in a quad
+};
+
+/// uv: the attribute's values at the piece's vertices; u, v: its ranges at the sample (x, y).
+TextureSample texture_sample(const Piece& piece, const std::array<std::array<double, 3>, 2>& uv, Interpolation how,
+                             const Range& u, const Range& v, double x, double y);
+
+/// RGBA of a lookup: nominal value and hull, over the places of the sample and what Profile::sampling leaves open.
+std::array<Range, 4> texel_range(const Texture& texture, const Sampler& sampler, const TextureSample& sample,
+                                 const Profile& profile);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,97 @@
+// The last image of strategies that blend: what a pixel may hold, carried through all draws.
+#include "judge/stages/blending_judge.h"
+#include "judge/stages/judge_blending.h"
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+void BlendingJudge::find_layers(const Capture& capture) {
+  if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)
+    layers_.emplace(scene_, pipeline_, profile_, capture);
+}
+
+/// What the pixel may hold after the fragments, from what it may hold before them.
+void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const {
+  const Format format = color_.image->format;
+  for (const DrawnFragment& f : fragments) {
+    if (f.output.undefined) {
+      if (f.least > 0) p.pixel_class = PixelClass::undefined;
+      if (f.least == 0) {
+        p.open = true;
+        continue;
+      }
+    }
+    const auto drawn = [&](Texel t, const std::array<Range, 4>& source, int times) {
+      for (int i = 0; i < times; ++i) t = blended_texel(blend, format, profile_, source, t);
+      return t;
+    };
+    const bool doubt = f.least < f.most || f.output.either_way;
+    const Texel nominal = drawn(p.nominal, f.output.nominal, f.nominal);
+    if (doubt && (!p.split || worse(f.least < f.most ? f.doubt : PixelClass::branch, p.doubt)))
+      p.doubt = f.least < f.most ? f.doubt : PixelClass::branch;
+    if (!p.split && !doubt) {
+      p.nominal = p.all = nominal;
+      continue;
+    }
+    p.split = true;
+    std::optional<Texel> all;
+    for (int times = f.least; times <= f.most; ++times)
+      for (const bool other : {false, true}) {
+        if (other && (!f.output.either_way || times == 0)) continue;
+        const Texel t = drawn(p.all, other ? f.output.other : f.output.nominal, times);
+        for (size_t k = 0; k < 4 && all; ++k) (*all)[k] = hull((*all)[k], t[k]);
+        if (!all) all = t;
+      }
+    p.nominal = nominal, p.all = *all;
+  }
+}
+
+void BlendingJudge::cover(int x, int y) {
+  PixelState& p = pixels_[at(x, y)];
+  const TransparentPixel pixel = layers_->at(x, y);
+  if (pixel.layers.empty()) return;
+  CarriedTexel carried{p.nominal, p.split ? p.all : p.nominal, p.split, p.open, p.doubt};
+  layers_->carry(pixel, carried);
+  p.nominal = carried.nominal, p.all = carried.all, p.split = carried.split, p.open = carried.open;
+  p.doubt = carried.doubt;
+  for (const TransparentLayer& layer : pixel.layers)
+    if (!layer.certain) p.same *= 1 - double(layer.chance_other);
+}
+
+void BlendingJudge::judge_last(int x, int y, const Image& last) {
+  PixelState& p = pixels_[at(x, y)];
+  if (p.pixel_class == PixelClass::undefined) return;
+  const PlaneView view(&last);
+  const auto judged = [&](const Texel& texel, Match& m) {
+    Way way;
+    way.texel = texel;
+    for (size_t k = 0; k < 4; ++k) way.value[k] = texel[k].nominal;
+    return fits(way, view, x, y, m);
+  };
+  Match m;
+  if (judged(p.nominal, m)) {
+    p.pixel_class = m.second ? PixelClass::store_2 : PixelClass::exact;
+  } else if (Match other; p.split && judged(p.all, other)) {
+    p.pixel_class = p.doubt;
+    m = other;
+  } else if (p.open) {
+    p.pixel_class = PixelClass::undefined;
+  } else {
+    p.pixel_class = PixelClass::violation;
+  }
+  m.choices.clear();  // of many stores only the last one's result is known
+  rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
+}
+
+StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                           const Capture& capture) {
+  BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture);
+  judge.start(nullptr);
+  for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
+  judge.find_layers(capture);
+  StageVerdict v = judge.verdict("lighting", &capture.color);
+  v.stores_apart = false;
+  return v;
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,336 @@
+#include "judge/stages/blending_judge.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kBatchBytes = size_t(160) << 20;  // of targets that wait to be judged together
+constexpr int kMostLights = 64;                    // that do
+constexpr size_t kMostChoices = size_t(1) << 14;   // of a row that are kept: the first ones, whichever way they went
+
+Texel texel_of(const Image& image, int x, int y) {
+  const PlaneView view(&image);
+  Texel t;
+  for (int k = 0; k < view.channels; ++k) t[size_t(k)] = known_texel(view.stored(x, y, k));
+  return t;
+}
+
+/// Whether rows hold the same bits.
+bool same_row(const Image& a, const Image& b, int y) {
+  return std::memcmp(a.texel(0, y), b.texel(0, y), a.row_bytes()) == 0;
+}
+
+}  // namespace
+
+BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                             const Capture& capture)
+    : scene_(scene),
+      pipeline_(pipeline),
+      profile_(profile),
+      color_(target_of(capture, pipeline)),
+      count_(plane_of(capture, pipeline, "light.count")),
+      drawn_at_(capture.drawn_at),
+      captured_(scene, pipeline, profile, capture),
+      outputs_(scene, pipeline, profile),
+      meshes_(pipeline.light_volumes),
+      multipass_(pipeline.strategy == Strategy::forward_multipass),
+      blend_(multipass_ ? kAddLight : pipeline.blend),
+      codes_(color_.image->format, blend_),
+      keeps_dark_(!color_.layout.srgb && blend_.enabled && blend_.rgb == kAccumulate &&
+                  (!blend_.mask[3] || color_.channels < 4)) {
+  const size_t pixels = size_t(pipeline.width) * size_t(pipeline.height);
+  covered_.resize(pixels);
+  surfaces_.resize(pixels);
+  pixels_.resize(pixels);
+  rows_.resize(size_t(pipeline.height));
+  each_row([&](int y) {
+    for (int x = 0; x < pipeline_.width; ++x)
+      if ((covered_[at(x, y)] = captured_.covered(x, y) ? 1 : 0) != 0) {
+        surfaces_[at(x, y)] = captured_.at(x, y);
+        ++rows_[size_t(y)].covered;
+      }
+  });
+  if (multipass_) tied_ = std::make_unique<TiedSurfaces>(scene, pipeline, profile, capture);
+}
+
+void BlendingJudge::start(const Image* given) {
+  seen_ = given != nullptr;
+  if (seen_) before_ = *given;
+  const bool drawn = multipass_ ? scene_.lights.empty() : pipeline_.light_volumes.base;
+  each_row([&](int y) {
+    for (int x = 0; x < pipeline_.width; ++x) {
+      LightOutput out;
+      for (size_t k = 0; k < 4; ++k)
+        out.nominal[k] = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
+      if (drawn && covered_[at(x, y)] != 0) out = outputs_.start(surfaces_[at(x, y)]);
+      const DrawnFragment only{out, 1, 1, 1, PixelClass::exact};
+      judge(x, y, -1, nullptr, given, {&only, 1}, BlendState{});
+    }
+  });
+}
+
+void BlendingJudge::light(int index, const Image* given) {
+  if (batch_.empty()) first_ = index;
+  batch_.push_back(given != nullptr ? *given : Image{});
+  const bool alone = multipass_ && index == 0;  // the one that is stored, with what the sum starts from
+  const size_t most = seen_ ? kBatchBytes / std::max<size_t>(1, before_.texels.size()) : size_t(kMostLights);
+  if (alone || batch_.size() >= std::clamp<size_t>(most, 1, size_t(kMostLights))) judge_batch();
+}
+
+StageVerdict BlendingJudge::verdict(std::string_view stage, const Image* last) {
+  if (!batch_.empty()) judge_batch();
+  each_row([&](int y) {
+    RowTally& row = rows_[size_t(y)];
+    for (int x = 0; x < pipeline_.width; ++x) {
+      PixelState& p = pixels_[at(x, y)];
+      if (layers_ && layers_->any(x, y)) cover(x, y);
+      if (last != nullptr) judge_last(x, y, *last);
+      check_count(x, y);
+      row.classes.push_back(p.pixel_class);
+      if (p.same >= 1) continue;
+      ++row.ambiguous;
+      row.predicted_other += 1 - p.same;
+    }
+  });
+  return verdict_of(stage, profile_, pipeline_.width, pipeline_.height, rows_);
+}
+
+void BlendingJudge::judge_batch() {
+  const size_t count = batch_.size();
+  const std::span<const Light> lights = std::span(scene_.lights).subspan(size_t(first_), count);
+  outputs_.set_lights(lights);
+  extents_.assign(count, LightExtent::unbounded);
+  outlines_.clear();
+  outlines_.resize(count);
+  if (!multipass_)
+    parallel_for(int(count), 0, [&](int k) {
+      const Light& light = lights[size_t(k)];
+      const LightExtent extent = extents_[size_t(k)] = drawn_extent(light, pipeline_.light_volumes);
+      if (is_mesh(extent))
+        outlines_[size_t(k)] =
+            std::make_unique<LightOutline>(scene_, pipeline_, profile_, drawn_at_, light, meshes_[extent]);
+    });
+  each_row([&](int y) {
+    RowWork work;
+    judge_row(y, work);
+  });
+  if (seen_) before_ = std::move(batch_.back());
+  batch_.clear();
+}
+
+void BlendingJudge::judge_row(int y, RowWork& work) {
+  const size_t count = batch_.size();
+  work.counts.resize(count), work.drawn.assign(count, 1), work.changed.assign(count, 0);
+  bool any = false;
+  for (size_t i = 0; i < count; ++i) {
+    if (outlines_[i]) {
+      work.counts[i].resize(size_t(pipeline_.width));
+      outlines_[i]->count_row(pipeline_.height - 1 - y, work.counts[i]);
+      work.drawn[i] =
+          std::any_of(work.counts[i].begin(), work.counts[i].end(), [](const FragmentCount& c) { return c.most > 0; });
+    }
+    if (seen_) work.changed[i] = !same_row(before(i), batch_[i], y);
+    any = any || work.drawn[i] != 0 || work.changed[i] != 0;
+  }
+  for (int x = 0; x < pipeline_.width && any; ++x) judge_pixel(x, y, work);
+}
+
+void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const bool covered = covered_[at(x, y)] != 0, shown = covered || !tied.empty();
+  work.lights.clear();
+  for (size_t i = 0; i < batch_.size(); ++i) {
+    if (shown && work.drawn[i] != 0 && count_at(work, i, x).most > 0)
+      work.lights.push_back(uint32_t(i));
+    else if (work.changed[i] != 0)
+      unchanged(x, y, i);
+  }
+  if (multipass_ && first_ == 1) may_tie(x, y);
+  if (work.lights.empty()) return;
+  work.lit.resize(std::max(work.lit.size(), tied.size() + 1));
+  const bool stored = multipass_ && first_ == 0;
+  for (size_t t = 0; t < tied.size(); ++t) outputs_.terms(tied[t].surface, work.lights, work.lit[t]);
+  if (covered && !stored) outputs_.terms(surfaces_[at(x, y)], work.lights, work.lit[tied.size()]);
+  for (size_t j = 0; j < work.lights.size(); ++j) {
+    const size_t i = work.lights[j];
+    const FragmentCount count = count_at(work, i, x);
+    const int light = first_ + int(i);
+    if (count.least < count.most) may_be_other(x, y, light, count);
+    if (count_) count_lights(x, y, i, count);
+    if (!stored && settled(x, y, i, j, count, work)) {
+      if (color_.quantised()) rows_[size_t(y)].stored_values += uint64_t(color_.channels);
+      continue;
+    }
+    fragments(x, y, i, j, count, work);
+    judge(x, y, light, seen_ ? &before(i) : nullptr, seen_ ? &batch_[i] : nullptr, work.fragments,
+          stored ? BlendState{} : blend_);
+  }
+}
+
+/// Whether the light's draw is EXACT and has nothing to tell: no fragment adds anything and nothing changed, or the
+/// only one there is added its nominal codes.
+bool BlendingJudge::settled(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const {
+  if (!seen_ || !keeps_dark_) return false;
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const bool covered = covered_[at(x, y)] != 0;
+  const uint8_t *old = before(i).texel(x, y), *now = batch_[i].texel(x, y);
+  const auto dark = [&](const LitApart& lit) {
+    const Bounded3& c = lit.color[j];
+    return lit.plain[j] != 0 &&
+           std::all_of(c.begin(), c.end(), [](const Bounded& b) { return b.value == 0 && b.error <= kSmallestFloat; });
+  };
+  bool all_dark = !covered || dark(work.lit[tied.size()]);
+  for (size_t t = 0; t < tied.size() && all_dark; ++t) all_dark = dark(work.lit[t]);
+  if (all_dark) return std::memcmp(old, now, size_t(color_.layout.bytes_per_texel())) == 0;
+  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1 || work.lit[0].plain[j] == 0) return false;
+  if (!codes_.plain(work.lit[0].color[j], old, now)) return false;
+  return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], uint32_t(i)).surely;
+}
+
+/// How often the visible surface is a fragment of the light: what covers it, or a comparison with the light's range.
+FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t i, const FragmentCount& count) const {
+  if (extents_[i] != LightExtent::range) return count;
+  const LightOutputs::InRange in = outputs_.in_range(surface, uint32_t(i));
+  return {uint8_t(in.surely), uint8_t(in.perhaps), uint8_t(in.nominally)};
+}
+
+/// light.count counts a light once, or as often as it is drawn.
+void BlendingJudge::count_lights(int x, int y, size_t i, const FragmentCount& count) {
+  PixelState& p = pixels_[at(x, y)];
+  const auto add = [&](const ShadedSurface& surface, int least, int most) {
+    const LightOutputs::Lit lit = outputs_.lit(surface, uint32_t(i));
+    p.lights_low += lit.surely ? std::min(least, 1) : 0;
+    p.lights_high += lit.perhaps ? most : 0;
+  };
+  if (covered_[at(x, y)] != 0) {
+    const FragmentCount drawn = visible_count(surfaces_[at(x, y)], i, count);
+    add(surfaces_[at(x, y)], drawn.least, drawn.most);
+  }
+  for (const TiedSurface& t : tied_at(x, y)) add(t.surface, 0, 1);  // once for the visible surface, or for each
+}
+
+void BlendingJudge::check_count(int x, int y) {
+  PixelState& p = pixels_[at(x, y)];
+  if (!count_ || covered_[at(x, y)] == 0 || p.pixel_class == PixelClass::undefined) return;
+  const double lights = count_.stored(x, y, 0);
+  if (lights >= p.lights_low && lights <= p.lights_high) return;
+  Match m;
+  m.note("light.count", 0, {double(p.lights_low), double(p.lights_low), double(p.lights_high)}, lights, 1);
+  p.pixel_class = PixelClass::violation;
+  rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
+}
+
+void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const {
+  work.fragments.clear();
+  const std::span<const TiedSurface> tied = tied_at(x, y);
+  const auto output = [&](const ShadedSurface& surface, const LitApart& lit) {
+    return lit.plain[j] != 0 ? outputs_.plain(surface, lit.color[j]) : outputs_.term(surface, uint32_t(i));
+  };
+  const auto add_tied = [&](bool before) {
+    for (size_t t = 0; t < tied.size(); ++t)
+      if (const int sure = tied[t].certain ? 1 : 0; tied[t].before == before)
+        work.fragments.push_back({output(tied[t].surface, work.lit[t]), sure, 1, sure, PixelClass::depth_tie});
+  };
+  add_tied(true);
+  if (covered_[at(x, y)] != 0) {
+    const ShadedSurface& surface = surfaces_[at(x, y)];
+    const bool stored = multipass_ && first_ == 0;
+    const FragmentCount drawn = visible_count(surface, i, count);
+    const PixelClass doubt = extents_[i] == LightExtent::range ? PixelClass::branch
+                             : count.cut                       ? PixelClass::clip
+                                                               : PixelClass::edge;
+    const DrawnFragment f{stored ? outputs_.first(surface) : output(surface, work.lit[tied.size()]), drawn.least,
+                          drawn.most, drawn.nominal, doubt};
+    work.fragments.push_back(f);
+  }
+  add_tied(false);
+}
+
+bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const {
+  for (int k = 0; k < view.channels; ++k) {
+    const LegalTexel& t = way.texel[size_t(k)];
+    const double value = view.quantised() ? way.value[k] : t.nominal;
+    m.texel_is(view, "color", k, t, value, view.stored(x, y, k), uint32_t(at(x, y)), profile_);
+  }
+  return m.legal;
+}
+
+/// The roundings of a draw that went the nominal way: what its fragments make of a known texel by the nominal rule, and
+/// what was stored. Equal sources on equal texels are one choice; of codes that are added the source alone decides.
+void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn,
+                           const BlendState& blend, const PlaneView& view, Match& m) const {
+  m.choices.clear();
+  if (!view.quantised() || rows_[size_t(y)].choices.size() >= kMostChoices) return;
+  Texel t = before;
+  std::array<double, 4> value{};
+  for (const DrawnFragment& f : drawn)
+    for (int i = 0; i < f.nominal; ++i) {
+      t = likely_texel(blend, color_.image->format, profile_, f.output.nominal, t);
+      for (size_t k = 0; k < 4; ++k) value[k] = f.output.nominal[k].value;
+    }
+  const bool codes_add = view.unorm() && !view.layout.srgb && blend.rgb == kAccumulate;
+  for (size_t k = 0; k < size_t(view.channels); ++k) {
+    const double given = view.stored(x, y, int(k));
+    const auto taken = int8_t(given < t[k].nominal ? -1 : given > t[k].nominal ? 1 : 0);
+    if (taken == 0 && !(t[k].second_chance > 0)) continue;
+    const auto side = int8_t(t[k].second_chance > 0 ? t[k].second_side : taken);
+    const double choice = codes_add || !blend.enabled ? value[k] : value[k] + before[k].nominal;
+    m.choices.push_back({uint32_t(at(x, y)), float(choice), float(t[k].second_chance), side, taken});
+  }
+}
+
+void BlendingJudge::keep(int x, int y, PixelClass c, const Match& m, int light) {
+  PixelState& p = pixels_[at(x, y)];
+  if (worse(c, p.pixel_class)) p.pixel_class = c;
+  const bool told = c != PixelClass::exact && c != PixelClass::store_2;
+  rows_[size_t(y)].record(x, y, c, m,
+                          !told       ? std::string()
+                          : light < 0 ? std::string("before the first light")
+                                      : "light " + std::to_string(light));
+}
+
+/// A light that draws nothing at the pixel.
+void BlendingJudge::unchanged(int x, int y, size_t i) {
+  const Image &old = before(i), &now = batch_[i];
+  if (std::memcmp(now.texel(x, y), old.texel(x, y), size_t(color_.layout.bytes_per_texel())) == 0) return;
+  Way way;
+  way.texel = texel_of(old, x, y);
+  Match m;
+  if (!fits(way, PlaneView(&now), x, y, m)) keep(x, y, PixelClass::violation, m, first_ + int(i));
+}
+void BlendingJudge::judge(int x, int y, int light, const Image* before, const Image* given,
+                          std::span<const DrawnFragment> fragments, const BlendState& blend) {
+  PixelState& p = pixels_[at(x, y)];
+  if (given == nullptr) return carry(p, fragments, blend);
+  std::vector<DrawnFragment> known;  // a fragment that may be absent, and says nothing: only where nothing else fits
+  for (const DrawnFragment& f : fragments) {
+    if (f.output.undefined && f.least > 0) return keep(x, y, PixelClass::undefined, {}, light);
+    if (!f.output.undefined) known.push_back(f);
+  }
+  const Texel from = before != nullptr ? texel_of(*before, x, y) : Texel{};
+  const std::vector<Way> list = ways_from(from, known, blend, color_.image->format, profile_);
+  const PlaneView view(given);
+  Match closest;
+  for (size_t i = 0; i < list.size(); ++i) {
+    Match m;
+    if (fits(list[i], view, x, y, m)) {
+      m.choices.clear();
+      if (i == 0) choose(x, y, from, known, blend, view, m);
+      const PixelClass c =
+          list[i].pixel_class == PixelClass::exact && m.second ? PixelClass::store_2 : list[i].pixel_class;
+      return keep(x, y, c, m, light);
+    }
+    if (i == 0 || m.excess < closest.excess) closest = m;
+  }
+  if (known.size() < fragments.size()) return keep(x, y, PixelClass::undefined, {}, light);
+  closest.choices.clear();
+  closest.stored_values = 0;
+  keep(x, y, PixelClass::violation, closest, light);
+}
+
+}  // namespace trueshade::oracle

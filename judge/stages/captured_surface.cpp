@@ -1,0 +1,136 @@
+#include "judge/stages/captured_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "oracle/exact_coverage.h"
+#include "judge/legal/surface.h"
+#include "oracle/scalar_renderer.h"
+
+namespace trueshade::oracle {
+
+CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                 const Capture& capture)
+    : pipeline_(pipeline),
+      profile_(profile),
+      normal_(required(capture, "normal")),
+      albedo_(required(capture, "albedo")),
+      object_(plane_of(capture, pipeline, "id.object")),
+      specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
+      emission_(pipeline.light_model.emission ? required(capture, "emission") : PlaneView{}),
+      viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
+  if (pipeline.gbuffer.position_from_depth) {
+    depth_ = required(capture, "depth");
+    invert(scene);
+  } else {
+    position_ = required(capture, "position");
+    depth_ = plane_of(capture, pipeline, "depth");
+  }
+  if (!object_ && !depth_)
+    throw Error(ErrorKind::bad_input, capture.name, "does not say where a surface is", "capture id.object or depth");
+}
+
+PlaneView CapturedSurface::required(const Capture& capture, std::string_view name) const {
+  const PlaneView view = plane_of(capture, pipeline_, name);
+  if (!view)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name), "is missing",
+                "the lighting of the picture is judged from it");
+  if (name == "specular" && view.channels < 4)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane specular", "has no shininess",
+                "capture it as specular.A");
+  return view;
+}
+
+bool CapturedSurface::covered(int x, int y) const {
+  return object_ ? object_.stored(x, y, 0) != 0 : !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0));
+}
+
+/// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error.
+Bounded CapturedSurface::fetched(const PlaneView& view, int x, int y, int channel) const {
+  const double stored = view.stored(x, y, channel);
+  if (!view.unorm()) return {stored, 0};
+  const double largest = view.layout.largest_code(channel), value = stored / largest;
+  return {value, stored == 0 || stored == largest ? 0 : value * profile_.fetch_error};
+}
+
+ShadedSurface CapturedSurface::at(int x, int y) const {
+  ShadedSurface s;
+  for (int k = 0; k < 3; ++k) {
+    if (position_) s.position[size_t(k)] = {position_.stored(x, y, k), 0};
+    s.normal[size_t(k)] =
+        normal_.unorm() ? doubled_normal(fetched(normal_, x, y, k), profile_.arithmetic) : fetched(normal_, x, y, k);
+  }
+  for (int k = 0; k < 4; ++k) s.albedo[size_t(k)] = k < albedo_.channels ? fetched(albedo_, x, y, k) : Bounded{1, 0};
+  for (int k = 0; k < 3; ++k) {
+    if (specular_) s.specular[size_t(k)] = fetched(specular_, x, y, k);
+    if (emission_) s.emission[size_t(k)] = fetched(emission_, x, y, k);
+  }
+  if (specular_) s.shininess = specular_.stored(x, y, 3);
+  if (!position_) s.position = position_from_depth(x, y);
+  return s;
+}
+
+/// Gauss-Jordan with pivots, in long double: no matrix code of the renderer's.
+void CapturedSurface::invert(const Scene& scene) {
+  const Matrix4 m = projection_of(scene.camera, pipeline_.geometry, pipeline_.width, pipeline_.height);
+  long double a[4][8] = {};
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) a[r][c] = static_cast<long double>(m[4 * c + r]), a[r][4 + c] = r == c ? 1 : 0;
+  for (size_t c = 0; c < 4; ++c) {
+    size_t pivot = c;
+    for (size_t r = c + 1; r < 4; ++r)
+      if (std::fabs(a[r][c]) > std::fabs(a[pivot][c])) pivot = r;
+    if (a[pivot][c] == 0)
+      throw Error(ErrorKind::bad_input, "camera", "its matrix has no inverse", "position from depth needs one");
+    std::swap(a[c], a[pivot]);
+    for (size_t k = 8; k-- > c;) a[c][k] /= a[c][c];
+    for (size_t r = 0; r < 4; ++r) {
+      const long double factor = a[r][c];
+      for (size_t k = c; k < 8 && r != c; ++k) a[r][k] -= factor * a[c][k];
+    }
+  }
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) world_from_clip_[4 * c + r] = double(a[r][4 + c]);
+}
+
+/// docs/arithmetic.md section 7. Each product of a row passes the matrix element's rounding, its own and three sums.
+Bounded3 CapturedSurface::position_from_depth(int x, int y) const {
+  const Arithmetic& a = profile_.arithmetic;
+  const double v = a.roundoff, near = double(pipeline_.geometry.depth_near), far = double(pipeline_.geometry.depth_far);
+  const bool zero_to_one = pipeline_.geometry.clip_depth == ClipDepth::zero_to_one;
+  const double scale = zero_to_one ? far - near : (far - near) / 2, offset = zero_to_one ? near : (near + far) / 2;
+  const auto ndc = [&](double centre, int corner, int size) {
+    const double at = (centre - corner) * 2 / size;
+    return Bounded{at - 1, 3 * v * (std::fabs(at) + 1)};
+  };
+  const double z = depth_.stored(x, y, 0);
+  const bool codes = pipeline_.geometry.depth_format != Format::d32f;
+  const double fetch = codes && z != 1 ? z * profile_.fetch_error : 0;  // a code is read as a float
+  std::array<Bounded, 4> p = {
+      ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
+      Bounded{(z - offset) / scale, (4 * v * (std::fabs(z) + std::fabs(offset)) + fetch) / std::fabs(scale)},
+      Bounded{1, 0}};
+  if (pipeline_.geometry.clip_origin == ClipOrigin::upper_left) p[1].value = -p[1].value;
+  std::array<Bounded, 4> h;
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) {
+      const double m = world_from_clip_[4 * c + r];
+      h[r].value += m * p[c].value;
+      h[r].error += std::fabs(m) * p[c].error + 5 * v * std::fabs(m) * (std::fabs(p[c].value) + p[c].error);
+    }
+  const Bounded one_over_w = quotient(a, {1, 0}, h[3]);
+  return {product(a, h[0], one_over_w), product(a, h[1], one_over_w), product(a, h[2], one_over_w)};
+}
+
+Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic) {
+  return difference(arithmetic, {2 * fetched.value, 2 * fetched.error}, {1, 0});
+}
+
+Range output_range(const LightModel& model, const Bounded& value) {
+  const Range r = range_of(value);
+  if (!model.clamp_result) return r;
+  return {std::clamp(r.value, 0.0, 1.0), std::clamp(r.low, 0.0, 1.0), std::clamp(r.high, 0.0, 1.0)};
+}
+
+}  // namespace trueshade::oracle

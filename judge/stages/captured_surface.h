@@ -1,0 +1,45 @@
+#pragma once
+// A capture's planes as the light pass reads them.
+#include "judge/bounds/shading.h"
+#include "judge/stages/tally.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+/// The surface of each pixel, from the capture's own planes. Borrows the capture. y counts from the top.
+class CapturedSurface {
+ public:
+  /// Throws Error(bad_input) naming a plane that the light model reads and the capture lacks.
+  CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+
+  bool covered(int x, int y) const;
+  ShadedSurface at(int x, int y) const;
+
+  /// The target's alpha where there is a surface, before any clamp.
+  Bounded alpha(const ShadedSurface& surface) const {
+    return pipeline_.light_model.alpha_from_albedo ? surface.albedo[3] : Bounded{1, 0};
+  }
+  const PlaneView& object() const { return object_; }
+  const PlaneView& depth() const { return depth_; }
+
+ private:
+  PlaneView required(const Capture& capture, std::string_view name) const;
+  Bounded fetched(const PlaneView& view, int x, int y, int channel) const;
+  void invert(const Scene& scene);
+  Bounded3 position_from_depth(int x, int y) const;
+
+  const Pipeline pipeline_;
+  const Profile profile_;
+  PlaneView normal_, albedo_, object_, specular_, emission_, position_, depth_;
+  Viewport viewport_;
+  Matrix4 world_from_clip_{};
+};
+
+/// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not
+/// the difference is rounded once.
+Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic);
+
+/// A colour of the lights as the fragment outputs it: clamped where the model says so.
+Range output_range(const LightModel& model, const Bounded& value);
+
+}  // namespace trueshade::oracle

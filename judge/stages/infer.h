@@ -1,0 +1,35 @@
+#pragma once
+// The tightest profile that explains an image: what the implementation does where OpenGL lets it choose.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/stages/judge.h"
+
+namespace trueshade::oracle {
+
+/// One guess and how many pixels speak against it.
+struct Hypothesis {
+  std::string knob, value;
+  uint64_t violations = 0;
+};
+
+struct Inference {
+  std::optional<int> subpixel_bits;  ///< nothing where no grid explains the image
+  std::optional<SnapRule> snap;
+  std::optional<PlaneOrigin> plane_origin;  ///< either: both explain the image
+  std::optional<HalfStore> half;            ///< nothing where no half was stored; either: both explain it
+  std::optional<double> unorm_reach;        ///< 0.5, 0.6 or 1; nothing where no unorm was stored, or none explains it
+  std::string known_as;  ///< the named profile, tightest first, that explains the image; empty if none
+  Profile tightest;      ///< all of it together
+  std::vector<Hypothesis> tried;
+};
+
+/// Judges the capture under one guess after the other, everything else left as open as OpenGL leaves it. Some fifteen
+/// judgements; the image must have edges enough to tell grids apart (where several explain it, 8 bits are reported).
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture);
+
+/// One line: `8 bits, nearest; planes snapped; half toward zero; unorm within 0.5`.
+std::string text(const Inference& inference);
+
+}  // namespace trueshade::oracle

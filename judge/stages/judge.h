@@ -1,0 +1,56 @@
+#pragma once
+// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
+// "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+#include <span>
+#include <vector>
+
+#include "oracle/capture.h"
+#include "judge/bounds/profile.h"
+#include "judge/stages/verdict.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has,
+/// and specular and emission where the light model reads them) against the surfaces each pixel may show. A pixel must
+/// equal one candidate in all planes together, or the clear values where nothing is sure to cover it. Transparent
+/// surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that their draws
+/// may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two triangles has
+/// exactly one owner: where triangles that meet about a sample close around it, the clear value and what is behind them
+/// are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round. Throws
+/// Error(bad_input) for planes of another size than the pipeline's, or none at all.
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                           const Capture& capture);
+
+/// The target against the lights summed over the capture's own planes, in double, with the error bound of GL_RULES
+/// section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or depth tell where
+/// there is a surface. light.count, where captured, must be one the comparisons allow.
+/// Surfaces transparent after the lights are followed, each fragment from what the pixel may hold before it.
+/// Under strategies that blend light by light: the final image against the interval of all blends (judge_blending.h),
+/// and light.count is not looked at.
+/// Throws Error(bad_input) naming the plane that is missing or of another size.
+StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                            const Capture& capture);
+
+/// Strategies that blend, light by light: the target after each light against what the driver's *own* target before it
+/// may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment (light_cover.h); EDGE
+/// and CLIP are pixels with another number of them than the nominal one. Of forward-multipass what may share the
+/// visible surface's depth may add to it too: DEPTH-TIE. A pixel's class is its worst over all lights, and one that is
+/// a violation after one light is judged from what it then holds after the next.
+StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                            const Capture& capture, const LightSteps& steps);
+
+/// The same by each profile, the lights drawn once.
+std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline,
+                                         std::span<const Profile> profiles, const Capture& capture,
+                                         const LightSteps& steps);
+
+/// Surfaces blended over the target after the lights: the target after each against what the driver's *own* target
+/// before it may become. `objects`: the target before the first of them (-1), then after transparent instances in
+/// order, not necessarily all; the last among them. Fragments are tested against the capture's plane depth where it has
+/// one. A pixel's class is its worst over all steps.
+StageVerdict judge_transparency(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                const Capture& capture, const LightSteps& objects);
+
+}  // namespace trueshade::oracle

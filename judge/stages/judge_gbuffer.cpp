@@ -1,0 +1,320 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/threads/parallel_for.h"
+#include "judge/legal/possible_surfaces.h"
+#include "judge/stages/judge.h"
+#include "judge/stages/judge_transparency.h"
+#include "judge/legal/patch.h"
+#include "judge/legal/surface_values.h"
+#include "judge/stages/tally.h"
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+struct AttributePlane {
+  const char* name;
+  PlaneView view;
+  size_t first;    ///< index in VertexValues
+  int count;       ///< channels interpolated; those after them are constants
+  double rest[2];  ///< channels 2 and 3 where they are not interpolated
+  Interpolation interpolation;
+};
+
+class GBufferJudge {
+ public:
+  GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+      : projector_(scene, pipeline, profile, capture.drawn_at),
+        pipeline_(pipeline),
+        profile_(profile),
+        depth_(plane_of(capture, pipeline, "depth")),
+        object_(plane_of(capture, pipeline, "id.object")),
+        material_(plane_of(capture, pipeline, "id.material")),
+        specular_(reads_specular_plane(pipeline.light_model) ? plane_of(capture, pipeline, "specular") : PlaneView{}),
+        emission_(pipeline.light_model.emission ? plane_of(capture, pipeline, "emission") : PlaneView{}) {
+    const GBufferState& g = pipeline.gbuffer;
+    const AttributePlane all[] = {
+        {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
+        {"normal", plane_of(capture, pipeline, "normal"), kNormal, 3, {0, 1}, g.normal.interpolation},
+        {"albedo", plane_of(capture, pipeline, "albedo"), kAlbedo, 4, {0, 0}, g.albedo.interpolation},
+        {"uv", plane_of(capture, pipeline, "uv"), kUv, 2, {0, 1}, g.uv.interpolation}};
+    for (const AttributePlane& p : all)
+      if (p.view && !(g.position_from_depth && p.first == kPosition)) planes_.push_back(p);
+    if (planes_.empty() && !depth_ && !object_ && !material_)
+      throw Error(ErrorKind::bad_input, capture.name, "has no G-buffer plane",
+                  "capture depth, position, normal, albedo, uv or ids");
+    candidates_ = find_candidates(projector_);
+    if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
+        capture.plane("albedo") != nullptr)
+      layers_.emplace(scene, pipeline, profile, capture);
+  }
+
+  void judge_row(int y_top, RowTally& row) const {
+    for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y_top, row);
+  }
+
+ private:
+  size_t pixel_of(int x, int y_top) const {
+    return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
+  }
+
+  /// Whether a depth key is sure to pass the test against the clear value.
+  bool passes_clear(double key) const {
+    const GeometryState& g = pipeline_.geometry;
+    const bool equal_passes = g.depth_func == DepthFunc::lequal || g.depth_func == DepthFunc::gequal;
+    const double clear = clear_key(g);
+    return key < clear || (equal_passes && key == clear);
+  }
+
+  bool is_clear(int x, int y) const {
+    if (object_ && object_.stored(x, y, 0) != 0) return false;
+    if (material_ && material_.stored(x, y, 0) != 0) return false;
+    if (depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0))) return false;
+    for (const AttributePlane& p : planes_)
+      for (int c = 0; c < p.view.channels; ++c)
+        if (p.view.stored(x, y, c) != 0 && !(p.first == kAlbedo && is_layered(p.view, x, y))) return false;
+    return true;
+  }
+
+  /// Whether an albedo without a surface is what transparent surfaces may have left on the clear value.
+  bool is_layered(const PlaneView& view, int x, int y) const {
+    if (!layers_ || !layers_->any(x, y)) return false;
+    return judge_ways(layers_->ways(layers_->at(x, y), Texel{}), view, "albedo", x, y, profile_).pixel_class !=
+           PixelClass::violation;
+  }
+
+  /// The albedo of a surface under transparent ones.
+  void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Match& m) const {
+    Texel stored;
+    for (int k = 0; k < plane.view.channels; ++k) {
+      const Range base = surface.base_color(k, plane.interpolation);
+      stored[size_t(k)] = legal_texel(k < 3 ? surface.albedo(base) : base, plane.view.image->format, k, profile_);
+    }
+    const TransparentPixel pixel = layers_->at(x, y_top);
+    std::vector<LayeredTexel> ways{LayeredTexel{PixelClass::exact, stored, {}, false, false}};
+    if (!pixel.layers.empty()) ways = layers_->ways(pixel, stored);
+    for (LayeredTexel& way : ways) way.looked_up = way.looked_up || surface.textured();
+    const LayeredVerdict v = judge_ways(ways, plane.view, "albedo", x, y_top, profile_);
+    if (v.pixel_class == PixelClass::violation)
+      return m.note("albedo", v.match.channel, v.match.legal_value, v.match.given, 1);
+    m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
+    m.worst_error = std::max(m.worst_error, v.match.worst_error);
+    if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
+  }
+
+  Match match(const Candidate& c, int x, int y_top, bool& bounded) const {
+    Match m;
+    const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
+    const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
+    const Instance& instance = projector_.scene().instances[c.instance];
+    const auto identifier = [&](const PlaneView& view, const char* name, double expected) {
+      if (view && view.stored(x, y_top, 0) != expected)
+        m.note(name, 0, {expected, expected, expected}, view.stored(x, y_top, 0), 1);
+    };
+    identifier(object_, "id.object", c.instance + 1.0);
+    identifier(material_, "id.material", instance.material + 1.0);
+    if (!m.legal && object_) return m;
+    const SurfaceValues surface(projector_, c, sx, sy);
+    bounded = surface.bounded();
+    if (depth_)
+      m.channel_is(depth_, "depth", 0, surface.depth(), held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)),
+                   pixel, profile_);
+    if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
+    const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
+                                   bool looked_up) {
+      if (looked_up)
+        m.lookup_is(view, name, k, range, stored, pixel, profile_);
+      else
+        m.channel_is(view, name, k, range, stored, pixel, profile_);
+    };
+    const bool layered = layers_ && layers_->any(x, y_top);
+    for (const AttributePlane& p : planes_) {
+      if (layered && p.first == kAlbedo) judge_layered(p, surface, x, y_top, m);
+      for (int k = 0; k < p.view.channels; ++k) {
+        const double stored = p.view.stored(x, y_top, k);
+        if (k >= p.count) {
+          const double rest = p.view.constant(p.rest[k - 2], k);
+          if (stored != rest) m.note(p.name, k, {rest, rest, rest}, stored, 1);
+          continue;
+        }
+        if (p.first == kNormal) {
+          const Range n = surface.normal(k, p.interpolation);
+          judge_channel(p.view, p.name, k, p.view.unorm() ? halved_normal(n, profile_) : n, stored, surface.bumpy());
+          continue;
+        }
+        if (p.first != kAlbedo) {
+          m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel,
+                       profile_);
+          continue;
+        }
+        const Range base = surface.base_color(k, p.interpolation);
+        if (specular_ && k < 3)
+          judge_channel(specular_, "specular", k, surface.specular(base, k), specular_.stored(x, y_top, k),
+                        surface.glossy());
+        if (!layered) judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
+      }
+    }
+    constant_planes(surface, x, y_top, pixel, m);
+    return m;
+  }
+
+  /// What the material alone decides: the shininess and the emission.
+  void constant_planes(const SurfaceValues& surface, int x, int y_top, uint32_t pixel, Match& m) const {
+    if (specular_ && specular_.channels > 3) {
+      const double s = surface.shininess();
+      m.channel_is(specular_, "specular", 3, {s, s, s}, specular_.stored(x, y_top, 3), pixel, profile_);
+    }
+    for (int k = 0; k < 3 && emission_; ++k) {
+      const double e = double(surface.material().emission[k]);
+      m.channel_is(emission_, "emission", k, {e, e, e}, emission_.stored(x, y_top, k), pixel, profile_);
+    }
+  }
+
+  /// Candidates that may be seen, the nominal one first.
+  std::vector<const Candidate*> legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
+                                                 bool& certain) const;
+  void judge_pixel(int x, int y_top, RowTally& row) const;
+  PixelClass class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const;
+
+  Projector projector_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  PlaneView depth_, object_, material_, specular_, emission_;
+  std::vector<AttributePlane> planes_;
+  CandidateMap candidates_;
+  std::optional<TransparentLayers> layers_;  ///< blended into the albedo
+};
+
+std::string name_of(const Candidate* c) {
+  if (c == nullptr) return "nothing drawn";
+  return "instance " + std::to_string(c->instance) + ", triangle " + std::to_string(c->triangle);
+}
+
+/// Whether `later` loses to `earlier`, which is sure to be drawn first with the very same depth.
+bool ruled_out(const Projector& p, const Candidate& earlier, const Candidate& later, bool last_wins) {
+  const Candidate &winner = last_wins ? later : earlier, &loser = last_wins ? earlier : later;
+  if (!winner.certain) return false;
+  const bool points = winner.low == winner.high && loser.low == loser.high && winner.low == loser.low;
+  return points || (p.clip_of(earlier.instance, earlier.triangle) == p.clip_of(later.instance, later.triangle) &&
+                    earlier.piece == later.piece);
+}
+
+std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
+                                                             bool& certain) const {
+  const DepthFunc func = pipeline_.geometry.depth_func;
+  const bool last_wins = func == DepthFunc::lequal || func == DepthFunc::gequal;
+  std::vector<const Candidate*> legal;
+  certain = false;
+  double bound = HUGE_VAL;
+  for (const Candidate& c : all)
+    if (c.certain) certain = true, bound = std::min(bound, c.high);
+  for (size_t i = 0; i < all.size(); ++i) {
+    bool out = all[i].low > bound;
+    // Ties matter only between candidates that are both in front.
+    for (size_t j = 0; j < all.size() && !out; ++j) {
+      if (i == j || all[j].low > bound || all[j].low > all[i].high || all[i].low > all[j].high) continue;
+      const bool earlier = j < i;
+      if (earlier != last_wins) out = ruled_out(projector_, all[std::min(i, j)], all[std::max(i, j)], last_wins);
+    }
+    if (!out) legal.push_back(&all[i]);
+  }
+  nominal = nullptr;
+  for (const Candidate* c : legal) {
+    if (!c->nominal && !c->certain) continue;
+    if (nominal == nullptr || c->middle < nominal->middle || (last_wins && c->middle == nominal->middle)) nominal = c;
+  }
+  std::stable_sort(legal.begin(), legal.end(), [&](const Candidate* a, const Candidate* b) {
+    if ((a == nominal) != (b == nominal)) return a == nominal;
+    return a->middle < b->middle;
+  });
+  return legal;
+}
+
+PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
+  if (seen == nominal) {
+    if (!bounded) return PixelClass::undefined;
+    if (m.layered != PixelClass::exact) return m.layered;
+    return m.tex ? PixelClass::tex : m.second ? PixelClass::store_2 : PixelClass::exact;
+  }
+  if ((seen != nullptr && seen->masked) || (nominal != nullptr && nominal->masked)) return PixelClass::tex;
+  const bool doubt = (seen != nullptr && !seen->certain) || (nominal != nullptr && !nominal->certain);
+  if (!doubt) return PixelClass::depth_tie;
+  const bool cut =
+      (seen != nullptr && !seen->certain && seen->cut) || (nominal != nullptr && !nominal->certain && nominal->cut);
+  return cut ? PixelClass::clip : PixelClass::edge;
+}
+
+/// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or of two
+/// depths spread evenly over [a0, a1] and [b0, b1] the farther comes first, which is overlap^2 / 2 over both widths.
+double chance_of_other(const std::vector<const Candidate*>& legal, const Candidate* nominal) {
+  double same = nominal != nullptr ? 1 - double(nominal->chance_other) : 1;
+  for (const Candidate* c : legal) {
+    if (c == nominal) continue;
+    double before = 1;
+    if (nominal != nullptr) {
+      const double overlap = std::max(0.0, std::min(nominal->high, c->high) - std::max(nominal->low, c->low));
+      const double widths = (nominal->high - nominal->low) * (c->high - c->low);
+      before = c->middle < nominal->middle ? 1 : widths > 0 ? std::min(0.5, overlap * overlap / (2 * widths)) : 0.5;
+    }
+    same *= 1 - before * (c->nominal ? 1 : double(c->chance_other));
+  }
+  return 1 - same;
+}
+
+void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
+  const std::span<const Candidate> all = candidates_.at(pixel_of(x, y_top));
+  const Candidate* nominal = nullptr;
+  bool certain = false;
+  const std::vector<const Candidate*> legal = legal_candidates(all, nominal, certain);
+  if (nominal != nullptr) ++row.covered;
+  const bool clear_legal = !certain;
+  if (legal.size() + (clear_legal ? 1 : 0) > 1) {
+    const Candidate* first = nominal != nullptr ? nominal : legal.front();
+    row.may_be_other(uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
+  }
+  const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
+  if (is_clear(x, y_top)) {
+    Match none;
+    const bool hidden = !clear_legal || passes_clear(patch_key(projector_, all, sx, sy));
+    if (hidden) none.note("id.object", 0, {1, 1, 1}, 0, 1);
+    row.take(x, y_top, hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal), none, name_of(nominal));
+    return;
+  }
+  Match closest;
+  bool first = true;
+  std::optional<double> patch;
+  for (const Candidate* c : legal) {
+    bool bounded = true;
+    Match m = match(*c, x, y_top, bounded);
+    if (m.legal && c != nominal) {
+      if (!patch) patch = patch_key(projector_, all, sx, sy);
+      if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch}, c->middle, 1);
+    }
+    if (m.legal) {
+      row.take(x, y_top, class_of(m, bounded, c, nominal), m, name_of(c));
+      return;
+    }
+    if (first || m.excess < closest.excess) closest = m;
+    first = false;
+  }
+  if (legal.empty()) closest.note("id.object", 0, {0, 0, 0}, object_ ? object_.stored(x, y_top, 0) : 1, 1);
+  closest.choices.clear();
+  closest.stored_values = 0;
+  row.take(x, y_top, PixelClass::violation, closest, name_of(legal.empty() ? nullptr : legal.front()));
+}
+
+}  // namespace
+
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                           const Capture& capture) {
+  const Profile p = resolved(profile, pipeline);
+  const GBufferJudge judge(scene, pipeline, p, capture);
+  std::vector<RowTally> rows(size_t(pipeline.height));
+  parallel_for(pipeline.height, 0, [&](int y) { judge.judge_row(y, rows[size_t(y)]); });
+  return verdict_of("gbuffer", p, pipeline.width, pipeline.height, rows);
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/threads/parallel_for.h"
+#include "judge/stages/captured_surface.h"
+#include "judge/stages/judge.h"
+#include "judge/stages/judge_blending.h"
+#include "judge/stages/judge_transparency.h"
+#include "oracle/scalar_renderer.h"
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kMostBranches = 8;  // 256 sums; beyond that the hull of all of them
+
+class LightingJudge {
+ public:
+  LightingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+      : scene_(scene),
+        pipeline_(pipeline),
+        profile_(profile),
+        surface_(scene, pipeline, profile, capture),
+        color_(target_of(capture, pipeline)),
+        count_(plane_of(capture, pipeline, "light.count")),
+        lights_(scene, pipeline.light_model,
+                view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
+                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
+    if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
+      layers_.emplace(scene, pipeline, profile, capture);
+  }
+
+  void judge_row(int y, RowTally& row) const {
+    for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y, row);
+  }
+
+ private:
+  bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
+  void judge_pixel(int x, int y, RowTally& row) const;
+  void judge_uncovered(int x, int y, RowTally& row) const;
+  void judge_layered(int x, int y, RowTally& row) const;
+  bool count_is(const LitRange& lit, int x, int y, Match& m) const;
+
+  const Scene& scene_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  const CapturedSurface surface_;
+  const PlaneView color_, count_;
+  const LightBounds lights_;
+  std::optional<TransparentLayers> layers_;
+};
+
+bool LightingJudge::count_is(const LitRange& lit, int x, int y, Match& m) const {
+  const double lights = count_ ? count_.stored(x, y, 0) : 0;
+  if (count_ && (lights < lit.lights_low || lights > lit.lights_high))
+    m.note("light.count", 0, {double(lit.lights_low), double(lit.lights_low), double(lit.lights_high)}, lights, 1);
+  return m.legal;
+}
+
+/// From what the lights may have left: nominally, and over all branches.
+void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
+  const bool covered = surface_.covered(x, y);
+  Match counted;
+  CarriedTexel at;
+  bool branches = false;
+  for (size_t k = 0; k < 4; ++k) {
+    const Range c = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
+    at.nominal[k] = at.all[k] = legal_texel(c, color_.image->format, int(k), profile_);
+  }
+  if (covered) {
+    ++row.covered;
+    const ShadedSurface surface = surface_.at(x, y);
+    const LitRange lit = lights_.at(surface);
+    if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+    count_is(lit, x, y, counted);
+    branches = !lit.branches.empty();
+    for (size_t k = 0; k < 3; ++k) {
+      Bounded any = lit.color[k];
+      for (const OtherBranch& b : lit.branches) any.error += std::fabs(b.change[k]);
+      const auto texel = [&](const Bounded& c) {
+        return legal_texel(output_range(pipeline_.light_model, c), color_.image->format, int(k), profile_);
+      };
+      at.nominal[k] = texel(lit.color[k]), at.all[k] = texel(any);
+    }
+    at.nominal[3] = at.all[3] =
+        legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)), color_.image->format, 3, profile_);
+  }
+  const TransparentPixel pixel = layers_->at(x, y);
+  may_have_other_layers(pixel, row);
+  LayeredVerdict v = judge_ways(layers_->ways(pixel, at.nominal), color_, "color", x, y, profile_);
+  if (v.pixel_class == PixelClass::violation && branches) {
+    v = judge_ways(layers_->ways(pixel, at.all), color_, "color", x, y, profile_);
+    if (worse(PixelClass::branch, v.pixel_class)) v.pixel_class = PixelClass::branch;
+  }
+  if (!counted.legal) v = {PixelClass::violation, counted};
+  row.take(x, y, v.pixel_class, v.match, std::to_string(pixel.layers.size()) + " transparent fragments");
+}
+
+bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const {
+  const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
+  for (int k = 0; k < 3; ++k) {
+    Bounded c = lit.color[size_t(k)];
+    c.value += change[size_t(k)];
+    m.channel_is(color_, "color", k, output_range(pipeline_.light_model, c), color_.stored(x, y, k), pixel, profile_);
+  }
+  return m.legal;
+}
+
+void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
+  Match m;
+  const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
+  for (int k = 0; k < color_.channels; ++k) {
+    const Range c = cleared_range(double(scene_.clear[k]), color_.image->format, k, profile_);
+    m.channel_is(color_, "color", k, c, color_.stored(x, y, k), pixel, profile_);
+  }
+  row.take(x, y,
+           !m.legal   ? PixelClass::violation
+           : m.second ? PixelClass::store_2
+                      : PixelClass::exact,
+           m, "nothing drawn");
+}
+
+void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
+  if (layers_ && layers_->any(x, y)) return judge_layered(x, y, row);
+  if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
+  ++row.covered;
+  const ShadedSurface surface = surface_.at(x, y);
+  const LitRange lit = lights_.at(surface);
+  if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+  if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
+  Match nominal;
+  const auto others = [&](Match& m) {
+    if (color_.channels > 3) {
+      m.channel_is(color_, "color", 3, output_range(pipeline_.light_model, surface_.alpha(surface)),
+                   color_.stored(x, y, 3), uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), profile_);
+    }
+    count_is(lit, x, y, m);
+  };
+  fits(lit, {}, x, y, nominal);
+  others(nominal);
+  if (nominal.legal) return row.take(x, y, nominal.second ? PixelClass::store_2 : PixelClass::exact, nominal, "");
+  const size_t count = lit.branches.size();
+  if (count > 0 && count <= kMostBranches) {
+    for (size_t set = 1; set < size_t(1) << count; ++set) {
+      std::array<double, 3> change{};
+      for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < 3 && (set >> i & 1) != 0; ++k) change[k] += lit.branches[i].change[k];
+      Match m;
+      fits(lit, change, x, y, m);
+      others(m);
+      if (m.legal) return row.take(x, y, PixelClass::branch, m, std::to_string(count) + " lights at their threshold");
+    }
+  } else if (count > kMostBranches) {
+    LitRange hull = lit;
+    for (const OtherBranch& b : lit.branches)
+      for (size_t k = 0; k < 3; ++k) hull.color[k].error += std::fabs(b.change[k]);
+    Match m;
+    fits(hull, {}, x, y, m);
+    others(m);
+    if (m.legal) return row.take(x, y, PixelClass::branch, m, std::to_string(count) + " lights at their threshold");
+  }
+  nominal.choices.clear();
+  nominal.stored_values = 0;
+  row.take(x, y, PixelClass::violation, nominal, "");
+}
+
+}  // namespace
+
+StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                            const Capture& capture) {
+  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture);
+  const Profile p = resolved(profile, pipeline);
+  const LightingJudge judge(scene, pipeline, p, capture);
+  std::vector<RowTally> rows(size_t(pipeline.height));
+  parallel_for(pipeline.height, 0, [&](int y) { judge.judge_row(y, rows[size_t(y)]); });
+  return verdict_of("lighting", p, pipeline.width, pipeline.height, rows);
+}
+
+}  // namespace trueshade::oracle

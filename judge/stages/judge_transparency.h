@@ -1,0 +1,21 @@
+#pragma once
+// Pixels under transparent surfaces.
+#include "judge/stages/judge.h"
+#include "judge/stages/tally.h"
+#include "judge/stages/transparent_layers.h"
+
+namespace trueshade::oracle {
+
+/// A texel against the ways it may have come about: the class and the match of the first that fits; else VIOLATION and
+/// the closest, UNDEFINED where one of them leaves what it likes.
+struct LayeredVerdict {
+  PixelClass pixel_class = PixelClass::violation;
+  Match match;
+};
+LayeredVerdict judge_ways(std::span<const LayeredTexel> ways, const PlaneView& view, const char* name, int x, int y,
+                          const Profile& profile);
+
+/// Notes in a row that a pixel may show another number of its layers.
+void may_have_other_layers(const TransparentPixel& pixel, RowTally& row);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,173 @@
+#include "judge/stages/tally.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kWorst = 32;
+
+/// One unit in the last place of what the plane stores at `value`.
+double unit_of(const PlaneView& view, int channel, double value) {
+  if (view.layout.number_class != NumberClass::floating || !std::isfinite(value)) return 1;
+  const int exponent = value == 0 ? -126 : std::max(std::ilogb(value), -126), bits = view.layout.bits[size_t(channel)];
+  if (!view.layout.small_float()) return std::ldexp(1.0, exponent - 23);
+  return std::ldexp(1.0, std::max(exponent, -14) - (bits == 16 ? 10 : bits - 5));
+}
+
+bool worse(const WorstPixel& a, const WorstPixel& b) {
+  const bool va = a.pixel_class == PixelClass::violation, vb = b.pixel_class == PixelClass::violation;
+  if (va != vb) return va;
+  return a.excess > b.excess;
+}
+
+void keep_worst(std::vector<WorstPixel>& list) {
+  std::stable_sort(list.begin(), list.end(), worse);
+  if (list.size() > kWorst) list.resize(kWorst);
+}
+
+}  // namespace
+
+std::string_view text(PixelClass c) {
+  static constexpr std::string_view names[kPixelClasses] = {"EXACT",  "STORE-2", "EDGE",      "DEPTH-TIE", "CLIP",
+                                                            "BRANCH", "TEX",     "UNDEFINED", "VIOLATION"};
+  return names[size_t(c)];
+}
+
+bool worse(PixelClass a, PixelClass b) {
+  const auto rank = [](PixelClass c) {
+    constexpr PixelClass order[] = {PixelClass::exact,     PixelClass::store_2,   PixelClass::tex,
+                                    PixelClass::branch,    PixelClass::clip,      PixelClass::edge,
+                                    PixelClass::depth_tie, PixelClass::undefined, PixelClass::violation};
+    return std::find(std::begin(order), std::end(order), c) - std::begin(order);
+  };
+  return rank(a) > rank(b);
+}
+
+PlaneView::PlaneView(const Image* i) : image(i) {
+  if (i == nullptr) return;
+  layout = info(i->format);
+  channels = layout.channels;
+}
+
+double PlaneView::stored(int x, int y, int channel) const {
+  return unorm() ? double(image->code(x, y, channel)) : image->value(x, y, channel);
+}
+
+PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
+  const PlaneView view(name == "color" ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
+  if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),
+                "is " + std::to_string(view.image->width) + "x" + std::to_string(view.image->height) + ", not " +
+                    std::to_string(pipeline.width) + "x" + std::to_string(pipeline.height),
+                "capture it at the pipeline's size, or set the size");
+  return view;
+}
+
+PlaneView target_of(const Capture& capture, const Pipeline& pipeline) {
+  const PlaneView view = plane_of(capture, pipeline, "color");
+  if (!view)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane color", "is missing", "lighting is judged from it");
+  return view;
+}
+
+void Match::lookup_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
+                      uint32_t pixel, const Profile& profile) {
+  const bool before = second;
+  const size_t count = choices.size();
+  const uint64_t values = stored_values;
+  second = false;
+  channel_is(view, name, at, range, stored, pixel, profile);
+  tex = tex || second;
+  second = before, stored_values = values;
+  choices.erase(choices.begin() + int64_t(count), choices.end());
+}
+
+void Match::note(const char* name, int at, const LegalTexel& value, double stored, double unit) {
+  legal = false;
+  const double width = std::isfinite(value.high - value.low) ? value.high - value.low : 0;
+  double outside =
+      std::isnan(stored) ? HUGE_VAL : std::max(value.low - stored, stored - value.high) / std::max(unit, width);
+  if (!(outside > excess)) return;
+  excess = outside, plane = name, channel = at, legal_value = value, given = stored;
+}
+
+void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
+                       uint32_t pixel, const Profile& profile) {
+  texel_is(view, name, at, legal_texel(range, view.image->format, at, profile), range.value, stored, pixel, profile);
+}
+
+void Match::texel_is(const PlaneView& view, const char* name, int at, const LegalTexel& texel, double value,
+                     double stored, uint32_t pixel, const Profile& profile) {
+  if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, at, texel.nominal));
+  if (!view.quantised()) {
+    const double bound = std::max(texel.high - value, value - texel.low);
+    if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - value) / bound);
+    return;
+  }
+  ++stored_values;
+  const auto taken = int8_t(stored < texel.nominal ? -1 : stored > texel.nominal ? 1 : 0);
+  second = second || taken != 0;
+  if (view.layout.small_float() && profile.half == HalfStore::either)
+    return;  // which neighbour is the nominal one is not known
+  const auto side = int8_t(texel.second_chance > 0 ? texel.second_side : taken);
+  if (taken != 0 || texel.second_chance > 0)
+    choices.push_back({pixel, float(value), float(texel.second_chance), side, taken});
+}
+
+void RowTally::may_be_other(uint64_t surface, double chance) {
+  ++ambiguous;
+  predicted_other += chance;
+  surface_choices.push_back({surface, float(chance)});
+}
+
+void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
+  classes.push_back(c);
+  record(x, y, c, match, surface);
+}
+
+void RowTally::record(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
+  stored_values += match.stored_values;
+  worst_error = std::max(worst_error, match.worst_error);
+  choices.insert(choices.end(), match.choices.begin(), match.choices.end());
+  if (c == PixelClass::exact || c == PixelClass::store_2) return;
+  static constexpr char kChannel[] = "RGBA";
+  const char* name = match.plane;
+  std::string place = name;
+  if (!place.empty()) place += std::string(".") + kChannel[match.channel & 3];
+  worst.push_back({x, y, c, place, match.legal_value.low, match.legal_value.high, match.legal_value.nominal,
+                   match.given, match.excess, surface});
+  if (worst.size() > 4 * kWorst) keep_worst(worst);
+}
+
+Profile resolved(const Profile& profile, const Pipeline& pipeline) {
+  Profile p = profile;
+  p.likely_half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.exact_planes) p.half = p.likely_half;
+  return p;
+}
+
+StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
+                        std::vector<RowTally>& rows) {
+  StageVerdict v;
+  v.stage = stage;
+  v.profile = profile.name;
+  v.width = width, v.height = height;
+  for (RowTally& row : rows) {
+    v.classes.insert(v.classes.end(), row.classes.begin(), row.classes.end());
+    v.covered += row.covered, v.ambiguous += row.ambiguous, v.stored_values += row.stored_values;
+    v.predicted_other += row.predicted_other;
+    v.worst_error = std::max(v.worst_error, row.worst_error);
+    v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());
+    v.choices.insert(v.choices.end(), row.choices.begin(), row.choices.end());
+    v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
+  }
+  for (const PixelClass c : v.classes) ++v.counts[size_t(c)];
+  keep_worst(v.worst);
+  return v;
+}
+
+}  // namespace trueshade::oracle

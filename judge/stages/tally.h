@@ -1,0 +1,83 @@
+#pragma once
+// Building a verdict: rows are judged apart and added up in order.
+#include <algorithm>
+
+#include "core/image.h"
+#include "oracle/capture.h"
+#include "judge/legal/store.h"
+#include "judge/stages/verdict.h"
+#include "scenes/pipeline/pipeline.h"
+
+namespace trueshade::oracle {
+
+/// A plane of the capture, with what its format means for a store. Values of unorm planes are codes.
+struct PlaneView {
+  const Image* image = nullptr;
+  FormatInfo layout = info(Format::rgba32f);
+  int channels = 0;
+
+  PlaneView() = default;
+  explicit PlaneView(const Image* i);
+  explicit operator bool() const { return image != nullptr; }
+  double stored(int x, int y, int channel) const;  ///< y from the top
+  bool unorm() const { return layout.number_class == NumberClass::unorm; }
+  bool quantised() const { return unorm() || layout.small_float(); }
+  /// A constant a shader writes, as stored() has it: exactly stored by every format.
+  double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
+};
+
+/// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
+PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
+
+/// The target. Error(bad_input) if there is none.
+PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
+
+/// How one pixel fares against one surface.
+struct Match {
+  bool legal = true;
+  bool tex = false;        ///< some channel took a value that another legal lookup gives
+  bool second = false;     ///< some channel took a neighbour that is not the nominal one
+  double worst_error = 0;  ///< float channels: |given - value| / bound
+  double excess = 0;       ///< of the worst channel outside its range
+  const char* plane = "";
+  int channel = 0;
+  LegalTexel legal_value;
+  double given = 0;
+  std::vector<StoreChoice> choices;
+  uint64_t stored_values = 0;
+  PixelClass layered = PixelClass::exact;  ///< of transparent fragments, another number than the nominal one
+
+  /// Judges one channel.
+  void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
+                  uint32_t pixel, const Profile& profile);
+  /// The same of a channel that a texture lookup decides: another legal value is TEX, and no rounding to be counted.
+  void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
+                 uint32_t pixel, const Profile& profile);
+  /// The same of a channel whose legal texels are known; `value` is the real one before the store.
+  void texel_is(const PlaneView& view, const char* name, int channel, const LegalTexel& texel, double value,
+                double stored, uint32_t pixel, const Profile& profile);
+  void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
+};
+
+/// One row's share of a verdict.
+struct RowTally {
+  std::vector<PixelClass> classes;
+  uint64_t covered = 0, ambiguous = 0, stored_values = 0;
+  double predicted_other = 0, worst_error = 0;
+  std::vector<SurfaceChoice> surface_choices;
+  std::vector<StoreChoice> choices;
+  std::vector<WorstPixel> worst;
+
+  void may_be_other(uint64_t surface, double chance);
+  void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+  /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
+  void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+};
+
+/// The profile as it applies: `ideal` follows the pipeline's half_round; of others that allow either, it is nominal.
+Profile resolved(const Profile& profile, const Pipeline& pipeline);
+
+StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
+                        std::vector<RowTally>& rows);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,38 @@
+#pragma once
+// Surfaces that may share the visible one's depth: under forward-multipass, whose draws after the first test for EQUAL,
+// they add to the pixel too.
+#include <span>
+#include <vector>
+
+#include "oracle/capture.h"
+#include "judge/bounds/profile.h"
+#include "judge/bounds/shading.h"
+
+namespace trueshade::oracle {
+
+struct TiedSurface {
+  ShadedSurface surface;  ///< what its fragment's attributes may be
+  bool certain = false;   ///< covers the sample, with the very depth of the visible surface
+  bool before = false;    ///< submitted before the visible one
+};
+
+/// Of every pixel, in order of submission; y from the top. Where nothing is visible: what may have the clear depth.
+/// The visible surface is the candidate of the capture's id.object (and id.primitive, where captured) whose normal and
+/// depth are nearest to those stored. Triangles that share an edge are counted apart, although only one can have the
+/// sample.
+class TiedSurfaces {
+ public:
+  TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+
+  std::span<const TiedSurface> at(int x, int y) const {
+    const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
+    return {list_.data() + first_[pixel], first_[pixel + 1] - first_[pixel]};
+  }
+
+ private:
+  int width_;
+  std::vector<size_t> first_;
+  std::vector<TiedSurface> list_;
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,260 @@
+#include "judge/stages/transparent_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/stages/captured_surface.h"
+#include "judge/legal/patch.h"
+#include "judge/stages/tally.h"
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kMostDoubts = 6;
+
+bool ordered_down(DepthFunc f) { return f == DepthFunc::less || f == DepthFunc::lequal; }
+bool ordered_up(DepthFunc f) { return f == DepthFunc::greater || f == DepthFunc::gequal; }
+
+/// Surfaces as a forward strategy has them.
+Pipeline forward_of(const Pipeline& pipeline) {
+  Pipeline p = pipeline;
+  p.strategy = Strategy::forward_loop;
+  p.gbuffer = surface_planes(p);
+  return p;
+}
+
+Range either(const Range& a, const Range& b) { return {a.value, std::min(a.low, b.low), std::max(a.high, b.high)}; }
+
+}  // namespace
+
+/// Depths that the opaque surfaces may have left, as keys.
+struct TransparentLayers::Front {
+  double low, high;
+};
+
+TransparentLayers::~TransparentLayers() = default;
+
+TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                     const Capture& capture)
+    : pipeline_(pipeline),
+      profile_(profile),
+      blend_(pipeline.transparency.blend),
+      format_(pipeline.transparency.mode == TransparencyMode::into_albedo ? pipeline.gbuffer.albedo.format
+              : capture.color.width > 0                                   ? capture.color.format
+                                                                          : pipeline.target),
+      model_(pipeline.light_model),
+      projector_(scene, forward_of(pipeline), profile, capture.drawn_at) {
+  model_.alpha_from_albedo = true;
+  find_fronts(capture);
+  fragments_ = find_transparent(projector_, front_high_);
+  if (pipeline.transparency.mode != TransparencyMode::after_lights) return;
+  const auto axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+  lights_.emplace(scene, model_, axis, profile_.arithmetic, profile_.exact_planes, pipeline_.light_volumes);
+}
+
+void TransparentLayers::find_fronts(const Capture& capture) {
+  const auto pixels = size_t(pipeline_.width) * size_t(pipeline_.height);
+  const GeometryState& state = pipeline_.geometry;
+  const bool down = ordered_down(state.depth_func), up = ordered_up(state.depth_func);
+  front_low_.assign(pixels, down || up ? clear_key(state) : HUGE_VAL);
+  front_high_ = front_low_;
+  if (!down && !up) return;
+  const PlaneView depth = plane_of(capture, pipeline_, "depth");
+  if (depth) {
+    for (int y = 0; y < pipeline_.height; ++y)
+      for (int x = 0; x < pipeline_.width; ++x) {
+        const double held = held_depth_of(state, depth.stored(x, y, 0));
+        const size_t pixel = size_t(pipeline_.height - 1 - y) * size_t(pipeline_.width) + size_t(x);
+        front_low_[pixel] = front_high_[pixel] = up ? -held : held;
+      }
+    return;
+  }
+  const CandidateMap opaque = find_candidates(projector_);
+  for (size_t pixel = 0; pixel < pixels; ++pixel)
+    for (const Candidate& c : opaque.at(pixel)) {
+      front_low_[pixel] = std::min(front_low_[pixel], c.low);
+      if (c.certain) front_high_[pixel] = std::min(front_high_[pixel], c.high);
+    }
+}
+
+bool TransparentLayers::any(int x, int y) const {
+  return !fragments_.at(size_t(pipeline_.height - 1 - y) * size_t(pipeline_.width) + size_t(x)).empty();
+}
+
+/// False where the fragment surely fails.
+bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const {
+  const DepthFunc func = pipeline_.geometry.depth_func;
+  if (func == DepthFunc::always) return true;
+  if (func == DepthFunc::never) return false;
+  const Range z = values.depth();
+  const bool up = ordered_up(func), strict = func == DepthFunc::less || func == DepthFunc::greater;
+  if (!up && !ordered_down(func)) {  // EQUAL, NOTEQUAL: depths of opaque surfaces are not followed
+    layer.certain = false, layer.doubt = PixelClass::depth_tie, layer.chance_other = 0.5f;
+    return true;
+  }
+  const double low = up ? -z.high : z.low, high = up ? -z.low : z.high, middle = up ? -z.value : z.value;
+  if (strict ? low >= front.high : low > front.high) return false;
+  if (strict ? high < front.low : high <= front.low) return true;
+  layer.certain = false, layer.doubt = PixelClass::depth_tie, layer.patch = -1;
+  layer.drawn = layer.drawn && (strict ? middle < front.high : middle <= front.high);
+  layer.chance_other = 0.5f;
+  return true;
+}
+
+void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& layer) const {
+  const Interpolation how = pipeline_.gbuffer.albedo.interpolation;
+  layer.looked_up = values.textured() || values.glossy() || values.bumpy();
+  layer.undefined = !values.bounded();
+  if (!lights_) {
+    for (int k = 0; k < 4; ++k) {
+      const Range base = values.base_color(k, how);
+      layer.nominal[size_t(k)] = k < 3 ? values.albedo(base) : base;
+    }
+    return;
+  }
+  const ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
+  const LitRange lit = lights_->at(surface);
+  layer.undefined = layer.undefined || lit.undefined;
+  layer.either_way = !lit.branches.empty();
+  for (size_t k = 0; k < 3; ++k) {
+    layer.nominal[k] = layer.other[k] = output_range(model_, lit.color[k]);
+    Bounded up = lit.color[k], down = lit.color[k];
+    for (const OtherBranch& branch : lit.branches) (branch.change[k] > 0 ? up : down).value += branch.change[k];
+    layer.other[k] = either(layer.nominal[k], either(output_range(model_, up), output_range(model_, down)));
+  }
+  layer.nominal[3] = layer.other[3] = output_range(model_, surface.albedo[3]);
+}
+
+TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {
+  const int y = pipeline_.height - 1 - y_top;
+  const size_t pixel = size_t(y) * size_t(pipeline_.width) + size_t(x);
+  const std::span<const Candidate> all = fragments_.at(pixel);
+  TransparentPixel out;
+  const auto ours = [&](const Candidate& c) { return c.instance >= first && c.instance < end; };
+  if (std::none_of(all.begin(), all.end(), ours)) return out;
+  const std::vector<ClosedPatch> patches = closed_patches(projector_, all, x + 0.5, y + 0.5);
+  for (const ClosedPatch& patch : patches) {
+    const bool known = std::all_of(patch.members.begin(), patch.members.end(),
+                                   [](const ClosedPatch::Member& m) { return m.sense != 0; });
+    out.turns.push_back(known ? patch.turns : kOpenPatch);
+  }
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Candidate& c = all[i];
+    if (!ours(c)) continue;
+    TransparentLayer layer;
+    layer.instance = c.instance, layer.triangle = c.triangle;
+    layer.certain = c.certain, layer.drawn = c.nominal || c.certain, layer.chance_other = c.chance_other;
+    layer.doubt = c.masked ? PixelClass::tex : c.cut ? PixelClass::clip : PixelClass::edge;
+    for (size_t p = 0; p < patches.size(); ++p)
+      for (const ClosedPatch::Member& m : patches[p].members)
+        if (m.candidate == i) layer.patch = int(p), layer.turn = m.sense;
+    const SurfaceValues values(projector_, c, x + 0.5, y + 0.5);
+    const int patch = layer.patch;
+    const bool passes = test_depth(values, {front_low_[pixel], front_high_[pixel]}, layer);
+    // What hides some of a patch says nothing of which triangle has the sample.
+    if (patch >= 0 && (!passes || layer.patch < 0))
+      for (TransparentLayer& other : out.layers)
+        if (other.patch == patch) other.patch = -1;
+    if (patch >= 0 && (!passes || layer.patch < 0)) out.turns[size_t(patch)] = kOpenPatch;
+    if (patch >= 0 && out.turns[size_t(patch)] == kOpenPatch) layer.patch = -1;
+    if (!passes) continue;
+    shade(values, layer);
+    out.layers.push_back(layer);
+  }
+  return out;
+}
+
+/// `drawn`: bits of the layers in doubt, in order.
+void TransparentLayers::chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
+                              std::vector<LayeredTexel>& out) const {
+  LayeredTexel way;
+  way.texel = from;
+  std::vector<int> turns(pixel.turns.size(), 0);
+  unsigned bit = 0;
+  for (const TransparentLayer& layer : pixel.layers) {
+    bool is_drawn = true;
+    if (!layer.certain) {
+      is_drawn = (drawn >> bit++ & 1u) != 0;
+      if (is_drawn != layer.drawn && worse(layer.doubt, way.pixel_class)) way.pixel_class = layer.doubt;
+    }
+    if (!is_drawn) continue;
+    if (layer.patch >= 0) turns[size_t(layer.patch)] += layer.turn;
+    const bool branch = other && layer.either_way;
+    if (branch && worse(PixelClass::branch, way.pixel_class)) way.pixel_class = PixelClass::branch;
+    const std::array<Range, 4>& source = branch ? layer.other : layer.nominal;
+    way.texel = blended_texel(blend_, format_, profile_, source, way.texel);
+    way.looked_up = way.looked_up || layer.looked_up;
+    way.undefined = way.undefined || layer.undefined;
+    for (size_t k = 0; k < 4; ++k) way.value[k] = source[k].value;
+  }
+  for (size_t p = 0; p < turns.size(); ++p) {
+    const bool seen = std::any_of(pixel.layers.begin(), pixel.layers.end(),
+                                  [&](const TransparentLayer& l) { return l.patch == int(p); });
+    if (seen && turns[p] != pixel.turns[p]) return;
+  }
+  out.push_back(way);
+}
+
+std::vector<LayeredTexel> TransparentLayers::ways(const TransparentPixel& pixel, const Texel& from) const {
+  unsigned nominal = 0, bit = 0;
+  bool branches = false;
+  for (const TransparentLayer& layer : pixel.layers) {
+    branches = branches || layer.either_way;
+    if (!layer.certain) nominal |= (layer.drawn ? 1u : 0u) << bit++;
+  }
+  std::vector<LayeredTexel> out;
+  if (bit <= kMostDoubts) {
+    for (const bool other : {false, true}) {
+      if (other && !branches) continue;
+      chain(pixel, from, nominal, other, out);
+      for (unsigned drawn = 0; drawn < 1u << bit; ++drawn)
+        if (drawn != nominal) chain(pixel, from, drawn, other, out);
+    }
+    if (!out.empty()) return out;
+  }
+  TransparentPixel first = pixel;
+  first.turns.assign(first.turns.size(), kOpenPatch);
+  LayeredTexel hulls;
+  hulls.texel = from;
+  for (TransparentLayer& layer : first.layers) {
+    layer.patch = -1;
+    const Texel before = hulls.texel;
+    hulls.texel = blended_texel(blend_, format_, profile_, layer.either_way ? layer.other : layer.nominal, before);
+    hulls.looked_up = hulls.looked_up || layer.looked_up, hulls.undefined = hulls.undefined || layer.undefined;
+    for (size_t k = 0; k < 4; ++k) hulls.value[k] = layer.nominal[k].value;
+    if (layer.certain) continue;
+    for (size_t k = 0; k < 4; ++k) hulls.texel[k] = hull(hulls.texel[k], before[k]);
+    if (worse(layer.doubt, hulls.pixel_class)) hulls.pixel_class = layer.doubt;
+    layer.certain = layer.drawn;
+  }
+  std::erase_if(first.layers, [](const TransparentLayer& l) { return !l.certain; });
+  chain(first, from, 0, false, out);
+  out.push_back(hulls);
+  return out;
+}
+
+void TransparentLayers::carry(const TransparentPixel& pixel, CarriedTexel& at) const {
+  const std::vector<LayeredTexel> nominal = ways(pixel, at.nominal), all = ways(pixel, at.all);
+  at.split = at.split || all.size() > 1;
+  at.nominal = nominal.front().texel;
+  at.all = all.front().texel;
+  for (const LayeredTexel& way : all) {
+    for (size_t k = 0; k < 4; ++k) at.all[k] = hull(at.all[k], way.texel[k]);
+    if (worse(way.pixel_class, at.doubt)) at.doubt = way.pixel_class;
+    at.open = at.open || way.undefined;
+  }
+}
+
+Scene without_transparent(const Scene& scene) {
+  Scene out = scene;
+  const auto nothing = uint32_t(out.meshes.size());
+  out.meshes.emplace_back();
+  for (Instance& instance : out.instances)
+    if (scene.materials[instance.material].transparent) instance.mesh = nothing;
+  for (Material& m : out.materials) m.transparent = false;
+  return out;
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,100 @@
+#pragma once
+// Transparent surfaces over a pixel: which fragments may be there, in what order, what each puts into the blend, and
+// what the blends leave (docs/arithmetic.md section 15).
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "oracle/capture.h"
+#include "judge/legal/blend_range.h"
+#include "judge/legal/possible_surfaces.h"
+#include "judge/bounds/shading.h"
+#include "judge/legal/surface_values.h"
+#include "judge/stages/verdict.h"
+
+namespace trueshade::oracle {
+
+/// One transparent fragment of a pixel, as the blend sees it.
+struct TransparentLayer {
+  uint32_t instance = 0, triangle = 0;
+  std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
+  bool either_way = false;              ///< a comparison of the shader may go to `other`
+  bool looked_up = false;               ///< a texture decides some of it
+  bool undefined = false;               ///< OpenGL gives the value no meaning
+  bool certain = true, drawn = true;    ///< drawn for sure; nominally
+  int patch = -1, turn = 0;             ///< of patches that close around the sample: which one, the triangle's sense
+  PixelClass doubt = PixelClass::edge;  ///< why it may not be there
+  float chance_other = 0;
+};
+
+/// The layers of one pixel, in order of submission, and their patches.
+struct TransparentPixel {
+  std::vector<TransparentLayer> layers;
+  std::vector<int> turns;  ///< of each patch: the sum of the senses of its triangles that have the sample (patch.h)
+};
+
+/// What the blends may leave: one way of drawing the layers.
+struct LayeredTexel {
+  PixelClass pixel_class = PixelClass::exact;
+  Texel texel;
+  std::array<double, 4> value{};  ///< of the last layer
+  bool looked_up = false;
+  bool undefined = false;
+};
+
+/// What a pixel may hold: by the nominal draws, and by any; and why the two may differ.
+struct CarriedTexel {
+  Texel nominal, all;
+  bool split = false, open = false;  ///< open: a fragment may have left anything
+  PixelClass doubt = PixelClass::branch;
+};
+
+/// A fragment is tested against the depth that the opaque surfaces left: the capture's own where it has that plane,
+/// else that of any opaque surface that may be seen there. LESS and LEQUAL (GREATER and GEQUAL alike): sure to pass
+/// where all of its depths are in front of that one, may pass where some are; ALWAYS passes; EQUAL and NOTEQUAL may go
+/// either way where it may have that very depth.
+class TransparentLayers {
+ public:
+  TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+  ~TransparentLayers();
+
+  /// Whether any fragment may be at the pixel; y from the top.
+  bool any(int x, int y) const;
+
+  /// Those of instances [first, end). into-albedo: sources are albedos; after-lights: lit colours.
+  TransparentPixel at(int x, int y, uint32_t first, uint32_t end) const;
+  TransparentPixel at(int x, int y) const { return at(x, y, 0, ~uint32_t(0)); }
+
+  /// Every way to draw the layers onto a texel, the nominal one first. Triangles of a patch are in a way that its sum
+  /// of turns allows. More than six layers in doubt: the nominal way, and the hull of all.
+  std::vector<LayeredTexel> ways(const TransparentPixel& pixel, const Texel& from) const;
+
+  /// All ways at once: of a pixel that is not known but to lie in a set.
+  void carry(const TransparentPixel& pixel, CarriedTexel& at) const;
+
+  Format format() const { return format_; }  ///< of what is blended into
+
+ private:
+  struct Front;
+  bool test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const;
+  void shade(const SurfaceValues& values, TransparentLayer& layer) const;
+  void find_fronts(const Capture& capture);
+  void chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
+             std::vector<LayeredTexel>& out) const;
+
+  const Pipeline pipeline_;
+  const Profile profile_;
+  const BlendState blend_;
+  const Format format_;
+  LightModel model_;
+  Projector projector_;
+  std::vector<double> front_low_, front_high_;  ///< keys of the opaque depth, row 0 the bottom row
+  CandidateMap fragments_;
+  std::optional<LightBounds> lights_;
+};
+
+/// The scene with its transparent surfaces gone, but not their places among the instances.
+Scene without_transparent(const Scene& scene);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,43 @@
+#pragma once
+// The entry point of `trueshade validate`: a capture in, everything there is to say about it out.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/stages/aggregate.h"
+#include "judge/stages/infer.h"
+#include "judge/stages/judge.h"
+
+namespace trueshade::oracle {
+
+struct ValidateOptions {
+  Profile profile;       ///< what is promised; by default what OpenGL promises with 4 subpixel bits
+  bool infer = false;    ///< also find the tightest profile: some fifteen judgements more
+  LightSteps steps{};    ///< of strategies that draw light by light: to judge each light by itself
+  LightSteps objects{};  ///< of surfaces transparent after the lights: to judge each by itself
+};
+
+struct Verdict {
+  std::string scene, driver;
+  std::string profile;
+  std::vector<StageVerdict> stages;  ///< those the capture has planes for: gbuffer; lighting or blending; transparency
+  std::vector<std::vector<AggregateTest>> aggregates;  ///< a list a stage
+  std::optional<Inference> inferred;
+
+  uint64_t violations() const;  ///< over all stages; the command's exit code is 1 where it is not 0
+  bool suspicious() const;      ///< some aggregate test fails: legal pixel by pixel, yet not what chance makes
+};
+
+/// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by
+/// light, as `blending`, and by its last state only where drawing it again with a look at each light made another one.
+/// Throws Error(bad_input) where there is none, or a size is wrong.
+Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
+                         const ValidateOptions& options = {});
+
+/// The verdict as JSON, fixed key order: scene, driver, profile, pass, suspicious, stages [{stage, width, height,
+/// counts by class name, covered, ambiguous, predicted_other, stored_values, worst_error, aggregates [{name, observed,
+/// expected, sigma, pass} or {name, tested: false}], worst [{x, y, class, plane, low, high, nominal, given, note}]}],
+/// inferred. x, y from the top left; infinite ends are null.
+std::string verdict_json(const Verdict& verdict);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raster/visibility/visibility.h"
+
+namespace trueshade {
+
+/// The clusters that may be seen, and for each tile those that may touch it, in submission order.
+struct ClusterBins {
+  int tile = 64, tiles_x = 0, tiles_y = 0;
+  std::vector<ClusterDraw> draws;  ///< ascending by instance, then cluster
+  std::vector<uint64_t> first;     ///< tiles_x * tiles_y + 1 offsets into `list`; tile (x, y) is y * tiles_x + x, y up
+  std::vector<uint32_t> list;      ///< into `draws`, ascending in each tile
+  // Scratch, kept from frame to frame like the rest.
+  std::vector<uint32_t> row;        ///< instances that may be seen
+  std::vector<uint64_t> row_first;  ///< clusters of those before each, and of all
+  struct Piece {
+    std::vector<ClusterDraw> draws;
+    std::vector<uint64_t> next;  ///< of each tile: how many of them, then where in `list` they go
+    uint64_t first;              ///< of `draws` among all
+  };
+  std::vector<Piece> piece;
+
+  std::span<const uint32_t> tile_list(int index) const {
+    return {list.data() + first[size_t(index)], size_t(first[size_t(index) + 1] - first[size_t(index)])};
+  }
+};
+
+/// Conservative: a cluster is left out of a tile only if none of its fragments can fall there. Without `culling` every
+/// cluster is in every tile of the viewport. `bins` may be those of any frame before: their memory is used again.
+void bin_clusters(const Scene& scene, const ClusteredScene& clusters, const View& view, int tile, bool culling,
+                  int threads, ClusterBins& bins);
+
+}  // namespace trueshade

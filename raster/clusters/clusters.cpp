@@ -1,0 +1,131 @@
+#include "raster/clusters/clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/fp_env.h"
+#include "raster/clusters/cone_maker.h"
+
+namespace trueshade {
+namespace {
+
+// Greedy: triangles in submission order until a vertex or triangle too many. Order inside a mesh is thus kept, which
+// makes (cluster, triangle) order the submission order.
+class Builder {
+ public:
+  explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
+    out_.surface_lines = mesh.has_color() ? 7 : 3;
+    const size_t triangles = mesh.triangle_count();
+    for (auto& stream : out_.corner) stream.reserve(triangles + kCornerSlack);
+    const size_t vertices = mesh.vertex_count() + mesh.vertex_count() / 2;  // some are in several clusters
+    out_.vertex.reserve(vertices);
+    for (auto& stream : out_.position) stream.reserve(vertices);
+    out_.surface.reserve(vertices / 16 * size_t(out_.surface_lines));
+  }
+
+  ClusteredMesh build() {
+    for (size_t triangle = 0; triangle < mesh_.triangle_count(); ++triangle) {
+      const uint32_t* corner = &mesh_.indices[3 * triangle];
+      if (triangle == 0 || current_.triangles == kClusterTriangles ||
+          current_.vertices + added(corner) > kClusterVertices)
+        start(triangle);
+      for (int i = 0; i < 3; ++i) out_.corner[size_t(i)].push_back(local_vertex(corner[i]));
+      ++current_.triangles;
+    }
+    finish();
+    for (size_t c = 0; c < 3; ++c) add_box(c, least_[c], greatest_[c]);
+    add_cone(NormalCone{}, out_.cones);
+    for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
+    for (auto* ends : {&out_.boxes.center, &out_.boxes.half_size})
+      for (auto& stream : *ends) stream.resize(stream.size() + kBoxSlack);
+    for (size_t i = 0; i < kBoxSlack; ++i) add_cone(NormalCone{}, out_.cones);
+    return std::move(out_);
+  }
+
+ private:
+  int added(const uint32_t* corner) const {
+    int count = 0;
+    for (int i = 0; i < 3; ++i) {
+      bool known = seen_in_[corner[i]] == stamp_;
+      for (int k = 0; k < i; ++k) known |= corner[k] == corner[i];
+      count += !known;
+    }
+    return count;
+  }
+
+  void start(size_t triangle) {
+    finish();
+    ++stamp_;
+    current_ = {};
+    current_.first_vertex = uint32_t(out_.vertex.size());
+    current_.first_triangle = uint32_t(triangle);
+  }
+
+  uint8_t local_vertex(uint32_t vertex) {
+    if (seen_in_[vertex] != stamp_) {
+      seen_in_[vertex] = stamp_;
+      local_[vertex] = uint8_t(current_.vertices++);
+      out_.vertex.push_back(vertex);
+    }
+    return local_[vertex];
+  }
+
+  void add_box(size_t axis, float low, float high) {
+    const float center = low * 0.5f + high * 0.5f, half = std::max(high - center, center - low);
+    out_.boxes.center[axis].push_back(center);
+    out_.boxes.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
+  }
+
+  void add_line(const std::vector<float>& from, size_t first) {
+    VertexLine line{};
+    for (size_t k = 0; k < 16 && !from.empty(); ++k) line.value[k] = from[out_.vertex[first + k]];
+    out_.surface.push_back(line);
+  }
+
+  void finish() {
+    if (current_.triangles == 0) return;
+    while (out_.vertex.size() % 16 != 0) out_.vertex.push_back(out_.vertex.back());
+    for (size_t c = 0; c < 3; ++c) {
+      float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+      for (size_t i = current_.first_vertex; i < out_.vertex.size(); ++i) {
+        const float value = mesh_.position[c][out_.vertex[i]];
+        out_.position[c].push_back(value);
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      add_box(c, low, high);
+      least_[c] = std::min(least_[c], low);
+      greatest_[c] = std::max(greatest_[c], high);
+    }
+    for (size_t i = current_.first_vertex; i < out_.vertex.size(); i += 16) {
+      for (size_t c = 0; c < 3; ++c) add_line(mesh_.normal[c], i);
+      for (size_t c = 0; c < 4 && mesh_.has_color(); ++c) add_line(mesh_.color[c], i);
+    }
+    add_cone(normal_cone(out_, current_, out_.clusters.size()), out_.cones);
+    out_.clusters.push_back(current_);
+  }
+
+  const Mesh& mesh_;
+  ClusteredMesh out_;
+  static constexpr size_t kBoxSlack = 16;
+  static constexpr float kMost = std::numeric_limits<float>::max();
+  float least_[3] = {kMost, kMost, kMost}, greatest_[3] = {-kMost, -kMost, -kMost};
+  Cluster current_{};
+  uint32_t stamp_ = 0;
+  std::vector<uint32_t> seen_in_;
+  std::vector<uint8_t> local_;
+};
+
+}  // namespace
+
+ClusteredMesh cluster_mesh(const Mesh& mesh) { return Builder(mesh).build(); }
+
+ClusteredScene cluster_scene(const Scene& scene) {
+  const FpScope fp;
+  ClusteredScene out;
+  for (const Mesh& mesh : scene.meshes) out.meshes.push_back(cluster_mesh(mesh));
+  return out;
+}
+
+}  // namespace trueshade

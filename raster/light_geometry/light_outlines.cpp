@@ -1,0 +1,291 @@
+#include "raster/light_geometry/light_outlines.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/light_geometry/light_outlines.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/threads/parallel_for.h"
+#include "raster/visibility/coverage-inl.h"
+#include "raster/light_geometry/outline_maker.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+void place_mesh_simd(const LightMesh& mesh, const Light& light, const View& view, const WindowTransform& window,
+                     const int origin_fx[2], PlacedMesh& out) {
+  const D32 df;
+  const SampleOrigin origin{origin_fx[0], origin_fx[1]};
+  const size_t count = mesh.unit.size(), padded = (count + kClusterVertices - 1) / kClusterVertices * kClusterVertices;
+  out.world.resize(count);
+  light_vertices(mesh, light, out.world);
+  for (auto& stream : out.clip) stream.resize(padded);
+  out.x.resize(padded), out.y.resize(padded), out.z.resize(padded), out.needs_care.resize(padded);
+  alignas(64) float p[3][kClusterVertices];
+  WindowVertices v;
+  out.any_needs_care = false;
+  for (size_t from = 0; from < count; from += kClusterVertices) {
+    const size_t here = std::min<size_t>(kClusterVertices, count - from);
+    const size_t vectors_end = (here + hn::Lanes(df) - 1) / hn::Lanes(df) * hn::Lanes(df);
+    for (size_t i = 0; i < vectors_end; ++i)
+      for (int c = 0; c < 3; ++c) p[c][i] = out.world[from + std::min(i, here - 1)][c];
+    for (size_t i = 0; i < vectors_end; i += hn::Lanes(df)) {
+      const V32 x = hn::Load(df, p[0] + i), y = hn::Load(df, p[1] + i), z = hn::Load(df, p[2] + i);
+      V32 clip[4];
+      for (size_t r = 0; r < 4; ++r) {
+        clip[r] = affine_row(view.clip_from_world.data() + 4 * r, x, y, z);
+        hn::StoreU(clip[r], df, out.clip[r].data() + from + i);
+      }
+      const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], window, origin, i, v);
+      out.any_needs_care = out.any_needs_care || care;
+    }
+    std::copy_n(v.x, here, out.x.data() + from);
+    std::copy_n(v.y, here, out.y.data() + from);
+    std::copy_n(v.z, here, out.z.data() + from);
+    std::copy_n(v.needs_care, here, out.needs_care.data() + from);
+  }
+}
+
+/// Counts covered samples, whatever their depth.
+struct LayerCommit {
+  uint16_t* counts;
+  template <class T>
+  void begin(const TriangleSetup<T>&) {}
+  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
+  bool hidden(int) const { return false; }
+  HWY_INLINE bool vector(int at, M64 covered, const V64*) {
+    const D64 d;
+    alignas(64) double one[HWY_MAX_BYTES / sizeof(double)];
+    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
+    for (size_t i = 0; i < hn::Lanes(d); ++i)
+      counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
+    return false;
+  }
+  bool scalar(int at, double, double, double) {
+    ++counts[at];
+    return false;
+  }
+  void finish_block(int) {}
+};
+
+void count_mesh_simd(const LightMesh& mesh, const PlacedMesh& placed, const GeometryState& state,
+                     const WindowTransform& window, const TileRect& rect, uint16_t* counts) {
+  LayerCommit commit{counts};
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    WindowTriangle triangle;
+    ClipVertex clip[3];
+    bool careful = false;
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t corner = mesh.indices[i + k];
+      triangle.x[k] = placed.x[corner];
+      triangle.y[k] = placed.y[corner];
+      triangle.z[k] = placed.z[corner];
+      careful = careful || placed.needs_care[corner] != 0;
+      for (size_t c = 0; c < 4; ++c) clip[k].c[c] = placed.clip[c][corner];
+    }
+    TriangleSetup<double> setup;
+    if (careful)
+      draw_careful(clip, window, sample_origin(rect.x, rect.y), state, rect, commit);
+    else if (set_up_triangle(triangle, state, window.upper_left, rect.limit, setup))
+      cover_blocks(setup, rect, commit);
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(place_mesh_simd);
+HWY_EXPORT(count_mesh_simd);
+namespace {
+
+constexpr int kWindowOrigin[2] = {0, 0};
+
+constexpr int64_t kSmallEdge = int64_t(1) << 24;  // a tile's 63 steps in both directions then stay below 2^31
+static_assert(2 * (kMaxTile - 1) * kSmallEdge < int64_t(1) << 31);
+
+// Masks of a tile's blocks by edges of any length.
+void add_masks(std::span<const OutlineEdge> edges, const TileRect& rect, std::vector<uint16_t>& masks) {
+  for (int y = rect.y; y < rect.y + rect.size; y += kBlockSize)
+    for (int x = rect.x; x < rect.x + rect.size; x += kBlockSize) {
+      unsigned mask = 0xFFFF;
+      for (const OutlineEdge& e : edges) {
+        const int64_t at = e.at + e.across * x + e.up * y;
+        for (int i = 0; i < kBlockPixels; ++i)
+          if (at + e.across * (i % kBlockSize) + e.up * (i / kBlockSize) < 0) mask &= ~(1u << i);
+      }
+      masks.push_back(uint16_t(mask));
+    }
+}
+
+}  // namespace
+
+GeometryState light_geometry_state(const Pipeline& pipeline) {
+  GeometryState state = pipeline.geometry;
+  state.cull_face = pipeline.light_volumes.cull_face;
+  state.front_face = FrontFace::ccw;
+  state.depth_clamp = pipeline.light_volumes.depth_clamp;
+  return state;
+}
+
+namespace {
+
+// Whether a ball lies wholly beyond one side of the view, by more than its vertices' roundings, or behind the eye: a
+// mesh inside of it then covers no pixel.
+bool out_of_view(const View& view, const glm::vec3& center, double radius) {
+  const float* const row = view.clip_from_world.data();  // x y z w
+  const auto beyond = [&](int axis, double sign) {       // of all points of the ball: w + sign * x < 0
+    double middle = double(row[15]), slope2 = 0.0, size = std::abs(double(row[15]));
+    if (axis >= 0) middle += sign * double(row[4 * axis + 3]), size += std::abs(double(row[4 * axis + 3]));
+    for (int c = 0; c < 3; ++c) {
+      const double other = axis >= 0 ? double(row[4 * axis + c]) : 0.0, slope = double(row[12 + c]) + sign * other;
+      middle += slope * double(center[c]), slope2 += slope * slope;
+      size += (std::abs(double(row[12 + c])) + std::abs(other)) * (std::abs(double(center[c])) + radius);
+    }
+    return middle + std::sqrt(slope2) * radius < -0x1p-16 * size;
+  };
+  return beyond(-1, 0.0) || beyond(0, 1.0) || beyond(0, -1.0) || beyond(1, 1.0) || beyond(1, -1.0);
+}
+
+// The radius of a ball about a light that its mesh lies in; infinity where that is not known.
+double mesh_radius(LightExtent extent, float range) {
+  if (extent == LightExtent::cone) return std::numeric_limits<double>::infinity();
+  return double(range) * (extent == LightExtent::box ? 1.7320509 : 1.0000001);
+}
+
+}  // namespace
+
+struct OutlineTasks::Work {
+  struct Part {
+    PlacedMesh placed;
+    OutlineMaker maker;
+  };
+  std::span<const Light> lights;
+  LightVolumes volumes;
+  const LightMeshes* meshes;
+  const View* view;
+  LightOutlines* out;
+  size_t task = 1;  // lights of one
+  std::vector<std::unique_ptr<Part>> parts;
+
+  int tasks() const { return int((lights.size() + task - 1) / task); }
+
+  OutlineMaker::Outline outline(const Light& light, Part& part) const {
+    const LightExtent extent = drawn_extent(light, volumes);
+    if (!is_mesh(extent)) return part.maker.everywhere(OutlineKind::everywhere);
+    if (out_of_view(*view, light.position, mesh_radius(extent, light.range))) return {};
+    HWY_DYNAMIC_DISPATCH(place_mesh_simd)((*meshes)[extent], light, *view, out->window, kWindowOrigin, part.placed);
+    return part.maker.outline((*meshes)[extent], part.placed);
+  }
+};
+
+OutlineTasks::OutlineTasks() : work_(std::make_unique<Work>()) {}
+OutlineTasks::~OutlineTasks() = default;
+
+int OutlineTasks::start(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
+                        const View& view, LightOutlines& out) {
+  Work& w = *work_;
+  w.lights = lights, w.volumes = pipeline.light_volumes, w.meshes = &meshes, w.view = &view, w.out = &out;
+  out.state = light_geometry_state(pipeline);
+  out.window = window_transform(out.state, pipeline.width, pipeline.height, pipeline.profile);
+  const size_t padded = (lights.size() + 15) / 16 * 16;
+  out.kind.resize(lights.size());
+  out.layers.resize(lights.size());
+  for (auto* side : {&out.x0, &out.y0, &out.x1, &out.y1}) {
+    side->resize(padded);
+    std::fill(side->begin() + std::ptrdiff_t(lights.size()), side->end(), 0);
+  }
+  out.first.resize(lights.size() + 1);
+  w.task = std::clamp<size_t>(lights.size() / 32, 1, 1024);
+  while (int(w.parts.size()) < w.tasks()) w.parts.push_back(std::make_unique<Work::Part>());
+  return w.tasks();
+}
+
+void OutlineTasks::run(int task) {
+  Work& w = *work_;
+  LightOutlines& out = *w.out;
+  Work::Part& part = *w.parts[size_t(task)];
+  part.maker.start(out.state, out.window);
+  for (size_t i = size_t(task) * w.task; i < std::min(w.lights.size(), size_t(task + 1) * w.task); ++i) {
+    const OutlineMaker::Outline r = w.outline(w.lights[i], part);
+    out.kind[i] = r.kind;
+    out.layers[i] = r.layers;
+    out.x0[i] = r.x0, out.y0[i] = r.y0, out.x1[i] = r.x1, out.y1[i] = r.y1;
+    out.first[i + 1] = r.edges;
+  }
+}
+
+void OutlineTasks::finish(int threads) {
+  const Work& w = *work_;
+  LightOutlines& out = *w.out;
+  out.first[0] = 0;
+  for (size_t i = 0; i < w.lights.size(); ++i) out.first[i + 1] += out.first[i];
+  out.edges.resize(out.first.back());
+  constexpr size_t kFew = 4096;  // edges that are as soon copied by one
+  parallel_for(w.tasks(), out.edges.size() > kFew ? threads : 1, [&](int task) {
+    const std::vector<OutlineEdge>& edges = w.parts[size_t(task)]->maker.edges();
+    std::copy(edges.begin(), edges.end(), out.edges.begin() + std::ptrdiff_t(out.first[size_t(task) * w.task]));
+  });
+}
+
+LightOutlines make_light_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes,
+                                  const View& view, int threads) {
+  LightOutlines out;
+  OutlineTasks tasks;
+  parallel_for(tasks.start(lights, pipeline, meshes, view, out), threads, [&](int task) { tasks.run(task); });
+  tasks.finish(threads);
+  return out;
+}
+
+Cover tile_cover(const LightOutlines& outlines, size_t light, const TileRect& rect, std::vector<TileEdge>& edges,
+                 std::vector<uint16_t>& masks) {
+  const std::span<const OutlineEdge> all(outlines.edges.data() + outlines.first[light],
+                                         outlines.edges.data() + outlines.first[light + 1]);
+  const size_t first = edges.size();
+  bool fits = true;
+  for (const OutlineEdge& e : all) {
+    const int64_t at = e.at + e.across * rect.x + e.up * rect.y, steps = rect.size - 1;
+    if (at + std::max<int64_t>(e.across, 0) * steps + std::max<int64_t>(e.up, 0) * steps < 0) {
+      edges.resize(first);
+      return Cover::none;
+    }
+    if (at + std::min<int64_t>(e.across, 0) * steps + std::min<int64_t>(e.up, 0) * steps >= 0) continue;
+    fits = fits && std::abs(e.across) < kSmallEdge && std::abs(e.up) < kSmallEdge;
+    edges.push_back({int32_t(at), int32_t(e.across), int32_t(e.up)});
+  }
+  if (edges.size() == first) return Cover::all;
+  if (fits) return Cover::edges;
+  edges.resize(first);
+  add_masks(all, rect, masks);
+  return Cover::masks;
+}
+
+uint16_t block_mask(std::span<const TileEdge> edges, int x, int y) {
+  unsigned mask = 0xFFFF;
+  for (const TileEdge& e : edges) {
+    if (edge_contains(e, x, y, kBlockSize, kBlockSize)) continue;
+    for (int i = 0; i < kBlockPixels; ++i)
+      if (!edge_touches(e, x + i % kBlockSize, y + i / kBlockSize, 1, 1)) mask &= ~(1u << i);
+  }
+  return uint16_t(mask);
+}
+
+int count_light_mesh(const LightMesh& mesh, const Light& light, const LightOutlines& outlines, const View& view,
+                     const TileRect& rect, uint16_t* counts) {
+  const size_t pixels = size_t(rect.size) * size_t(rect.size);
+  std::fill_n(counts, pixels, uint16_t(0));
+  const int sample[2] = {rect.x * 256 + 128, rect.y * 256 + 128};
+  thread_local PlacedMesh placed;
+  HWY_DYNAMIC_DISPATCH(place_mesh_simd)(mesh, light, view, outlines.window, sample, placed);
+  HWY_DYNAMIC_DISPATCH(count_mesh_simd)(mesh, placed, outlines.state, outlines.window, rect, counts);
+  return *std::max_element(counts, counts + pixels);
+}
+
+}  // namespace trueshade
+#endif  // HWY_ONCE

@@ -1,0 +1,157 @@
+// Blocks whose maps are applied together, and how their texture coordinates change from pixel to pixel. Included once
+// per SIMD target. docs/arithmetic.md section 13.
+#if defined(TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_
+#undef TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_
+#else
+#define TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "raster/textures/maps-inl.h"
+#include "raster/surfaces/fast/triangle_in_blocks-inl.h"
+#include "raster/surfaces/surfaces.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What the maps of a triangle's pixels want of it: edge functions at the tile's first sample and their changes to the
+/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents;
+/// of triangles of one normal also what bump_frame() makes of them.
+struct alignas(64) MappedTriangle {
+  enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
+  enum Frame { kFrame = 22, kBumpFrame = 28, kOneNormal = 34, kValues = 40 };
+  double value[kValues];
+};
+
+/// Values of the triangle that a vector of pixels see, and of several.
+struct OneTriangle {
+  const double* at;
+  HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
+};
+struct TwoTriangles {
+  const double *first, *second;
+  M64 of_second;
+  HWY_INLINE V64 operator()(int k) const {
+    return hn::IfThenElse(of_second, hn::Set(D64(), second[k]), hn::Set(D64(), first[k]));
+  }
+};
+struct SeveralTriangles {
+  using DI = hn::RebindToSigned<D64>;
+  const double* first;
+  hn::Vec<DI> at;  ///< of each lane
+  HWY_INLINE V64 operator()(int k) const { return hn::GatherIndex(D64(), first + k, at); }
+};
+
+/// How texture coordinates change from pixel to pixel: `slopes` and `affine_slope` of interpolate-inl.h.
+template <class Triangle>
+HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
+  V64 e[3], u[3];
+  for (int k = 0; k < 3; ++k) {
+    e[k] = hn::Add(hn::Add(triangle(MappedTriangle::kEdge + k), hn::Mul(column, triangle(MappedTriangle::kEdgeX + k))),
+                   hn::Mul(row, triangle(MappedTriangle::kEdgeY + k)));
+    u[k] = triangle(MappedTriangle::kInverseW + k);
+  }
+  const Barycentrics w = barycentrics(e, u, e[0]);  // what is smooth does not ask for the area
+  const auto slope = [&](int along, int k) {
+    return hn::Mul(hn::Sub(triangle(along + k), hn::Mul(w.smooth[k], triangle(along + 2))), w.r);
+  };
+  const V64 x[2] = {slope(MappedTriangle::kAlongX, 0), slope(MappedTriangle::kAlongX, 1)};
+  const V64 y[2] = {slope(MappedTriangle::kAlongY, 0), slope(MappedTriangle::kAlongY, 1)};
+  for (int c = 0; c < 2; ++c) {
+    const V64 to_1 = triangle(MappedTriangle::kUv1 + c), to_2 = triangle(MappedTriangle::kUv2 + c);
+    uv.x[c] = hn::Add(hn::Mul(x[0], to_1), hn::Mul(x[1], to_2));
+    uv.y[c] = hn::Add(hn::Mul(y[0], to_1), hn::Mul(y[1], to_2));
+  }
+}
+
+template <class Triangle>
+HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3& normal) {
+  const auto vector = [&](int k) { return Vector3{triangle(k), triangle(k + 1), triangle(k + 2)}; };
+  const auto ready = hn::Gt(triangle(MappedTriangle::kOneNormal), hn::Zero(D64()));
+  if (hn::AllTrue(D64(), ready))
+    return {vector(MappedTriangle::kBumpFrame), vector(MappedTriangle::kBumpFrame + 3), ready};
+  return bump_frame({vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3)}, normal);
+}
+
+/// Blocks whose maps are applied at once, so that none waits for the quotients and sums of one alone.
+struct WaitingBlocks {
+  static constexpr int kBlocks = kHalves <= 2 ? 2 : 1, kVectors = kBlocks * kHalves;
+  static constexpr int64_t kNone = -1;
+  const SceneMaps& maps;
+  const std::vector<MappedTriangle>& triangle;
+  SurfaceTile& out;
+  int count = 0;
+  alignas(64) int64_t place[kBlocks * kBlockPixels] = {};  ///< of each pixel's triangle among all values
+  int64_t first[kVectors] = {};                            ///< triangles of vectors, none where there are more than two
+  int64_t second[kVectors] = {};
+  M64 of_second[kVectors] = {}, owned[kVectors] = {};
+  UvPoint uv[kVectors] = {};
+  int pixel[kVectors] = {};  ///< the first
+
+  /// Of the next block's pixels; all of them are the first triangle's until others are told.
+  HWY_INLINE int64_t* next(bool begun, int64_t at) {
+    int64_t* const to = place + count * kBlockPixels;
+    if (!begun) std::fill_n(to, kBlockPixels, at);
+    return to;
+  }
+
+  /// Values of the triangles that a vector sees: gathers are for those of more than two.
+  template <class Use>
+  HWY_INLINE auto with_triangles(int h, const Use& use) const {
+    const double* const values = triangle[0].value;
+    if (first[h] != kNone && second[h] == kNone) return use(OneTriangle{values + first[h]});
+    if (first[h] != kNone) return use(TwoTriangles{values + first[h], values + second[h], of_second[h]});
+    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), place + h * kHalf)});
+  }
+
+  /// Adds the block whose places were set, if any was.
+  void add(const BlockPlace& where, uint32_t pixels) {
+    if (pixels == 0) return;
+    const D64 d;
+    const SeveralTriangles::DI di;
+    for (int part = 0; part < kHalves; ++part) {
+      const int h = count * kHalves + part;
+      const uint32_t bits = pixels >> part * kHalf & kHalfBits;
+      owned[h] = lane_mask(d, bits);
+      pixel[h] = where.at + part * kHalf;
+      const int64_t* const at = place + h * kHalf;
+      const auto places = hn::Load(di, at);
+      const auto beside = [&](int64_t triangle) { return hn::Ne(places, hn::Set(di, triangle)); };
+      first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], second[h] = kNone;
+      const auto others = beside(first[h]);
+      if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
+        second[h] = at[std::countr_zero(left)];
+        of_second[h] = hn::RebindMask(d, others);
+        if ((lane_bits(di, beside(second[h])) & left) != 0) first[h] = kNone;
+      }
+      with_triangles(h,
+                     [&](const auto& triangle) { set_slopes(triangle, where.column(part), where.row(part), uv[h]); });
+    }
+    if (++count == kBlocks) finish();
+  }
+
+  /// Applies the maps of those that wait.
+  HWY_INLINE void finish() {
+    if (count == 0) return;
+    for (int h = count * kHalves; h < kVectors; ++h) {  // unused
+      owned[h] = lane_mask(D64(), 0);
+      pixel[h] = pixel[0], uv[h] = uv[0];
+    }
+    const auto frames = [&](int h, const Vector3& normal) {
+      return with_triangles(h, [&](const auto& triangle) { return bump_frame_at(triangle, normal); });
+    };
+    apply_maps<kVectors>(maps, uv, owned, pixel, frames, out);
+    count = 0;
+  }
+};
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

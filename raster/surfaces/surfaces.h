@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "raster/visibility/visibility.h"
+#include "raster/surfaces/fast/visible_triangles.h"
+#include "scenes/pipeline/pipeline.h"
+
+namespace trueshade {
+
+/// Attribute streams of a vertex, in the order the planes of SurfaceTile have.
+enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams = 12 };
+
+/// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess, emission.
+enum MaterialPlane : int { kSpecular = kStreams, kEmission = kStreams + 4, kPlanes = kStreams + 7 };
+
+/// The G-buffer of one tile, in tile_index() order: values as they read back from the stored formats.
+struct SurfaceTile {
+  alignas(64) int32_t covered[kMaxTilePixels];  ///< -1 with a surface, 0 without; the others mean nothing there
+  /// world position, world normal, albedo RGBA, uv; then, where the light model reads them, specular RGB and shininess,
+  /// emission RGB
+  alignas(64) float plane[kPlanes][kMaxTilePixels];
+  alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
+  int covered_pixels;
+};
+
+/// Streams in the order in which a vertex's values lie, without uv and with it: what is wanted comes first.
+inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
+                                                   {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
+
+/// A cluster of which a pixel was seen.
+struct SeenCluster {
+  uint32_t position;          ///< in the tile's list
+  uint32_t object, material;  ///< index + 1
+  const uint8_t* corner[3];   ///< cluster-local vertex of each triangle's corner
+};
+
+/// Vertices of the clusters that are seen in a tile, 64 a cluster, with everything interpolation needs.
+struct VisibleVertices {
+  std::vector<int32_t> x, y;  ///< 1/256 pixel, relative to the tile's first sample
+  std::vector<double> u;      ///< 1 / w
+  std::vector<float> stream[kStreams];
+  std::vector<int32_t> slot_of;     ///< by position in the tile's list; -1: not seen
+  std::vector<SeenCluster> seen;    ///< by slot
+  std::vector<uint32_t> corner[3];  ///< by pixel: vertices of its triangle, in the order submitted
+  VisibleTriangles triangles;       ///< instead of all that, where all attributes are smooth
+};
+
+/// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'
+/// formats. `model`: which planes the material fills. `need_uv`: fill the uv planes. `work` is scratch, kept between
+/// tiles to save allocation.
+void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
+                      const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out);
+
+}  // namespace trueshade

@@ -1,0 +1,93 @@
+#include "raster/textures/texture.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/textures/texture.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "raster/textures/texture-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+void look_up_simd(const TextureView& texture, std::span<const TexturePoint> points,
+                  std::span<std::array<float, 4>> out) {
+  const D64 d;
+  constexpr size_t kMost = HWY_MAX_BYTES / sizeof(double);
+  for (size_t first = 0; first < points.size(); first += hn::Lanes(d)) {
+    const size_t count = std::min(hn::Lanes(d), points.size() - first);
+    alignas(64) double in[6][kMost] = {}, valid[kMost] = {};
+    for (size_t i = 0; i < count; ++i) {
+      const TexturePoint& p = points[first + i];
+      const double values[6] = {double(p.u), double(p.v), p.u_x, p.v_x, p.u_y, p.v_y};
+      for (size_t k = 0; k < 6; ++k) in[k][i] = values[k];
+      valid[i] = 1.0;
+    }
+    V64 v[6];
+    for (size_t k = 0; k < 6; ++k) v[k] = hn::Load(d, in[k]);
+    const UvPoint at{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}};
+    V32 rgba[4];
+    sample(texture, at, hn::Gt(hn::Load(d, valid), hn::Zero(d)), rgba, kRgbaBits);
+    alignas(64) float result[4][kMost];
+    for (size_t c = 0; c < 4; ++c) hn::Store(rgba[c], D32(), result[c]);
+    for (size_t i = 0; i < count; ++i)
+      for (size_t c = 0; c < 4; ++c) out[first + i][c] = result[c][i];
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trueshade {
+HWY_EXPORT(look_up_simd);
+
+void look_up(const TextureView& texture, std::span<const TexturePoint> points, std::span<std::array<float, 4>> out) {
+  HWY_DYNAMIC_DISPATCH(look_up_simd)(texture, points, out);
+}
+
+TextureView view_of(const Texture& texture, const Sampler& sampler) {
+  const bool repeats = sampler.wrap[0] == Wrap::repeat && sampler.wrap[1] == Wrap::repeat;
+  TextureView view{
+      texture.format, int(texture.levels.size()), {}, sampler, repeats && bytes_per_texel(texture.format) == 4};
+  for (size_t k = 0; k < texture.levels.size(); ++k) {
+    const TextureLevel& from = texture.levels[k];
+    view.level[k] = {from.bytes.data(), from.width, from.height, 1.0 / from.width, 1.0 / from.height};
+    view.masks = view.masks && std::has_single_bit(unsigned(from.width)) && std::has_single_bit(unsigned(from.height));
+  }
+  return view;
+}
+
+// Whether lookups in two textures go to the same texels of the same levels.
+static bool read_alike(const std::optional<TextureView>& a, const std::optional<TextureView>& b) {
+  if (!a || !b) return true;
+  return a->sampler == b->sampler && a->levels == b->levels && a->level[0].width == b->level[0].width &&
+         a->level[0].height == b->level[0].height && bytes_per_texel(a->format) == bytes_per_texel(b->format);
+}
+
+SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
+  const bool specular =
+      reads_specular_plane(pipeline.light_model) && pipeline.light_model.specular_source == SpecularSource::material;
+  SceneMaps maps{{}, pipeline.gbuffer.uv.interpolation, pipeline.gbuffer.albedo.interpolation};
+  if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                   [](const Material& m) { return m.textured() || m.masked(); }))
+    return maps;
+  for (const Material& m : scene.materials) {
+    const auto view = [&](const TextureSlot& slot) -> std::optional<TextureView> {
+      if (!slot.used()) return std::nullopt;
+      return view_of(scene.textures[size_t(slot.texture)], slot.sampler);
+    };
+    maps.material.push_back({view(m.color_map), view(m.normal_map), specular ? view(m.specular_map) : std::nullopt,
+                             m.normal_scale, m.base_color.a, m.alpha_cutoff});
+    MaterialMaps& made = maps.material.back();
+    made.one_place = read_alike(made.color, made.normal) && read_alike(made.color, made.specular) &&
+                     read_alike(made.normal, made.specular);
+  }
+  return maps;
+}
+}  // namespace trueshade
+#endif  // HWY_ONCE

@@ -1,0 +1,156 @@
+// Masks from bits, and halves as wholes: a vector of floats is as long as two of doubles, but where there is one lane.
+// Included once per SIMD target.
+#if defined(TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
+#undef TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
+#else
+#define TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/simd/front_order.h"
+#include "core/simd/lane_bits-inl.h"
+#include "raster/triangles/vertex_stage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DWF = hn::ScalableTag<float>;  // whole vectors
+using VWF = hn::Vec<DWF>;
+using M64 = hn::Mask<D64>;
+
+/// The lowest `count` of 32 bits, or all.
+HWY_INLINE uint32_t first_bits(int count) { return uint32_t((uint64_t(1) << std::min(count, 32)) - 1); }
+
+/// Bits of [first, last] that fall into a vector of `lanes` starting at `from`, counted from there.
+HWY_INLINE uint32_t range_bits(int first, int last, int from, int lanes) {
+  const int low = std::max(first - from, 0), high = std::min(last - from, lanes - 1);
+  return low > high ? 0u : (2u << high) - (1u << low);
+}
+
+/// The mask of a vector's lanes from the lowest bits.
+template <class D>
+HWY_INLINE hn::Mask<D> lane_mask(D d, uint32_t bits) {
+  uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof(bits));
+  return hn::LoadMaskBits(d, bytes);
+}
+
+/// Moves some lanes of vectors to the front, given by bits or as a mask too; what follows them means nothing. Where a
+/// table can do it, it does: Highway's Compress copies its own onto the stack for each vector under g++ 12.
+template <class D, bool kByMask = (hn::MaxLanes(D()) > 8)>
+class FrontLanes {
+ public:
+  HWY_INLINE FrontLanes(D d, uint32_t lanes) : mask_(lane_mask(d, lanes)) {}
+  HWY_INLINE FrontLanes(D, hn::Mask<D> mask, uint32_t) : mask_(mask) {}
+  HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::Compress(v, mask_); }
+
+ private:
+  hn::Mask<D> mask_;
+};
+template <class D>
+class FrontLanes<D, false> {
+  using I = hn::RebindToSigned<D>;
+
+ public:
+  HWY_INLINE FrontLanes(D d, uint32_t lanes)
+      : order_(hn::IndicesFromVec(d, hn::LoadU(I(), kFrontOrder[lanes].data()))) {}
+  HWY_INLINE FrontLanes(D d, hn::Mask<D>, uint32_t lanes) : FrontLanes(d, lanes) {}
+  HWY_INLINE hn::Vec<D> operator()(hn::Vec<D> v) const { return hn::TableLookupLanes(v, order_); }
+
+ private:
+  decltype(hn::IndicesFromVec(D(), hn::Zero(I()))) order_;
+};
+
+/// Sixteen 16-bit words, found by vectors of indices below 16; other indices find anything.
+class SixteenWords {
+  using D = hn::ScalableTag<int16_t>;
+  using V = hn::Vec<D>;
+
+ public:
+#if HWY_TARGET == HWY_AVX3
+  HWY_INLINE explicit SixteenWords(const uint16_t words[32]) : words_(hn::BitCast(D(), hn::Load(DU(), words))) {}
+  HWY_INLINE V operator()(V index) const { return V{_mm512_permutexvar_epi16(index.raw, words_.raw)}; }
+
+ private:
+  using DU = hn::RebindToUnsigned<D>;
+  V words_;
+#else
+  HWY_INLINE explicit SixteenWords(const uint16_t words[32]) {
+    for (int i = 0; i < 16; ++i) low_[i] = uint8_t(words[i]), high_[i] = uint8_t(words[i] >> 8);
+  }
+  HWY_INLINE V operator()(V index) const {
+    const D d;
+#if HWY_TARGET == HWY_SCALAR
+    const int i = hn::GetLane(index) & 15;
+    return hn::Set(d, int16_t(low_[i] | high_[i] << 8));
+#else
+    const hn::Repartition<uint8_t, D> d8;
+    const auto twice = hn::BitCast(d8, hn::Or(index, hn::ShiftLeft<8>(index)));
+    const V low = hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, low_), twice)),
+            high = hn::BitCast(d, hn::TableLookupBytes(hn::LoadDup128(d8, high_), twice));
+    return hn::Or(hn::And(low, hn::Set(d, 0xFF)), hn::AndNot(hn::Set(d, 0xFF), high));
+#endif
+  }
+
+ private:
+  alignas(16) uint8_t low_[16], high_[16];
+#endif
+};
+
+/// Two vectors of floats as one; the lower where that is whole.
+template <class D, class V>
+HWY_INLINE hn::Vec<D> joined(D d, V lower, [[maybe_unused]] V upper) {
+  if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(hn::DFromV<V>()))
+    return lower;
+  else
+    return Combine(d, upper, lower);  // by its argument's namespace: the one-lane target has none
+}
+
+/// Stores the lanes of a mask. AVX2's masked store takes Zen 4 some dozens of cycles, AVX-512's one or two.
+inline constexpr bool kMaskedStores = HWY_TARGET == HWY_AVX3;
+template <class D>
+HWY_INLINE void store_lanes(hn::Vec<D> v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
+  if constexpr (kMaskedStores)
+    hn::BlendedStore(v, mask, d, to);
+  else
+    hn::Store(hn::IfThenElse(mask, v, hn::Load(d, to)), d, to);
+}
+/// The same where all lanes may be stored as well; a branch on that costs more than a masked store.
+template <class D>
+HWY_INLINE void store_lanes_or_all(hn::Vec<D> v, hn::Mask<D> mask, bool all, D d, hn::TFromD<D>* to) {
+  if (!kMaskedStores && all)
+    hn::Store(v, d, to);
+  else
+    store_lanes(v, mask, d, to);
+}
+
+/// Pairs of 64-bit words at from(first), from(first + 2), from(first + 4) ...: a vector full.
+template <class D, class From>
+HWY_INLINE hn::Vec<D> every_second_pair(D d, const From& from, size_t first) {
+  if constexpr (hn::MaxLanes(D()) <= 2) {
+    return hn::LoadU(d, from(first));
+  } else {
+    const hn::Half<D> half;
+    return Combine(d, every_second_pair(half, from, first + hn::MaxLanes(half)), every_second_pair(half, from, first));
+  }
+}
+/// Of the pairs at from(0), from(1) ... the first words and the second.
+template <class D, class From>
+HWY_INLINE void load_pairs(D d, const From& from, hn::Vec<D>& first, hn::Vec<D>& second) {
+  if constexpr (hn::MaxLanes(D()) == 1) {
+    first = hn::LoadU(d, from(0)), second = hn::LoadU(d, from(0) + 1);
+  } else {
+    const hn::Vec<D> even = every_second_pair(d, from, 0), odd = every_second_pair(d, from, 1);
+    first = InterleaveLower(d, even, odd), second = InterleaveUpper(d, even, odd);
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

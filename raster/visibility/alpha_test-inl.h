@@ -1,0 +1,114 @@
+// The alpha test of masked materials, before depth is written. Included once per SIMD target.
+// docs/arithmetic.md section 13.
+#if defined(TRUESHADE_RASTER_VISIBILITY_ALPHA_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_VISIBILITY_ALPHA_TEST_INL_H_
+#undef TRUESHADE_RASTER_VISIBILITY_ALPHA_TEST_INL_H_
+#else
+#define TRUESHADE_RASTER_VISIBILITY_ALPHA_TEST_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raster/triangles/clipped_fan.h"
+#include "raster/surfaces/interpolate-inl.h"
+#include "raster/textures/texture-inl.h"
+#include "raster/triangles/triangle_setup.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// One triangle of a masked material at a time. Its values are those of the resolve pass, bit for bit: the same
+/// formulas from the same vertices.
+struct AlphaTest {
+  enum Value { kU, kV, kAlpha, kValues };
+  const MaterialMaps* maps = nullptr;
+  Interpolation uv_how = Interpolation::smooth, alpha_how = Interpolation::smooth;
+  float source[kValues][3];  ///< at the corners as submitted
+  float provoking[kValues];
+  double value[kValues][3], u[3];  ///< of the piece drawn, canonical order
+  double area, slope_x[3], slope_y[3];
+
+  /// Corners of the mesh's triangle.
+  void set_source(const Mesh& mesh, const uint32_t corner[3], size_t provoking_corner) {
+    for (size_t k = 0; k < 3; ++k) {
+      source[kU][k] = mesh.has_uv() ? mesh.uv[0][corner[k]] : 0.0f;
+      source[kV][k] = mesh.has_uv() ? mesh.uv[1][corner[k]] : 0.0f;
+      source[kAlpha][k] = mesh.has_color() ? mesh.color[3][corner[k]] : 1.0f;
+    }
+    for (int i = 0; i < kValues; ++i) provoking[i] = source[i][provoking_corner];
+  }
+
+  /// A triangle that needed no care: its corners are the vertices.
+  void set_piece(const WindowTriangle& window, const double inverse_w[3]) {
+    int order[3];
+    canonical_order(window, order);
+    for (int k = 0; k < 3; ++k) {
+      u[k] = inverse_w[order[k]];
+      for (int i = 0; i < kValues; ++i) value[i][k] = double(source[i][order[k]]);
+    }
+  }
+
+  /// A piece of one that did.
+  void set_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+    const CarefulPieces::Piece& piece = fan.piece[index];
+    int order[3];
+    canonical_order(piece.triangle, order);
+    for (int k = 0; k < 3; ++k) {
+      const int corner = piece.corner[order[k]];
+      u[k] = 1.0 / fan.polygon.all[corner].c[3];
+      for (int i = 0; i < kValues; ++i)
+        value[i][k] = corner_attribute(fan.polygon, corner, v, t, source[i][0], source[i][1], source[i][2]);
+    }
+  }
+
+  template <class T>
+  void set_edges(const TriangleSetup<T>& s) {
+    area = double(s.edge(0, 0, 0) + s.edge(1, 0, 0) + s.edge(2, 0, 0));
+    for (int i = 0; i < 3; ++i) slope_x[i] = double(s.sx[i]), slope_y[i] = double(s.sy[i]);
+  }
+
+  /// Lanes of `asked` whose alpha is not below the cutoff.
+  hn::Mask<D32> opaque(const V64 e[3], Mask64 asked) const {
+    const D64 d;
+    const D32 df;
+    const V64 w[3] = {hn::Set(d, u[0]), hn::Set(d, u[1]), hn::Set(d, u[2])};
+    const Barycentrics b = barycentrics(e, w, hn::Set(d, area));
+    V32 alpha = interpolated_value(b, kAlpha, alpha_how);
+    if (maps->color) {
+      V64 edge[2][3];
+      for (int i = 0; i < 3; ++i) edge[0][i] = hn::Set(d, slope_x[i]), edge[1][i] = hn::Set(d, slope_y[i]);
+      const BarycentricSlopes along_x = slopes(b, edge[0], w), along_y = slopes(b, edge[1], w);
+      UvPoint at;
+      for (int k = 0; k < 2; ++k) {
+        at.uv[k] = hn::PromoteTo(d, interpolated_value(b, k, uv_how));
+        const double* a = value[k];
+        coordinate_slopes(along_x, along_y, uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), at.x[k],
+                          at.y[k]);
+      }
+      V32 rgba[4];
+      sample(*maps->color, at, asked, rgba, kAlphaBit);
+      alpha = hn::Mul(alpha, rgba[3]);
+    }
+    alpha = hn::Mul(alpha, hn::Set(df, maps->base_alpha));
+    return hn::Ge(alpha, hn::Set(df, maps->alpha_cutoff));
+  }
+
+ private:
+  V32 interpolated_value(const Barycentrics& b, int i, Interpolation how) const {
+    const D64 d;
+    if (how == Interpolation::flat) return hn::Set(D32(), provoking[i]);
+    const double* a = value[i];
+    const V64 plane = affine(how == Interpolation::smooth ? b.smooth : b.linear, hn::Set(d, a[0]), hn::Set(d, a[1]),
+                             hn::Set(d, a[2]));
+    const V64 low = hn::Set(d, std::min({a[0], a[1], a[2]})), high = hn::Set(d, std::max({a[0], a[1], a[2]}));
+    const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
+    return hn::DemoteTo(D32(), hn::IfThenElse(hn::Gt(above, high), high, above));
+  }
+};
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

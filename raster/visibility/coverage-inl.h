@@ -1,0 +1,153 @@
+// Edge functions -> covered pixels of a tile, block by block. Included once per SIMD target.
+// docs/arithmetic.md sections 4 to 6.
+#if defined(TRUESHADE_RASTER_VISIBILITY_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_VISIBILITY_COVERAGE_INL_H_
+#undef TRUESHADE_RASTER_VISIBILITY_COVERAGE_INL_H_
+#else
+#define TRUESHADE_RASTER_VISIBILITY_COVERAGE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <type_traits>
+
+#include "raster/triangles/clipped_fan.h"
+#include "raster/visibility/sinks-inl.h"
+#include "raster/visibility/fast/count_blocks-inl.h"
+#include "raster/visibility/fast/large_triangles-inl.h"
+#include "raster/triangles/triangle_setup.h"
+#include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/visibility.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Draws the 4x4 blocks under the triangle's box, a vector of pixels at a time.
+template <class T, class Commit>
+HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
+  const D64 d;
+  const int lanes = int(hn::Lanes(d));
+  const EdgeVectors<T> edges(s);
+  const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
+  V64 least[3];
+  for (int i = 0; i < 3; ++i) least[i] = hn::Set(d, double(s.least[i]));
+  const bool limited = rect.limit[0] > 0 || rect.limit[1] > 0 || rect.limit[2] < rect.size || rect.limit[3] < rect.size;
+  commit.begin(s);
+  for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by) {
+    for (int bx = s.x0 / kBlockSize; bx * kBlockSize < s.x1; ++bx) {
+      const int block = by * (rect.size / kBlockSize) + bx;
+      if (commit.hidden(block)) continue;
+      bool changed = false;
+      for (int k = 0; k < kBlockPixels; k += lanes) {
+        const int top = by * kBlockSize + k / kBlockSize;
+        if (top >= s.y1 || top + (lanes + kBlockSize - 1) / kBlockSize <= s.y0) continue;
+        const double px = bx * kBlockSize + k % kBlockSize, py = top;
+        V64 e[3];
+        for (int i = 0; i < 3; ++i) e[i] = edges.at(i, px, py);
+        M64 covered = hn::And(hn::Ge(e[0], least[0]), hn::And(hn::Ge(e[1], least[1]), hn::Ge(e[2], least[2])));
+        if (limited) {
+          const V64 x = hn::Add(hn::Set(d, px), column), y = hn::Add(hn::Set(d, py), row);
+          covered =
+              hn::And(covered, hn::And(hn::Ge(x, hn::Set(d, rect.limit[0])), hn::Lt(x, hn::Set(d, rect.limit[2]))));
+          covered =
+              hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
+        }
+        if (hn::AllFalse(d, covered)) continue;
+        changed |= commit.vector(block * kBlockPixels + k, covered, e);
+      }
+      if (changed) commit.finish_block(block);
+    }
+  }
+}
+
+/// The same for a box of a few samples, where vectors would stay nearly empty.
+template <class Commit>
+HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& rect, Commit& commit) {
+  commit.begin(s);
+  for (int y = s.y0; y < s.y1; ++y) {
+    for (int x = s.x0; x < s.x1; ++x) {
+      if (!s.covers(x, y)) continue;
+      const int at = tile_index(rect.size, x, y);
+      if (commit.scalar(at, s.edge(0, x, y), s.edge(1, x, y), s.edge(2, x, y))) commit.finish_block(at / kBlockPixels);
+    }
+  }
+}
+
+/// The path for triangles over many samples, where the commit has one.
+template <class T, class Commit>
+HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
+  if constexpr (std::is_same_v<Commit, DepthCommit>) {
+    if (commit.fast && commit.alpha == nullptr && cover_large(s, rect, commit)) return;
+  }
+  if constexpr (std::is_same_v<Commit, CountCommit>) {
+    if (commit.fast && count_blocks(s, rect, commit.counts)) return;
+  }
+  cover_blocks(s, rect, commit);
+}
+
+/// Draws a triangle by the path its size asks for.
+template <class Commit>
+inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryState& state, bool upper_left,
+                                 const TileRect& rect, Commit& commit) {
+  bool small = true;
+  for (int i = 0; i < 3; ++i)
+    small = small && std::abs(triangle.x[i]) < kVectorLimit && std::abs(triangle.y[i]) < kVectorLimit;
+  if (small) {
+    TriangleSetup<double> setup;
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
+  } else {
+    TriangleSetup<__int128> setup;
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
+  }
+}
+
+/// A fan in which snapping has turned a piece over: a pixel belongs to the polygon if the pieces that cover it, counted
+/// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
+template <class Commit>
+inline void cover_turned_fan(const ClipVertex v[3], const CarefulPieces& fan, const WindowTransform& t,
+                             const GeometryState& state, const TileRect& rect, Commit& commit) {
+  TriangleSetup<__int128> setup[CarefulPieces::kMax];
+  bool used[CarefulPieces::kMax];
+  GeometryState both_sides = state;
+  both_sides.cull_face = CullFace::none;
+  for (int i = 0; i < fan.count; ++i)
+    used[i] = set_up_triangle(fan.piece[i].triangle, both_sides, t.upper_left, rect.limit, setup[i]);
+  for (int y = rect.limit[1]; y < rect.limit[3]; ++y) {
+    for (int x = rect.limit[0]; x < rect.limit[2]; ++x) {
+      int winding = 0, drawn = -1;
+      for (int i = 0; i < fan.count; ++i) {
+        if (!used[i] || !setup[i].covers(x, y)) continue;
+        winding += fan.piece[i].sign;
+        if (drawn < 0 && fan.piece[i].sign == fan.facing) drawn = i;
+      }
+      if (winding * fan.facing <= 0) continue;
+      const TriangleSetup<__int128>& s = setup[drawn];
+      commit.begin_piece(v, fan, drawn, t);
+      commit.begin(s);
+      commit.scalar(tile_index(rect.size, x, y), double(s.edge(0, x, y)), double(s.edge(1, x, y)),
+                    double(s.edge(2, x, y)));
+    }
+  }
+  for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
+}
+
+/// Draws a triangle that needs care: clipped, snapped exactly, by the path its size asks for.
+template <class Commit>
+inline void draw_careful(const ClipVertex v[3], const WindowTransform& t, SampleOrigin origin,
+                         const GeometryState& state, const TileRect& rect, Commit& commit) {
+  const CarefulPieces fan = careful_pieces(v, t, origin.x, origin.y);
+  if (fan.count == 0 || culled(state, (fan.facing > 0) != t.upper_left)) return;
+  if (fan.turned) {
+    cover_turned_fan(v, fan, t, state, rect, commit);
+    return;
+  }
+  for (int i = 0; i < fan.count; ++i) {
+    commit.begin_piece(v, fan, i, t);
+    draw_window_triangle(fan.piece[i].triangle, state, t.upper_left, rect, commit);
+  }
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

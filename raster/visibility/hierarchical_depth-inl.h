@@ -1,0 +1,121 @@
+// Hierarchical depth: what a tile's blocks already hide. Included once per SIMD target.
+// Conservative: nothing is called hidden that could still win a pixel under LESS or LEQUAL.
+#if defined(TRUESHADE_RASTER_VISIBILITY_HIERARCHICAL_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_VISIBILITY_HIERARCHICAL_DEPTH_INL_H_
+#undef TRUESHADE_RASTER_VISIBILITY_HIERARCHICAL_DEPTH_INL_H_
+#else
+#define TRUESHADE_RASTER_VISIBILITY_HIERARCHICAL_DEPTH_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raster/triangles/lanes-inl.h"
+#include "raster/triangles/triangle_setup.h"
+#include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/visibility.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Blocks of a tile, inclusive.
+struct BlockBox {
+  int x0, y0, x1, y1;
+  int count() const { return (x1 - x0 + 1) * (y1 - y0 + 1); }
+};
+
+/// The columns of blocks, a vector at a time, of a box: all of a tile where a vector holds them.
+class VectorColumns {
+  static constexpr int kLanes = int(hn::MaxLanes(hn::ScalableTag<float>()));
+  static constexpr bool kWhole = kLanes >= kMaxTile / kBlockSize;
+
+ public:
+  HWY_INLINE explicit VectorColumns(const BlockBox& box)
+      : first(kWhole ? 0 : box.x0 & ~(kLanes - 1)), end(kWhole ? kLanes : box.x1 + 1) {}
+  const int first, end;
+};
+
+/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Several rows at a time,
+/// the last again where there are fewer: how many there are cannot be predicted, and a branch missed costs as much as
+/// all.
+HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near) {
+  const hn::ScalableTag<float> d;
+  constexpr int kLanes = int(hn::MaxLanes(d)), kRows = kLanes == 16 ? 8 : 4;
+  const auto mine = hn::Set(d, near);
+  const VectorColumns at(box);
+  for (int x = at.first; x < at.end; x += kLanes) {
+    const uint32_t columns = range_bits(box.x0, box.x1, x, kLanes);
+    for (int y = box.y0; y <= box.y1; y += kRows) {
+      auto far = hn::LoadU(d, tile.far + y * blocks + x);
+      for (int row = 1; row < kRows; ++row)
+        far = hn::Max(far, hn::LoadU(d, tile.far + std::min(y + row, box.y1) * blocks + x));
+      if ((lane_bits(d, hn::Not(hn::Gt(mine, far))) & columns) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Those of a tile's blocks in a box that are not nearer than some depth: a bit a column for each row.
+struct OpenBlocks {
+  alignas(64) uint16_t row[32] = {};  ///< of 16, as vectors read them
+  bool all = true;                    ///< all of the box
+};
+
+/// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
+HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, OpenBlocks& out) {
+  const hn::ScalableTag<float> d;
+  constexpr int kLanes = int(hn::MaxLanes(d)), kRows = 4;
+  const auto mine = hn::Set(d, near);
+  const VectorColumns at(box);
+  const uint32_t columns = range_bits(box.x0, box.x1, 0, blocks);
+  uint32_t any = 0, all = columns;
+  for (int y = box.y0; y <= box.y1; y += kRows)
+    for (int row = 0; row < kRows; ++row) {
+      const float* const far = tile.far + std::min(y + row, box.y1) * blocks;
+      uint32_t bits = 0;
+      for (int x = at.first; x < at.end; x += kLanes)
+        bits |= lane_bits(d, hn::Not(hn::Gt(mine, hn::LoadU(d, far + x)))) << x;
+      bits &= columns;
+      out.row[y + row] = uint16_t(bits);
+      any |= bits, all &= bits;
+    }
+  out.all = all == columns;
+  return any != 0;
+}
+
+/// What the depth test compares for a bound from below.
+HWY_INLINE float near_bound(double near, const WindowTransform& t) {
+  return t.depth.stored(std::min(std::max(float(near), t.depth_low), t.depth_high));
+}
+
+/// The blocks of a box in 1/256 pixel.
+HWY_INLINE BlockBox blocks_of(const WindowBox& box, const TileRect& rect) {
+  const int last = rect.size / kBlockSize - 1;
+  return {std::clamp(box.x0 >> 10, 0, last), std::clamp(box.y0 >> 10, 0, last), std::clamp(box.x1 >> 10, 0, last),
+          std::clamp(box.y1 >> 10, 0, last)};
+}
+
+/// The blocks of a tile that a cluster may touch, by its bounds; no branch on which of them lie in the tile.
+HWY_INLINE BlockBox blocks_of(const ClusterDraw& draw, const TileRect& rect) {
+  const int first_x = rect.x / kBlockSize, first_y = rect.y / kBlockSize, last = rect.size / kBlockSize - 1;
+  const auto block = [last](int pixel, int first) {
+    const int at = pixel / kBlockSize - first, low = at & ~(at >> 31), past = (last - low) >> 31;
+    return (low & ~past) | (last & past);
+  };
+  return {block(draw.x0, first_x), block(draw.y0, first_y), block(draw.x1, first_x), block(draw.y1, first_y)};
+}
+
+/// Whether the blocks under a triangle's box hide it: cheaper than setting it up.
+HWY_INLINE bool hidden_triangle(const VisibilityTile& tile, const TileRect& rect, const WindowTriangle& w,
+                                const WindowTransform& t) {
+  const WindowBox box{int32_t(std::min({w.x[0], w.x[1], w.x[2]})), int32_t(std::min({w.y[0], w.y[1], w.y[2]})),
+                      int32_t(std::max({w.x[0], w.x[1], w.x[2]})), int32_t(std::max({w.y[0], w.y[1], w.y[2]})),
+                      std::min({w.z[0], w.z[1], w.z[2]})};
+  return hidden_blocks(tile, rect.size / kBlockSize, blocks_of(box, rect), near_bound(box.near, t));
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard

@@ -1,0 +1,297 @@
+#include "scenes/files/light_json.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "scenes/files/light_buffers.h"
+#include "scenes/builtin/light_generators.h"
+#include "scenes/files/scene_files.h"
+#include "scenes/files/steps_json.h"
+#include "scenes/trig.h"
+
+namespace trueshade {
+namespace {
+
+constexpr double kLargest = 1e18;
+constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
+
+constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity", "steps", "interpolation", "repeat"};
+constexpr std::string_view kDirectionalKeys[] = {"type",    "direction", "color",         "intensity",
+                                                 "ambient", "steps",     "interpolation", "repeat"};
+constexpr std::string_view kPointKeys[] = {"type",  "position",    "color", "intensity",     "ambient",
+                                           "range", "attenuation", "steps", "interpolation", "repeat"};
+constexpr std::string_view kSpotKeys[] = {"type",          "position", "direction",     "color",    "intensity",
+                                          "ambient",       "range",    "attenuation",   "cone_deg", "penumbra_deg",
+                                          "spot_exponent", "steps",    "interpolation", "repeat"};
+constexpr std::string_view kAmbientStepKeys[] = {"time", "color", "intensity"};
+constexpr std::string_view kDirectionalStepKeys[] = {"time", "direction", "color", "intensity", "ambient"};
+constexpr std::string_view kPointStepKeys[] = {"time",    "position", "color",      "intensity",
+                                               "ambient", "range",    "attenuation"};
+constexpr std::string_view kSpotStepKeys[] = {"time",      "position",     "direction",    "color",
+                                              "intensity", "ambient",      "range",        "attenuation",
+                                              "cone_deg",  "penumbra_deg", "spot_exponent"};
+constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",      "colors",
+                                          "noise", "seed",  "intensity", "range",  "attenuation", "turn_s"};
+constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",          "colors", "noise",
+                                         "seed", "intensity", "range", "attenuation", "drift",  "drift_s"};
+constexpr std::string_view kBuffersKeys[] = {"type", "position", "color", "falloff", "intensity", "range"};
+
+// As LightType, then those that make many; the types' steps follow.
+enum Object : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kBuffers, kAmbientStep };
+constexpr json::ObjectKeys kObjects[] = {{"ambient", kAmbientKeys},
+                                         {"directional", kDirectionalKeys},
+                                         {"point", kPointKeys},
+                                         {"spot", kSpotKeys},
+                                         {"ring", kRingKeys},
+                                         {"box", kBoxKeys},
+                                         {"buffers", kBuffersKeys},
+                                         {"ambient_step", kAmbientStepKeys},
+                                         {"directional_step", kDirectionalStepKeys},
+                                         {"point_step", kPointStepKeys},
+                                         {"spot_step", kSpotStepKeys}};
+constexpr std::string_view kTypes[] = {"ambient", "directional", "point", "spot", "ring", "box", "buffers"};
+
+std::optional<glm::dvec4> read_direction(const json::Node& object) {
+  const auto node = object.find("direction");
+  if (!node) return std::nullopt;
+  const glm::dvec3 d = unit(glm::dvec3(node->vec3(-1e9f, 1e9f)));
+  if (!(dot(d, d) > 0.5)) node->fail("the direction has no length", "a vector that is not 0");
+  return glm::dvec4(d, 0.0);
+}
+
+enum class Kind : uint8_t { number, three_numbers, degrees };
+
+/// A value that lights have besides colour, intensity and direction.
+struct LightValue {
+  std::string_view key;
+  LightProperty property;
+  Kind kind;
+  double least, most;
+  bool required;  ///< in the lights that have the key
+};
+constexpr LightValue kValues[] = {
+    {"ambient", LightProperty::ambient, Kind::three_numbers, 0.0, kLargest, false},
+    {"position", LightProperty::position, Kind::three_numbers, -kLargest, kLargest, true},
+    {"range", LightProperty::range, Kind::number, kSmallest, kLargest, false},
+    {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, kLargest, false},
+    {"cone_deg", LightProperty::cone, Kind::degrees, 0.0, 180.0, true},
+    {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false},
+    {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false}};
+
+ValueReader reader_of(const LightValue& value) {
+  if (value.kind == Kind::degrees) return degrees(value.key, value.least, value.most);
+  return numbers(value.key, value.kind == Kind::number ? 1 : 3, value.least, value.most);
+}
+
+/// Reads the values of one light into it, and what moves of it into the timeline.
+class LightReader {
+ public:
+  LightReader(const json::Node& node, LightType type, Scene& scene)
+      : node_(node),
+        keys_(kObjects[size_t(type)]),
+        steps_(node, kObjects[kAmbientStep + size_t(type)]),
+        index_(uint32_t(scene.lights.size())),
+        light_(scene.lights.emplace_back()),
+        motions_(scene.timeline.lights) {
+    light_.type = type;
+  }
+
+  void read() {
+    read_brightness();
+    if (has("direction"))
+      take("direction", LightProperty::direction, steps_.said_direction("direction", read_direction), true);
+    for (const LightValue& value : kValues)
+      if (has(value.key)) take(value.key, value.property, steps_.said(value.key, reader_of(value)), value.required);
+    if (double(light_.cone_rad) + double(light_.penumbra_rad) > kPi + 1e-6)
+      node_.fail("cone_deg and penumbra_deg together are over 180", "a sum of at most 180");
+  }
+
+ private:
+  bool has(std::string_view key) const {
+    return std::find(keys_.keys.begin(), keys_.keys.end(), key) != keys_.keys.end();
+  }
+
+  void take(std::string_view key, LightProperty property, Said said, bool required) {
+    if (required && !said.at_all()) node_.member(key);  // fails
+    if (said.value) set_property(light_, property, *said.value);
+    if (said.track) motions_.push_back({index_, property, std::move(*said.track)});
+  }
+
+  /// Colour and intensity move together or not at all, as one multiplies the other.
+  void read_brightness() {
+    Said color = steps_.said("color", numbers("color", 3, 0.0, kLargest));
+    Said intensity = steps_.said("intensity", numbers("intensity", 1, 0.0, kLargest));
+    const bool moves = color.track || intensity.track;
+    const auto standing = [moves](Said& said) {
+      if (moves && !said.track) said = {{}, Track{{0.0}, {said.value.value_or(glm::dvec4(1.0))}}};
+    };
+    standing(color);
+    standing(intensity);
+    take("color", LightProperty::color, std::move(color), false);
+    take("intensity", LightProperty::intensity, std::move(intensity), false);
+  }
+
+  const json::Node& node_;
+  const json::ObjectKeys& keys_;
+  StepReader steps_;
+  uint32_t index_;
+  Light& light_;
+  std::vector<LightMotion>& motions_;
+};
+
+// --- Generators ----------------------------------------------------------------------------------------------------
+
+double real_or(const json::Node& node, std::string_view key, double absent, double least, double most) {
+  const auto found = node.find(key);
+  return found ? double(found->real(least, most)) : absent;
+}
+
+glm::vec3 three_or(const json::Node& node, std::string_view key, const glm::vec3& absent, double least, double most) {
+  const auto found = node.find(key);
+  return found ? found->vec3(least, most) : absent;
+}
+
+std::vector<glm::vec3> read_colors(const json::Node& node) {
+  std::vector<glm::vec3> colors;
+  if (const auto list = node.find("colors"))
+    for (size_t i = 0; i < list->array(1, 64).size(); ++i) colors.push_back(list->element(i).vec3(0.0, kLargest));
+  return colors.empty() ? std::vector<glm::vec3>{glm::vec3(1.0f)} : colors;
+}
+
+/// What all generators have: count, intensity, noise, seed, range, attenuation.
+template <typename Generator>
+void read_shared(const json::Node& node, Generator& out, size_t lights, const SceneLimits& limits) {
+  out.count = uint32_t(node.member("count").integer(1, UINT32_MAX));
+  if (lights + out.count > limits.lights)
+    node.fail("the lights are over the limit", "at most " + std::to_string(limits.lights), ErrorKind::limit);
+  out.intensity = real_or(node, "intensity", 1.0, 0.0, kLargest);
+  out.noise = real_or(node, "noise", 0.0, 0.0, 1.0);
+  if (const auto seed = node.find("seed")) out.seed = uint64_t(seed->integer(0, 9007199254740991));
+  if (const auto range = node.find("range")) out.range = range->real(kSmallest, kLargest);
+  out.attenuation = three_or(node, "attenuation", out.attenuation, 0.0, kLargest);
+}
+
+void read_ring(const json::Node& node, Scene& scene, const SceneLimits& limits) {
+  LightRing ring;
+  read_shared(node, ring, scene.lights.size(), limits);
+  ring.centre = glm::dvec3(three_or(node, "center", glm::vec3(0.0f), -kLargest, kLargest));
+  ring.centre.y += real_or(node, "height", 0.0, -kLargest, kLargest);
+  ring.radius = double(node.member("radius").real(kSmallest, kLargest));
+  const std::vector<glm::vec3> colors = read_colors(node);
+  ring.colors = colors;
+  ring.turn_s = real_or(node, "turn_s", 0.0, 0.001, 1e6);
+  add_ring(scene, ring);
+}
+
+void read_box(const json::Node& node, Scene& scene, const SceneLimits& limits) {
+  LightBox box;
+  read_shared(node, box, scene.lights.size(), limits);
+  box.from = glm::dvec3(node.member("from").vec3(-kLargest, kLargest));
+  box.to = glm::dvec3(node.member("to").vec3(-kLargest, kLargest));
+  const std::vector<glm::vec3> colors = read_colors(node);
+  box.colors = colors;
+  box.drift = real_or(node, "drift", 0.0, 0.0, kLargest);
+  box.drift_s = real_or(node, "drift_s", box.drift_s, 0.001, 1e6);
+  add_box(scene, box);
+}
+
+// --- Buffers -------------------------------------------------------------------------------------------------------
+
+/// Where buffers come from, and how many samples they may have.
+struct BufferSource {
+  const std::string& path;  ///< of the scene file
+  const ImageDecoder& decode;
+  const SceneLimits& limits;
+  uint64_t most;
+};
+
+bool is_exr(const Bytes& content) {
+  constexpr uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
+  return content.size() >= std::size(kMagic) && std::equal(std::begin(kMagic), std::end(kMagic), content.begin());
+}
+
+std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSource& source) {
+  const std::string where = source.path + ": " + node.pointer();
+  const std::string file = relative_path_from_uri(node.string(), where);
+  const bool table = file.ends_with(".csv");
+  if (!table && !file.ends_with(".exr")) node.fail("the ending names no format of a buffer", ".csv or .exr");
+  if (!table && !source.decode) node.fail("there is no reader of images here", "a .csv file or numbers");
+  const Bytes bytes = SceneFolder(source.path).read(file, source.limits.file_bytes, where);
+  if (table)
+    return samples_from_csv({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where + ": " + file,
+                            source.most);
+  if (!is_exr(bytes))  // before the reader of pictures, which would name others too
+    throw Error(ErrorKind::bad_input, where + ": " + file, "it is no EXR", "a .csv table or an .exr");
+  return samples_from_image(source.decode(bytes, where + ": " + file, source.limits.texture_bytes), where + ": " + file,
+                            source.most);
+}
+
+/// The samples under a key, each number in [least, kLargest]; none where the key is absent.
+std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view key, double least,
+                                   const BufferSource& source) {
+  const auto node = lights.find(key);
+  if (!node) return {};
+  if (node->is_array()) {
+    std::vector<glm::vec3> samples;
+    const size_t count = node->array(0, SIZE_MAX).size();
+    if (count > source.most)
+      node->fail("the lights are over the limit", "at most " + std::to_string(source.most), ErrorKind::limit);
+    for (size_t i = 0; i < count; ++i) samples.push_back(node->element(i).vec3(least, kLargest));
+    return samples;
+  }
+  std::vector<glm::vec3> samples = samples_from_file(*node, source);
+  for (size_t i = 0; i < samples.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (!(samples[i][k] >= float(least) && samples[i][k] <= float(kLargest)))
+        node->fail("sample " + std::to_string(i) + " is out of range",
+                   "numbers from " + json::number_text(least) + " to 1e+18");
+  return samples;
+}
+
+void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
+  source.most -= std::min<uint64_t>(source.most, scene.lights.size());
+  node.member("position");
+  const std::vector<glm::vec3> position = read_buffer(node, "position", -kLargest, source);
+  const std::vector<glm::vec3> color = read_buffer(node, "color", 0.0, source);
+  const std::vector<glm::vec3> falloff = read_buffer(node, "falloff", 0.0, source);
+  for (const auto& [key, samples] : {std::pair("color", &color), std::pair("falloff", &falloff)})
+    if (node.find(key) && samples->size() != position.size())
+      node.fail(std::string("'") + key + "' has " + std::to_string(samples->size()) + " samples, 'position' " +
+                    std::to_string(position.size()),
+                "as many of each: sample i is light i");
+  const double intensity = real_or(node, "intensity", 1.0, 0.0, kLargest);
+  const auto range = node.find("range");
+  for (size_t i = 0; i < position.size(); ++i) {
+    Light light;
+    light.position = position[i];
+    if (!color.empty()) light.color = color[i];
+    set_property(light, LightProperty::intensity, glm::dvec4(intensity));
+    if (!falloff.empty()) light.attenuation = falloff[i];
+    if (range) light.range = range->real(kSmallest, kLargest);
+    scene.lights.push_back(light);
+  }
+}
+
+}  // namespace
+
+std::span<const json::ObjectKeys> light_json_keys() { return kObjects; }
+
+void read_lights(const json::Node& list, Scene& scene, const std::string& path, const SceneLimits& limits,
+                 const ImageDecoder& decode) {
+  const size_t count = list.array(0, SIZE_MAX).size();
+  for (size_t i = 0; i < count; ++i) {
+    const json::Node node = list.element(i);
+    const size_t type = node.member("type").choice(kTypes);
+    node.check_keys(kObjects[type]);
+    if (type == kRing)
+      read_ring(node, scene, limits);
+    else if (type == kBox)
+      read_box(node, scene, limits);
+    else if (type == kBuffers)
+      read_buffers(node, scene, {path, decode, limits, limits.lights});
+    else
+      LightReader(node, LightType(type), scene).read();
+  }
+}
+
+}  // namespace trueshade

@@ -1,0 +1,172 @@
+#include "scenes/files/material_json.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+#include "scenes/builtin/texture_pattern.h"
+
+namespace trueshade {
+namespace {
+
+const json::ObjectKeys kTexture{"texture", kTextureKeys}, kPattern{"pattern", kPatternKeys}, kMap{"map", kMapKeys},
+    kMaterial{"material", kMaterialKeys};
+
+/// Texels of a decoded picture, whose rows run from the top, with the row of v = 0 first.
+TextureLevel level_of(const Image& image, bool upper_left) {
+  TextureLevel level{image.width, image.height, image.texels};
+  if (upper_left) return level;
+  const size_t row = image.row_bytes();
+  for (size_t y = 0; y < size_t(image.height); ++y)
+    std::memcpy(level.bytes.data() + y * row, image.texels.data() + (size_t(image.height) - 1 - y) * row, row);
+  return level;
+}
+
+template <class Enum>
+Enum choice_or(const json::Node& node, std::string_view key, std::span<const std::string_view> names, Enum absent) {
+  const auto found = node.find(key);
+  return found ? Enum(found->choice(names)) : absent;
+}
+
+int side(const json::Node& node) { return int(node.integer(1, kMaxTextureSide)); }
+
+TexturePattern read_pattern(const json::Node& node) {
+  node.check_keys(kPattern);
+  TexturePattern p;
+  p.pattern = Pattern(node.member("type").choice(kPatternNames));
+  if (const auto size = node.find("size")) {
+    size->array(2, 2);
+    p.width = side(size->element(0)), p.height = side(size->element(1));
+  }
+  p.format = choice_or(node, "format", kTextureFormatNames, p.format);
+  if (const auto colors = node.find("colors")) {
+    colors->array(2, 2);
+    for (size_t i = 0; i < 2; ++i) p.colors[i] = colors->element(i).color();
+  }
+  if (const auto cells = node.find("cells")) {
+    cells->array(2, 2);
+    p.columns = int(cells->element(0).integer(1, 1024)), p.rows = int(cells->element(1).integer(1, 1024));
+  }
+  if (const auto seed = node.find("seed")) p.seed = uint64_t(seed->integer(0, 9007199254740991));
+  return p;
+}
+
+}  // namespace
+
+TextureLevel MaterialReader::read_level(const json::Node& file, bool upper_left, TextureFormat& format,
+                                        bool& has_format, const std::string& encoding) {
+  const std::string where = path_ + ": " + file.pointer();
+  if (!decode_) file.fail("this program reads no image files", "a pattern");
+  const std::string relative = relative_path_from_uri(file.string(), where);
+  const Bytes content = folder_.read(relative, limits_.file_bytes, where);
+  const Image image = decode_(content, where + ": " + relative, limits_.texture_bytes - bytes_);
+  const bool codes = image.format == Format::rgba8;
+  if (!codes && image.format != Format::rgba16f && image.format != Format::rgba32f)
+    file.fail("its texels are neither 8 bits nor half or float with RGBA", "PNG, JPEG, or an EXR with R, G, B, A");
+  if (!codes && encoding == "srgb") file.fail("a picture of floats is linear", "no encoding, or linear");
+  const TextureFormat here = image.format == Format::rgba32f   ? TextureFormat::rgba32f
+                             : image.format == Format::rgba16f ? TextureFormat::rgba16f
+                             : encoding == "linear"            ? TextureFormat::rgba8
+                                                               : TextureFormat::srgb8_a8;
+  if (has_format && format != here) file.fail("the levels have different formats", "levels of one format");
+  format = here, has_format = true;
+  bytes_ += image.texels.size();
+  return level_of(image, upper_left);
+}
+
+Texture MaterialReader::read_texture(const json::Node& node) {
+  node.check_keys(kTexture);
+  const auto file = node.find("file"), levels = node.find("levels"), pattern = node.find("pattern");
+  if (int(file.has_value()) + int(levels.has_value()) + int(pattern.has_value()) != 1)
+    node.fail("a texture has 'file', 'levels' or 'pattern', one of them", "say where its texels come from");
+  const auto encoding = node.find("encoding"), origin = node.find("origin");
+  if (pattern) {
+    if (encoding) encoding->fail("a pattern has a format", "remove it");
+    if (origin) origin->fail("a pattern has its origin at uv (0, 0)", "remove it");
+    return texture_of(read_pattern(*pattern));
+  }
+  constexpr std::string_view kEncodings[] = {"srgb", "linear"}, kOrigins[] = {"lower_left", "upper_left"};
+  const std::string how = encoding ? std::string(kEncodings[encoding->choice(kEncodings)]) : "";
+  const bool upper_left = origin && origin->choice(kOrigins) == 1;
+  Texture texture;
+  bool has_format = false;
+  if (file) {
+    texture.levels.push_back(read_level(*file, upper_left, texture.format, has_format, how));
+    return texture;
+  }
+  const size_t count = levels->array(1, kMaxTextureLevels).size();
+  for (size_t i = 0; i < count; ++i) {
+    const json::Node element = levels->element(i);
+    texture.levels.push_back(read_level(element, upper_left, texture.format, has_format, how));
+    const TextureLevel &first = texture.levels[0], &level = texture.levels[i];
+    if (level.width != std::max(1, first.width >> i) || level.height != std::max(1, first.height >> i))
+      element.fail("the level has the wrong size", "half the sides of the level before it, rounded down, at least 1");
+  }
+  return texture;
+}
+
+void MaterialReader::read_textures(const json::Node& list) {
+  const size_t count = list.array(0, SIZE_MAX).size();
+  for (size_t i = 0; i < count; ++i) {
+    const json::Node node = list.element(i);
+    Texture texture = read_texture(node);
+    texture.name = node.member("name").string();
+    if (!named_.emplace(texture.name, int32_t(scene_.textures.size())).second)
+      node.fail("a texture of this name exists", "another name");
+    scene_.textures.push_back(std::move(texture));
+  }
+}
+
+TextureSlot MaterialReader::read_map(const json::Node& node) const {
+  node.check_keys(kMap);
+  TextureSlot slot;
+  const json::Node name = node.member("texture");
+  const auto found = named_.find(name.string());
+  if (found == named_.end()) name.fail("no texture has this name", "a name from /textures");
+  slot.texture = found->second;
+  Sampler& s = slot.sampler;
+  if (const auto wrap = node.find("wrap")) {
+    if (wrap->is_array()) {
+      wrap->array(2, 2);
+      for (size_t i = 0; i < 2; ++i) s.wrap[i] = Wrap(wrap->element(i).choice(kWrapNames));
+    } else {
+      s.wrap.fill(Wrap(wrap->choice(kWrapNames)));
+    }
+  }
+  s.mag_filter = choice_or(node, "mag", kFilterNames, s.mag_filter);
+  s.min_filter = choice_or(node, "min", kFilterNames, s.min_filter);
+  s.mip_filter = choice_or(node, "mip", kMipFilterNames, s.mip_filter);
+  if (const auto bias = node.find("lod_bias")) s.lod_bias = bias->real(-16.0, 16.0);
+  if (const auto low = node.find("lod_min")) s.lod_min = low->real(-1000.0, 1000.0);
+  if (const auto high = node.find("lod_max")) s.lod_max = high->real(-1000.0, 1000.0);
+  if (!(s.lod_min <= s.lod_max)) node.fail("lod_min is above lod_max", "lod_min <= lod_max");
+  if (const auto border = node.find("border")) s.border = border->color();
+  return slot;
+}
+
+Material MaterialReader::read_material(const json::Node& node) const {
+  node.check_keys(kMaterial);
+  Material material{node.member("name").string(), node.member("color").color()};
+  if (const auto color = node.find("specular_color")) material.specular_color = color->vec3(0.0f, 1e18);
+  if (const auto shininess = node.find("shininess")) material.shininess = float(shininess->integer(0, 8192));
+  if (const auto color = node.find("emission")) material.emission = color->vec3(0.0f, 1e18);
+  if (const auto metallic = node.find("metallic")) material.metallic = metallic->real(0.0, 1.0);
+  if (const auto roughness = node.find("roughness")) material.roughness = roughness->real(0.0, 1.0);
+  if (const auto map = node.find("color_map")) material.color_map = read_map(*map);
+  if (const auto map = node.find("specular_map")) material.specular_map = read_map(*map);
+  if (const auto map = node.find("normal_map")) material.normal_map = read_map(*map);
+  if (const auto scale = node.find("normal_scale")) material.normal_scale = scale->real(-1000.0, 1000.0);
+  if (const auto cutoff = node.find("alpha_cutoff")) material.alpha_cutoff = cutoff->real(0.0, 1.0);
+  if (const auto transparent = node.find("transparent")) material.transparent = transparent->boolean();
+  return material;
+}
+
+void MaterialReader::complete_mip_chains() const {
+  for (const Material& material : scene_.materials)
+    for (const TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map})
+      if (slot->used() && slot->sampler.mip_filter != MipFilter::none)
+        if (Texture& texture = scene_.textures[size_t(slot->texture)]; texture.levels.size() == 1)
+          build_mip_chain(texture);
+}
+
+}  // namespace trueshade

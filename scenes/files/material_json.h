@@ -1,0 +1,48 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "scenes/files/json_value.h"
+#include "scenes/scene.h"
+#include "scenes/files/scene_files.h"
+
+namespace trueshade {
+
+/// The keys of the objects that texture and material texts are made of.
+inline constexpr std::string_view kTextureKeys[] = {"name", "file", "levels", "encoding", "origin", "pattern"};
+inline constexpr std::string_view kPatternKeys[] = {"type", "size", "format", "colors", "cells", "seed"};
+inline constexpr std::string_view kMapKeys[] = {"texture",  "wrap",    "mag",     "min",   "mip",
+                                                "lod_bias", "lod_min", "lod_max", "border"};
+inline constexpr std::string_view kMaterialKeys[] = {
+    "name",      "color",        "specular_color", "shininess",    "emission",     "metallic",   "roughness",
+    "color_map", "specular_map", "normal_map",     "normal_scale", "alpha_cutoff", "transparent"};
+
+/// Reads a scene text's textures and materials into a scene. Borrows all it is given.
+class MaterialReader {
+ public:
+  MaterialReader(Scene& scene, const std::string& path, const SceneFolder& folder, const SceneLimits& limits,
+                 const ImageDecoder& decode)
+      : scene_(scene), path_(path), folder_(folder), limits_(limits), decode_(decode) {}
+
+  void read_textures(const json::Node& list);
+  Material read_material(const json::Node& node) const;
+
+  /// Builds the levels that lookups between levels need and no file gave. After the last material.
+  void complete_mip_chains() const;
+
+ private:
+  Texture read_texture(const json::Node& node);
+  TextureLevel read_level(const json::Node& file, bool upper_left, TextureFormat& format, bool& has_format,
+                          const std::string& encoding);
+  TextureSlot read_map(const json::Node& node) const;
+
+  Scene& scene_;
+  const std::string& path_;
+  const SceneFolder& folder_;
+  const SceneLimits& limits_;
+  const ImageDecoder& decode_;
+  uint64_t bytes_ = 0;  ///< of all levels read
+  std::map<std::string, int32_t, std::less<>> named_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,48 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/image.h"
+#include "raster/visibility/visibility.h"
+#include "scenes/scene.h"
+#include "shading/blend/blend_pass.h"
+#include "shading/light/light_pass.h"
+
+namespace trueshade {
+
+/// The i of a plane `light.<i>`, written without leading zeros; nothing for other names.
+std::optional<size_t> light_of_plane(std::string_view name);
+
+/// What each of some lights alone adds to the pixels that the strategy draws it on, as often as it draws it there: the
+/// planes `light.<i>`, rgb32f. Their f32 sums in index order, from what pixels hold before any light, are bit for bit
+/// what a loop over all lights comes to before it is stored, and what draws leave that are added into floats, where
+/// none lights a pixel twice (docs/views.md).
+class LightPlanes {
+ public:
+  LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
+              const LightMeshes& meshes, const View& view);
+
+  /// Draws a tile of each plane for strategies that sum; `planes` are those of the constructor, in order. `work` and
+  /// `color` are scratch.
+  void sum(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
+           ColorTile& color, std::span<NamedImage> planes) const;
+
+  /// The same for strategies that blend. `frame`: the draws of all lights; `tied`: as blend_tile() takes it.
+  void blend(const LightDraws& frame, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
+             BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const;
+
+ private:
+  struct Plane {
+    size_t index, light;
+    std::span<const Light> alone;
+    LightTable table;
+    LightOutlines outlines;  ///< of strategies that blend
+  };
+  std::vector<Plane> planes_;
+  LightModel model_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "judge/bounds/profile.h"
+#include "tests/judge/mutants/surface_mutants.h"
+
+namespace trueshade::testing {
+
+/// Every way of `surface_mutants()` drawn wrong on built-in scenes of few lights by three strategies: right pictures
+/// must pass under each profile, wrong ones be rejected on two scenes by each profile, by `ideal` always. Prints the
+/// counts.
+void try_surface_mutants(std::span<const oracle::Profile> profiles, const oracle::Renderer& render);
+
+}  // namespace trueshade::testing
