@@ -120,12 +120,7 @@ struct FrameWork {
     return out;
   }
 
-  TileRect rect(int tile) const {
-    const int size = execution.tile, x = tile % bins.tiles_x * size, y = tile / bins.tiles_x * size;
-    const WindowTransform& t = view.window;
-    const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
-    return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
-  }
+  TileRect rect(int tile) const { return tile_rect(view.window, execution.tile, bins.tiles_x, tile); }
 
   // Sums that go into fixed point as they are.
   LightShortcuts light_shortcuts() const {
