@@ -12,7 +12,7 @@ mkdir "$work/source"
 cd "$work/source"
 
 mapfile -t folders < <(find raster shading -type d \( -name fast -o -name bounded \))
-lines=$(grep -rhoE '// fast path$' core raster shading | wc -l)
+lines=$({ grep -rhoE '// fast path$' core raster shading || true; } | wc -l)
 ((${#folders[@]} > 0 && lines > 0)) || { echo "no fast path was found: the marks and folders have other names"; exit 1; }
 rm -r "${folders[@]}"
 find core raster shading -name '*.h' -o -name '*.cpp' | xargs sed -i '\,// fast path$,d'
