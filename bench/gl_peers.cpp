@@ -13,8 +13,7 @@ using oracle::GlPeer;
 constexpr int kPixelsPerChange = 50000;
 
 bool is_fast(GlDesign design) {
-  return design == GlDesign::tiled || design == GlDesign::forward_plus || design == GlDesign::deferred_volumes ||
-         design == GlDesign::deferred_loop;
+  return design != GlDesign::forward_loop && design != GlDesign::forward_multipass;
 }
 
 /// Pixels that are not the same without back faces: none inside closed meshes, a few where a silhouette's edges round,

@@ -26,6 +26,8 @@ std::string_view name_of(GlDesign design) {
       return "deferred-volumes";
     case GlDesign::tiled:
       return "tiled";
+    case GlDesign::tiled_thin:
+      return "tiled-thin";
     case GlDesign::forward_plus:
       return "forward-plus";
     case GlDesign::forward_loop:
@@ -219,7 +221,7 @@ void GlPeer::Work::light_deferred() {
   use_lighting();
   glBindVertexArray(none);
   const int columns = (pipeline.width + tile - 1) / tile, rows = (pipeline.height + tile - 1) / tile;
-  if (design == GlDesign::tiled)
+  if (is_tiled(design))
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, columns * rows);
   else
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -13,13 +13,15 @@ enum class GlDesign {
   deferred_volumes,   ///< the lights' geometry, blended into the target light by light
   tiled,              ///< thin G-buffer (position from depth, half normal), lists by tile within its depth bounds,
                       ///< of lights that its normals look at
+  tiled_thin,         ///< the same lists by depth bounds alone, over what is least to store: depth, a normal of ten bits
+                      ///< a component, eight bits a channel of colour
   forward_plus,       ///< depth first, then the scene again with the tiles' lists, depth EQUAL
   forward_loop,       ///< the scene once, all lights in each fragment
   forward_multipass,  ///< the scene once a light
 };
-inline constexpr std::array kGlDesigns{GlDesign::deferred_loop, GlDesign::deferred_volumes,
-                                       GlDesign::tiled,         GlDesign::forward_plus,
-                                       GlDesign::forward_loop,  GlDesign::forward_multipass};
+inline constexpr std::array kGlDesigns{
+    GlDesign::deferred_loop, GlDesign::deferred_volumes, GlDesign::tiled,            GlDesign::tiled_thin,
+    GlDesign::forward_plus,  GlDesign::forward_loop,     GlDesign::forward_multipass};
 
 /// As bench names them: "deferred-loop" and so on.
 std::string_view name_of(GlDesign design);
@@ -28,6 +30,7 @@ constexpr Strategy strategy_of(GlDesign design) {
   switch (design) {
     case GlDesign::deferred_loop:
     case GlDesign::tiled:
+    case GlDesign::tiled_thin:
       return Strategy::deferred_loop;
     case GlDesign::deferred_volumes:
       return Strategy::deferred_volumes;
@@ -45,7 +48,7 @@ constexpr bool draws_glass(GlDesign design, TransparencyMode mode) {
   return mode != TransparencyMode::into_albedo || !is_forward(strategy_of(design));
 }
 
-/// The pipeline whose picture a design draws, for render_frame() too. tiled has a thin G-buffer; deferred_volumes draws
+/// The pipeline whose picture a design draws, for render_frame() too. The tiled designs have thin G-buffers; deferred_volumes draws
 /// lights of no given extent, whose falloff ends at their range, as boxes of which front faces are culled.
 Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design);
 
@@ -54,7 +57,7 @@ Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design);
 class GlPeer {
  public:
   /// Borrows the renderer, which must outlive it. `tile`: pixels a side of the designs that bin lights; 0: what is
-  /// fastest on llvmpipe, 16 of forward_plus and 32 of tiled.
+  /// fastest on llvmpipe, 16 of forward_plus and 32 of the tiled ones.
   GlPeer(GlRenderer& renderer, const Pipeline& pipeline, GlDesign design, int tile = 0);
   ~GlPeer();
 

@@ -46,11 +46,11 @@ std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options
   const LightModel& model = p.light_model;
   std::string text = glsl_header(options.version, "lights of the design " + std::string(name_of(design)));
   text += surface_uniforms_text(p, options);
-  if (design == GlDesign::tiled) text += "uniform samplerBuffer records;\nflat in ivec2 range;\n";
+  if (is_tiled(design)) text += "uniform samplerBuffer records;\nflat in ivec2 range;\n";
   if (design == GlDesign::deferred_volumes) text += "uniform samplerBuffer lights;\nflat in int light;\n";
   if (design == GlDesign::deferred_loop) text += "uniform samplerBuffer lights;\nuniform int light_count;\n";
-  text += lights_text(p, options, design == GlDesign::tiled ? "records" : "lights") + read_surface_text(p, options);
-  if (design == GlDesign::tiled) text += light_loop_text(p, "records", "range.x", "range.y");
+  text += lights_text(p, options, is_tiled(design) ? "records" : "lights") + read_surface_text(p, options);
+  if (is_tiled(design)) text += light_loop_text(p, "records", "range.x", "range.y");
   if (design == GlDesign::deferred_volumes)
     text += (limits_range(p).any() ? "  if (!in_extent(P, light)) discard;\n" : "") +
             target_text(model, lit_call_text(model, "lights", "light"));
@@ -98,9 +98,10 @@ Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design) {
     v.cull_face = CullFace::front;
     v.depth_clamp = true;
   }
-  if (design == GlDesign::tiled) {
+  if (is_tiled(design)) {
     p.gbuffer.position_from_depth = true;
-    p.gbuffer.normal.format = Format::rgba16f;
+    p.gbuffer.normal.format = design == GlDesign::tiled_thin ? Format::rgb10_a2 : Format::rgba16f;
+    if (design == GlDesign::tiled_thin) p.gbuffer.albedo.format = Format::rgba8;
   }
   if (is_forward(design)) p.gbuffer.position_from_depth = false;
   return p;
@@ -110,7 +111,7 @@ DesignShaders lighting_shaders(const Pipeline& p, const GlslOptions& options, Gl
   if (is_forward(design)) return {vertex_text(p, options), forward_fragment_text(p, options, design)};
   const std::string frag = deferred_fragment_text(p, options, design);
   if (design == GlDesign::deferred_volumes) return {volume_vertex_text(options.version), frag};
-  if (design == GlDesign::tiled) return {tile_vertex_text(options.version), frag};
+  if (is_tiled(design)) return {tile_vertex_text(options.version), frag};
   return {fullscreen_vertex_text(options.version), frag};
 }
 

@@ -21,6 +21,7 @@ std::string empty_fragment_text(int version);
 inline bool is_forward(GlDesign design) {
   return design == GlDesign::forward_plus || design == GlDesign::forward_loop || design == GlDesign::forward_multipass;
 }
-inline bool is_binned(GlDesign design) { return design == GlDesign::tiled || design == GlDesign::forward_plus; }
+inline bool is_tiled(GlDesign design) { return design == GlDesign::tiled || design == GlDesign::tiled_thin; }
+inline bool is_binned(GlDesign design) { return is_tiled(design) || design == GlDesign::forward_plus; }
 
 }  // namespace trueshade::oracle
