@@ -1,6 +1,6 @@
 #pragma once
-// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
-// "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (docs/gl_rules.md
+// section 6, "amplification": an 8-bit normal one code off moves a lit pixel by 11).
 #include <span>
 #include <vector>
 
@@ -23,9 +23,9 @@ namespace trueshade::oracle {
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                            const Capture& capture);
 
-/// The target against the lights summed over the capture's own planes, in double, with the error bound of GL_RULES
-/// section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or depth tell where
-/// there is a surface. light.count, where captured, must be one the comparisons allow.
+/// The target against the lights summed over the capture's own planes, in double, with the error bound of
+/// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or
+/// depth tell where there is a surface. light.count, where captured, must be one the comparisons allow.
 /// Surfaces transparent after the lights are followed, each fragment from what the pixel may hold before it.
 /// Under strategies that blend light by light: the final image against the interval of all blends (judge_blending.h),
 /// and light.count is not looked at.
