@@ -14,7 +14,7 @@
 #include "judge/legal/light_cover.h"
 #include "judge/stages/tied_surfaces.h"
 #include "judge/stages/transparent_layers.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 
