@@ -42,7 +42,7 @@ std::vector<std::string> installed_headers() {
 }
 
 /// Every name of a header that an opening parenthesis follows. Exceptions are words of C++, casts to our enumerations,
-/// private members (those that end in _, offset and block), and sums of measured times, which are inline: geometry, sum.
+/// private members (those that end in _, offset and block), and two inline sums of measured times: geometry and sum.
 std::set<std::string> functions_of(const std::string& header) {
   static const std::set<std::string> kOther{
       "for",      "if",       "return",   "switch",    "requires",       "operator", "void",     "int",
