@@ -15,8 +15,8 @@ namespace {
 constexpr double kLargest = 1e18;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
-constexpr std::string_view kRootKeys[] = {"$schema",   "version", "camera", "clear",    "textures",
-                                          "materials", "objects", "lights", "pipeline", "fps"};
+constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "textures", "materials",
+                                          "objects", "lights", "pipeline", "fps",      "$schema"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "fov_deg",       "fov_axis", "near",
                                             "far", "clip_from_world", "steps", "interpolation", "repeat"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};

@@ -33,8 +33,8 @@ inline constexpr std::string_view kSpecularSources[] = {"model", "albedo", "mate
 inline constexpr std::string_view kViewers[] = {"local", "infinite"};
 
 inline constexpr std::string_view kRootKeys[] = {
-    "$schema",       "version", "preset",       "width",    "height", "geometry", "gbuffer", "light_model",
-    "light_volumes", "blend",   "transparency", "strategy", "target", "profile",  "post",    "view"};
+    "version", "preset",       "width",    "height", "geometry", "gbuffer", "light_model", "light_volumes",
+    "blend",   "transparency", "strategy", "target", "profile",  "post",    "view",        "$schema"};
 inline constexpr std::string_view kGeometryKeys[] = {"viewport",
                                                      "depth_near",
                                                      "depth_far",

@@ -26,6 +26,7 @@ class Bytes {
   }
   void put(const Image& image) { put(image.texels); }
   void put(const Scene& scene);
+  void put_light(const Light& light);  ///< field by field: between them lie bytes without a meaning
 
   /// Puts the text of the exception that `body` throws, and fails the comparison if it throws none.
   template <typename Body>

@@ -64,7 +64,7 @@ void check_descriptions(const std::string& name, size_t least) {
       REQUIRE(description);
       const std::string& text = description->string();
       CHECK(text.size() > 20);
-      CHECK((text[0] >= 'A' && text[0] <= 'Z' || text[0] == '1'));
+      CHECK(((text[0] >= 'A' && text[0] <= 'Z') || text[0] == '1'));
       CHECK(text.back() == '.');
       if (property.find("default")) CHECK(text.find("Default: ") != std::string::npos);
       ++keys;
