@@ -209,7 +209,7 @@ TEST_CASE("the scenes of the documentation load at every time, every key is in o
     INFO(text);
     collect_keys(json::parse(text, "docs/scenes.md"), shown);
     const ScratchFolder scratch;
-    scratch.write("model.ply", kTriangle);  // the file that the page's scene names
+    scratch.write("model.ply", kTriangle);
     Scene scene = load_scene(scratch.write("s.json", text));
     for (const double time : {0.0, 0.45, 3.0, 1000.0}) CHECK_NOTHROW(set_time(scene, time));
   }
