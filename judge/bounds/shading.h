@@ -1,6 +1,6 @@
 #pragma once
-// The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of GL_RULES section 6 on what legal
-// float arithmetic makes of the sum.
+// The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of docs/gl_rules.md section 6 on
+// what legal float arithmetic makes of the sum.
 #include <span>
 #include <vector>
 

@@ -17,8 +17,8 @@ struct LightOutput {
 /// A colour of the lights as the fragment outputs it: clamped where the model says so.
 Range output_range(const LightModel& model, const Bounded& value);
 
-/// The outputs of strategies that draw light by light. A Scene without meshes, of the camera and some lights, stands for
-/// the scene.
+/// The outputs of strategies that draw light by light. A Scene without meshes, of the camera and some lights, stands
+/// for the scene.
 class LightOutputs {
  public:
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);

@@ -5,7 +5,7 @@
 
 namespace trueshade::oracle {
 
-/// Why a pixel is what it is (GL_RULES section 7). The image passes where no pixel is a violation.
+/// Why a pixel is what it is (docs/gl_rules.md section 7). The image passes where no pixel is a violation.
 enum class PixelClass : uint8_t {
   exact,    ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
   store_2,  ///< the nominal surface, some channel stored as another legal neighbour

@@ -1,5 +1,6 @@
 #pragma once
-// What a piece's planes may give at a sample: depth and attributes as ranges (GL_RULES section 9, "plane origin").
+// What a piece's planes may give at a sample: depth and attributes as ranges (docs/gl_rules.md section 9, "plane
+// origin").
 #include <array>
 #include <memory>
 

@@ -174,7 +174,8 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
 
 /// Whether the light's draw is EXACT and has nothing to tell: no fragment adds anything and nothing changed, or the
 /// only one there is added its nominal codes.
-bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const {
+bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const FragmentCount& count,
+                                 const RowWork& work) const {
   if (!seen_ || !keeps_dark_) return false;
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const bool covered = covered_[at(x, y)] != 0;
@@ -187,7 +188,8 @@ bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const Fragmen
   bool all_dark = !covered || dark(work.lit[tied.size()]);
   for (size_t t = 0; t < tied.size() && all_dark; ++t) all_dark = dark(work.lit[t]);
   if (all_dark) return std::memcmp(old, now, size_t(color_.layout.bytes_per_texel())) == 0;
-  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1 || work.lit[0].one_outcome[j] == 0) return false;
+  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1) return false;
+  if (work.lit[0].one_outcome[j] == 0) return false;
   if (!codes_.as_predicted(work.lit[0].color[j], old, now)) return false;
   return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], uint32_t(i)).surely;
 }

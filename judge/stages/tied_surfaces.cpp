@@ -70,7 +70,8 @@ class TieFinder {
     for (int k = 0; k < 3 && normal_; ++k)
       off +=
           std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value - normal_.image->value(x, y_top, k));
-    if (depth_) off += std::fabs(values.depth().value - depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
+    if (depth_)
+      off += std::fabs(values.depth().value - depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
   }
 

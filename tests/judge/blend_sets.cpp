@@ -104,7 +104,7 @@ TEST_CASE("What lies outside is not legal: a code more than any neighbour, a ter
   CHECK(legal("d3d-class", kAddLight, 10.25f).high == 110);
   CHECK(legal("ideal", kAddLight, 10.75f).low == 111);
   CHECK(legal("unknown", kAddLight, 200).high == 255);
-  // GL_RULES row 40: s = 244, a = 197, d = 4, SRC_ALPHA, ONE: 192.502.
+  // docs/gl_rules.md row 40: s = 244, a = 197, d = 4, SRC_ALPHA, ONE: 192.502.
   BlendState state = kAddLight;
   state.rgb = {BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one};
   const auto row40 = [&](const char* profile) {
@@ -262,8 +262,8 @@ TEST_CASE(
   CAPTURE(samples, doubtful, drawn, behind);
   CHECK(drawn > samples / 8);
   CHECK(behind > 40);
-  // An edge over L rows has 2 e L samples in doubt (GL_RULES section 9), e = 1/512 and what floats add: far below a
-  // percent.
+  // An edge over L rows has 2 e L samples in doubt (docs/gl_rules.md section 9), e = 1/512 and what floats add: far
+  // below a percent.
   CHECK(doubtful < drawn / 200);
   std::printf("light geometry: %zu samples, %zu drawn, %zu in doubt\n", samples, drawn, doubtful);
 }

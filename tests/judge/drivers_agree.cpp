@@ -1,4 +1,4 @@
-// GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
+// docs/gl_rules.md row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
 // explains it.
 #include <cstdio>
 

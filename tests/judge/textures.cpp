@@ -1,5 +1,5 @@
-// Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups
-// do not.
+// Textured surfaces judged: class TEX (docs/gl_rules.md sections 5 and 9). Our own frames and real drivers pass, wrong
+// lookups do not.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
