@@ -14,12 +14,12 @@ namespace trueshade::oracle {
 
 /// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has,
 /// and specular and emission where the light model reads them) against the surfaces each pixel may show. A pixel must
-/// equal one candidate in all planes together, or the clear values where nothing is sure to cover it. Transparent
-/// surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that their draws
-/// may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two triangles has
-/// exactly one owner: where triangles that meet about a sample close around it, the clear value and what is behind them
-/// are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round. Throws
-/// Error(bad_input) for planes of another size than the pipeline's, or none at all.
+/// equal one possible surface in all planes together, or the clear values where nothing is sure to cover it.
+/// Transparent surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that
+/// their draws may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two
+/// triangles has exactly one owner: where triangles that meet about a sample close around it, the clear value and what
+/// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
+/// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                            const Capture& capture);
 

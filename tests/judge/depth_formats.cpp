@@ -6,7 +6,7 @@
 
 #include "gl/driver/renderer.h"
 #include "judge/stages/judge.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"

@@ -5,7 +5,7 @@
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/drivers.h"
 

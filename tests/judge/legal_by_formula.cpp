@@ -6,7 +6,7 @@
 
 #include "oracle/scalar_light.h"
 #include "oracle/scalar_renderer.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::testing {
 

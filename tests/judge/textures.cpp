@@ -8,7 +8,7 @@
 #include "judge/legal/texture_range.h"
 #include "judge/stages/validate.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
