@@ -87,20 +87,22 @@ void Image::set_code(int x, int y, int channel, uint32_t bits) {
   std::memcpy(texel(x, y), &word, sizeof word);
 }
 
-double Image::value(int x, int y, int channel) const {
-  const FormatInfo layout = info(format);
-  const uint32_t bits = code(x, y, channel);
-  if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[bits]);
-  if (layout.number_class == NumberClass::unorm) return double(float(bits) / float(layout.largest_code(channel)));
-  if (layout.number_class == NumberClass::integer) return double(bits);
+double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
+  if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[code]);
+  if (layout.number_class == NumberClass::unorm) return double(float(code) / float(layout.largest_code(channel)));
+  if (layout.number_class == NumberClass::integer) return double(code);
   switch (const int size = layout.bits[size_t(channel)]) {
     case 32:
-      return double(std::bit_cast<float>(bits));
+      return double(std::bit_cast<float>(code));
     case 16:
-      return double(float_from_half(uint16_t(bits)));
+      return double(float_from_half(uint16_t(code)));
     default:
-      return double(float_from_unsigned(bits, size));
+      return double(float_from_unsigned(code, size));
   }
+}
+
+double Image::value(int x, int y, int channel) const {
+  return value_of_code(info(format), channel, code(x, y, channel));
 }
 
 std::string image_hash(const Image& image) {
