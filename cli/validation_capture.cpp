@@ -119,7 +119,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   return image;
 }
 
-void check_kind(const std::string& file, const std::vector<FilePlane>& planes) {
+void check_kind(const std::string& file, const std::vector<NamedImage>& planes) {
   if (planes.size() == 1 && planes[0].name == "color")
     throw bad_capture(file, "there is no G-buffer in it",
                       "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
@@ -131,16 +131,16 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
   oracle::Capture capture;
   capture.driver = "capture of " + gbuffer_file;
   capture.name = gbuffer_file;
-  std::vector<FilePlane> planes = read_planes(gbuffer_file);
+  std::vector<NamedImage> planes = read_planes(gbuffer_file);
   check_kind(gbuffer_file, planes);
-  for (FilePlane& plane : planes) {
+  for (NamedImage& plane : planes) {
     if (plane.name == "color")
       capture.color = std::move(plane.image);
     else
       capture.planes.push_back(std::move(plane));
   }
   if (image_file.empty()) return capture;
-  std::vector<FilePlane> picture = read_planes(image_file);
+  std::vector<NamedImage> picture = read_planes(image_file);
   if (picture.front().name != "color")
     throw bad_capture(image_file, "it has no channels R G B A", "give the lit picture");
   capture.driver += " and " + image_file;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/half.h"
+#include "core/image_rows.h"
 #include "core/sha256.h"
 #include "core/small_float.h"
 #include "core/srgb.h"

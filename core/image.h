@@ -38,9 +38,6 @@ struct Image {
   }
 };
 
-/// The value that the bits of a channel stand for, as Image::value() has it.
-double value_of_code(const FormatInfo& layout, int channel, uint32_t code);
-
 /// A named plane beside the colour target, as `--aov` names it.
 struct NamedImage {
   std::string name;

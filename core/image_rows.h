@@ -6,6 +6,9 @@ namespace trueshade {
 /// Rows that a thread reads or paints at a time.
 inline constexpr int kRowsOfBand = 16;
 
+/// The value that the bits of a channel stand for, as Image::value() has it.
+double value_of_code(const FormatInfo& layout, int channel, uint32_t code);
+
 /// Image::value() of `channels` channels of each texel of a row, as floats: out[channels * x + c]. The format is not
 /// r32ui, whose values floats do not hold; `y` counts from the top.
 void read_row(const Image& image, int y, int channels, float* out);

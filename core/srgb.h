@@ -26,19 +26,6 @@ constexpr double linear_from_srgb(double srgb) {
   return base * base * (root * root);
 }
 
-/// The sRGB value of a linear value in [0, 1], the same bits everywhere: x^(5/12) is the fifth power of a root that
-/// Newton's method finds.
-constexpr double srgb_from_linear(double linear) {
-  if (linear <= 0.0031308) return linear * 12.92;
-  double root = 1.0;
-  for (double last = 2.0; root < last;) {  // falls until rounding stops it
-    const double square = root * root, third = square * root, sixth = third * third;
-    last = root;
-    root = (11.0 * root + linear / (sixth * third * square)) / 12.0;
-  }
-  return 1.055 * (root * root * root * root * root) - 0.055;
-}
-
 /// Linear values at which the nearest sRGB code changes: element k is where code k + 1 begins.
 inline constexpr std::array<double, 255> kSrgbCodeStarts = [] {
   std::array<double, 255> starts{};
@@ -65,44 +52,11 @@ inline constexpr std::array<float, 256> kLinearOfSrgb8 = [] {
   return values;
 }();
 
-/// The sRGB codes of floats in [2^-13, 1). A float's bits without the lowest 16 pick an element of the table. The bits
-/// of the element from kCode up are the code of the least float that picks it. A float whose lowest 16 bits are at
-/// least the rest of the element has the next code.
-struct SrgbCodeTable {
-  static constexpr uint32_t kLeast = 0x39000000u, kEnd = 0x3F800000u;  // 2^-13, 1
-  static constexpr int kShift = 16, kCode = 17;
-  static constexpr uint32_t kLow = (1u << kShift) - 1, kRest = (1u << kCode) - 1;
-  std::array<int32_t, ((kEnd - kLeast) >> kShift)> element{};
-};
-inline constexpr SrgbCodeTable kSrgbCodeTable = [] {
-  SrgbCodeTable table;
-  uint32_t code = 0;
-  for (uint32_t i = 0; i < table.element.size(); ++i) {
-    const uint32_t least = SrgbCodeTable::kLeast + (i << SrgbCodeTable::kShift);
-    const auto start = [](uint32_t k) { return std::bit_cast<uint32_t>(kSrgbCodeFloats[k]); };
-    while (start(code) <= least) ++code;
-    table.element[i] = int32_t(code << SrgbCodeTable::kCode | std::min(start(code) - least, SrgbCodeTable::kLow + 1));
-  }
-  return table;
-}();
-static_assert([] {  // No two codes begin in one element, and the last element has 255.
-  uint32_t last = 0;
-  for (const int32_t element : kSrgbCodeTable.element) {
-    const uint32_t code = uint32_t(element) >> SrgbCodeTable::kCode;
-    if (code > last + 1) return false;
-    last = code;
-  }
-  return last == 255 && kSrgbCodeTable.element.front() >> SrgbCodeTable::kCode == 0;
-}());
-
-/// The nearest 8-bit sRGB code of a linear value, clamped to [0, 255]; NaN gives 0. A table, so no pow() takes part.
+/// The nearest 8-bit sRGB code of a linear value, clamped to [0, 255]; NaN gives 0. A search, so no pow() takes part.
 inline uint8_t srgb8_from_linear(float linear) {
-  using Table = SrgbCodeTable;
-  const uint32_t bits = std::bit_cast<uint32_t>(linear);
-  if (!(linear >= 0x1p-13f)) return 0;  // NaN too: code 1 begins at 0.00015
-  if (bits >= Table::kEnd) return 255;
-  const auto element = uint32_t(kSrgbCodeTable.element[(bits - Table::kLeast) >> Table::kShift]);
-  return uint8_t((element >> Table::kCode) + ((bits & Table::kLow) >= (element & Table::kRest) ? 1 : 0));
+  if (!(linear > 0.0f)) return 0;
+  const auto* above = std::upper_bound(kSrgbCodeStarts.begin(), kSrgbCodeStarts.end(), double(linear));
+  return uint8_t(above - kSrgbCodeStarts.begin());
 }
 
 }  // namespace trueshade

@@ -134,7 +134,7 @@ void append_rows(const std::vector<uint8_t>& rows, size_t pixel_bytes, PlaneSour
     }
 }
 
-std::vector<FilePlane> planes_of(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<NamedImage> planes_of(const std::string& path, std::span<const uint8_t> bytes) {
   ExrFile file(path, bytes);
   const OIIO::ImageSpec& spec = file.spec();
   check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
@@ -154,11 +154,8 @@ std::vector<FilePlane> planes_of(const std::string& path, std::span<const uint8_
     for (PlaneSource& plane : planes) append_rows(rows, spec.pixel_bytes(true), plane);
   }
   if (file.has_more_parts()) throw bad_image(path, "it has several parts", "store one, with all channels");
-  std::vector<FilePlane> result;
-  for (PlaneSource& plane : planes) {
-    const int channels = info(plane.image.format).channels;
-    result.push_back({{std::move(plane.name), std::move(plane.image)}, channels});
-  }
+  std::vector<NamedImage> result;
+  for (PlaneSource& plane : planes) result.push_back({std::move(plane.name), std::move(plane.image)});
   return result;
 }
 
@@ -168,7 +165,7 @@ ImageFileInfo exr_header(const std::string& path, std::span<const uint8_t> bytes
   return guarded(path, [&] { return header_of(path, bytes); });
 }
 
-std::vector<FilePlane> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
   return guarded(path, [&] { return planes_of(path, bytes); });
 }
 

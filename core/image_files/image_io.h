@@ -74,19 +74,14 @@ ImageFileInfo read_image_info(const std::string& path);
 /// `most_bytes`.
 Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes);
 
-/// A plane of a file.
-struct FilePlane : NamedImage {
-  int channels = 0;  ///< of the file: 1 to 4. The image of a PNG has four whatever the file has.
-};
-
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
 /// where a plane has so few components; halves of those are widened). A PNG is rgba8 or rgba16, as its channels have 8 or
 /// 16 bits: codes as they are stored, whatever they are tagged as; grey spread over R, G and B; alpha 1 where there is
-/// none. Memory grows with the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels,
+/// none, which read_image_info() tells. Memory grows with the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels,
 /// tiles, parts, crops, no plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be
 /// read.
-std::vector<FilePlane> read_planes(const std::string& path);
+std::vector<NamedImage> read_planes(const std::string& path);
 
 }  // namespace trueshade

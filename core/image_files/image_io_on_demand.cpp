@@ -43,7 +43,7 @@ ImageFileInfo exr_header(const std::string& path, std::span<const uint8_t> bytes
   return table().exr_header(path, bytes);
 }
 
-std::vector<FilePlane> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
   return table().exr_planes(path, bytes);
 }
 

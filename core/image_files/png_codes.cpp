@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/srgb.h"
+#include "core/image_rows.h"
+#include "core/srgb_codes.h"
 
 namespace trueshade {
 namespace {
@@ -36,6 +37,17 @@ void read_stored(const Image& image, int y, std::vector<uint32_t>& stored) {
 
 }  // namespace
 
+double srgb_from_linear(double linear) {
+  if (linear <= 0.0031308) return linear * 12.92;
+  double root = 1.0;
+  for (double last = 2.0; root < last;) {  // falls until rounding stops it
+    const double square = root * root, third = square * root, sixth = third * third;
+    last = root;
+    root = (11.0 * root + linear / (sixth * third * square)) / 12.0;
+  }
+  return 1.055 * (root * root * root * root * root) - 0.055;
+}
+
 PngCodes::PngCodes(const Image& image, const ImageFileOptions& options)
     : image_(image),
       layout_(info(image.format)),
@@ -64,7 +76,8 @@ PngCodes::Transfer PngCodes::transfer_of(const FormatInfo& layout, const ImageFi
 /// The nearest code, to even between two; NaN gives 0.
 uint16_t PngCodes::code_of_value(float value, Transfer transfer) const {
   const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
-  if (bits_ == 8) return transfer == Transfer::srgb ? srgb8_from_linear(clamped) : uint16_t(std::nearbyint(255.0f * clamped));
+  if (bits_ == 8 && transfer == Transfer::srgb) return srgb8_code_of(clamped);
+  if (bits_ == 8) return uint16_t(std::nearbyint(255.0f * clamped));
   const double coded = transfer == Transfer::srgb ? srgb_from_linear(double(clamped)) : double(clamped);
   return uint16_t(std::nearbyint(65535.0 * coded));
 }

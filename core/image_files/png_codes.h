@@ -12,6 +12,10 @@ enum class PngTag : uint8_t {
   linear,  ///< chunk gAMA 1.0: codes proportional to light
 };
 
+/// The sRGB value of a linear value in [0, 1] (IEC 61966-2-1), the same bits everywhere: x^(5/12) is the fifth power of
+/// a root that Newton's method finds.
+double srgb_from_linear(double linear);
+
 /// The codes that a PNG holds for an image. This class defines the rule of image_io.h: which transfer function a
 /// channel's values pass, and to how many bits they are rounded.
 class PngCodes {

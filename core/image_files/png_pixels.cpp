@@ -145,7 +145,6 @@ struct Contents {
   uint8_t kind = kRgba;
   size_t code_bytes = 1;  ///< of a channel
   Palette palette;
-  bool palette_has_alpha = false;
   std::vector<uint8_t> rows;  ///< each behind the byte that names its filter
 
   size_t texel_bytes() const { return size_t(channels_of(kind)) * code_bytes; }
@@ -171,7 +170,6 @@ Contents contents_of(const std::string& where, std::span<const uint8_t> bytes, P
     } else if (name == "tRNS" && png.kind != kRgba) {
       if (png.kind != kPalette) throw refused(where, "one of its colours stands for transparency", "write RGBA");
       png.palette.set_alphas(where, data);
-      png.palette_has_alpha = true;
     } else if (name == "IDAT") {
       texels->add(data);
     } else if (name == "IEND") {
@@ -185,22 +183,21 @@ Contents contents_of(const std::string& where, std::span<const uint8_t> bytes, P
 
 }  // namespace
 
-PngPixels png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngDepths depths) {
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngDepths depths) {
   Contents png = contents_of(where, bytes, depths);
-  PngPixels pixels{Image(png.width, png.height, png.code_bytes == 2 ? Format::rgba16 : Format::rgba8),
-                   png.kind == kPalette ? (png.palette_has_alpha ? 4 : 3) : channels_of(png.kind)};
+  Image image(png.width, png.height, png.code_bytes == 2 ? Format::rgba16 : Format::rgba8);
   const size_t row_bytes = png.row_bytes();
   const uint8_t* above = nullptr;
   for (int y = 0; y < png.height; ++y) {
     uint8_t* row = png.rows.data() + size_t(y) * (row_bytes + 1);
     unfilter(where, row[0], row + 1, above, row_bytes, png.texel_bytes());
-    spread(where, png.kind, png.code_bytes, png.palette, row + 1, size_t(png.width), pixels.image.texel(0, y));
+    spread(where, png.kind, png.code_bytes, png.palette, row + 1, size_t(png.width), image.texel(0, y));
     above = row + 1;
   }
-  std::vector<uint8_t>& texels = pixels.image.texels;
+  std::vector<uint8_t>& texels = image.texels;
   if (png.code_bytes == 2)  // the file has the more significant byte first
     for (size_t i = 0; i < texels.size(); i += 2) std::swap(texels[i], texels[i + 1]);
-  return pixels;
+  return image;
 }
 
 }  // namespace trueshade

@@ -50,11 +50,12 @@ bool starts_with(std::span<const uint8_t> bytes, std::string_view magic) {
   return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
 
-std::vector<FilePlane> png_planes(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<NamedImage> png_planes(const std::string& path, std::span<const uint8_t> bytes) {
   const ImageFileInfo header = png_header(path, bytes);
   check_size(path, header.width, header.height, 8);
-  PngPixels pixels = png_pixels(path, bytes, PngDepths::of_8_or_16);
-  return {{{"color", std::move(pixels.image)}, pixels.channels}};
+  std::vector<NamedImage> planes;
+  planes.push_back({"color", png_pixels(path, bytes, PngDepths::of_8_or_16)});
+  return planes;
 }
 
 /// Three channels with an alpha of 1 behind them.
@@ -78,7 +79,7 @@ void check_budget(const std::string& where, int width, int height, uint64_t texe
 }
 
 Image exr_color(const std::string& where, std::span<const uint8_t> content) {
-  for (FilePlane& plane : exr_planes(where, content)) {
+  for (NamedImage& plane : exr_planes(where, content)) {
     if (plane.name != "color") continue;
     return info(plane.image.format).channels == 3 ? with_alpha(plane.image) : std::move(plane.image);
   }
@@ -99,7 +100,7 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
   if (starts_with(content, kPng)) {
     const ImageFileInfo header = png_header(where, content);
     check_budget(where, header.width, header.height, 4, most_bytes);
-    return png_pixels(where, content, PngDepths::of_8).image;
+    return png_pixels(where, content, PngDepths::of_8);
   }
   if (starts_with(content, kJpeg)) {
     const JpegSize size = jpeg_size(where, content);
@@ -112,7 +113,7 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
   return exr_color(where, content);
 }
 
-std::vector<FilePlane> read_planes(const std::string& path) {
+std::vector<NamedImage> read_planes(const std::string& path) {
   const FpScope ieee;
   const std::vector<uint8_t> bytes = read_bytes(path);
   if (starts_with(bytes, kPng)) return png_planes(path, bytes);

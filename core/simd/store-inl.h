@@ -12,6 +12,7 @@
 #include "core/llvmpipe_srgb.h"
 #include "core/numeric_profile.h"
 #include "core/srgb.h"
+#include "core/srgb_codes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -33,7 +34,7 @@ HWY_INLINE VF clamped_unit(VF x) {
 HWY_INLINE VF unorm_code(VF x, float largest) { return hn::Round(hn::Mul(clamped_unit(x), hn::Set(DF(), largest))); }
 HWY_INLINE VF unorm8_code(VF x) { return unorm_code(x, 255.0f); }
 
-/// The nearest sRGB code of a linear value: srgb8_from_linear(). NaN gives 0.
+/// The nearest sRGB code of a linear value: srgb8_code_of(). NaN gives 0.
 HWY_INLINE VF srgb8_code(VF x) {
   using Table = SrgbCodeTable;
   const DF d;

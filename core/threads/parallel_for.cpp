@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "core/fp_env.h"
+#include "core/threads/loop_times.h"
 #include "core/threads/thread_pool.h"
 
 namespace trueshade {

@@ -8,7 +8,7 @@
 
 #include "core/image_rows.h"
 #include "core/threads/parallel_for.h"
-#include "core/srgb.h"
+#include "core/srgb_codes.h"
 #include "shading/output/derived_planes.h"
 #include "shading/output/overlay.h"
 
@@ -87,7 +87,7 @@ std::array<Extent, kChannels> extents(const Image& plane, const Image& object, i
 }
 
 Rgb linear_color(const float* value) {
-  return {srgb8_from_linear(value[0]), srgb8_from_linear(value[1]), srgb8_from_linear(value[2])};
+  return {srgb8_code_of(value[0]), srgb8_code_of(value[1]), srgb8_code_of(value[2])};
 }
 
 Image directions(const Image& normal, const Image& object, int threads) {

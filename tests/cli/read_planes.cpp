@@ -65,7 +65,7 @@ TEST_CASE("planes written to an EXR are read back under their names, bit for bit
       {"uv", pattern(37, 131, Format::rg32f)},          {"id.object", pattern(37, 131, Format::r32ui)},
       {"id.material", pattern(37, 131, Format::r32ui)}, {"light.count", pattern(37, 131, Format::r32ui)}};
   write_image(folder.path("p.exr"), color, planes, {});
-  const std::vector<FilePlane> read = read_planes(folder.path("p.exr"));
+  const std::vector<NamedImage> read = read_planes(folder.path("p.exr"));
   REQUIRE(read.size() == planes.size() + 1);
   CHECK(read[0].name == "color");
   CHECK(read[0].image.texels == color.texels);
@@ -83,7 +83,7 @@ TEST_CASE("a PNG of RGBA is read back code by code, whatever its rows' filters a
   for (int y = 0; y < 67; ++y)  // ramps and noise, so that the writer chooses other filters
     for (int x = 0; x < 61 && y % 3 != 0; ++x) color.texel(x, y)[1] = uint8_t(x * y + y);
   write_image(folder.path("c.png"), color, {}, {});
-  const std::vector<FilePlane> read = read_planes(folder.path("c.png"));
+  const std::vector<NamedImage> read = read_planes(folder.path("c.png"));
   REQUIRE(read.size() == 1);
   CHECK(read[0].name == "color");
   CHECK(read[0].image.texels == color.texels);

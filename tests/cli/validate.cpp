@@ -36,10 +36,12 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 /// c.exr again as `name`, with `change` made to a plane.
 template <typename Change>
 void write_changed(const ScratchFolder& folder, const std::string& name, const std::string& plane, Change change) {
-  std::vector<FilePlane> planes = read_planes(folder.path("c.exr"));
+  std::vector<NamedImage> planes = read_planes(folder.path("c.exr"));
   for (NamedImage& p : planes)
     if (p.name == plane) change(p.image);
-  write_image(folder.path(name), planes.front().image, std::vector<NamedImage>(planes.begin() + 1, planes.end()), {});
+  const NamedImage color = planes.front();
+  planes.erase(planes.begin());
+  write_image(folder.path(name), color.image, planes, {});
 }
 
 void set_float(Image& image, int x, int y, int channel, float value) {
@@ -273,7 +275,7 @@ TEST_CASE("one wrong value in a capture is found at its pixel") {
   check_found({"--gbuffer", "normal.exr"}, "90,60      VIOLATION");
   write_changed(folder, "depth.exr", "depth", [](Image& i) { set_float(i, 80, 50, 0, 0.5f); });
   check_found({"--gbuffer", "depth.exr", "-o", "v.html"}, "80,50      VIOLATION  depth");
-  std::vector<FilePlane> picture = read_planes(folder.path("c.png"));
+  std::vector<NamedImage> picture = read_planes(folder.path("c.png"));
   for (int k = 0; k < 3; ++k) picture[0].image.texel(120, 80)[k] = 0;
   write_image(folder.path("hole.png"), picture[0].image, {}, {});
   check_found({"--gbuffer", "c.exr", "--image", "hole.png"}, "120,80     VIOLATION  color");
@@ -283,7 +285,7 @@ TEST_CASE("one wrong value in a capture is found at its pixel") {
 TEST_CASE("captures that cannot be judged are refused, and nothing is left behind") {
   const ScratchFolder folder;
   write_capture(folder);
-  const std::vector<FilePlane> planes = read_planes(folder.path("c.exr"));
+  const std::vector<NamedImage> planes = read_planes(folder.path("c.exr"));
   write_image(folder.path("bare.exr"), planes[0].image, {{planes[1]}}, {});  // the target and depth alone
   write_image(folder.path("small.png"), Image(20, 15, Format::rgba8), {}, {});
   write_changed(folder, "grey.exr", "albedo", [](Image& i) { set_float(i, 3, 4, 0, 0.5f); });  // between two codes
