@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/simd/simd_target.h"
-#include "core/threads/loop_times.h"
 #include "core/threads/parallel_for.h"
 #include "raster/clusters/clusters.h"
 #include "raster/view.h"

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
-#include <utility>
 
 #include "core/fp_env.h"
-#include "core/threads/loop_times.h"
 #include "core/threads/thread_pool.h"
 
 namespace trueshade {

@@ -1,12 +1,14 @@
 #pragma once
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace trueshade {
 
 /// Threads that `requested` stands for: 0 is one a core.
 int thread_count(int requested);
 
-/// The body of a loop: any function object that takes an int. The loop borrows it.
+/// What is called for each task of a loop: any function object that takes an int, not owned.
 class TaskRef {
  public:
   template <class Body>
@@ -19,12 +21,33 @@ class TaskRef {
   void (*call_)(const void*, int);
 };
 
-/// Calls body(i) for i in [0, count) on `threads` threads (0: one a core). Tasks start in the order of i, each under
-/// FpScope. The first exception of a body ends the loop and reaches the caller.
+/// A parallel_for() that is over.
+struct ParallelLoop {
+  double most_core_ms;  ///< its wall time on each thread that it could use
+  int tasks;
+};
+
+/// For its lifetime notes the parallel_for()s that this thread calls.
+class LoopTimes {
+ public:
+  LoopTimes();
+  ~LoopTimes();
+  LoopTimes(const LoopTimes&) = delete;
+  LoopTimes& operator=(const LoopTimes&) = delete;
+  const std::vector<ParallelLoop>& loops() const { return loops_; }
+
+ private:
+  friend void parallel_for(int count, int threads, TaskRef body);
+  std::vector<ParallelLoop> loops_;
+  LoopTimes* outer_;
+};
+
+/// Calls body(i) for i in [0, count), on `threads` threads (0: one a core), each under FpScope, started in this order.
+/// The first exception of a body reaches the caller.
 void parallel_for(int count, int threads, TaskRef body);
 
-/// Wakes the threads that coming loops will share. Waking takes a twentieth of a millisecond, which the caller can
-/// spend on work that it does alone.
+/// Wakes the threads that loops are about to be shared with: that takes a twentieth of a millisecond, in which this
+/// thread can do what it does alone.
 void wake_threads(int threads);
 
 }  // namespace trueshade

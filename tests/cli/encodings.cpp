@@ -239,7 +239,7 @@ TEST_CASE("threads change no byte of a file") {
 TEST_CASE("files of every size are read back whole, noise and flat colour alike") {
   const ScratchFolder folder;
   uint32_t random = 1;
-  for (const auto [width, height] : {std::pair{1, 1}, {1, 17}, {3, 16}, {257, 1}, {640, 33}})
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {3, 16}, {257, 1}, {640, 33}})
     for (const bool noise : {false, true}) {
       Image image(width, height, Format::rgba32f), codes(width, height, Format::rgba8);
       for (size_t i = 0; i < image.texels.size(); ++i) {

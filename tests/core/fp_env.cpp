@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/threads/loop_times.h"
 #include "core/threads/parallel_for.h"
 
 #if defined(__x86_64__)
