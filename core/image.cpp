@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/fp_env.h"
 #include "core/half.h"
 #include "core/image_rows.h"
 #include "core/sha256.h"
@@ -88,6 +89,11 @@ void Image::set_code(int x, int y, int channel, uint32_t bits) {
   std::memcpy(texel(x, y), &word, sizeof word);
 }
 
+double Image::value(int x, int y, int channel) const {
+  const FpScope fp;
+  return value_of_code(info(format), channel, code(x, y, channel));
+}
+
 double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
   if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[code]);
   if (layout.number_class == NumberClass::unorm) return double(float(code) / float(layout.largest_code(channel)));
@@ -102,11 +108,8 @@ double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
   }
 }
 
-double Image::value(int x, int y, int channel) const {
-  return value_of_code(info(format), channel, code(x, y, channel));
-}
-
 std::string image_hash(const Image& image) {
+  const FpScope fp;
   const FormatInfo layout = info(image.format);
   Sha256 hash;
   if (layout.number_class != NumberClass::floating) {

@@ -57,7 +57,7 @@ void read_row(const Image& image, int y, int channels, float* out) {
     return read_codes<uint16_t>(
         image, y, channels, [](uint16_t code, int) { return float(code) / 65535.0f; }, out);
   for (int x = 0; x < image.width; ++x)
-    for (int c = 0; c < channels; ++c) out[channels * x + c] = float(image.value(x, y, c));
+    for (int c = 0; c < channels; ++c) out[channels * x + c] = float(value_of_code(layout, c, image.code(x, y, c)));
 }
 
 void read_row(const Image& image, int y, uint32_t* out) {

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/fp_env.h"
 #include "core/image_files/image_io.h"
 
 namespace trueshade {
@@ -162,7 +163,12 @@ class Temporary {
 
 }  // namespace
 
+<<<<<<< HEAD
 void write_file(const std::string& path, const FilePieces& pieces) {
+=======
+void write_file(const std::string& path, std::span<const uint8_t> bytes) {
+  const FpScope fp;
+>>>>>>> main
   const Destination to = destination_of(path);
   if (to.stream) return write_stream(to.path, pieces);
   Temporary file(to.path);
@@ -173,6 +179,7 @@ void write_file(const std::string& path, const FilePieces& pieces) {
 void write_file(const std::string& path, std::span<const uint8_t> bytes) { write_file(path, FilePieces{{bytes}}); }
 
 void check_writable(const std::string& path) {
+  const FpScope fp;
   const Destination to = destination_of(path);
   if (!to.stream) const Temporary file(to.path);
 }
