@@ -163,12 +163,8 @@ class Temporary {
 
 }  // namespace
 
-<<<<<<< HEAD
 void write_file(const std::string& path, const FilePieces& pieces) {
-=======
-void write_file(const std::string& path, std::span<const uint8_t> bytes) {
   const FpScope fp;
->>>>>>> main
   const Destination to = destination_of(path);
   if (to.stream) return write_stream(to.path, pieces);
   Temporary file(to.path);
