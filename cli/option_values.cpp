@@ -186,6 +186,12 @@ Variant variant_from_text(const std::string& text) {
   return v;
 }
 
+PngEncoding encoding_from_text(const std::string& text) {
+  if (text == "srgb") return PngEncoding::srgb;
+  if (text == "raw") return PngEncoding::raw;
+  throw usage("--encode", "there is no encoding '" + text + "'", "one of: srgb raw");
+}
+
 void check_preset(const std::optional<std::string>& preset) {
   if (preset && !preset_pipeline(*preset))
     throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");

@@ -18,6 +18,7 @@ FrameRange frames_from_text(const std::string& text);
 NumericProfile profile_from_text(const std::string& text);
 ImageView view_from_text(const std::string& option, const std::string& text);
 Format target_from_text(const std::string& option, const std::string& text);
+PngEncoding encoding_from_text(const std::string& text);
 Strategy strategy_from_text(const std::string& option, const std::string& text);
 /// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
 std::vector<std::string> aovs_from_text(const std::string& option, const std::string& list);

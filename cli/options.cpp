@@ -23,19 +23,23 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
 
 void check_outputs(const RenderOptions& options) {
   check_named_once("-o", options.outputs);
-  bool exr = false;
+  bool exr = false, png = false;
   for (const std::string& path : options.outputs) {
     exr = exr || path.ends_with(".exr");
+    png = png || path.ends_with(".png");
     if (!path.ends_with(".png") && !path.ends_with(".exr") && !path.ends_with(".html"))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
   }
   if (!options.aovs.empty() && !exr && !options.json)
     throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
+  if (options.encode && !png)
+    throw usage("--encode", "it says how a PNG stores the picture, and an EXR holds the target's values",
+                "add -o FILE.png");
 }
 
 /// Option values as text, read by us so that every error is of one form.
 struct RenderTexts {
-  std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, threads, tile;
+  std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, encode, threads, tile;
   bool no_light_culling = false;
 };
 
@@ -69,6 +73,9 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   render->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + plane_names());
+  render->add_option("--encode", texts.encode,
+                     "Codes of a PNG. srgb: values taken as linear light and sRGB-encoded; raw: values as they are, "
+                     "tagged gAMA 1.0; without it fixed-point targets as they are, floats sRGB-encoded");
   render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
   render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
@@ -91,6 +98,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.view) options.view = view_from_text("--view", *texts.view);
+  if (texts.encode) options.encode = encoding_from_text(*texts.encode);
   if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);

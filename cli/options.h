@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/image_files/image_io.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -34,7 +35,8 @@ struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name()
   double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
-  std::vector<std::string> aovs;  ///< planes for .exr outputs, each is_aov_name()
+  std::optional<PngEncoding> encode;  ///< of .png outputs; nothing: as the target's values are
+  std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
+#include "cli/picture_encoding.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
@@ -53,15 +54,15 @@ void draw(const RenderOptions& options, const PreparedScene& prepared, RenderedF
   std::sort(result.repeated_ms.begin(), result.repeated_ms.end());
 }
 
-void write_outputs(const std::vector<std::string>& paths, size_t aovs, const RenderedFrame& result) {
-  const std::span<const NamedImage> asked_for(result.frame.aovs.data(), aovs);
+void write_outputs(const RenderOptions& options, const std::vector<std::string>& paths, const RenderedFrame& result) {
+  const std::span<const NamedImage> asked_for(result.frame.aovs.data(), options.aovs.size());
   const Metadata metadata = metadata_of(result);
   for (const std::string& path : paths) {
     if (is_report(path)) {
       const std::string page = report_page(result);
       write_file(path, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
     } else {
-      write_image(path, result.frame.color, asked_for, metadata);
+      write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
   }
 }
@@ -72,7 +73,7 @@ std::string render_one(const RenderOptions& options, const std::vector<std::stri
   draw(options, prepared, result);
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
-  write_outputs(paths, options.aovs.size(), result);
+  write_outputs(options, paths, result);
   if (options.json) return json_of(result, paths);
   if (options.hash) print(hash_line(result));
   if (options.stats) print(stats_text(result));
@@ -103,6 +104,8 @@ void render(const RenderOptions& options) {
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   const Pipeline pipeline = pipeline_of(options, scene);
+  if (const std::string note = encoding_note(options, pipeline); !note.empty())
+    std::fprintf(stderr, "trueshade: note: %s\n", note.c_str());
   if (options.frames) return render_frames(options, scene, pipeline);
   set_time(scene, options.time);
   RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/half.h"
+#include "core/srgb.h"
 
 namespace trueshade {
 namespace {
@@ -49,6 +50,12 @@ void read_row(const Image& image, int y, int channels, float* out) {
     return read_codes<uint8_t>(
         image, y, channels, [](uint8_t code, int) { return kOfCode[code]; }, out);
   }
+  if (layout.bytes_per_channel == 1)
+    return read_codes<uint8_t>(
+        image, y, channels, [](uint8_t code, int c) { return c < 3 ? kLinearOfSrgb8[code] : kOfCode[code]; }, out);
+  if (layout.bytes_per_channel == 2)
+    return read_codes<uint16_t>(
+        image, y, channels, [](uint16_t code, int) { return float(code) / 65535.0f; }, out);
   for (int x = 0; x < image.width; ++x)
     for (int c = 0; c < channels; ++c) out[channels * x + c] = float(value_of_code(layout, c, image.code(x, y, c)));
 }

@@ -10,23 +10,50 @@ namespace trueshade {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;  ///< key, value; keys like `trueshade:imageHash`
 
+/// What the numbers of a picture stand for.
+enum class PictureValues : uint8_t {
+  of_target,      ///< fixed point: display codes, as OpenGL presents them on a screen; floats: linear light
+  display_codes,  ///< display codes in any format: views, and pictures that a post chain has encoded
+};
+
+/// How a PNG stores a picture's values. Display codes in any format (PictureValues) are stored as they are.
+enum class PngEncoding : uint8_t {
+  by_values,  ///< display codes as they are, linear light sRGB-encoded
+  srgb,       ///< the values of every target taken as linear light, and sRGB-encoded
+  raw,        ///< the values as they are, without a transfer function
+};
+
+struct ImageFileOptions {
+  PictureValues values = PictureValues::of_target;
+  PngEncoding encoding = PngEncoding::by_values;
+  int threads = 0;  ///< 0: one a core. Never changes a byte.
+};
+
 /// Writes one picture; the ending of `path` (.png, .exr) chooses the file format. The file appears whole or not at all:
-/// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io) or Error(usage) for an ending.
-///   PNG: unorm codes as they are, rgba16 in 16 bits, rgb10_a2 widened to 16 (RN(k * 65535 / 1023)); float formats
-///        sRGB-encoded (IEC 61966-2-1) to 8 bits; alpha unassociated, and none where the format has none.
+/// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io), and Error(usage) for an ending
+/// or for names that the file format cannot hold.
+///   PNG: 8 bits a channel, 16 where the target has 10 or 16; codes that need no encoding are stored as they are, those
+///        of 10 bits widened (RN(k * 65535 / 1023)); colours that do are sRGB-encoded (IEC 61966-2-1) or, raw, rounded to
+///        the nearest code. Alpha is linear and unassociated, and there is none where the format has none. Display codes
+///        are tagged by the chunks sRGB and gAMA 1/2.2, raw values by gAMA 1.0. `aovs` are ignored.
 ///   EXR: single part, ZIP; `color` as R G B A (halves and smaller floats as half, unorm as float RN(k/largest), sRGB
 ///        decoded to linear); each aov under its channel names (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X..,
-///        id.object, ...); PNG ignores `aovs`.
-/// Date and software fields are constant, so equal images are equal files.
+///        id.object, ...). `oiio:ColorSpace` is `sRGB` where `color` holds display codes, else `Linear`; values are
+///        those of the target under every PngEncoding, and planes are data.
+/// Nothing of the clock or the machine is in a file, so equal images are equal files.
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
-                 const Metadata& metadata);
+                 const Metadata& metadata, const ImageFileOptions& options = {});
 
 /// The bytes write_image would write to a .png.
-std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata);
+std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, const ImageFileOptions& options = {});
 
 /// Writes bytes to `path` whole or not at all (temporary, fsync, rename); what a link leads to is written, not the
 /// link. Devices and pipes get the bytes. Error(io); also for folders and whatever else is neither.
 void write_file(const std::string& path, std::span<const uint8_t> bytes);
+
+/// The same for bytes in pieces that follow each other.
+using FilePieces = std::vector<std::span<const uint8_t>>;
+void write_file(const std::string& path, const FilePieces& pieces);
 
 /// Error(io) where write_file() could not begin, so that hours of work do not end in a file that was never there.
 /// Writing may fail later for other reasons.
@@ -38,7 +65,8 @@ struct ImageFileInfo {
   Metadata metadata;
 };
 
-/// Header of a PNG or EXR file. Error(io) if it cannot be read, Error(bad_input) if it is neither.
+/// Header of a PNG or EXR file. `oiio:ColorSpace` says what its colours are tagged as: `sRGB`, `Linear`, `gamma 1/2.2`;
+/// an untagged PNG has none. Error(io) if it cannot be read, Error(bad_input) if it is neither.
 ImageFileInfo read_image_info(const std::string& path);
 
 /// Texels of a picture's content: PNG (8 bits a channel) and JPEG as rgba8, EXR (R, G, B, perhaps A) as rgba16f or
@@ -49,9 +77,11 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
-/// where a plane has so few components; halves of those are widened), RGBA of 8 or 16 bits of a PNG. Memory grows with
-/// the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels, tiles, parts, crops, no
-/// plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be read.
+/// where a plane has so few components; halves of those are widened). A PNG is rgba8 or rgba16, as its channels have 8 or
+/// 16 bits: codes as they are stored, whatever they are tagged as; grey spread over R, G and B; alpha 1 where there is
+/// none, which read_image_info() tells. Memory grows with the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels,
+/// tiles, parts, crops, no plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be
+/// read.
 std::vector<NamedImage> read_planes(const std::string& path);
 
 }  // namespace trueshade

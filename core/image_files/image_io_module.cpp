@@ -2,7 +2,6 @@
 
 /// The module's only export (core/image_files/image_io_table.h).
 extern "C" __attribute__((visibility("default"))) const trueshade::ImageIoTable* trueshade_image_io_table() {
-  static const trueshade::ImageIoTable table{trueshade::write_image, trueshade::encode_png, trueshade::decode_image,
-                                             trueshade::read_image_info, trueshade::read_planes};
+  static const trueshade::ImageIoTable table{trueshade::exr_header, trueshade::exr_planes, trueshade::jpeg_pixels};
   return &table;
 }

@@ -1,5 +1,5 @@
-// core/image_files/image_io.h for programs that load OpenImageIO only when they need it: the module is looked for beside the
-// program, then where `cmake --install` puts it.
+// The reading of EXR and JPEG files for programs that load OpenImageIO only when they need it. The module is looked for
+// beside the program, then where `cmake --install` puts it.
 #include <dlfcn.h>
 
 #include <filesystem>
@@ -39,21 +39,16 @@ const ImageIoTable& table() {
 
 }  // namespace
 
-void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
-                 const Metadata& metadata) {
-  table().write_image(path, color, aovs, metadata);
+ImageFileInfo exr_header(const std::string& path, std::span<const uint8_t> bytes) {
+  return table().exr_header(path, bytes);
 }
 
-std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata) {
-  return table().encode_png(color, metadata);
+std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint8_t> bytes) {
+  return table().exr_planes(path, bytes);
 }
 
-Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
-  return table().decode_image(content, where, most_bytes);
+Image jpeg_pixels(const std::string& where, std::span<const uint8_t> bytes) {
+  return table().jpeg_pixels(where, bytes);
 }
-
-ImageFileInfo read_image_info(const std::string& path) { return table().read_image_info(path); }
-
-std::vector<NamedImage> read_planes(const std::string& path) { return table().read_planes(path); }
 
 }  // namespace trueshade

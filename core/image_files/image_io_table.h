@@ -1,16 +1,15 @@
 #pragma once
-// The functions of core/image_files/image_io.h that need OpenImageIO, as a table that a module hands out. Programs that may end
-// without touching an image file load the module when they first do: OpenImageIO costs every start 0.3 s and 130 MB.
-#include "core/image_files/image_io.h"
+// The functions that need OpenImageIO, as a table that a module hands out. A program that may end without reading an EXR
+// or a JPEG loads the module when it first does: OpenImageIO costs every start 0.3 s and 130 MB.
+#include "core/image_files/exr_planes.h"
+#include "core/image_files/jpeg_pixels.h"
 
 namespace trueshade {
 
 struct ImageIoTable {
-  decltype(&trueshade::write_image) write_image;
-  decltype(&trueshade::encode_png) encode_png;
-  decltype(&trueshade::decode_image) decode_image;
-  decltype(&trueshade::read_image_info) read_image_info;
-  decltype(&trueshade::read_planes) read_planes;
+  decltype(&trueshade::exr_header) exr_header;
+  decltype(&trueshade::exr_planes) exr_planes;
+  decltype(&trueshade::jpeg_pixels) jpeg_pixels;
 };
 
 /// What the module exports under this name.

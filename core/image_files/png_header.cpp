@@ -2,6 +2,9 @@
 #include "core/image_files/png_header.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -41,6 +44,28 @@ void read_size_and_channels(std::span<const uint8_t> data, ImageFileInfo& header
   for (const char name : names) header.channels.push_back(name + depth);
 }
 
+/// Keyword and text of an iTXt that is not compressed.
+std::optional<Metadata::value_type> international_text(std::span<const uint8_t> data) {
+  const auto zero = [&](size_t from) {
+    return size_t(std::find(data.begin() + std::ptrdiff_t(std::min(from, data.size())), data.end(), uint8_t(0)) -
+                  data.begin());
+  };
+  const size_t key_end = zero(0), language_end = zero(key_end + 3), translation_end = zero(language_end + 1);
+  if (translation_end >= data.size() || data[key_end + 1] != 0) return std::nullopt;
+  return Metadata::value_type(text_of(data.first(key_end)), text_of(data.subspan(translation_end + 1)));
+}
+
+/// What a gAMA chunk says of the codes, where no sRGB chunk says more.
+void add_gamma(uint32_t gamma, ImageFileInfo& header) {
+  constexpr uint32_t kOne = 100000;
+  const bool tagged = std::any_of(header.metadata.begin(), header.metadata.end(),
+                                  [](const auto& entry) { return entry.first == "oiio:ColorSpace"; });
+  if (gamma == 0 || tagged) return;
+  std::ostringstream power;
+  power << "gamma 1/" << double(kOne) / double(gamma);
+  header.metadata.emplace_back("oiio:ColorSpace", gamma == kOne ? "Linear" : power.str());
+}
+
 }  // namespace
 
 ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> bytes) {
@@ -48,6 +73,7 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
     return Error(ErrorKind::bad_input, where + ": byte " + std::to_string(at), reason, "write the file again");
   };
   ImageFileInfo header;
+  uint32_t gamma = 0;
   for (size_t at = kSignatureBytes;;) {
     if (bytes.size() - std::min(at, bytes.size()) < kChunkOverhead) throw refuse(at, "the PNG ends before its IEND");
     const size_t length = word_at(bytes, at);
@@ -63,7 +89,14 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
       const auto key_end = std::find(data.begin(), data.end(), uint8_t(0));
       if (key_end == data.end()) throw refuse(at, "a tEXt chunk has no end of its keyword");
       header.metadata.emplace_back(std::string(data.begin(), key_end), std::string(key_end + 1, data.end()));
+    } else if (type == "iTXt") {
+      if (const auto text = international_text(data)) header.metadata.push_back(*text);
+    } else if (type == "sRGB") {
+      header.metadata.emplace_back("oiio:ColorSpace", "sRGB");
+    } else if (type == "gAMA" && length == 4) {
+      gamma = word_at(data, 0);
     } else if (type == "IEND") {
+      add_gamma(gamma, header);
       return header;
     }
     at += length + kChunkOverhead;

@@ -89,13 +89,15 @@ void unfilter(const std::string& where, uint8_t filter, uint8_t* row, const uint
 
 enum Kind : uint8_t { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6 };  // PNG's colour types
 
-size_t texel_bytes(uint8_t kind) { return kind == kRgba ? 4 : kind == kRgb ? 3 : kind == kGreyAlpha ? 2 : 1; }
+/// Channels of a texel in the file; of a palette the index.
+int channels_of(uint8_t kind) { return kind == kRgba ? 4 : kind == kRgb ? 3 : kind == kGreyAlpha ? 2 : 1; }
 
-void check_kind(const std::string& where, std::span<const uint8_t> header, PngKinds kinds) {
-  if (kinds == PngKinds::rgba && ((header[8] != 8 && header[8] != 16) || header[9] != kRgba))
-    throw refused(where, "its texels are not RGBA of 8 or 16 bits", "write RGBA: alpha is judged too");
-  if (kinds == PngKinds::any && header[8] != 8)
+void check_kind(const std::string& where, std::span<const uint8_t> header, PngDepths depths) {
+  const int bits = header[8];
+  if (depths == PngDepths::of_8 && bits != 8)
     throw refused(where, "its channels are not of 8 bits", "write 8 bits a channel");
+  if (bits != 8 && (bits != 16 || header[9] == kPalette))
+    throw refused(where, "its channels are not of 8 or 16 bits", "write 8 or 16 bits a channel");
   if (header[10] != 0 || header[11] != 0 || header[12] != 0)
     throw refused(where, "it is interlaced, or compressed in an unknown way", "write it without interlacing");
 }
@@ -118,32 +120,40 @@ struct Palette {
   }
 };
 
-/// A row of any kind as RGBA: grey spread over R, G and B, alpha 255 where there is none.
-void spread(const std::string& where, uint8_t kind, const Palette& palette, const uint8_t* row, size_t width,
-            uint8_t* out) {
-  const size_t from = texel_bytes(kind);
-  for (size_t x = 0; x < width; ++x) {
-    const uint8_t* texel = row + x * from;
-    uint8_t* rgba = out + 4 * x;
+/// A row of any kind as RGBA: grey spread over R, G and B, the largest alpha where there is none.
+void spread(const std::string& where, uint8_t kind, size_t code_bytes, const Palette& palette, const uint8_t* row,
+            size_t width, uint8_t* out) {
+  const size_t channels = size_t(channels_of(kind));
+  const bool color = kind == kRgb || kind == kRgba, alpha = kind == kRgba || kind == kGreyAlpha;
+  for (size_t x = 0; x < width; ++x, row += channels * code_bytes, out += 4 * code_bytes) {
     if (kind == kPalette) {
-      if (*texel >= palette.size) throw refused(where, "a texel is beyond its palette");
-      std::copy_n(palette.rgba[*texel], 4, rgba);
+      if (*row >= palette.size) throw refused(where, "a texel is beyond its palette");
+      std::copy_n(palette.rgba[*row], 4, out);
       continue;
     }
-    const bool color = kind == kRgb || kind == kRgba;
-    for (size_t c = 0; c < 3; ++c) rgba[c] = texel[color ? c : 0];
-    rgba[3] = kind == kRgba || kind == kGreyAlpha ? texel[from - 1] : 255;
+    for (size_t c = 0; c < 3; ++c) std::copy_n(row + (color ? c * code_bytes : 0), code_bytes, out + c * code_bytes);
+    if (alpha)
+      std::copy_n(row + (channels - 1) * code_bytes, code_bytes, out + 3 * code_bytes);
+    else
+      std::fill_n(out + 3 * code_bytes, code_bytes, uint8_t(255));
   }
 }
 
-}  // namespace
-
-Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKinds kinds) {
-  std::unique_ptr<Inflater> texels;
-  Palette palette;
-  Image image;
+/// What the chunks of a PNG hold.
+struct Contents {
+  int width = 0, height = 0;
   uint8_t kind = kRgba;
-  size_t texel = 0;  // bytes, in the file
+  size_t code_bytes = 1;  ///< of a channel
+  Palette palette;
+  std::vector<uint8_t> rows;  ///< each behind the byte that names its filter
+
+  size_t texel_bytes() const { return size_t(channels_of(kind)) * code_bytes; }
+  size_t row_bytes() const { return size_t(width) * texel_bytes(); }
+};
+
+Contents contents_of(const std::string& where, std::span<const uint8_t> bytes, PngDepths depths) {
+  std::unique_ptr<Inflater> texels;
+  Contents png;
   for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
     const size_t length = word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
@@ -151,16 +161,15 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKi
       throw refused(where, "a checksum of it is wrong");
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
-      check_kind(where, data, kinds);
-      kind = data[9], texel = texel_bytes(kind) * data[8] / 8;
-      image.format = data[8] == 16 ? Format::rgba16 : Format::rgba8;
-      image.width = int(word_at(data, 0)), image.height = int(word_at(data, 4));
-      texels = std::make_unique<Inflater>(where, (size_t(image.width) * texel + 1) * size_t(image.height));
-    } else if (name == "PLTE" && kind == kPalette) {
-      palette.set_colors(where, data);
-    } else if (name == "tRNS" && kind != kRgba) {
-      if (kind != kPalette) throw refused(where, "one of its colours stands for transparency", "write RGBA");
-      palette.set_alphas(where, data);
+      check_kind(where, data, depths);
+      png.kind = data[9], png.code_bytes = data[8] / 8;
+      png.width = int(word_at(data, 0)), png.height = int(word_at(data, 4));
+      texels = std::make_unique<Inflater>(where, (png.row_bytes() + 1) * size_t(png.height));
+    } else if (name == "PLTE" && png.kind == kPalette) {
+      png.palette.set_colors(where, data);
+    } else if (name == "tRNS" && png.kind != kRgba) {
+      if (png.kind != kPalette) throw refused(where, "one of its colours stands for transparency", "write RGBA");
+      png.palette.set_alphas(where, data);
     } else if (name == "IDAT") {
       texels->add(data);
     } else if (name == "IEND") {
@@ -168,21 +177,26 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngKi
     }
     at += length + kChunkOverhead;
   }
-  std::vector<uint8_t> rows = texels->finish();
-  image.texels.resize(image.row_bytes() * size_t(image.height));
-  const size_t row_bytes = size_t(image.width) * texel;
+  png.rows = texels->finish();
+  return png;
+}
+
+}  // namespace
+
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes, PngDepths depths) {
+  Contents png = contents_of(where, bytes, depths);
+  Image image(png.width, png.height, png.code_bytes == 2 ? Format::rgba16 : Format::rgba8);
+  const size_t row_bytes = png.row_bytes();
   const uint8_t* above = nullptr;
-  for (int y = 0; y < image.height; ++y) {
-    uint8_t* row = rows.data() + size_t(y) * (row_bytes + 1);
-    unfilter(where, row[0], row + 1, above, row_bytes, texel);
-    if (image.format == Format::rgba8)
-      spread(where, kind, palette, row + 1, size_t(image.width), image.texel(0, y));
-    else
-      std::copy(row + 1, row + 1 + row_bytes, image.texel(0, y));
+  for (int y = 0; y < png.height; ++y) {
+    uint8_t* row = png.rows.data() + size_t(y) * (row_bytes + 1);
+    unfilter(where, row[0], row + 1, above, row_bytes, png.texel_bytes());
+    spread(where, png.kind, png.code_bytes, png.palette, row + 1, size_t(png.width), image.texel(0, y));
     above = row + 1;
   }
-  if (image.format == Format::rgba16)  // most significant byte first, in the file
-    for (size_t i = 0; i < image.texels.size(); i += 2) std::swap(image.texels[i], image.texels[i + 1]);
+  std::vector<uint8_t>& texels = image.texels;
+  if (png.code_bytes == 2)  // the file has the more significant byte first
+    for (size_t i = 0; i < texels.size(); i += 2) std::swap(texels[i], texels[i + 1]);
   return image;
 }
 

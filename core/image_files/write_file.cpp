@@ -6,6 +6,7 @@
 #include <climits>
 #include <cstdio>
 #include <cstring>
+#include <span>
 
 #include "core/error.h"
 #include "core/fp_env.h"
@@ -94,13 +95,13 @@ void write_bytes(int descriptor, const std::string& path, std::span<const uint8_
   }
 }
 
-void write_stream(const std::string& path, std::span<const uint8_t> bytes) {
+void write_stream(const std::string& path, const FilePieces& pieces) {
   struct Stream {
     int descriptor;
     ~Stream() { close(descriptor); }
   } stream{open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
   if (stream.descriptor < 0) fail(path, "open", errno);
-  write_bytes(stream.descriptor, path, bytes);
+  for (const std::span<const uint8_t> piece : pieces) write_bytes(stream.descriptor, path, piece);
 }
 
 /// A file in the folder of `path`, without a name where the file system can do that, so that not even a killed process
@@ -122,7 +123,9 @@ class Temporary {
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
 
-  void write_all(std::span<const uint8_t> bytes) { write_bytes(descriptor_, path_, bytes); }
+  void write_all(const FilePieces& pieces) {
+    for (const std::span<const uint8_t> piece : pieces) write_bytes(descriptor_, path_, piece);
+  }
 
   /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
   void take_name() {
@@ -160,14 +163,16 @@ class Temporary {
 
 }  // namespace
 
-void write_file(const std::string& path, std::span<const uint8_t> bytes) {
+void write_file(const std::string& path, const FilePieces& pieces) {
   const FpScope fp;
   const Destination to = destination_of(path);
-  if (to.stream) return write_stream(to.path, bytes);
+  if (to.stream) return write_stream(to.path, pieces);
   Temporary file(to.path);
-  file.write_all(bytes);
+  file.write_all(pieces);
   file.take_name();
 }
+
+void write_file(const std::string& path, std::span<const uint8_t> bytes) { write_file(path, FilePieces{{bytes}}); }
 
 void check_writable(const std::string& path) {
   const FpScope fp;

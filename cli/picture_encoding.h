@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "cli/options.h"
+#include "core/image_files/image_io.h"
+
+namespace trueshade {
+
+/// How files of a picture of that pipeline are written. Views, and pictures that the post chain has encoded, hold display
+/// codes already.
+ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipeline);
+
+/// Says that PNGs of a float target are sRGB-encoded, where no option asked for an encoding. Empty where that is not so.
+std::string encoding_note(const RenderOptions& options, const Pipeline& pipeline);
+
+}  // namespace trueshade

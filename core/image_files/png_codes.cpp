@@ -1,0 +1,117 @@
+#include "core/image_files/png_codes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "core/image_rows.h"
+#include "core/srgb_codes.h"
+
+namespace trueshade {
+namespace {
+
+constexpr int kMostTableBits = 16;
+
+template <typename Word>
+void read_words(const uint8_t* row, std::vector<uint32_t>& stored) {
+  for (uint32_t& bits : stored) {
+    Word word;
+    std::memcpy(&word, row, sizeof word);
+    bits = word;
+    row += sizeof word;
+  }
+}
+
+/// Bits of each channel of a row, pixel after pixel.
+void read_stored(const Image& image, int y, std::vector<uint32_t>& stored) {
+  const FormatInfo layout = info(image.format);
+  const uint8_t* const row = image.texel(0, y);
+  if (layout.bytes_per_channel == 1) return read_words<uint8_t>(row, stored);
+  if (layout.bytes_per_channel == 2) return read_words<uint16_t>(row, stored);
+  if (layout.bytes_per_channel == 4) return read_words<uint32_t>(row, stored);
+  uint32_t* out = stored.data();
+  for (int x = 0; x < image.width; ++x)
+    for (int channel = 0; channel < layout.channels; ++channel) *out++ = image.code(x, y, channel);
+}
+
+}  // namespace
+
+double srgb_from_linear(double linear) {
+  if (linear <= 0.0031308) return linear * 12.92;
+  double root = 1.0;
+  for (double last = 2.0; root < last;) {  // falls until rounding stops it
+    const double square = root * root, third = square * root, sixth = third * third;
+    last = root;
+    root = (11.0 * root + linear / (sixth * third * square)) / 12.0;
+  }
+  return 1.055 * (root * root * root * root * root) - 0.055;
+}
+
+PngCodes::PngCodes(const Image& image, const ImageFileOptions& options)
+    : image_(image),
+      layout_(info(image.format)),
+      channels_(layout_.channels),
+      bits_(layout_.number_class == NumberClass::unorm && layout_.bits[0] > 8 ? 16 : 8),
+      transfer_(transfer_of(layout_, options)),
+      tag_(options.encoding == PngEncoding::raw && options.values == PictureValues::of_target ? PngTag::linear
+                                                                                               : PngTag::srgb),
+      as_stored_(transfer_ == Transfer::stored_code && layout_.bytes_per_channel == 1) {
+  assert(layout_.number_class != NumberClass::integer);
+  if (as_stored_ || layout_.bits[0] > kMostTableBits) return;
+  for (int channel = 0; channel < channels_; ++channel) of_stored_.push_back(table_of(channel));
+}
+
+PngCodes::Transfer PngCodes::transfer_of(const FormatInfo& layout, const ImageFileOptions& options) {
+  const bool fixed_point = layout.number_class == NumberClass::unorm;
+  const bool are_codes = options.values == PictureValues::display_codes;
+  if (are_codes || options.encoding == PngEncoding::by_values) {
+    if (fixed_point) return Transfer::stored_code;
+    return are_codes ? Transfer::none : Transfer::srgb;
+  }
+  if (options.encoding == PngEncoding::raw) return fixed_point && !layout.srgb ? Transfer::stored_code : Transfer::none;
+  return layout.srgb ? Transfer::stored_code : Transfer::srgb;  // sRGB's own codes are what encoding would give
+}
+
+/// The nearest code, to even between two; NaN gives 0.
+uint16_t PngCodes::code_of_value(float value, Transfer transfer) const {
+  const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+  if (bits_ == 8 && transfer == Transfer::srgb) return srgb8_code_of(clamped);
+  if (bits_ == 8) return uint16_t(std::nearbyint(255.0f * clamped));
+  const double coded = transfer == Transfer::srgb ? srgb_from_linear(double(clamped)) : double(clamped);
+  return uint16_t(std::nearbyint(65535.0 * coded));
+}
+
+uint16_t PngCodes::code_of_stored(uint32_t stored, int channel) const {
+  const bool alpha = channel == 3, tabulated = layout_.bits[size_t(channel)] <= kMostTableBits;
+  if (tabulated && layout_.number_class == NumberClass::unorm && (alpha || transfer_ == Transfer::stored_code)) {
+    const uint32_t largest = layout_.largest_code(channel), most = bits_ == 8 ? 255 : 65535;
+    return uint16_t((stored * most + largest / 2) / largest);  // the PNG specification's (12.4) linear equation
+  }
+  return code_of_value(float(value_of_code(layout_, channel, stored)), alpha ? Transfer::none : transfer_);
+}
+
+std::vector<uint16_t> PngCodes::table_of(int channel) const {
+  std::vector<uint16_t> table(size_t(1) << layout_.bits[size_t(channel)]);
+  for (uint32_t stored = 0; stored < table.size(); ++stored) table[stored] = code_of_stored(stored, channel);
+  return table;
+}
+
+void PngCodes::row(int y, uint8_t* out) const {
+  if (as_stored_) {
+    std::memcpy(out, image_.texel(0, y), row_bytes());
+    return;
+  }
+  std::vector<uint32_t> stored(size_t(image_.width) * size_t(channels_));
+  read_stored(image_, y, stored);
+  const bool tabulated = !of_stored_.empty(), wide = bits_ == 16;
+  int channel = 0;
+  for (const uint32_t bits : stored) {
+    const uint16_t code = tabulated ? of_stored_[size_t(channel)][bits] : code_of_stored(bits, channel);
+    if (wide) *out++ = uint8_t(code >> 8);
+    *out++ = uint8_t(code);
+    channel = channel + 1 == channels_ ? 0 : channel + 1;
+  }
+}
+
+}  // namespace trueshade

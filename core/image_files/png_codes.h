@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/image_files/image_io.h"
+
+namespace trueshade {
+
+/// What a PNG says its codes stand for.
+enum class PngTag : uint8_t {
+  srgb,    ///< chunks sRGB and gAMA 1/2.2: codes as screens take them
+  linear,  ///< chunk gAMA 1.0: codes proportional to light
+};
+
+/// The sRGB value of a linear value in [0, 1] (IEC 61966-2-1), the same bits everywhere: x^(5/12) is the fifth power of
+/// a root that Newton's method finds.
+double srgb_from_linear(double linear);
+
+/// The codes that a PNG holds for an image. This class defines the rule of image_io.h: which transfer function a
+/// channel's values pass, and to how many bits they are rounded.
+class PngCodes {
+ public:
+  PngCodes(const Image& image, const ImageFileOptions& options);
+
+  int channels() const { return channels_; }
+  int bits() const { return bits_; }  ///< of a channel, 8 or 16
+  PngTag tag() const { return tag_; }
+  size_t row_bytes() const { return size_t(image_.width) * size_t(channels_) * size_t(bits_ / 8); }
+
+  /// Codes of a row, pixel after pixel, R first; the more significant byte of 16 bits first. `y` counts from the top.
+  void row(int y, uint8_t* out) const;
+
+ private:
+  enum class Transfer : uint8_t { stored_code, srgb, none };
+
+  static Transfer transfer_of(const FormatInfo& layout, const ImageFileOptions& options);
+  uint16_t code_of_value(float value, Transfer transfer) const;
+  uint16_t code_of_stored(uint32_t stored, int channel) const;
+  std::vector<uint16_t> table_of(int channel) const;
+
+  const Image& image_;
+  FormatInfo layout_;
+  int channels_, bits_;
+  Transfer transfer_;
+  PngTag tag_;
+  bool as_stored_;                                ///< the image's bytes are the PNG's
+  std::vector<std::vector<uint16_t>> of_stored_;  ///< a table for each channel, empty where one has more than 16 bits
+};
+
+}  // namespace trueshade

@@ -1,0 +1,27 @@
+#include "core/error.h"
+#include "core/fp_env.h"
+#include "core/image_files/exr_file.h"
+#include "core/image_files/image_io.h"
+#include "core/image_files/png_file.h"
+
+namespace trueshade {
+
+void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
+                 const Metadata& metadata, const ImageFileOptions& options) {
+  const FpScope ieee;
+  if (path.ends_with(".png")) {
+    write_file(path, png_file(path, color, metadata, options));
+  } else if (path.ends_with(".exr")) {
+    const std::vector<std::vector<uint8_t>> pieces = exr_file(path, color, aovs, metadata, options);
+    write_file(path, FilePieces(pieces.begin(), pieces.end()));
+  } else {
+    throw Error(ErrorKind::usage, path, "no image format has this ending", "end the name in .png or .exr");
+  }
+}
+
+std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, const ImageFileOptions& options) {
+  const FpScope ieee;
+  return png_file("PNG", color, metadata, options);
+}
+
+}  // namespace trueshade

@@ -1,0 +1,422 @@
+// What the codes of a PNG stand for and how it says so; what an EXR says; what of both comes back. PNGs are taken apart
+// by this file's own reader of chunks, EXRs are read by OpenImageIO.
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.h"
+#include "core/image_files/image_io.h"
+#include "core/image_files/png_codes.h"
+#include "tests/catch.hpp"
+#include "tests/cli/run_command.h"
+#include "tests/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+struct Chunk {
+  std::string type;
+  Bytes data;
+};
+
+uint32_t word_at(const Bytes& bytes, size_t at) {
+  return uint32_t(bytes[at]) << 24 | uint32_t(bytes[at + 1]) << 16 | uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
+}
+
+/// ISO 3309's CRC, a bit at a time.
+uint32_t crc_of(const uint8_t* bytes, size_t count) {
+  uint32_t crc = 0xFFFFFFFFu;
+  for (size_t i = 0; i < count; ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320u : 0);
+  }
+  return ~crc;
+}
+
+std::vector<Chunk> chunks_of(const Bytes& png) {
+  REQUIRE(png.size() > 8);
+  REQUIRE(std::memcmp(png.data(), "\x89PNG\r\n\x1a\n", 8) == 0);
+  std::vector<Chunk> chunks;
+  for (size_t at = 8; at < png.size();) {
+    const size_t length = word_at(png, at);
+    REQUIRE(at + 12 + length <= png.size());
+    REQUIRE(crc_of(&png[at + 4], 4 + length) == word_at(png, at + 8 + length));
+    const auto data = png.begin() + std::ptrdiff_t(at) + 8;
+    chunks.push_back({std::string(data - 4, data), Bytes(data, data + std::ptrdiff_t(length))});
+    at += 12 + length;
+  }
+  return chunks;
+}
+
+/// Chunks of the header and of colour, in the order of the file: `IHDR sRGB:0 gAMA:45455 IDAT IEND`.
+std::string outline_of(const Bytes& png) {
+  std::string text;
+  for (const Chunk& chunk : chunks_of(png)) {
+    if (chunk.type == "tEXt" || chunk.type == "iTXt") continue;
+    text += (text.empty() ? "" : " ") + chunk.type;
+    if (chunk.type == "gAMA") text += ":" + std::to_string(word_at(chunk.data, 0));
+    if (chunk.type == "sRGB") text += ":" + std::to_string(int(chunk.data[0]));
+  }
+  return text;
+}
+
+const std::string kTaggedSrgb = "IHDR sRGB:0 gAMA:45455 IDAT IEND", kTaggedLinear = "IHDR gAMA:100000 IDAT IEND";
+
+/// The codes of a PNG, channel after channel, by OpenImageIO.
+std::vector<int> codes_of(const ScratchFolder& folder, const Bytes& png) {
+  const std::string path = folder.path("codes.png");
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const auto file = OIIO::ImageInput::open(path, &config);
+  REQUIRE(file);
+  const OIIO::ImageSpec& spec = file->spec();
+  const size_t count = size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels);
+  if (spec.format == OIIO::TypeDesc::UINT16) {
+    std::vector<uint16_t> codes(count);
+    REQUIRE(file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, codes.data()));
+    return {codes.begin(), codes.end()};
+  }
+  REQUIRE(spec.format == OIIO::TypeDesc::UINT8);
+  std::vector<uint8_t> codes(count);
+  REQUIRE(file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, codes.data()));
+  return {codes.begin(), codes.end()};
+}
+
+/// Every target format with stored codes of all kinds, none of them NaN.
+Image codes_image(Format format) {
+  Image image(64, 37, format);
+  for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = uint8_t(i * 37 % 59);
+  if (info(format).number_class == NumberClass::unorm)
+    for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = uint8_t(i * i * 31 + i);
+  return image;
+}
+
+/// IEC 61966-2-1 by long double.
+long double srgb_by_pow(long double x) {
+  return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L;
+}
+
+enum class Expected { stored, encoded, quantised };
+
+/// Checks each code of `png` against the value of the image's channel, to half a code and the rounding of a float.
+void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& png, Expected expected) {
+  const FormatInfo layout = info(image.format);
+  const std::vector<int> codes = codes_of(folder, png);
+  REQUIRE(codes.size() == size_t(image.width * image.height * layout.channels));
+  const bool deep = layout.number_class == NumberClass::unorm && layout.bits[0] > 8;
+  const long double most = deep ? 65535 : 255;
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const int channel = int(i % size_t(layout.channels)), pixel = int(i / size_t(layout.channels));
+    const int x = pixel % image.width, y = pixel / image.width;
+    long double value = std::min(1.0, std::max(0.0, image.value(x, y, channel)));
+    if (expected == Expected::encoded && channel < 3) value = srgb_by_pow(value);
+    if (expected == Expected::stored)
+      value = static_cast<long double>(image.code(x, y, channel)) / layout.largest_code(channel);
+    INFO(layout.name << " at " << x << ',' << y << " channel " << channel << ": code " << codes[i]);
+    REQUIRE(std::fabs(double(value * most - static_cast<long double>(codes[i]))) <= 0.5001);
+  }
+}
+
+ImageFileOptions encoded_as(PngEncoding encoding) {
+  ImageFileOptions options;
+  options.encoding = encoding;
+  return options;
+}
+
+TEST_CASE("without an option a PNG holds display codes: fixed-point targets as stored, floats sRGB-encoded") {
+  const ScratchFolder folder;
+  for (const Format format : kTargetFormats) {
+    const Image image = codes_image(format);
+    const Bytes png = encode_png(image, {});
+    CHECK(outline_of(png) == kTaggedSrgb);
+    const bool fixed_point = info(format).number_class == NumberClass::unorm;
+    check_codes(folder, image, png, fixed_point ? Expected::stored : Expected::encoded);
+  }
+}
+
+TEST_CASE("encoded as srgb, a PNG takes every target's values as linear light") {
+  const ScratchFolder folder;
+  for (const Format format : kTargetFormats) {
+    const Image image = codes_image(format);
+    const Bytes png = encode_png(image, {}, encoded_as(PngEncoding::srgb));
+    CHECK(outline_of(png) == kTaggedSrgb);
+    check_codes(folder, image, png, Expected::encoded);
+  }
+}
+
+TEST_CASE("raw, a PNG holds every target's values without a transfer function, and says so") {
+  const ScratchFolder folder;
+  for (const Format format : kTargetFormats) {
+    const Image image = codes_image(format);
+    const Bytes png = encode_png(image, {}, encoded_as(PngEncoding::raw));
+    CHECK(outline_of(png) == kTaggedLinear);
+    check_codes(folder, image, png, Expected::quantised);
+  }
+}
+
+TEST_CASE("pictures of display codes are never encoded again") {
+  const ScratchFolder folder;
+  for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
+    for (const PngEncoding encoding : {PngEncoding::by_values, PngEncoding::srgb, PngEncoding::raw}) {
+      const Image image = codes_image(format);
+      ImageFileOptions options = encoded_as(encoding);
+      options.values = PictureValues::display_codes;
+      const Bytes png = encode_png(image, {}, options);
+      CHECK(outline_of(png) == kTaggedSrgb);
+      check_codes(folder, image, png, Expected::quantised);
+    }
+}
+
+TEST_CASE("the sRGB value of a linear one inverts the linear value of an sRGB one") {
+  for (int i = 0; i <= 65535; ++i) {
+    const double x = double(i) / 65535.0;
+    if (std::fabs(double(srgb_by_pow(x)) - srgb_from_linear(x)) > 1e-14) FAIL("at " << x);
+  }
+}
+
+TEST_CASE("an EXR holds the target's values under every encoding, and says what they stand for") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("x.exr");
+  const auto color_space = [&] {
+    const auto file = OIIO::ImageInput::open(path);
+    REQUIRE(file);
+    return std::string(file->spec().get_string_attribute("oiio:ColorSpace"));
+  };
+  for (const Format format : kTargetFormats) {
+    INFO(info(format).name);
+    const Image image = codes_image(format);
+    const std::vector<NamedImage> planes = {{"albedo", codes_image(Format::rgba8)}};
+    write_image(path, image, planes, {});
+    const bool codes = info(format).number_class == NumberClass::unorm && !info(format).srgb;
+    CHECK(color_space() == (codes ? "sRGB" : "Linear"));
+    const std::vector<NamedImage> read = read_planes(path);
+    REQUIRE(read.size() == 2);
+    for (size_t i = 0; i < 2; ++i) {
+      const Image& from = i == 0 ? image : planes[0].image;
+      for (int c = 0; c < info(from.format).channels; ++c) CHECK(read[i].image.value(17, 23, c) == from.value(17, 23, c));
+    }
+    for (const PngEncoding encoding : {PngEncoding::srgb, PngEncoding::raw}) {
+      write_image(folder.path("y.exr"), image, planes, {}, encoded_as(encoding));
+      const auto bytes = [&](const char* name) {
+        std::ifstream file(folder.path(name), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+      };
+      CHECK(bytes("x.exr") == bytes("y.exr"));
+    }
+  }
+  ImageFileOptions options;
+  options.values = PictureValues::display_codes;
+  write_image(path, codes_image(Format::rgba16f), {}, {}, options);
+  CHECK(color_space() == "sRGB");
+}
+
+TEST_CASE("threads change no byte of a file") {
+  const ScratchFolder folder;
+  Image color(301, 211, Format::rgba16f);
+  for (size_t i = 0; i < color.texels.size(); ++i) color.texels[i] = uint8_t(i * i >> 7 & 0x3B);
+  const std::vector<NamedImage> planes = {{"depth", Image(301, 211, Format::d32f)},
+                                          {"light.count", Image(301, 211, Format::r32ui)}};
+  for (const char* name : {"x.png", "x.exr"}) {
+    std::vector<std::string> files;
+    for (const int threads : {1, 2, 7, 0}) {
+      ImageFileOptions options;
+      options.threads = threads;
+      write_image(folder.path(name), color, planes, {{"trueshade:scene", "x"}}, options);
+      std::ifstream file(folder.path(name), std::ios::binary);
+      files.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+    CHECK((files[1] == files[0] && files[2] == files[0] && files[3] == files[0]));
+  }
+}
+
+TEST_CASE("files of every size are read back whole, noise and flat colour alike") {
+  const ScratchFolder folder;
+  uint32_t random = 1;
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {3, 16}, {257, 1}, {640, 33}})
+    for (const bool noise : {false, true}) {
+      Image image(width, height, Format::rgba32f), codes(width, height, Format::rgba8);
+      for (size_t i = 0; i < image.texels.size(); ++i) {
+        random = random * 1664525u + 1013904223u;
+        image.texels[i] = noise && i % 4 != 3 ? uint8_t(random >> 24) : 0;  // no NaN
+        codes.texels[i / 4] = noise ? uint8_t(random >> 16) : 7;
+      }
+      INFO(width << 'x' << height << (noise ? " noise" : " flat"));
+      write_image(folder.path("x.exr"), image, {}, {});
+      CHECK(read_planes(folder.path("x.exr"))[0].image.texels == image.texels);
+      write_image(folder.path("x.png"), codes, {}, {});
+      CHECK(read_planes(folder.path("x.png"))[0].image.texels == codes.texels);
+      CHECK(codes_of(folder, encode_png(codes, {})) == std::vector<int>(codes.texels.begin(), codes.texels.end()));
+    }
+}
+
+TEST_CASE("metadata of any length and script comes back; names that a format cannot hold are refused") {
+  const ScratchFolder folder;
+  const Image image = codes_image(Format::rgba8);
+  const Metadata metadata = {{"trueshade:a_name_of_more_than_31_letters", "b\xc3\xa4r \"x\"\n{}"},
+                             {"trueshade:plain", std::string(5000, 'x')}};
+  for (const char* name : {"x.png", "x.exr"}) {
+    INFO(name);
+    write_image(folder.path(name), image, {}, metadata);
+    const Metadata read = read_image_info(folder.path(name)).metadata;
+    const auto file = OIIO::ImageInput::open(folder.path(name));
+    REQUIRE(file);
+    for (const auto& entry : metadata) {
+      CHECK(std::count(read.begin(), read.end(), entry) == 1);
+      CHECK(file->spec().get_string_attribute(entry.first) == entry.second);
+    }
+    const auto kind_of = [&](const std::string& key) {
+      try {
+        write_image(folder.path(name), image, {}, {{key, "x"}});
+      } catch (const Error& error) {
+        return int(error.kind());
+      }
+      return 0;
+    };
+    CHECK(kind_of(std::string(79, 'k')) == 0);
+    CHECK(kind_of(std::string(256, 'k')) == 2);
+    CHECK(kind_of("") == 2);
+  }
+}
+
+/// A PNG made by another program: codes 0, 1, 2... of `channels` channels.
+template <typename Code>
+void write_foreign(const std::string& path, int channels, OIIO::TypeDesc type) {
+  OIIO::ImageSpec spec(13, 7, channels, type);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("oiio:ColorSpace", "GammaCorrected2.2");
+  std::vector<Code> codes(size_t(13 * 7 * channels));
+  for (size_t i = 0; i < codes.size(); ++i) codes[i] = Code(i * 257);
+  const auto file = OIIO::ImageOutput::create("png");
+  REQUIRE(file->open(path, spec));
+  REQUIRE(file->write_image(type, codes.data()));
+  REQUIRE(file->close());
+}
+
+/// Checks that each code comes back, grey in R, G and B, and that alpha is the largest code where there is none.
+template <typename Code>
+void check_foreign(const std::string& path, int channels, Format format) {
+  const std::vector<NamedImage> planes = read_planes(path);
+  REQUIRE(planes.size() == 1);
+  const Image& image = planes[0].image;
+  REQUIRE(image.format == format);
+  for (int pixel = 0; pixel < 13 * 7; ++pixel)
+    for (int c = 0; c < 4; ++c) {
+      const bool grey = channels < 3, alpha = channels % 2 == 0;
+      const int from = c == 3 ? channels - 1 : grey ? 0 : c;
+      const uint32_t expected = c == 3 && !alpha ? uint32_t(Code(~Code(0))) : Code((pixel * channels + from) * 257);
+      REQUIRE(image.code(pixel % 13, pixel / 13, c) == expected);
+    }
+}
+
+TEST_CASE("PNGs of grey, RGB and alpha, of 8 and 16 bits, are read code by code whatever their gamma is") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("foreign.png");
+  for (int channels = 1; channels <= 4; ++channels) {
+    INFO(channels << " channels");
+    write_foreign<uint8_t>(path, channels, OIIO::TypeDesc::UINT8);
+    check_foreign<uint8_t>(path, channels, Format::rgba8);
+    write_foreign<uint16_t>(path, channels, OIIO::TypeDesc::UINT16);
+    check_foreign<uint16_t>(path, channels, Format::rgba16);
+    CHECK(read_image_info(path).channels.size() == size_t(channels));
+  }
+}
+
+/// The mean code of R, G and B in a PNG that the command draws of the cornell box.
+double mean_of(const ScratchFolder& folder, std::vector<std::string> options, const std::string& outline) {
+  options.insert(options.begin(), {"render", "builtin:cornell", "--size", "60x45", "-o", "x.png"});
+  const Outcome outcome = run_command(options, folder.path(""));
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  std::ifstream file(folder.path("x.png"), std::ios::binary);
+  const Bytes png{std::istreambuf_iterator<char>(file), {}};
+  CHECK(outline_of(png) == outline);
+  const std::vector<int> codes = codes_of(folder, png);
+  double sum = 0.0;
+  for (size_t i = 0; i < codes.size(); ++i) sum += i % 4 == 3 ? 0.0 : codes[i];
+  return sum / 255.0 / double(codes.size() / 4 * 3);
+}
+
+TEST_CASE("--encode makes fixed-point and float targets of one scene equally bright") {
+  const ScratchFolder folder;
+  const auto mean = [&](const char* target, const char* encoding) {
+    return mean_of(folder, {"--target", target, "--encode", encoding},
+                   std::string(encoding) == "raw" ? kTaggedLinear : kTaggedSrgb);
+  };
+  const double raw = mean("rgba8", "raw"), srgb = mean("rgba8", "srgb");
+  CHECK(srgb > 1.2 * raw);
+  for (const char* target : {"rgba16f", "rgba32f", "srgb8_a8"}) {
+    INFO(target);
+    CHECK(std::fabs(mean(target, "raw") - raw) < 0.01);
+    CHECK(std::fabs(mean(target, "srgb") - srgb) < 0.02);
+  }
+  CHECK(mean_of(folder, {"--target", "rgba8"}, kTaggedSrgb) == raw);
+  CHECK(mean_of(folder, {"--target", "rgba16f"}, kTaggedSrgb) == mean("rgba16f", "srgb"));
+}
+
+TEST_CASE("the hash is that of the stored bytes under every encoding, and info shows what a file is tagged as") {
+  const ScratchFolder folder;
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run_command(arguments, folder.path(""));
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.out;
+  };
+  const std::vector<std::string> render = {"render",   "builtin:cornell", "--size", "30x20", "--hash",
+                                           "--target", "rgba16f",         "-o",     "x.png", "-o", "x.exr"};
+  const std::string hash = run(render);
+  for (const auto& [encoding, tag] : {std::pair("srgb", "sRGB"), {"raw", "Linear"}}) {
+    std::vector<std::string> arguments = render;
+    arguments.insert(arguments.end(), {"--encode", encoding});
+    CHECK(run(arguments) == hash);
+    const auto row = [](const std::string& space) { return "oiio:ColorSpace       " + space + '\n'; };
+    CHECK(run({"info", "x.png"}).find(row(tag)) != std::string::npos);
+    CHECK(run({"info", "x.exr"}).find(row("Linear")) != std::string::npos);
+  }
+  CHECK(run_command({"render", "builtin:cornell", "-o", "x.exr", "--encode", "srgb"}, folder.path("")).exit_code == 2);
+  CHECK(run_command({"render", "builtin:cornell", "-o", "x.png", "--encode", "linear"}, folder.path("")).exit_code == 2);
+}
+
+TEST_CASE("a note names the encoding that was chosen for a float target's PNG, and none is said where none was") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("post.json")) << R"({"version": 1, "target": "rgba16f",
+      "post": {"encode": "srgb", "output": "rgba16f"}})";
+  const auto notes = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", "builtin:cornell", "--size", "16x12"});
+    const Outcome outcome = run_command(options, folder.path(""));
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.err;
+  };
+  const std::string said = notes({"--target", "rgba16f", "-o", "x.png"});
+  CHECK(said.starts_with("trueshade: note: The target rgba16f "));
+  CHECK(std::count(said.begin(), said.end(), '\n') == 1);
+  CHECK(notes({"--target", "rgba16f", "-o", "x.png", "--encode", "srgb"}).empty());
+  CHECK(notes({"--target", "rgba16f", "-o", "x.exr"}).empty());
+  CHECK(notes({"--target", "rgba16f", "-o", "x.png", "--view", "albedo"}).empty());
+  CHECK(notes({"--target", "rgba8", "-o", "x.png"}).empty());
+  CHECK(notes({"--pipeline", "post.json", "-o", "x.png"}).empty());
+}
+
+TEST_CASE("what a post chain has encoded is not encoded again") {
+  const ScratchFolder folder;
+  const auto pipeline = [&](const char* output) {
+    std::ofstream(folder.path("post.json")) << R"({"version": 1, "target": "rgba16f", "post": {"encode": "srgb", "output": ")"
+                                            << output << "\"}}";
+  };
+  pipeline("rgba8");
+  const double mean = mean_of(folder, {"--pipeline", "post.json"}, kTaggedSrgb);
+  CHECK(mean_of(folder, {"--pipeline", "post.json", "--encode", "srgb"}, kTaggedSrgb) == mean);
+  pipeline("rgba32f");
+  CHECK(std::fabs(mean_of(folder, {"--pipeline", "post.json"}, kTaggedSrgb) - mean) < 0.001);
+  CHECK(std::fabs(mean_of(folder, {"--pipeline", "post.json", "--encode", "srgb"}, kTaggedSrgb) - mean) < 0.001);
+}
+
+}  // namespace
+}  // namespace trueshade
