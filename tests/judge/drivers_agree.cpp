@@ -1,11 +1,11 @@
-// GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
+// docs/gl_rules.md row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
 // explains it.
 #include <cstdio>
 
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/drivers.h"
 
@@ -67,7 +67,7 @@ bool other_surface(PixelClass c) {
 TEST_CASE("drawer: row 62 by llvmpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::llvmpipe); }
 TEST_CASE("drawer: row 62 by softpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::softpipe); }
 
-TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained") {
+TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained", "[slow]") {
   const Scene scene = crowded_scene();
   const Pipeline pipeline = caveat_pipeline();
   CHECK(scene.triangle_count() == 46178);

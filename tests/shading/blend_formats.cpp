@@ -1,5 +1,6 @@
-// The formats beside rgba8, rgba16f and rgba32f: GL_RULES section 8, rows 35 to 37 and 51, what DESIGN's settled 4 says
-// of fixed point, formats without alpha; and the drift of lights blended one by one (GL_RULES section 4).
+// The formats beside rgba8, rgba16f and rgba32f: docs/gl_rules.md section 8, rows 35 to 37 and 51, what
+// docs/gl_rules.md section 10, point 4 says of fixed point, formats without alpha; and the drift of lights blended one
+// by one (docs/gl_rules.md section 4).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -147,7 +148,7 @@ TEST_CASE("Row 51: light upon light in sRGB adds what the codes stand for") {
   });
 }
 
-TEST_CASE("DESIGN, settled 4: ADD ONE ONE in fixed point is min(max, D + q(s)), in every format and group") {
+TEST_CASE("Settled point 4: ADD ONE ONE in fixed point is min(max, D + q(s)), in every format and group") {
   on_every_simd([](std::string_view simd) {
     for (const Format format : kTargetFormats) {
       if (info(format).number_class != NumberClass::unorm) continue;
@@ -266,7 +267,7 @@ size_t wrong_triples(const BlendTerm& term, const BlendTarget& target) {
 
 }  // namespace
 
-TEST_CASE("8-bit blending of all 65,536 pairs of codes in all states is the scalar twin's") {
+TEST_CASE("8-bit blending of all 65,536 pairs of codes in all states is the scalar twin's", "[slow]") {
   CHECK(wrong_pixels(CodePairs(1, false), {Format::rgba8}) == 0);
 }
 
@@ -281,7 +282,7 @@ TEST_CASE("8-bit and sRGB blending of all pairs in all states and channels is th
   CHECK(wrong_pixels(pairs, {Format::rgba8, NumericProfile::mesa_llvmpipe_22_3}) == 0);
 }
 
-TEST_CASE("8-bit blending of all 2^24 triples of codes in nine modes is the scalar twin's") {
+TEST_CASE("8-bit blending of all 2^24 triples of codes in nine modes is the scalar twin's", "[slow]") {
   for (const NamedMode& mode : usual_modes()) {
     INFO(mode.name);
     CHECK(wrong_triples(mode.term, {Format::rgba8}) == 0);
@@ -349,7 +350,7 @@ Drifts even_drift_of(int lights, std::string_view simd) {
 
 }  // namespace
 
-TEST_CASE("Lights blended one by one drift as GL_RULES section 4 measured, and a loop does not") {
+TEST_CASE("Lights blended one by one drift as docs/gl_rules.md section 4 measured, and a loop does not") {
   struct Row {
     int lights;
     double unorm8, truncated, nearest;  // bias, codes of 255
@@ -373,7 +374,7 @@ TEST_CASE("Lights blended one by one drift as GL_RULES section 4 measured, and a
 // Section 4 gives the biases of "inverse-square-like" contributions and not their formula. This is one of that kind, a
 // light at a distance u of [0, 1), whose biases in plain scalar arithmetic on integers are the section's; what it does
 // not show is whose contributions they were. The fourth number, of nearest halves, was not looked at for the choice.
-TEST_CASE("256 lights of contributions like an inverse square drift as GL_RULES section 4 has it") {
+TEST_CASE("256 lights of contributions like an inverse square drift as docs/gl_rules.md section 4 has it") {
   on_every_simd([&](std::string_view simd) {
     const Drifts drifts = drift_of(256, simd, [](double u) { return 2.3 / 256 / (1 + 120 * u * u); });
     CHECK(std::fabs(drifts.unorm8.bias - -18.2) < .3);

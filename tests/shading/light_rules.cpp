@@ -1,5 +1,5 @@
-// GL_RULES section 8, rows 52 to 54, and what lossless culling must survive: lights that touch, are out of range or
-// hold no numbers, and any number of them.
+// docs/gl_rules.md section 8, rows 52 to 54, and what lossless culling must survive: lights that touch, are out of
+// range or hold no numbers, and any number of them.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -184,7 +184,8 @@ TEST_CASE("lights whose range or cone just touches a pixel, a block or a tile ar
   }
 }
 
-TEST_CASE("lights that just touch are culled without changing a bit under every preset, strategy, target and profile") {
+TEST_CASE("lights that just touch are culled without changing a bit under every preset, strategy, target and profile",
+          "[slow]") {
   Random random(68);
   Scene scene = sheet(random);
   add_touching_lights(scene, render(scene, loop_pipeline("many-lights")), 60, random);
