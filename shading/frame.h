@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/threads/parallel_for.h"
 #include "core/simd/simd_target.h"
+#include "core/threads/parallel_for.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 

@@ -1,0 +1,43 @@
+#include "shading/frame_plan.h"
+
+#include <algorithm>
+
+#include "scenes/pipeline/transparency.h"
+#include "shading/blend/clear_color.h"
+#include "shading/frame.h"
+#include "shading/output/light_planes.h"
+
+namespace trueshade {
+namespace {
+
+PlaneSource plane_source(const std::string& name) {
+  if (name == "specular" || name == "emission") return PlaneSource::material;
+  if (name == "overdraw") return PlaneSource::fragment_counts;
+  if (name == "Z") return PlaneSource::view_distance;
+  return light_of_plane(name) ? PlaneSource::one_light : PlaneSource::tile;
+}
+
+}  // namespace
+
+FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                     std::span<const std::string> planes, bool lit) {
+  FramePlan plan{};
+  plan.execution = execution;
+  if (execution.tile == 0) plan.execution.tile = tile_for(pipeline.width, pipeline.height, execution.threads);
+  const LightPass of_strategy = blends_lights(pipeline.strategy) ? LightPass::blends : LightPass::sums;
+  plan.light_pass = lit ? of_strategy : LightPass::none;
+  plan.transparency = draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none;
+  plan.tied_fragments = pipeline.strategy == Strategy::forward_multipass;
+  plan.uv = std::find(planes.begin(), planes.end(), "uv") != planes.end();
+  plan.light_geometry = plan.blends() && execution.count_as_gl;
+  plan.surface_planes = surface_planes(pipeline);
+  plan.target = {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round};
+  plan.clear = drawn_clear(scene.clear, plan.target);
+  const bool draws_unlike = draws_unlike_clears(plan.target);
+  plan.encodes = plan.blends() || draws_unlike || plan.transparency == TransparencyMode::after_lights;
+  plan.codes = plan.sums() && info(plan.target.format).number_class == NumberClass::unorm && !draws_unlike;
+  for (const std::string& name : planes) plan.planes.push_back(plane_source(name));
+  return plan;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,23 @@
+#!/bin/bash
+# Fails on a guide that names a file which is not there: in a link, or in backticks as folder/file.ending.
+# Usage: named_files.sh SOURCE_FOLDER
+set -euo pipefail
+cd "$1"
+status=0
+check() {  # PAGE NAME CANDIDATES...: one of the candidates is a file or a folder
+  local page=$1 name=$2 candidate
+  shift 2
+  for candidate in "$@"; do [[ ! -e $candidate ]] || return 0; done
+  echo "$page: there is no $name"
+  status=1
+}
+while IFS= read -r page; do
+  folder=$(dirname "$page")
+  while IFS= read -r target; do
+    check "$page" "$target" "$folder/$target"
+  done < <(grep -oE '\]\([^)#:]+[)#]' "$page" | sed -E 's/^\]\((.*)[)#]$/\1/' | sort -u)
+  while IFS= read -r name; do
+    check "$page" "$name" "$name" "$folder/$name"
+  done < <(grep -v '^!\[' "$page" | grep -oE '`[a-z_]+/[A-Za-z0-9_./-]+\.(h|cpp|md|sh|txt|cmake|json|py)`' | tr -d '`' | sort -u)
+done < <(find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './.git/*' -not -path './docs/journal/*' | sort)
+exit "$status"
