@@ -56,9 +56,8 @@ std::string boxes_line(const Scene& scene, ImageView view) {
 }
 
 std::string uv_line(const Scene& scene) {
-  const auto without = std::count_if(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
-    return !scene.meshes[instance.mesh].has_uv();
-  });
+  const auto without = std::count_if(scene.instances.begin(), scene.instances.end(),
+                                     [&](const Instance& instance) { return !scene.meshes[instance.mesh].has_uv(); });
   if (without == 0) return {};
   return "The view uv shows " + std::to_string(without) + " of " +
          counted(scene.instances.size(), "object", "objects") +

@@ -242,8 +242,8 @@ std::vector<std::string> option_names(const CLI::App& command) {
 Error unexpected_argument(const CLI::App& command, const std::vector<std::string>& arguments) {
   const std::vector<std::string> known = option_names(command);
   const std::string unknown = first_unknown_option(arguments, known), meant = likeliest_name(unknown, known);
-  const std::string help = "`" + (command.get_parent() ? "trueshade " : std::string()) + command.get_name() +
-                           " --help` names all options";
+  const std::string help =
+      "`" + (command.get_parent() ? "trueshade " : std::string()) + command.get_name() + " --help` names all options";
   if (unknown.empty()) return usage("command line", "'" + arguments.front() + "' is one argument too many", help);
   return usage(unknown, "there is no such option", meant.empty() ? help : "did you mean " + meant + "? " + help);
 }

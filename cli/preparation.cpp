@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scenes/pipeline/presets.h"
 #include "scenes/files/json_value.h"
 #include "scenes/files/scene_files.h"
+#include "scenes/pipeline/presets.h"
 
 namespace trueshade {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "cli/driver_capture.h"
 #include "cli/notes.h"
-#include "oracle/capture.h"
 #include "judge/stages/validate.h"
+#include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {

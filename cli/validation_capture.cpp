@@ -96,7 +96,8 @@ Error unheld_value(const std::string& where, const std::string& place, double va
   if (to.number_class != NumberClass::integer)
     return bad_capture(where, place + " is " + number + ", which " + std::string(to.name) + " does not hold",
                        "name the plane's format in --pipeline, or capture before it is converted");
-  const bool is_code_as_float = value != 0.0 && std::fabs(value) < 0x1p-126;  // whole numbers below 2^23, read as floats
+  const bool is_code_as_float =
+      value != 0.0 && std::fabs(value) < 0x1p-126;  // whole numbers below 2^23, read as floats
   return bad_capture(where,
                      place + " is " + number + ", and an identifier is a whole number" +
                          (is_code_as_float ? ": the bits of a uint were read as those of a float" : ""),
@@ -147,10 +148,9 @@ void check_halves(const Pipeline& pipeline, const std::string& file) {
     return std::find(channels.begin(), channels.end(), channel) != channels.end();
   };
   const auto refuse = [&](const char* plane, Format format) {
-    throw bad_capture(file,
-                      std::string(plane) + " is stored as half, and the pipeline's as " +
-                          std::string(info(format).name),
-                      "write it as float: a half keeps 11 of its bits");
+    throw bad_capture(
+        file, std::string(plane) + " is stored as half, and the pipeline's as " + std::string(info(format).name),
+        "write it as float: a half keeps 11 of its bits");
   };
   if (has("depth.Z half")) refuse("depth", pipeline.geometry.depth_format);
   if (has("uv.X half") && !info(pipeline.gbuffer.uv.format).small_float()) refuse("uv", pipeline.gbuffer.uv.format);
@@ -168,8 +168,7 @@ void read_picture(const std::string& path, oracle::Capture& capture) {
     return;
   }
   std::vector<NamedImage> planes = read_planes(path);
-  if (planes.front().name != "color")
-    throw bad_capture(path, "it has no channels R G B A", "give the lit picture");
+  if (planes.front().name != "color") throw bad_capture(path, "it has no channels R G B A", "give the lit picture");
   capture.has_alpha = info(planes.front().image.format).channels != 3;
   capture.color = std::move(planes.front().image);
 }

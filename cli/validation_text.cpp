@@ -90,9 +90,8 @@ std::string profile_line(const oracle::Profile& p) {
 
 std::string tightest_line(const oracle::Inference& inferred) {
   if (!inferred.known_as.empty()) return text(inferred) + "; as " + inferred.known_as;
-  const auto nearest = std::find_if(inferred.tried.begin(), inferred.tried.end(), [&](const oracle::Hypothesis& h) {
-    return h.value == inferred.nearest;
-  });
+  const auto nearest = std::find_if(inferred.tried.begin(), inferred.tried.end(),
+                                    [&](const oracle::Hypothesis& h) { return h.value == inferred.nearest; });
   const std::string line = text(inferred) + "; no named profile explains it";
   if (nearest == inferred.tried.end()) return line;
   return line + ", " + nearest->value + " comes nearest with " + std::to_string(nearest->violations()) +

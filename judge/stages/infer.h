@@ -23,9 +23,9 @@ struct Inference {
   std::optional<PlaneOrigin> plane_origin;  ///< either: both explain the image
   std::optional<HalfStore> half;            ///< nothing where no half was stored; either: both explain it
   std::optional<double> unorm_reach;        ///< 0.5, 0.6 or 1; nothing where no unorm was stored, or none explains it
-  std::string known_as;  ///< the named profile, tightest first, that explains the image; empty if none
-  std::string nearest;   ///< where known_as is empty: the named profile that the fewest pixels speak against
-  Profile tightest;      ///< all of it together
+  std::string known_as;           ///< the named profile, tightest first, that explains the image; empty if none
+  std::string nearest;            ///< where known_as is empty: the named profile that the fewest pixels speak against
+  Profile tightest;               ///< all of it together
   std::vector<Hypothesis> tried;  ///< knob by knob; guesses of one knob by their violations, the fewest first
 };
 

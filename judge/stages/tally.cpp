@@ -146,8 +146,8 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
   worst_error = std::max(worst_error, match.worst_error);
   choices.insert(choices.end(), match.choices.begin(), match.choices.end());
   if (c == PixelClass::exact || c == PixelClass::store_2) return;
-  worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high, match.legal_value.nominal,
-                   match.given, match.excess, surface});
+  worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
+                   match.legal_value.nominal, match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/image.h"
-#include "oracle/capture.h"
 #include "judge/legal/store.h"
 #include "judge/stages/verdict.h"
+#include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade::oracle {

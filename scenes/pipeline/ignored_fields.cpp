@@ -76,8 +76,7 @@ constexpr Field<Material> kMaterialFields[] = {
      [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
     {"specular_map", kGlossReason, [](const Material& m) { return m.specular_map.used(); },
      [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
-    {"emission", "The light model adds no emission",
-     [](const Material& m) { return m.emission != glm::vec3(0.0f); },
+    {"emission", "The light model adds no emission", [](const Material& m) { return m.emission != glm::vec3(0.0f); },
      [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
     {"metallic", kMetalReason, [](const Material& m) { return m.metallic != plain().metallic; },
      [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
@@ -116,8 +115,8 @@ void append_maps_without_uv(const Scene& scene, std::vector<IgnoredField>& ignor
       lacks_uv[instance.material] = true;
   const auto count = std::count(lacks_uv.begin(), lacks_uv.end(), true);
   if (count > 0)
-    ignored.push_back({"material", "maps",
-                       "A mesh has no texture coordinates, so its maps are read at u = v = 0 alone", uint64_t(count)});
+    ignored.push_back({"material", "maps", "A mesh has no texture coordinates, so its maps are read at u = v = 0 alone",
+                       uint64_t(count)});
 }
 
 /// Range and attenuation of a built-in scene are two descriptions of one falloff.

@@ -131,8 +131,8 @@ TEST_CASE("Views that show little say why, on standard error and in the report")
 
 TEST_CASE("Every file that is written is named on standard output") {
   const ScratchFolder folder;
-  const Arguments draw{"render", "builtin:cornell", "--size", "40x30", "-o", "x.png",   "-o",
-                       "x.exr",  "-o",              "x.html", "--aov", "normal,id.object"};
+  const Arguments draw{"render", "builtin:cornell", "--size", "40x30",  "-o",    "x.png",
+                       "-o",     "x.exr",           "-o",     "x.html", "--aov", "normal,id.object"};
   const Outcome plain = run_command(draw, folder.path(""));
   INFO(plain.err);
   CHECK(plain.err.empty());

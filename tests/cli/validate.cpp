@@ -85,8 +85,8 @@ void write_rgb(const ScratchFolder& folder, const std::string& name, uint8_t cod
   for (size_t i = 0; i < color.image.texels.size(); ++i)
     if (i % 4 != 3) codes.push_back(i == 0 ? code_of_0_0 : color.image.texels[i]);
   const auto out = OIIO::ImageOutput::create("png");
-  REQUIRE(out->open(folder.path(name),
-                    OIIO::ImageSpec(color.image.width, color.image.height, 3, OIIO::TypeDesc::UINT8)));
+  REQUIRE(
+      out->open(folder.path(name), OIIO::ImageSpec(color.image.width, color.image.height, 3, OIIO::TypeDesc::UINT8)));
   REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, codes.data()));
   REQUIRE(out->close());
 }
@@ -161,8 +161,8 @@ TEST_CASE("Of the profiles that were tried the one with the fewest pixels agains
   write_changed(folder, "b.exr", "color", [](Image& i) {
     for (int x = 100; x < 140; ++x) set_float(i, x, 70, 1, 1.0f);
   });
-  const Outcome outcome = run_command({"validate", "builtin:cornell", "--gbuffer", "b.exr", "-o", "v.html", "--json"},
-                                      folder.path(""));
+  const Outcome outcome =
+      run_command({"validate", "builtin:cornell", "--gbuffer", "b.exr", "-o", "v.html", "--json"}, folder.path(""));
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 1);
   const auto inferred = nlohmann::json::parse(outcome.out)["verdict"]["inferred"];
