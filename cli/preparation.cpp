@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/files/scene_files.h"
 #include "scenes/pipeline/presets.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fp_env.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -129,6 +130,7 @@ bool is_other_description(const IgnoredField& field, const Pipeline& pipeline) {
 }  // namespace
 
 std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pipeline) {
+  const FpScope fp;
   std::vector<IgnoredField> ignored;
   if (pipeline.view != ImageView::lit) return ignored;
   append_ignored<Light>("light", kLightFields, scene.lights, pipeline, ignored);
@@ -140,6 +142,7 @@ std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pip
 }
 
 uint64_t implausible_reflectances(const Scene& scene) {
+  const FpScope fp;
   const auto too_bright = [](const glm::vec3& color) {
     return std::max(std::max(color.r, color.g), color.b) > kLargestPlausibleReflectance;
   };

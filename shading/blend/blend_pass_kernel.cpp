@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kChunkLights = 1024;  // drawn over the whole tile before the next: bounds what lists hold
 
 /// A vector of target pixels in registers, onto which light is added: where a light adds nothing nothing changes, and
-/// alpha is not written. kCodes: fixed point, by adding codes (DESIGN, settled 4), which is exact in float32 and so may
-/// be held to the largest code later.
+/// alpha is not written. kCodes: fixed point, by adding codes (docs/gl_rules.md section 10, point 4), which is exact in
+/// float32 and so may be held to the largest code later.
 template <bool kCodes>
 struct AddedLight {
   const BlendPlan* plan;
