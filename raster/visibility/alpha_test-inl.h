@@ -11,9 +11,9 @@
 
 #include <algorithm>
 
-#include "raster/triangles/clipped_fan.h"
 #include "raster/surfaces/interpolate-inl.h"
 #include "raster/textures/texture-inl.h"
+#include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Fails on a guide that names a file which is not there, in a link or in backticks as folder/file.ending, and on a source
-# that cites a guide which is not there, or a page that is not part of the repository.
+# that cites a guide which is not there, or a page that is not part of the repository. Also fails on a guide that neither
+# README.md nor docs/README.md leads to.
 # Usage: named_files.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
@@ -22,6 +23,12 @@ while IFS= read -r page; do
     check "$page" "$name" "$name" "$folder/$name"
   done < <(grep -v '^!\[' "$page" | grep -oE '`[a-z_]+/[A-Za-z0-9_./-]+\.(h|cpp|md|sh|txt|cmake|json|py)`' | tr -d '`' | sort -u)
 done < <(find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './.git/*' -not -path './docs/journal/*' | sort)
+for guide in docs/*.md; do
+  name=${guide#docs/}
+  [[ $name != README.md ]] || continue
+  grep -qF "](docs/$name)" README.md || { echo "README.md does not name $guide"; status=1; }
+  grep -qF "]($name)" docs/README.md || { echo "docs/README.md does not name $guide"; status=1; }
+done
 while IFS=: read -r file line guide; do
   check "$file:$line" "$guide" "$guide"
 done < <(grep -rnoE 'docs/[A-Za-z0-9_/]+\.md' "${sources[@]}")
