@@ -13,6 +13,7 @@
 #include "cli/own_frames.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
+#include "cli/written_files.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/threads/parallel_for.h"
@@ -118,14 +119,19 @@ void check_pictures(const PreparedScene& prepared, const Pipeline& pipeline, con
   }
 }
 
-SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
+PipelineOptions options_of(const BenchOptions& options, const std::string& spec) {
   PipelineOptions own = options;
   own.scene = spec;
+  return own;
+}
+
+SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
   const PeakMemory memory;
   const Scene scene = load_scene(spec, {}, decode_image);
   SceneTime result;
   result.scene = scene.spec;
-  result.pipeline = pipeline_of(own, scene);
+  result.pipeline = pipeline_of(options_of(options, spec), scene);
+  result.notes = notes_of(scene, result.pipeline);
   const PreparedScene prepared(scene);
   OwnFrames frames(prepared, result.pipeline, execution);
   frames.draw();
@@ -157,6 +163,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
 
 void bench(const BenchOptions& options) {
   const bool json_printed = options.json_file == "-";
+  for (const std::string& spec : options.scenes) check_pipeline(options_of(options, spec));
   for (const auto& file : {options.json_file, options.report})
     if (file && *file != "-") check_writable(*file);
   BenchResult result;
@@ -167,15 +174,17 @@ void bench(const BenchOptions& options) {
   result.simd = options.simd == "best" ? simd_targets().front() : options.simd;
   for (const std::string& spec : options.scenes) {
     result.scenes.push_back(measured(options, spec, result.execution));
+    say_notes(result.scenes.back().notes.lines);
     if (!json_printed)
       print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
   }
   if (options.report) result.scaling = scaling_curves(options, result.execution);
-  const auto write = [](const std::string& path, const std::string& text) {
+  const auto write = [&](const std::string& path, const char* about, const std::string& text) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    say_written(path, about, json_printed ? StandardOutput::answer : StandardOutput::files);
   };
-  if (options.json_file && !json_printed) write(*options.json_file, bench_json(result));
-  if (options.report) write(*options.report, bench_page(result));
+  if (options.json_file && !json_printed) write(*options.json_file, "JSON", bench_json(result));
+  if (options.report) write(*options.report, "HTML report", bench_page(result));
   if (json_printed) print(bench_json(result));
 }
 

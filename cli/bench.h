@@ -8,6 +8,7 @@
 #include "bench/floor.h"
 #include "bench/machine.h"
 #include "bench/picture_check.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "scenes/pipeline/pipeline.h"
 #include "shading/frame.h"
@@ -36,6 +37,7 @@ struct SceneTime {
   double peak_mib = 0;  ///< most memory the process had while preparing and drawing, before any peer
   std::vector<PeerTime> peers;
   std::vector<std::string> peers_about;
+  Notes notes;
 
   /// How much faster than on one core the frame would be on `cores`, by these costs and the tiles that it would have.
   double scheduled_speedup(int cores) const;

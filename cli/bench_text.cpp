@@ -128,6 +128,7 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
     json.put_raw(
         "best_peer",
         JsonObject().put("name", best->name).put("strategy", best->strategy).put("ratio", s.ratio(*best)).text());
+  json.put_raw("ignored", ignored_json(s.notes)).put_raw("notes", lines_json(s.notes));
   return json.put_raw("peers", peers.text()).text();
 }
 

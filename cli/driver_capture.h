@@ -23,7 +23,7 @@ struct DriverFrame {
   /// Pixels of which something stored differs from that of `first`, this capture: in the same frame drawn again, which
   /// OpenGL rules out (4.6 core, appendix A, rule 1), and in one moved by whole pixels (14.2), which drivers are known
   /// not to keep. They draw when called, but for a repeated frame that `steps` drew meanwhile, if it is the same.
-  std::function<uint64_t(const oracle::Capture& first)> repeat_changes, move_changes;
+  std::function<uint64_t(const oracle::Capture&first)> repeat_changes, move_changes;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
   oracle::LightSteps steps;        ///< of strategies that draw light by light
   oracle::LightSteps objects;      ///< of surfaces transparent after the lights, object by object

@@ -130,6 +130,7 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
       .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
+  json.put_raw("ignored", ignored_json(result.notes)).put_raw("notes", lines_json(result.notes));
   return json.text() + '\n';
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/notes.h"
 #include "core/image_files/image_io.h"
 #include "shading/frame.h"
 
@@ -19,6 +20,7 @@ struct RenderedFrame {
   std::string image_hash;           ///< 64 hex digits
   std::string scene_hash;           ///< 64 hex digits; empty where nobody asks
   std::vector<double> repeated_ms;  ///< the frame drawn again without planes, for a report's time per frame; ascending
+  Notes notes{};
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.
@@ -38,7 +40,8 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result);
 /// The stat lines as a table of text.
 std::string stats_text(const RenderedFrame& result);
 
-/// `--json`: one document of scene, pipeline, execution, stats, hash, aovs and files, and a line feed.
+/// `--json`: one document of scene, pipeline, execution, stats, hash, aovs, files, ignored and
+/// notes, and a line feed.
 std::string json_of(const RenderedFrame& result, std::span<const std::string> files);
 
 }  // namespace trueshade

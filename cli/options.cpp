@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/option_values.h"
+#include "cli/unknown_option.h"
 #include "cli/version.h"
 #include "core/error.h"
 #include "judge/bounds/profile.h"
@@ -108,6 +109,8 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   check_simd("--simd", options.simd);
   validate(execution_of(options));
   check_outputs(options);
+  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
+    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   return options;
 }
 
@@ -232,6 +235,35 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The names of a command's options, with their dashes.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// What is wrong with arguments of a command that no option takes: an option that does not exist, with the name that
+/// was probably meant, or one value too many.
+Error unexpected_argument(const CLI::App& command, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> known = option_names(command);
+  const std::string unknown = first_unknown_option(arguments, known), meant = likeliest_name(unknown, known);
+  const std::string help =
+      "`" + (command.get_parent() ? "trueshade " : std::string()) + command.get_name() + " --help` names all options";
+  if (unknown.empty()) return usage("command line", "'" + arguments.front() + "' is one argument too many", help);
+  return usage(unknown, "there is no such option", meant.empty() ? help : "did you mean " + meant + "? " + help);
+}
+
+/// The first argument is a command, or an option of the program itself. Error(usage) for any other.
+void check_first_argument(const CLI::App& app, const std::string& first) {
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate", "bench"};
+  if (!first_unknown_option({&first, 1}, option_names(app)).empty()) throw unexpected_argument(app, {first});
+  if (first[0] != '-' && std::find(std::begin(kCommands), std::end(kCommands), first) == std::end(kCommands))
+    throw usage("command line", "there is no command '" + first + "'", "one of: " + joined(kCommands));
+}
+
 }  // namespace
 
 Execution execution_of(const RenderOptions& options) {
@@ -265,11 +297,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate", "bench"};
-  if (count > 1 && arguments[1][0] != '-' &&
-      std::find(std::begin(kCommands), std::end(kCommands), arguments[1]) == std::end(kCommands))
-    throw usage("command line", std::string("there is no command '") + arguments[1] + "'",
-                "one of: " + joined(kCommands));
+  if (count > 1) check_first_argument(app, arguments[1]);
   try {
     app.parse(count, arguments);
   } catch (const CLI::CallForHelp&) {
@@ -277,6 +305,9 @@ Command command_from_arguments(int count, const char* const* arguments) {
     return PrintText{chosen.empty() ? app.help() : chosen[0]->help("trueshade")};
   } catch (const CLI::CallForVersion& version) {
     return PrintText{std::string(version.what()) + "\n"};
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    throw unexpected_argument(chosen.empty() ? app : *chosen[0], app.remaining(true));
   } catch (const CLI::ParseError& error) {
     throw usage("command line", one_line(error.what()), "see trueshade --help");
   }

@@ -16,6 +16,7 @@ body { margin: 0; background: var(--page); color: var(--text); font: 15px/1.5 sy
 main { max-width: 1280px; margin: 0 auto; padding: 28px 24px 64px; }
 h1 { margin: 0; font-size: 26px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { margin: 36px 0 12px; font-size: 17px; font-weight: 600; }
+.note { border-left: 3px solid var(--accent); padding-left: 12px; }
 .quiet { color: var(--quiet); }
 code, pre { font: 13px/1.5 ui-monospace, "Cascadia Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 .facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 20px 0; }
@@ -94,6 +95,12 @@ std::string grouped(const std::string& number) {
 std::string figure(const Image& image, const std::string& name, const std::string& about) {
   return "<figure><img alt=\"" + escaped(name) + "\" src=\"data:image/png;base64," + base64(encode_png(image, {})) +
          "\"><figcaption><b>" + escaped(name) + "</b> " + about + "</figcaption></figure>\n";
+}
+
+std::string notes_part(std::span<const std::string> lines) {
+  std::string html;
+  for (const std::string& line : lines) html += "<p class=note>Note: " + escaped(line) + ".</p>\n";
+  return html;
 }
 
 std::string fact(const std::string& value, const std::string& name) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,9 @@ std::string grouped(const std::string& number);
 
 /// A picture with its caption; `about` is HTML.
 std::string figure(const Image& image, const std::string& name, const std::string& about);
+
+/// Notes, a paragraph each; nothing where there are none.
+std::string notes_part(std::span<const std::string> lines);
 
 /// A number worth its own card.
 std::string fact(const std::string& value, const std::string& name);

@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
+#include "cli/notes.h"
 #include "cli/picture_encoding.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
+#include "cli/written_files.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "scenes/scene.h"
@@ -54,6 +57,22 @@ void draw(const RenderOptions& options, const PreparedScene& prepared, RenderedF
   std::sort(result.repeated_ms.begin(), result.repeated_ms.end());
 }
 
+/// What a line about a written file says of it.
+std::string about_file(const std::string& path, const RenderedFrame& result, std::span<const NamedImage> planes) {
+  const Image& color = result.frame.color;
+  std::string about = std::to_string(color.width) + 'x' + std::to_string(color.height) + ' ' +
+                      std::string(info(color.format).name) + ", " + kind_of_file(path);
+  if (is_report(path)) return about + " report";
+  if (!path.ends_with(".exr") || planes.empty()) return about;
+  about += " with planes";
+  for (const NamedImage& plane : planes) about += ' ' + plane.name;
+  return about;
+}
+
+StandardOutput standard_output_of(const RenderOptions& options) {
+  return options.hash || options.stats || options.json ? StandardOutput::answer : StandardOutput::files;
+}
+
 void write_outputs(const RenderOptions& options, const std::vector<std::string>& paths, const RenderedFrame& result) {
   const std::span<const NamedImage> asked_for(result.frame.aovs.data(), options.aovs.size());
   const Metadata metadata = metadata_of(result);
@@ -64,13 +83,24 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
     } else {
       write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
+    say_written(path, about_file(path, result, asked_for), standard_output_of(options));
   }
 }
 
-/// Draws the scene as it stands, writes its files and prints what was asked for but JSON, which comes back.
+/// A frame of a scene as it stands, not drawn yet.
+RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const Pipeline& pipeline, double time) {
+  RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
+  result.notes = notes_of(scene, pipeline);
+  if (std::string note = encoding_note(options, pipeline); !note.empty()) result.notes.lines.push_back(std::move(note));
+  return result;
+}
+
+/// Draws the frame, writes its files and prints what was asked for but JSON, which comes back.
 std::string render_one(const RenderOptions& options, const std::vector<std::string>& paths,
                        const PreparedScene& prepared, RenderedFrame& result) {
   draw(options, prepared, result);
+  const std::string hidden = hidden_picture_note(result.pipeline, result.frame.color);
+  if (!hidden.empty()) result.notes.lines.push_back(hidden);
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
   write_outputs(options, paths, result);
@@ -80,17 +110,21 @@ std::string render_one(const RenderOptions& options, const std::vector<std::stri
   return {};
 }
 
-/// Frame after frame from one scene whose meshes are loaded and clustered once.
+/// Frame after frame from one scene whose meshes are loaded and clustered once. A note is said once, with the first
+/// frame that calls for it.
 void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& pipeline) {
   const PreparedScene prepared(scene);
   std::string documents;
+  std::set<std::string> said;
   for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
     const double time = double(frame) / scene.timeline.fps;
     set_time(scene, time);
     std::vector<std::string> paths;
     for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
-    RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
+    RenderedFrame result = frame_at(options, scene, pipeline, time);
     const std::string document = render_one(options, paths, prepared, result);
+    for (const std::string& line : result.notes.lines)
+      if (said.insert(line).second) say_notes({line});
     if (options.json) documents += (documents.empty() ? "" : ",") + document.substr(0, document.size() - 1);
   }
   if (options.json) print("{\"frames\":[" + documents + "]}\n");
@@ -99,17 +133,16 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
 }  // namespace
 
 void render(const RenderOptions& options) {
+  check_pipeline(options);
   for (const std::string& path : options.outputs) check_writable(path);
   Scene scene = load_scene(options.scene, {}, decode_image);
-  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
-    throw Error(ErrorKind::usage, "render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
   const Pipeline pipeline = pipeline_of(options, scene);
-  if (const std::string note = encoding_note(options, pipeline); !note.empty())
-    std::fprintf(stderr, "trueshade: note: %s\n", note.c_str());
   if (options.frames) return render_frames(options, scene, pipeline);
   set_time(scene, options.time);
-  RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};
-  print(render_one(options, options.outputs, PreparedScene(scene), result));
+  RenderedFrame result = frame_at(options, scene, pipeline, options.time);
+  const std::string document = render_one(options, options.outputs, PreparedScene(scene), result);
+  say_notes(result.notes.lines);
+  print(document);
 }
 
 }  // namespace trueshade

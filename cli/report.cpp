@@ -42,7 +42,7 @@ std::string heading(const RenderedFrame& result, const std::vector<StatLine>& li
          fact(grouped(value_of(lines, "triangles")), "triangles") + fact(grouped(value_of(lines, "lights")), "lights") +
          fact(grouped(value_of(lines, "lit_pixel_lights")), "pixel-light pairs lit") +
          "</div>\n<p>Image <code>sha256:" + result.image_hash + "</code><br>Scene <code>sha256:" + result.scene_hash +
-         "</code></p>\n";
+         "</code></p>\n" + notes_part(result.notes.lines);
 }
 
 std::string pictures(const RenderedFrame& result) {

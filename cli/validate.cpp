@@ -10,6 +10,7 @@
 #include "cli/preparation.h"
 #include "cli/validation.h"
 #include "cli/validation_capture.h"
+#include "cli/written_files.h"
 #include "core/image_files/image_io.h"
 #include "scenes/scene.h"
 
@@ -45,8 +46,9 @@ void save(const oracle::Capture& capture, const std::string& path) {
   write_image(path, capture.color, planes, {{"trueshade:driver", capture.driver}});
 }
 
-void read_files(const ValidationOptions& options, Validation& v) {
-  v.capture = capture_from_files(options.gbuffer_file, options.image_file);
+/// Makes the capture that was read one of the pipeline.
+void fit_capture(const ValidationOptions& options, Validation& v) {
+  if (!v.capture.has_alpha) v.notes.push_back("the picture has no alpha channel, so alpha is not judged");
   const Image& plane = v.capture.planes.front().image;
   if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
   store_as(v.pipeline, options.gbuffer_file, v.capture);
@@ -55,17 +57,31 @@ void read_files(const ValidationOptions& options, Validation& v) {
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
+void say_files(const ValidationOptions& options, const Validation& v) {
+  const StandardOutput output = options.json ? StandardOutput::answer : StandardOutput::files;
+  const Image& color = v.capture.color;
+  for (const std::string& path : options.saved)
+    say_written(path,
+                std::to_string(color.width) + 'x' + std::to_string(color.height) + ' ' +
+                    std::string(info(color.format).name) + ", " + kind_of_file(path),
+                output);
+  if (options.report) say_written(*options.report, "HTML report", output);
+}
+
 }  // namespace
 
 bool judge_opengl(const ValidationOptions& options) {
+  check_pipeline(options);
   if (options.report) check_writable(*options.report);
   for (const std::string& path : options.saved) check_writable(path);
+  Validation v;
+  if (!options.gbuffer_file.empty()) v.capture = capture_from_files(options.gbuffer_file, options.image_file);
   Scene scene = load_scene(options.scene, {}, decode_image);
   set_time(scene, options.time);
-  Validation v;
   v.pipeline = pipeline_of(options, scene);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
+  v.scene_notes = notes_of(scene, v.pipeline);
   if (v.pipeline.post.active())
     v.notes.push_back(
         "the post chain is not judged: drawn and judged is the target before it, and a captured picture "
@@ -75,7 +91,7 @@ bool judge_opengl(const ValidationOptions& options) {
     if (options.gbuffer_file.empty())
       drawn = draw_here(options, scene, v);
     else
-      read_files(options, v);
+      fit_capture(options, v);
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
@@ -89,6 +105,8 @@ bool judge_opengl(const ValidationOptions& options) {
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }
   print(options.json ? validation_json(v) : validation_text(v));
+  say_files(options, v);
+  say_notes(v.scene_notes.lines);
   return passes(v);
 }
 

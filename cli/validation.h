@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "cli/driver_capture.h"
-#include "oracle/capture.h"
+#include "cli/notes.h"
 #include "judge/stages/validate.h"
+#include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -21,6 +22,7 @@ struct Validation {
   int timed_frames = 0;                                  ///< whose median the passes are
   std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing where not drawn
   std::vector<std::string> notes;                        ///< what a reader must know before the figures
+  Notes scene_notes;                                     ///< what the picture does not show of the scene
   double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
 };
 

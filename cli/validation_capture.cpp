@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -11,10 +12,12 @@
 #include "core/image_files/image_io.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
+#include "scenes/files/scene_files.h"
 
 namespace trueshade {
 namespace {
 
+constexpr uint64_t kMaxPictureBytes = uint64_t(4) << 30;
 constexpr double kLargestWhole = 16777216.0;  // 2^24: every whole number to here is a float
 
 Error bad_capture(const std::string& where, const std::string& reason, const std::string& remedy) {
@@ -87,6 +90,21 @@ bool untouched(const Image& normal, int x, int y) {
   return normal.value(x, y, 0) == 0.0 && normal.value(x, y, 1) == 0.0 && normal.value(x, y, 2) == 0.0;
 }
 
+/// A value at a place that the format of its plane does not hold.
+Error unheld_value(const std::string& where, const std::string& place, double value, const FormatInfo& to) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.9g", value);
+  if (to.number_class != NumberClass::integer)
+    return bad_capture(where, place + " is " + number + ", which " + std::string(to.name) + " does not hold",
+                       "name the plane's format in --pipeline, or capture before it is converted");
+  const bool is_code_as_float =
+      value != 0.0 && std::fabs(value) < 0x1p-126;  // whole numbers below 2^23, read as floats
+  return bad_capture(where,
+                     place + " is " + number + ", and an identifier is a whole number" +
+                         (is_code_as_float ? ": the bits of a uint were read as those of a float" : ""),
+                     "store the channel as uint, or the number itself as a float");
+}
+
 Image converted(const std::string& where, const std::string& name, const Image& given, Format wanted) {
   const FormatInfo from = info(given.format);
   const Format format = format_for(wanted, from.channels);
@@ -94,7 +112,8 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   const FormatInfo to = info(format);
   const bool pads_uv = name == "uv" && from.channels == 2;
   const bool pads_normal = name == "normal" && from.channels == 3 && to.packed();
-  if (from.channels != to.channels && !pads_uv && !pads_normal)
+  const bool pads_alpha = name == "color" && from.channels == 3 && to.channels == 4;  // which is not judged
+  if (from.channels != to.channels && !pads_uv && !pads_normal && !pads_alpha)
     throw bad_capture(where,
                       name + " has " + std::to_string(from.channels) + " channels, and " +
                           std::string(info(wanted).name) + " has " + std::to_string(to.channels),
@@ -109,11 +128,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
       for (int k = 0; k < to.channels; ++k) {
         const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? last : 0.0;
         const std::optional<uint32_t> bits = bits_of(value, to, k, from);
-        if (!bits)
-          throw bad_capture(where,
-                            name + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " +
-                                std::to_string(value) + ", which " + std::string(to.name) + " does not hold",
-                            "name the plane's format in --pipeline, or capture before it is converted");
+        if (!bits) throw unheld_value(where, name + " at " + std::to_string(x) + ',' + std::to_string(y), value, to);
         image.set_code(x, y, k, *bits);
       }
     }
@@ -126,6 +141,39 @@ void check_kind(const std::string& file, const std::vector<NamedImage>& planes) 
                       "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
 }
 
+/// Refuses depths and texture coordinates in halves where the pipeline stores more bits: they are values that were
+/// rounded after they had been drawn. Reading widens them to floats, so that only the file's header tells.
+void check_halves(const Pipeline& pipeline, const std::string& file) {
+  const std::vector<std::string> channels = read_image_info(file).channels;
+  const auto has = [&](const char* channel) {
+    return std::find(channels.begin(), channels.end(), channel) != channels.end();
+  };
+  const auto refuse = [&](const char* plane, Format format) {
+    throw bad_capture(
+        file, std::string(plane) + " is stored as half, and the pipeline's as " + std::string(info(format).name),
+        "write it as float: a half keeps 11 of its bits");
+  };
+  if (has("depth.Z half")) refuse("depth", pipeline.geometry.depth_format);
+  if (has("uv.X half") && !info(pipeline.gbuffer.uv.format).small_float()) refuse("uv", pipeline.gbuffer.uv.format);
+}
+
+bool is_rgb_of_8_bits(const ImageFileInfo& file) {
+  return file.channels.size() == 3 && file.channels.front().ends_with("uint8");
+}
+
+/// Reads the picture in a file into a capture. A PNG of R, G and B gets an alpha of 1, which is not judged.
+void read_picture(const std::string& path, oracle::Capture& capture) {
+  if (is_rgb_of_8_bits(read_image_info(path))) {
+    capture.has_alpha = false;
+    capture.color = decode_image(read_user_file(path, kMaxPictureBytes), path, kMaxPictureBytes);
+    return;
+  }
+  std::vector<NamedImage> planes = read_planes(path);
+  if (planes.front().name != "color") throw bad_capture(path, "it has no channels R G B A", "give the lit picture");
+  capture.has_alpha = info(planes.front().image.format).channels != 3;
+  capture.color = std::move(planes.front().image);
+}
+
 }  // namespace
 
 oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::string& image_file) {
@@ -135,17 +183,16 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
   std::vector<NamedImage> planes = read_planes(gbuffer_file);
   check_kind(gbuffer_file, planes);
   for (NamedImage& plane : planes) {
-    if (plane.name == "color")
+    if (plane.name == "color") {
+      capture.has_alpha = info(plane.image.format).channels != 3;
       capture.color = std::move(plane.image);
-    else
+    } else {
       capture.planes.push_back(std::move(plane));
+    }
   }
   if (image_file.empty()) return capture;
-  std::vector<NamedImage> picture = read_planes(image_file);
-  if (picture.front().name != "color")
-    throw bad_capture(image_file, "it has no channels R G B A", "give the lit picture");
   capture.driver += " and " + image_file;
-  capture.color = std::move(picture.front().image);
+  read_picture(image_file, capture);
   const Image& plane = capture.planes.front().image;
   if (capture.color.width != plane.width || capture.color.height != plane.height)
     throw bad_capture(image_file,
@@ -158,6 +205,7 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
 void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& capture) {
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);
+  check_halves(pipeline, where);
   const Image& first = capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
     throw bad_capture(

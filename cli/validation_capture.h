@@ -12,8 +12,9 @@ oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::s
 
 /// Puts each plane into the format the pipeline stores it in, which decides what is legal: codes of rgba8 from their
 /// floats, halves from floats that are halves, identifiers from whole numbers. Error(bad_input) naming `where`, plane
-/// and the pixel (from the top left) of a value that the format cannot hold, for sizes other than the pipeline's, and
-/// for a missing alpha.
+/// and the pixel (from the top left) of a value that the format cannot hold, for sizes other than the pipeline's, for
+/// depths and texture coordinates in halves that the pipeline stores in floats. A picture of R, G and B alone gets an
+/// alpha of 1, which is not judged.
 void store_as(const Pipeline& pipeline, const std::string& where, oracle::Capture& capture);
 
 }  // namespace trueshade

@@ -120,10 +120,12 @@ std::string inference_part(const oracle::Verdict& v) {
   if (!v.inferred) return "";
   std::string html =
       "<h2>Tightest profile that explains it</h2>\n<p>" + escaped(tightest_line(*v.inferred)) +
-      "</p>\n<details><summary>What was tried</summary><table class=wide><tr><th>knob<th>guess<th>pixels against it\n";
+      "</p>\n<details><summary>What was tried</summary><table class=wide><tr><th>knob<th>guess<th>pixels "
+      "against it<th>of the G-buffer<th>of the target\n";
   for (const oracle::Hypothesis& h : v.inferred->tried)
-    html += "<tr><td>" + escaped(h.knob) + "<td>" + escaped(h.value) + "<td>" + grouped(std::to_string(h.violations)) +
-            '\n';
+    html += "<tr><td>" + escaped(h.knob) + "<td>" + escaped(h.value) + "<td>" +
+            grouped(std::to_string(h.violations())) + "<td>" + grouped(std::to_string(h.surfaces)) + "<td>" +
+            (h.lights ? grouped(std::to_string(*h.lights)) : "not judged") + '\n';
   return html + "</table></details>\n";
 }
 
@@ -134,6 +136,7 @@ std::string heading(const Validation& v) {
                      std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion + "<br>held to " +
                      escaped(profile_line(v.profile)) + "</p>\n";
   for (const std::string& note : v.notes) html += "<p class=quiet>" + escaped(note) + "</p>\n";
+  html += notes_part(v.scene_notes.lines);
   html += "<div class=facts>" + fact(grouped(std::to_string(v.verdict.violations())), "pixels in no legal set");
   for (const StageVerdict& s : v.verdict.stages)
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage);

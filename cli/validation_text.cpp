@@ -89,7 +89,13 @@ std::string profile_line(const oracle::Profile& p) {
 }
 
 std::string tightest_line(const oracle::Inference& inferred) {
-  return text(inferred) + (inferred.known_as.empty() ? "; no named profile explains it" : "; as " + inferred.known_as);
+  if (!inferred.known_as.empty()) return text(inferred) + "; as " + inferred.known_as;
+  const auto nearest = std::find_if(inferred.tried.begin(), inferred.tried.end(),
+                                    [&](const oracle::Hypothesis& h) { return h.value == inferred.nearest; });
+  const std::string line = text(inferred) + "; no named profile explains it";
+  if (nearest == inferred.tried.end()) return line;
+  return line + ", " + nearest->value + " comes nearest with " + std::to_string(nearest->violations()) +
+         " pixels against it";
 }
 
 bool passes(const Validation& v) { return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0; }
@@ -140,6 +146,7 @@ std::string validation_json(const Validation& v) {
   for (const DriverFrame::Pass& pass : v.passes)
     passes.add_raw(JsonObject().put("name", pass.name).put("ms", pass.ms).text());
   for (const std::string& note : v.notes) notes.add_raw(json_string(note));
+  for (const std::string& note : v.scene_notes.lines) notes.add_raw(json_string(note));
   JsonObject json;
   json.put("version", kVersion);
   json.put_raw("pipeline", pipeline_json(v.pipeline));
@@ -149,6 +156,7 @@ std::string validation_json(const Validation& v) {
       .put("timed_frames", v.timed_frames)
       .put_raw("notes", notes.text())
       .put("post_chain", v.pipeline.post.active() ? "not judged" : "none");
+  json.put_raw("ignored", ignored_json(v.scene_notes));
   if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
   if (v.move_changes) json.put("move_changes", *v.move_changes);
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));

@@ -17,6 +17,7 @@ struct Capture {
   Image color;                     ///< the target; empty if none was captured
   std::vector<NamedImage> planes;  ///< named as `--aov` names them; any subset
   std::array<int, 2> drawn_at{};   ///< where its lower left pixel was in the driver's window: floats round there
+  bool has_alpha = true;           ///< false: the file had R, G and B alone; the alpha of `color` is then not judged
   std::string name = "capture";    ///< what errors call it: the file it is from
 
   const Image* plane(std::string_view name) const {

@@ -1,10 +1,14 @@
 #include "judge/stages/infer.h"
 
+#include <algorithm>
+
 #include "judge/stages/tally.h"
 
 namespace trueshade::oracle {
 
 namespace {
+
+constexpr const char* kNamed = "profile";  // the knob that named profiles are guesses of
 
 class Inquiry {
  public:
@@ -28,6 +32,7 @@ class Inquiry {
     find_origin();
     find_stores();
     find_name();
+    rank();
     result_.tightest = loose_;
     result_.tightest.name = result_.known_as.empty() ? "inferred" : result_.known_as;
     if (const auto known = profile_named(result_.known_as)) result_.tightest = *known;
@@ -35,12 +40,27 @@ class Inquiry {
   }
 
  private:
-  uint64_t against(const Profile& profile, bool lighting, const char* knob, const std::string& value) {
-    uint64_t violations = judge_gbuffer(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
-    if (violations == 0 && lighting && lit_)  // the costlier of the two
-      violations += judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
-    result_.tried.push_back({knob, value, violations});
-    return violations;
+  /// What a guess bears on. The target is judged by the capture's own surfaces, which no grid changes.
+  enum class Bears : uint8_t { on_surfaces, on_all_stages };
+
+  /// Counts the pixels of all stages, also where the first one fails: only so can guesses be ranked.
+  uint64_t against(const Profile& profile, Bears bears, const char* knob, const std::string& value) {
+    Hypothesis guess{knob, value, judge_gbuffer(scene_, pipeline_, profile, capture_).count(PixelClass::violation), {}};
+    if (bears == Bears::on_all_stages && lit_)
+      guess.lights = judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
+    result_.tried.push_back(guess);
+    return guess.violations();
+  }
+
+  /// Sorts the guesses of each knob; of guesses that are equally good, the likelier one, tried first, stays first.
+  void rank() {
+    auto& tried = result_.tried;
+    for (auto first = tried.begin(); first != tried.end();) {
+      const auto end = std::find_if(first, tried.end(), [&](const Hypothesis& h) { return h.knob != first->knob; });
+      std::stable_sort(first, end, [](const auto& a, const auto& b) { return a.violations() < b.violations(); });
+      if (first->knob == kNamed && result_.known_as.empty()) result_.nearest = first->value;
+      first = end;
+    }
   }
 
   void find_grid() {
@@ -56,7 +76,7 @@ class Inquiry {
       Profile p = loose_;
       p.subpixel_bits = grid.bits;
       p.snap = grid.rule;
-      if (against(p, false, "snap", std::to_string(grid.bits) + " bits, " + text(grid.rule)) > 0) continue;
+      if (against(p, Bears::on_surfaces, "snap", std::to_string(grid.bits) + " bits, " + text(grid.rule)) > 0) continue;
       result_.subpixel_bits = grid.bits;
       result_.snap = grid.rule;
       loose_ = p;
@@ -68,8 +88,8 @@ class Inquiry {
     Profile snapped = loose_, unsnapped = loose_;
     snapped.plane_origin = PlaneOrigin::snapped;
     unsnapped.plane_origin = PlaneOrigin::unsnapped;
-    const bool a = against(snapped, false, "plane origin", "snapped") == 0,
-               b = against(unsnapped, false, "plane origin", "unsnapped") == 0;
+    const bool a = against(snapped, Bears::on_surfaces, "plane origin", "snapped") == 0,
+               b = against(unsnapped, Bears::on_surfaces, "plane origin", "unsnapped") == 0;
     if (a || b) result_.plane_origin = a && b ? PlaneOrigin::either : a ? PlaneOrigin::snapped : PlaneOrigin::unsnapped;
     if (a != b) loose_.plane_origin = *result_.plane_origin;
   }
@@ -79,8 +99,8 @@ class Inquiry {
       Profile truncated = loose_, nearest = loose_;
       truncated.half = HalfStore::toward_zero;
       nearest.half = HalfStore::nearest;
-      const bool a = against(truncated, true, "half", text(truncated.half)) == 0,
-                 b = against(nearest, true, "half", text(nearest.half)) == 0;
+      const bool a = against(truncated, Bears::on_all_stages, "half", text(truncated.half)) == 0,
+                 b = against(nearest, Bears::on_all_stages, "half", text(nearest.half)) == 0;
       if (a || b) result_.half = a && b ? HalfStore::either : a ? HalfStore::toward_zero : HalfStore::nearest;
       if (a != b) loose_.half = *result_.half;
     }
@@ -88,7 +108,7 @@ class Inquiry {
     for (const double reach : {0.5, 0.6, 1.0}) {
       Profile p = loose_;
       p.unorm_reach = reach;
-      if (against(p, true, "unorm", "within " + std::to_string(reach).substr(0, 3)) > 0) continue;
+      if (against(p, Bears::on_all_stages, "unorm", "within " + std::to_string(reach).substr(0, 3)) > 0) continue;
       result_.unorm_reach = reach;
       loose_.unorm_reach = reach;
       return;
@@ -97,7 +117,7 @@ class Inquiry {
 
   void find_name() {
     for (const char* name : {"ideal", "mesa-llvmpipe-22.3", "d3d-class", "unknown"}) {
-      if (against(*profile_named(name), true, "profile", name) > 0) continue;
+      if (against(*profile_named(name), Bears::on_all_stages, kNamed, name) > 0) continue;
       result_.known_as = name;
       return;
     }

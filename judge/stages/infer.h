@@ -8,10 +8,13 @@
 
 namespace trueshade::oracle {
 
-/// One guess and how many pixels speak against it.
+/// One guess and how many pixels speak against it, in every stage that the guess bears on.
 struct Hypothesis {
   std::string knob, value;
-  uint64_t violations = 0;
+  uint64_t surfaces = 0;           ///< pixels of the G-buffer's stage
+  std::optional<uint64_t> lights;  ///< pixels of the target's stage; nothing where that stage is not judged
+
+  uint64_t violations() const { return surfaces + lights.value_or(0); }
 };
 
 struct Inference {
@@ -20,9 +23,10 @@ struct Inference {
   std::optional<PlaneOrigin> plane_origin;  ///< either: both explain the image
   std::optional<HalfStore> half;            ///< nothing where no half was stored; either: both explain it
   std::optional<double> unorm_reach;        ///< 0.5, 0.6 or 1; nothing where no unorm was stored, or none explains it
-  std::string known_as;  ///< the named profile, tightest first, that explains the image; empty if none
-  Profile tightest;      ///< all of it together
-  std::vector<Hypothesis> tried;
+  std::string known_as;           ///< the named profile, tightest first, that explains the image; empty if none
+  std::string nearest;            ///< where known_as is empty: the named profile that the fewest pixels speak against
+  Profile tightest;               ///< all of it together
+  std::vector<Hypothesis> tried;  ///< knob by knob; guesses of one knob by their violations, the fewest first
 };
 
 /// Judges the capture under one guess after the other, everything else left as open as OpenGL leaves it. Some fifteen

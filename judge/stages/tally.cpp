@@ -31,6 +31,16 @@ void keep_worst(std::vector<WorstPixel>& list) {
 
 }  // namespace
 
+std::string channel_of(std::string_view plane, int channel) {
+  std::string_view letters = "RGBA";
+  if (plane == "position" || plane == "normal") letters = "XYZW";
+  if (plane == "uv") letters = "UV";
+  if (plane == "depth") letters = "Z";
+  const bool is_count = plane.starts_with("id.") || plane == "light.count";
+  if (plane.empty() || is_count || size_t(channel) >= letters.size()) return std::string(plane);
+  return std::string(plane) + '.' + letters[size_t(channel)];
+}
+
 PlaneView::PlaneView(const Image* i) : image(i) {
   if (i == nullptr) return;
   layout = info(i->format);
@@ -42,7 +52,9 @@ double PlaneView::stored(int x, int y, int channel) const {
 }
 
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
-  const PlaneView view(name == "color" ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
+  const bool is_target = name == "color";
+  PlaneView view(is_target ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
+  if (is_target && !capture.has_alpha) view.channels = std::min(view.channels, 3);
   if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
     throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),
                 "is " + std::to_string(view.image->width) + "x" + std::to_string(view.image->height) + ", not " +
@@ -118,12 +130,8 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
   worst_error = std::max(worst_error, match.worst_error);
   choices.insert(choices.end(), match.choices.begin(), match.choices.end());
   if (c == PixelClass::exact || c == PixelClass::store_2) return;
-  static constexpr char kChannel[] = "RGBA";
-  const char* name = match.plane;
-  std::string place = name;
-  if (!place.empty()) place += std::string(".") + kChannel[match.channel & 3];
-  worst.push_back({x, y, c, place, match.legal_value.low, match.legal_value.high, match.legal_value.nominal,
-                   match.given, match.excess, surface});
+  worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
+                   match.legal_value.nominal, match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/image.h"
-#include "oracle/capture.h"
 #include "judge/legal/store.h"
 #include "judge/stages/verdict.h"
+#include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade::oracle {
@@ -14,7 +14,7 @@ namespace trueshade::oracle {
 struct PlaneView {
   const Image* image = nullptr;
   FormatInfo layout = info(Format::rgba32f);
-  int channels = 0;
+  int channels = 0;  ///< those that are judged: of a target without alpha 3, whatever its format
 
   PlaneView() = default;
   explicit PlaneView(const Image* i);
@@ -25,6 +25,10 @@ struct PlaneView {
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
 };
+
+/// A channel of a plane as verdicts name it: `color.R`, `position.Z`, `uv.U`, `depth.Z`; planes of one number, such as
+/// `id.object`, go by their own name.
+std::string channel_of(std::string_view plane, int channel);
 
 /// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);

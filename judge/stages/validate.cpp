@@ -69,10 +69,12 @@ std::string stage_json(const StageVerdict& s, const std::vector<AggregateTest>& 
 
 std::string inference_json(const Inference& i) {
   const auto tried = [](const Hypothesis& h) {
-    return "{\"knob\":" + quoted(h.knob) + ",\"value\":" + quoted(h.value) + ",\"violations\":" + number(h.violations) +
-           "}";
+    return "{\"knob\":" + quoted(h.knob) + ",\"value\":" + quoted(h.value) +
+           ",\"violations\":" + number(h.violations()) + ",\"gbuffer\":" + number(h.surfaces) +
+           ",\"lighting\":" + (h.lights ? number(*h.lights) : "null") + "}";
   };
   return "{\"summary\":" + quoted(text(i)) + ",\"known_as\":" + quoted(i.known_as) +
+         ",\"nearest\":" + quoted(i.nearest) +
          ",\"subpixel_bits\":" + (i.subpixel_bits ? std::to_string(*i.subpixel_bits) : "null") +
          ",\"snap\":" + (i.snap ? quoted(text(*i.snap)) : "null") +
          ",\"plane_origin\":" + (i.plane_origin ? quoted(text(*i.plane_origin)) : "null") +

@@ -1,8 +1,12 @@
 // `trueshade validate` as people run it: on this machine's driver, on captures, on captures that are wrong.
+#include <OpenImageIO/imageio.h>
+
+#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
@@ -48,7 +52,138 @@ void set_float(Image& image, int x, int y, int channel, float value) {
   std::memcpy(image.texel(x, y) + 4 * channel, &value, sizeof value);
 }
 
+/// The channels of c.exr as floats, each in the type that `type_of` names, with `change` made to a value of a channel:
+/// what other programs write.
+template <typename TypeOf, typename Change>
+void write_channels(const ScratchFolder& folder, const std::string& name, TypeOf type_of, Change change) {
+  const auto in = OIIO::ImageInput::open(folder.path("c.exr"));
+  REQUIRE(in);
+  OIIO::ImageSpec spec(in->spec().width, in->spec().height, in->spec().nchannels, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = in->spec().channelnames;
+  const auto channels = size_t(spec.nchannels), pixels = size_t(spec.width) * size_t(spec.height);
+  std::vector<uint8_t> native(in->spec().image_bytes(true));
+  REQUIRE(in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, native.data()));  // 4 bytes a channel
+  std::vector<float> values(channels * pixels);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const std::string& channel = spec.channelnames[i % channels];
+    uint32_t bits;
+    std::memcpy(&bits, &native[4 * i], 4);
+    const bool whole = in->spec().channelformat(int(i % channels)) == OIIO::TypeDesc::UINT32;
+    values[i] = change(channel, whole ? float(bits) : std::bit_cast<float>(bits));
+  }
+  for (const std::string& channel : spec.channelnames) spec.channelformats.push_back(type_of(channel));
+  const auto out = OIIO::ImageOutput::create("openexr");
+  REQUIRE(out->open(folder.path(name), spec));
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+  REQUIRE(out->close());
+}
+
+/// c.png without its alpha.
+void write_rgb(const ScratchFolder& folder, const std::string& name, uint8_t code_of_0_0) {
+  const NamedImage color = read_planes(folder.path("c.png")).front();
+  std::vector<uint8_t> codes;
+  for (size_t i = 0; i < color.image.texels.size(); ++i)
+    if (i % 4 != 3) codes.push_back(i == 0 ? code_of_0_0 : color.image.texels[i]);
+  const auto out = OIIO::ImageOutput::create("png");
+  REQUIRE(
+      out->open(folder.path(name), OIIO::ImageSpec(color.image.width, color.image.height, 3, OIIO::TypeDesc::UINT8)));
+  REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, codes.data()));
+  REQUIRE(out->close());
+}
+
 }  // namespace
+
+TEST_CASE("A picture of R, G and B alone is judged but for its alpha, and text and JSON say so") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  write_rgb(folder, "rgb.png", read_planes(folder.path("c.png")).front().image.texels[0]);
+  const Outcome right = judged(folder, {"--gbuffer", "c.exr", "--image", "rgb.png"});
+  INFO(right.out << right.err);
+  CHECK(right.exit_code == 0);
+  CHECK(has(right.out, "note        the picture has no alpha channel, so alpha is not judged"));
+  CHECK(has(right.out, "lighting: 30000 pixels"));
+  write_rgb(folder, "wrong.png", 255);
+  const Outcome wrong = judged(folder, {"--gbuffer", "c.exr", "--image", "wrong.png", "--json"});
+  CHECK(wrong.exit_code == 1);
+  CHECK(has(wrong.out, "the picture has no alpha channel"));
+  CHECK(has(wrong.out, R"("plane":"color.R")"));
+}
+
+TEST_CASE("Depths in halves and identifiers read as floats are refused in one line, not judged in thousands") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  const auto as_float = [](const std::string&) { return OIIO::TypeDesc(OIIO::TypeDesc::FLOAT); };
+  const auto same = [](const std::string&, float value) { return value; };
+  write_channels(folder, "floats.exr", as_float, same);  // whole numbers in floats are identifiers as good as others
+  CHECK(judged(folder, {"--gbuffer", "floats.exr"}).exit_code == 0);
+  for (const std::string half : {"depth.Z", "uv.X"}) {
+    const std::string plane = half.substr(0, half.find('.'));
+    write_channels(
+        folder, "half.exr",
+        [&](const std::string& channel) {
+          return OIIO::TypeDesc(channel.starts_with(plane) ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+        },
+        same);
+    check_refused(judged(folder, {"--gbuffer", "half.exr"}), 3, "half.exr: " + plane + " is stored as half, and the");
+  }
+  write_channels(folder, "bits.exr", as_float, [](const std::string& channel, float value) {
+    return channel == "id.object" ? std::bit_cast<float>(uint32_t(value)) : value;
+  });
+  check_refused(judged(folder, {"--gbuffer", "bits.exr"}), 3, "the bits of a uint were read as those of a float");
+  write_channels(folder, "part.exr", as_float, [](const std::string& channel, float value) {
+    return channel == "id.object" ? value / 255.0f : value;
+  });
+  check_refused(judged(folder, {"--gbuffer", "part.exr"}), 3, "and an identifier is a whole number (store the channel");
+}
+
+TEST_CASE("A wrong channel goes by the name that its plane gives it") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  const auto check_named = [&](const std::string& plane, int channel, const std::string& name) {
+    write_changed(folder, "x.exr", plane, [&](Image& image) { set_float(image, 90, 100, channel, 7e4f); });
+    const Outcome outcome = judged(folder, {"--gbuffer", "x.exr", "--json"});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK(has(outcome.out, "\"plane\":\"" + name + "\""));
+  };
+  check_named("position", 2, "position.Z");
+  check_named("normal", 1, "normal.Y");
+  check_named("uv", 1, "uv.V");
+  check_named("depth", 0, "depth.Z");
+}
+
+TEST_CASE("Of the profiles that were tried the one with the fewest pixels against it, over all stages, comes first") {
+  const ScratchFolder folder;
+  write_capture(folder);
+  // Wrong in both stages: what fails its geometry is not spared the count of its lights.
+  write_changed(folder, "a.exr", "normal", [](Image& i) { set_float(i, 90, 60, 0, 0.25f); });
+  std::filesystem::rename(folder.path("a.exr"), folder.path("c.exr"));
+  write_changed(folder, "b.exr", "color", [](Image& i) {
+    for (int x = 100; x < 140; ++x) set_float(i, x, 70, 1, 1.0f);
+  });
+  const Outcome outcome =
+      run_command({"validate", "builtin:cornell", "--gbuffer", "b.exr", "-o", "v.html", "--json"}, folder.path(""));
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 1);
+  const auto inferred = nlohmann::json::parse(outcome.out)["verdict"]["inferred"];
+  int named = 0;
+  uint64_t before = 0;
+  std::string nearest;
+  for (const auto& guess : inferred["tried"]) {
+    if (guess["knob"] != "profile") continue;
+    if (named++ == 0) nearest = guess["value"];
+    CHECK(guess["gbuffer"].get<uint64_t>() >= 1);
+    CHECK(guess["lighting"].get<uint64_t>() >= 40);
+    CHECK(guess["violations"] == guess["gbuffer"].get<uint64_t>() + guess["lighting"].get<uint64_t>());
+    CHECK(guess["violations"].get<uint64_t>() >= before);
+    before = guess["violations"];
+  }
+  CHECK(named == 4);
+  CHECK(inferred["known_as"] == "");
+  CHECK(inferred["nearest"] == nearest);
+  CHECK(has(run_command({"validate", "builtin:cornell", "--gbuffer", "b.exr"}, folder.path("")).out,
+            "no named profile explains it, " + nearest + " comes nearest with "));
+}
 
 TEST_CASE("what OpenGL draws here is explained, pixel by pixel") {
   for (const char* driver : {"llvmpipe", "softpipe"})

@@ -1,0 +1,51 @@
+#include "cli/written_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstdio>
+
+#include "cli/commands.h"
+
+namespace trueshade {
+namespace {
+
+/// Of a regular file, with a comma before it; pipes and devices have no size.
+std::string size_text(const struct stat& file) {
+  if (!S_ISREG(file.st_mode)) return {};
+  const double bytes = double(file.st_size);
+  char text[32];
+  if (bytes < 1000.0)
+    std::snprintf(text, sizeof text, ", %.0f bytes", bytes);
+  else if (bytes < 1e6)
+    std::snprintf(text, sizeof text, ", %.0f kB", bytes * 1e-3);
+  else
+    std::snprintf(text, sizeof text, ", %.1f MB", bytes * 1e-6);
+  return text;
+}
+
+bool is_standard_output(const struct stat& file) {
+  struct stat output {};
+  return fstat(STDOUT_FILENO, &output) == 0 && output.st_dev == file.st_dev && output.st_ino == file.st_ino;
+}
+
+}  // namespace
+
+void say_written(const std::string& path, const std::string& about, StandardOutput standard_output) {
+  struct stat file {};
+  const bool known = stat(path.c_str(), &file) == 0;
+  const std::string line = "wrote " + path + " (" + about + (known ? size_text(file) : "") + ")\n";
+  if (standard_output == StandardOutput::files && !(known && is_standard_output(file))) return print(line);
+  std::fputs(line.c_str(), stderr);
+}
+
+std::string kind_of_file(const std::string& path) {
+  std::string kind = path.substr(path.rfind('.') + 1);
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+  return kind;
+}
+
+}  // namespace trueshade

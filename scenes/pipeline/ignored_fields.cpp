@@ -1,0 +1,154 @@
+#include "scenes/pipeline/ignored_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fp_env.h"
+#include "scenes/trig.h"
+
+namespace trueshade {
+namespace {
+
+bool has_place(const Light& light) { return light.type == LightType::point || light.type == LightType::spot; }
+
+// --- What a pipeline reads -----------------------------------------------------------------------------------------
+
+bool reads_range(Falloff falloff) {
+  return falloff == Falloff::linear_range || falloff == Falloff::linear || falloff == Falloff::inverse_square;
+}
+
+bool reads_attenuation(Falloff falloff) { return falloff == Falloff::quadratic || falloff == Falloff::attenuation; }
+
+bool is_bounded(const Light& light, const LightVolumes& volumes) {
+  return (light.type == LightType::spot ? volumes.spot : volumes.point) != LightExtent::unbounded;
+}
+
+bool reads_materials_gloss(const LightModel& model) {
+  return reads_specular_plane(model) && model.specular_source == SpecularSource::material;
+}
+
+bool blends_transparent(const Material& material, const Pipeline& pipeline) {
+  return material.transparent && pipeline.transparency.mode != TransparencyMode::none;
+}
+
+// --- Fields of lights ----------------------------------------------------------------------------------------------
+
+/// A field of T: where it is stated and not read, it is ignored.
+template <typename T>
+struct Field {
+  std::string_view key, reason;
+  bool (*stated)(const T&);
+  bool (*read)(const T&, const Pipeline&);
+};
+
+constexpr Field<Light> kLightFields[] = {
+    {"cone_deg", "The light model has no cone, so spot lights shine in all directions, as point lights do",
+     [](const Light& l) { return l.type == LightType::spot && l.cone_rad + l.penumbra_rad < float(kPi); },
+     [](const Light&, const Pipeline& p) { return p.light_model.cone != Cone::none; }},
+    {"spot_exponent", "Only the cone 'exponent' raises the cosine to a power",
+     [](const Light& l) { return l.type == LightType::spot && l.spot_exponent != 0.0f; },
+     [](const Light&, const Pipeline& p) { return p.light_model.cone == Cone::exponent; }},
+    {"range", "The falloff of the light model has no end, and no extent of light_volumes bounds the lights",
+     [](const Light& l) { return has_place(l) && std::isfinite(l.range); },
+     [](const Light& l, const Pipeline& p) {
+       return reads_range(p.light_model.falloff) || is_bounded(l, p.light_volumes);
+     }},
+    {"attenuation", "The falloff of the light model has no constant, linear and quadratic factors",
+     [](const Light& l) { return has_place(l) && l.attenuation != glm::vec3(1.0f, 0.0f, 0.0f); },
+     [](const Light&, const Pipeline& p) { return reads_attenuation(p.light_model.falloff); }},
+    {"ambient", "Only the order 'with_ambient' adds a light's share of ambient light",
+     [](const Light& l) { return l.type != LightType::ambient && l.ambient != glm::vec3(0.0f); },
+     [](const Light&, const Pipeline& p) { return p.light_model.order == TermOrder::with_ambient; }}};
+
+// --- Fields of materials -------------------------------------------------------------------------------------------
+
+constexpr std::string_view kGlossReason = "The light model does not take specular colour and shininess from materials";
+constexpr std::string_view kMetalReason = "The light model has no metallic-roughness materials";
+
+const Material& plain() {
+  static const Material material;
+  return material;
+}
+
+constexpr Field<Material> kMaterialFields[] = {
+    {"specular_color", kGlossReason, [](const Material& m) { return m.specular_color != plain().specular_color; },
+     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
+    {"shininess", kGlossReason, [](const Material& m) { return m.shininess != plain().shininess; },
+     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
+    {"specular_map", kGlossReason, [](const Material& m) { return m.specular_map.used(); },
+     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
+    {"emission", "The light model adds no emission", [](const Material& m) { return m.emission != glm::vec3(0.0f); },
+     [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
+    {"metallic", kMetalReason, [](const Material& m) { return m.metallic != plain().metallic; },
+     [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
+    {"roughness", kMetalReason, [](const Material& m) { return m.roughness != plain().roughness; },
+     [](const Material&, const Pipeline& p) {
+       return maps_metals(p.light_model) && reads_specular_plane(p.light_model);
+     }},
+    {"normal_scale", "The material has no normal_map",
+     [](const Material& m) { return m.normal_scale != plain().normal_scale; },
+     [](const Material& m, const Pipeline&) { return m.normal_map.used(); }},
+    {"transparent", "The transparency of the pipeline is 'none', so the material is drawn as an opaque one",
+     [](const Material& m) { return m.transparent; },
+     [](const Material&, const Pipeline& p) { return p.transparency.mode != TransparencyMode::none; }},
+    {"color", "The alpha of an opaque material without alpha_cutoff reaches no stage of the pipeline",
+     [](const Material& m) { return m.base_color.a != 1.0f && !m.transparent; },
+     [](const Material& m, const Pipeline& p) {
+       return m.masked() || blends_transparent(m, p) || p.light_model.alpha_from_albedo;
+     }}};
+
+template <typename T, size_t kFields>
+void append_ignored(std::string_view of, const Field<T> (&fields)[kFields], std::span<const T> values,
+                    const Pipeline& pipeline, std::vector<IgnoredField>& ignored) {
+  for (const Field<T>& field : fields) {
+    const auto count = std::count_if(values.begin(), values.end(), [&](const T& value) {
+      return field.stated(value) && !field.read(value, pipeline);
+    });
+    if (count > 0) ignored.push_back({of, field.key, field.reason, uint64_t(count)});
+  }
+}
+
+/// Takes the maps of materials whose meshes have no texture coordinates as one field.
+void append_maps_without_uv(const Scene& scene, std::vector<IgnoredField>& ignored) {
+  std::vector<bool> lacks_uv(scene.materials.size(), false);
+  for (const Instance& instance : scene.instances)
+    if (scene.materials[instance.material].textured() && !scene.meshes[instance.mesh].has_uv())
+      lacks_uv[instance.material] = true;
+  const auto count = std::count(lacks_uv.begin(), lacks_uv.end(), true);
+  if (count > 0)
+    ignored.push_back({"material", "maps", "A mesh has no texture coordinates, so its maps are read at u = v = 0 alone",
+                       uint64_t(count)});
+}
+
+/// Range and attenuation of a built-in scene are two descriptions of one falloff.
+bool is_other_description(const IgnoredField& field, const Pipeline& pipeline) {
+  const Falloff falloff = pipeline.light_model.falloff;
+  return (field.field == "range" && reads_attenuation(falloff)) ||
+         (field.field == "attenuation" && (reads_range(falloff) || falloff == Falloff::none));
+}
+
+}  // namespace
+
+std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pipeline) {
+  const FpScope fp;
+  std::vector<IgnoredField> ignored;
+  if (pipeline.view != ImageView::lit) return ignored;
+  append_ignored<Light>("light", kLightFields, scene.lights, pipeline, ignored);
+  if (scene.spec.starts_with("builtin:"))
+    std::erase_if(ignored, [&](const IgnoredField& field) { return is_other_description(field, pipeline); });
+  append_ignored<Material>("material", kMaterialFields, scene.materials, pipeline, ignored);
+  append_maps_without_uv(scene, ignored);
+  return ignored;
+}
+
+uint64_t implausible_reflectances(const Scene& scene) {
+  const FpScope fp;
+  const auto too_bright = [](const glm::vec3& color) {
+    return std::max(std::max(color.r, color.g), color.b) > kLargestPlausibleReflectance;
+  };
+  return uint64_t(std::count_if(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+    return too_bright(glm::vec3(m.base_color)) || too_bright(m.specular_color);
+  }));
+}
+
+}  // namespace trueshade
