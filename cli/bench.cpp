@@ -178,7 +178,7 @@ void bench(const BenchOptions& options) {
     if (!json_printed)
       print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
   }
-  if (options.report) result.scaling = scaling_curves(options, result.execution);
+  if (options.report) result.scaling = scaling_curves(options, result.scenes.front().scene, result.execution);
   const auto write = [&](const std::string& path, const char* about, const std::string& text) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     say_written(path, about, json_printed ? StandardOutput::answer : StandardOutput::files);

@@ -67,7 +67,8 @@ struct BenchResult {
 };
 
 /// How frames of city scale with lights, triangles, pixels, threads and SIMD targets, each curve's drawn in turn.
-std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const Execution& execution);
+std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene,
+                                         const Execution& execution);
 
 std::string formatted(double value, const char* format);  ///< by printf's format for one double
 

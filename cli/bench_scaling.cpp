@@ -64,51 +64,64 @@ std::vector<Step> scenes_of(const std::string& spec, const std::vector<int>& cou
   return steps;
 }
 
-std::vector<Step> sizes(const Execution& execution) {
+std::vector<Step> sizes(const std::string& scene, const Execution& execution) {
   std::vector<Step> steps;
   for (const int side : {200, 400, 800, 1600})
-    steps.push_back({std::to_string(side) + "x" + std::to_string(side), side * side * 1e-6, "builtin:city", execution,
+    steps.push_back({std::to_string(side) + "x" + std::to_string(side), side * side * 1e-6, scene, execution,
                      Size{side, side}});
   return steps;
 }
 
-std::vector<Step> thread_counts(Execution execution) {
+std::vector<Step> thread_counts(const std::string& scene, Execution execution) {
   std::vector<Step> steps;
   const int most = thread_count(0);
   for (int n = 1; n <= most; n = std::max(n + 1, std::min(2 * n, most))) {
     execution.threads = n;
-    steps.push_back({std::to_string(n), double(n), "builtin:city", execution});
+    steps.push_back({std::to_string(n), double(n), scene, execution});
   }
   return steps;
 }
 
-std::vector<Step> targets(Execution execution) {
+std::vector<Step> targets(const std::string& scene, Execution execution) {
   std::vector<Step> steps;
   for (const std::string_view target : simd_targets()) {
     execution.simd = target;
-    steps.push_back({std::string(target), double(steps.size()), "builtin:city", execution});
+    steps.push_back({std::string(target), double(steps.size()), scene, execution});
   }
   return steps;
+}
+
+/// What is varied of a scene: size, threads and SIMD target of any; lights of built-in ones; of city, whose generator
+/// takes them, lights at constant overlap and triangles too.
+std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std::string& scene,
+                                                                      const Execution& execution) {
+  const std::vector<int> lights{1, 10, 100, 757, 10000, 100000, 1000000};
+  const std::string generator = scene.substr(0, scene.find(','));
+  std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted;
+  if (scene.starts_with("builtin:"))
+    wanted.push_back({{"Lights, " + generator, "lights", true, {}}, scenes_of(generator + ",lights=", lights, execution)});
+  if (generator == "builtin:city") {
+    wanted.push_back({{"Lights at constant overlap, " + generator, "lights", true, {}},
+                      scenes_of(generator + ",radius=overlap,lights=", lights, execution)});
+    wanted.push_back({{"Triangles, " + generator, "triangles", true, {}},
+                      scenes_of(generator + ",objects=", {100, 1000, 10000, 100000}, execution, 12)});
+  }
+  wanted.push_back({{"Pixels, " + scene, "size of the image", true, {}}, sizes(scene, execution)});
+  wanted.push_back({{"Threads, " + scene, "threads", false, {}}, thread_counts(scene, execution)});
+  wanted.push_back({{"SIMD targets, " + scene, "", false, {}}, targets(scene, execution)});
+  return wanted;
 }
 
 }  // namespace
 
-std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const Execution& execution) {
-  const std::vector<int> lights{1, 10, 100, 757, 10000, 100000, 1000000};
-  const std::pair<ScalingCurve, std::vector<Step>> wanted[] = {
-      {{"Lights, city", "lights", true, {}}, scenes_of("builtin:city,lights=", lights, execution)},
-      {{"Lights at constant overlap, city", "lights", true, {}},
-       scenes_of("builtin:city,radius=overlap,lights=", lights, execution)},
-      {{"Triangles, city", "triangles", true, {}},
-       scenes_of("builtin:city,objects=", {100, 1000, 10000, 100000}, execution, 12)},
-      {{"Pixels, city", "megapixels", true, {}}, sizes(execution)},
-      {{"Threads, city", "threads", false, {}}, thread_counts(execution)},
-      {{"SIMD targets, city", "", false, {}}, targets(execution)}};
+std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene,
+                                         const Execution& execution) {
+  const auto wanted = wanted_curves(scene, execution);
   ProgressBar bar("scaling", "curves");
   std::vector<ScalingCurve> curves;
   for (const auto& [curve, steps] : wanted) {
     curves.push_back(curve_of(options, curve, steps));
-    bar.show(int(curves.size()), int(std::size(wanted)));
+    bar.show(int(curves.size()), int(wanted.size()));
   }
   return curves;
 }

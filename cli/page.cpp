@@ -24,7 +24,7 @@ code, pre { font: 13px/1.5 ui-monospace, "Cascadia Mono", Menlo, Consolas, monos
 .fact b { display: block; font-size: 22px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .fact span { color: var(--quiet); font-size: 13px; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden; }
-figure img { display: block; width: 100%; height: auto; }
+figure img { display: block; width: 100%; height: auto; background: #000; }  /* transparent pixels stand on black */
 figcaption { padding: 10px 14px; font-size: 13px; color: var(--quiet); }
 figcaption b { color: var(--text); font-weight: 600; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "cli/page.h"
 
@@ -40,6 +41,25 @@ struct Axis {
     return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
   }
 };
+
+/// Values to mark on an axis of milliseconds: 1, 2 and 5 times powers of ten, at most seven of them.
+std::vector<double> ticks_of(const Axis& axis) {
+  std::vector<double> ticks;
+  const double least = axis.logarithmic ? axis.low : axis.high / 6;
+  for (double power = std::pow(10.0, std::floor(std::log10(least))); power <= axis.high; power *= 10)
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double step = digit * power;
+      if (axis.logarithmic && step >= axis.low && step <= axis.high) ticks.push_back(step);
+      if (!axis.logarithmic && ticks.empty() && step >= least)
+        for (double value = 0; value <= axis.high; value += step) ticks.push_back(value);
+    }
+  while (ticks.size() > 7) {  // every third: powers of ten alone
+    std::vector<double> fewer;
+    for (size_t i = 0; i < ticks.size(); i += 3) fewer.push_back(ticks[i]);
+    ticks = std::move(fewer);
+  }
+  return ticks;
+}
 
 }  // namespace
 
@@ -81,6 +101,16 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
   std::snprintf(frame, sizeof frame, "<path d=\"M%d %d V%d H%d\" fill=\"none\" stroke=\"var(--line)\"/>\n", kLeft,
                 kTop / 2, kPlotHeight - kBottom + 4, kWidth - kRight);
   svg += frame;
+  for (const double value : ticks_of(y)) {
+    const double py = kTop + (1 - y.at(value)) * room_y;
+    char line[160];
+    std::snprintf(line, sizeof line, "<path d=\"M%d %.1f h%.0f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n", kLeft,
+                  py, room_x);
+    char label[32];
+    std::snprintf(label, sizeof label, "%g", value);
+    svg += line + text_at(kLeft - 6, py + 4, label, "end", "var(--quiet)");
+  }
+  svg += text_at(4, kTop / 2, "ms a frame", "start", "var(--quiet)");
   svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks;
   return svg + text_at(kLeft + room_x / 2, kPlotHeight - 8, axis, "middle", "var(--quiet)") + "</svg>\n";
 }
