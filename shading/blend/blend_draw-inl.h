@@ -14,6 +14,7 @@
 #include "shading/blend/blend-inl.h"
 #include "shading/blend/blend_pass.h"
 #include "shading/light/light_sum-inl.h"
+#include "shading/light/lists/light_cover-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -73,7 +74,7 @@ inline size_t blend_draw(const AnyTerms& terms, const BlendPlan& plan, const Pix
 
 /// All draws of a list.
 inline void draw_every(const AnyTerms& terms, const BlendPlan& plan, const SurfaceTile& surface, const PixelVector& px,
-                       std::span<const ListedLight> list, const VectorPlace& at, int i, ColorTile& tile,
+                       std::span<const ListedLight> list, const VectorInTile& at, int i, ColorTile& tile,
                        LightCounts& counts) {
   const DF d;
   StoredPixels out(tile, i);

@@ -4,11 +4,11 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/simd/simd_target.h"
 #include "core/threads/parallel_for.h"
 #include "raster/clusters/clusters.h"
-#include "raster/visibility/placed_scene.h"
-#include "core/simd/simd_target.h"
 #include "raster/view.h"
+#include "raster/visibility/placed_scene.h"
 #include "shading/frame.h"
 #include "shading/output/texels.h"
 

@@ -1,4 +1,4 @@
-// Sums whose codes are settled by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
+// Sums whose codes are proved by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -45,7 +45,7 @@ void trouble(Random& random, Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights counted") {
+TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights counted") {
   Random random(434);
   uint64_t fewer = 0, frames = 0;
   for (int i = 0; i < 48; ++i) {

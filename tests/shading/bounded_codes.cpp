@@ -1,4 +1,4 @@
-// Codes of single lights' terms that bounds settle (docs/arithmetic.md section 17) against the terms themselves.
+// Codes of single lights' terms that bounds prove (docs/arithmetic.md section 17) against the terms themselves.
 #include <algorithm>
 #include <cmath>
 
@@ -107,7 +107,7 @@ Light phong_light(Random& random) {
 
 }  // namespace
 
-TEST_CASE("Codes of lights that bounds settle are those of their terms, and so are the lights counted") {
+TEST_CASE("Codes of lights that bounds prove are those of their terms, and so are the lights counted") {
   Random random(811);
   for (int i = 0; i < 32; ++i) {
     INFO("scene " << i);
