@@ -1,8 +1,7 @@
 // What do views and transparent layers cost an item? One thread; the counter is the time of one item.
 //   paint      a pixel of a view, of planes that are there
-//   place      a triangle of lights' boxes or of their bars, placed and listed by tiles
-//   draw       the same drawn upon a frame's depths, in all tiles that it touches; `general` by the path that the fast
-//              one is held against
+//   draw       a triangle of lights' boxes or of their bars, drawn upon a frame's depths; `general` by the path that the
+//              fast ones are held against
 //   layers     a fragment of glass over a tile, found; found and blended into the albedo; found, lit and blended
 // SIMD targets by --benchmark_filter: names of what has kernels end in one.
 #include <benchmark/benchmark.h>
@@ -16,13 +15,13 @@
 
 #include "core/fp_env.h"
 #include "raster/clusters/cluster_bins.h"
-#include "raster/visibility/placed_scene.h"
 #include "core/simd/simd_target.h"
 #include "scenes/light_shapes.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/derived_planes.h"
 #include "shading/frame.h"
 #include "shading/output/heat_map.h"
+#include "shading/output/overlay.h"
 #include "shading/blend/transparent_blend.h"
 #include "shading/blend/transparent_pass.h"
 #include "shading/output/view_image.h"
@@ -72,37 +71,14 @@ void paint(benchmark::State& state, ImageView view) {
   });
 }
 
-void boxes(benchmark::State& state, bool bars, bool draw, bool fast, std::string_view target) {
-  constexpr int kTile = 64;
+void boxes(benchmark::State& state, bool bars, bool fast, std::string_view target) {
   const FpScope fp;
   const SimdScope simd(target);
   const Scene scene = bars ? light_box_edges(city().scene) : light_boxes(city().scene);
-  Pipeline pipeline = city().pipeline;
-  pipeline.geometry.cull_face = CullFace::back;
-  const ClusteredScene clusters = cluster_scene(scene);
-  const View view = make_view(scene, pipeline);
-  const auto place = [&] {
-    return place_scene(scene, clusters, view, pipeline.geometry, 0, uint32_t(scene.instances.size()), kTile, 1);
-  };
-  if (!draw)
-    return per_item(state, double(scene.triangle_count()), [&] { benchmark::DoNotOptimize(place().chunks.data()); });
-  const PlacedScene placed = place();
-  double triangles = 0.0;
-  for (const PlacedChunk& chunk : placed.chunks) triangles += double(chunk.triangles.size());
-  std::vector<VisibilityTile> under(size_t(placed.tiles()));
-  for (int i = 0; i < placed.tiles(); ++i) {
-    const TileRect rect = tile_rect(view.window, kTile, placed.tiles_x, i);
-    for (int y = 0; y < kTile; ++y)
-      for (int x = 0; x < kTile; ++x)
-        under[size_t(i)].depth[tile_index(kTile, x, y)] =
-            float(plane_named(city().planes, "depth").value(rect.x + x, pipeline.height - 1 - (rect.y + y), 0));
-  }
-  VisibilityTile tile{};
-  per_item(state, triangles, [&] {
-    for (int i = 0; i < placed.tiles(); ++i) {
-      std::copy_n(under[size_t(i)].depth, kMaxTilePixels, tile.depth);
-      draw_placed(placed, view, pipeline.geometry, i, true, fast, tile);
-    }
+  const Execution execution{.threads = 1, .fast_geometry = fast, .simd = target};
+  const Image& depth = plane_named(city().planes, "depth");
+  per_item(state, double(scene.triangle_count()), [&] {
+    benchmark::DoNotOptimize(overlay(scene, city().pipeline, execution, depth).texels.data());
   });
 }
 
@@ -189,9 +165,8 @@ int main(int argc, char** argv) {
     const std::string on = ' ' + std::string(target);
     for (const bool bars : {true, false}) {
       const std::string of = bars ? "bars" : "boxes";
-      row("place " + of + ", a triangle" + on, [=](auto& s) { boxes(s, bars, false, true, target); });
-      row("draw " + of + ", a triangle" + on, [=](auto& s) { boxes(s, bars, true, true, target); });
-      row("draw " + of + ", a triangle (general)" + on, [=](auto& s) { boxes(s, bars, true, false, target); });
+      row("draw " + of + ", a triangle" + on, [=](auto& s) { boxes(s, bars, true, target); });
+      row("draw " + of + ", a triangle (general)" + on, [=](auto& s) { boxes(s, bars, false, target); });
     }
     row("layers found, a fragment" + on, [=](auto& s) { layers(s, Glass::found, target); });
     row("layers in the albedo, a fragment" + on, [=](auto& s) { layers(s, Glass::into_albedo, target); });

@@ -1,22 +1,43 @@
-# Which SIMD targets kernels are compiled for. The baseline (one lane, or NEON on aarch64) is always among them. Adding a
-# target to a build tree compiles that target's kernels and relinks; nothing else is compiled again.
-set(TRUESHADE_SIMD "avx512;avx2;sse4" CACHE STRING "SIMD targets to compile kernels for, of: avx512 avx2 sse4")
+# Which SIMD targets kernels are compiled for: a list of avx512, avx2, sse4 and scalar (NEON on aarch64), or `native`, the best
+# one that this machine runs and no other. Adding a target to a build tree compiles that target's kernels and relinks;
+# little else is compiled again.
+set(TRUESHADE_SIMD "avx512;avx2;sse4;scalar" CACHE STRING "SIMD targets of the kernels: avx512 avx2 sse4 scalar, or native")
 set(highway_avx512 HWY_AVX3)
 set(highway_avx2 HWY_AVX2)
 set(highway_sse4 HWY_SSE4)
+set(highway_scalar HWY_STATIC_TARGET)  # Highway's own baseline of the architecture
 
-set(trueshade_disabled_targets HWY_SSSE3)  # its Round loses the sign of -0
-set(trueshade_kernel_targets baseline)
-set(highway_baseline HWY_STATIC_TARGET)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  foreach(target avx512 avx2 sse4)
-    if(target IN_LIST TRUESHADE_SIMD)
-      list(APPEND trueshade_kernel_targets ${target})
-    else()
-      string(APPEND trueshade_disabled_targets "|${highway_${target}}")
-    endif()
-  endforeach()
+set(trueshade_kernel_targets ${TRUESHADE_SIMD})
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(trueshade_kernel_targets scalar)
+elseif(TRUESHADE_SIMD STREQUAL "native")
+  set(flags "")
+  if(EXISTS /proc/cpuinfo)
+    file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
+  endif()
+  if(flags MATCHES " avx512f .* avx512bw " AND flags MATCHES " avx512dq " AND flags MATCHES " avx512vl ")
+    set(trueshade_kernel_targets avx512)
+  elseif(flags MATCHES " fma .* avx2 .* bmi2 ")
+    set(trueshade_kernel_targets avx2)
+  else()
+    set(trueshade_kernel_targets sse4 scalar)
+  endif()
 endif()
+
+# What Highway is told where functions of several targets are chosen from: which targets exist, and which of them is the one
+# that every machine of this build runs.
+set(disabled HWY_SSSE3)  # its Round loses the sign of -0
+foreach(target avx512 avx2 sse4)
+  if(NOT target IN_LIST trueshade_kernel_targets)
+    string(APPEND disabled "|${highway_${target}}")
+  endif()
+endforeach()
+if(NOT "scalar" IN_LIST trueshade_kernel_targets)
+  string(APPEND disabled "|HWY_SCALAR|HWY_EMU128")
+  list(GET trueshade_kernel_targets -1 lowest)
+  set(trueshade_target_macros "HWY_BASELINE_TARGETS=${highway_${lowest}}")
+endif()
+list(APPEND trueshade_target_macros "HWY_DISABLED_TARGETS=(${disabled})")
 
 # trueshade_kernels(NAME SOURCES LINKS): adds kernels to library NAME, each compiled once per SIMD target. The macro
 # TRUESHADE_KERNEL_TARGET tells core/simd/one_target.h which.
@@ -39,7 +60,7 @@ function(trueshade_dispatch_sources)
     get_filename_component(path ${source} ABSOLUTE)
     file(STRINGS ${path} highway REGEX "include <hwy/" LIMIT_COUNT 1)
     if(highway)
-      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "HWY_DISABLED_TARGETS=(${trueshade_disabled_targets})")
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "${trueshade_target_macros}")
     endif()
   endforeach()
 endfunction()

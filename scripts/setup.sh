@@ -23,26 +23,33 @@ quietly() {
   rm -f "$log"
 }
 
-# Names of packages of the list, and of those given, that are not installed.
-missing_packages() {
-  local package status
-  while read -r package; do
-    [[ -z $package || $package == \#* ]] && continue
-    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || status=absent
-    [[ $status == installed ]] || printf '%s\n' "$package"
-  done < <(cat "$root/scripts/packages.txt"; printf '%s\n' "$@")
+# listed_packages command|tests: the list's first part, or all of it.
+listed_packages() {
+  local until='^$'  # matches no line that is kept
+  [[ $1 == command ]] && until='^# tests:'
+  sed "/$until/,\$d" "$root/scripts/packages.txt" | grep -v '^#'
 }
 
-# install_packages [EXTRA...]: the list, and what else is named.
+# Names of the packages given that are not installed.
+missing_packages() {
+  local package status
+  for package; do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || status=absent
+    [[ $status == installed ]] || printf '%s\n' "$package"
+  done
+}
+
+# install_packages command|tests [EXTRA...]: what building the command needs, or the tests too, and what else is named.
 install_packages() {
-  local -a missing as_root=()
+  local -a wanted missing as_root=()
+  mapfile -t wanted < <(listed_packages "$1"; printf '%s\n' "${@:2}" | grep . || true)
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     [[ -e $root/build/.packages-named ]] && return
     mkdir -p "$root/build" && touch "$root/build/.packages-named"
-    say "this is no Debian; going on as if the like of these were installed: $(grep -v '^#' "$root/scripts/packages.txt" | tr '\n' ' ')"
+    say "this is no Debian; going on as if the like of these were installed: ${wanted[*]}"
     return
   fi
-  mapfile -t missing < <(missing_packages "$@")
+  mapfile -t missing < <(missing_packages "${wanted[@]}")
   ((${#missing[@]} == 0)) && return
   if ((EUID != 0)); then
     command -v sudo >/dev/null ||
@@ -58,16 +65,25 @@ install_packages() {
   fi
 }
 
-# build PRESET [TARGET]: configures once, then builds what has changed, all of it or one target.
+# configure PRESET SETTING...: configures build/PRESET where it is new, or where a setting of its cache is another one.
+configure() {
+  local folder=$root/build/$1 setting same=true
+  local -a settings=("${@:2}")
+  local -a launcher=()
+  for setting in "${settings[@]}"; do
+    grep -qE "^${setting%%=*}:[A-Z]+=${setting#*=}$" "$folder/CMakeCache.txt" 2>/dev/null || same=false
+  done
+  [[ $same == true && -e $folder/build.ninja ]] && return
+  say "configuring build/$1"
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  quietly "cmake" cmake -S "$root" --preset "$1" "${launcher[@]}" "${settings[@]/#/-D}"
+}
+
+# build PRESET [TARGET]: builds what has changed, all of it or one target.
 build() {
   local folder=$root/build/$1
-  local -a target=() launcher=()
+  local -a target=()
   (($# > 1)) && target=(--target "$2")
-  if [[ ! -e $folder/build.ninja ]]; then
-    say "configuring build/$1"
-    command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    quietly "cmake" cmake -S "$root" --preset "$1" "${launcher[@]}"
-  fi
   # A dry run tells whether there is work, so that a second start says nothing.
   if [[ $(ninja -C "$folder" -n "${@:2}" 2>/dev/null | tail -n 1) != *"no work to do"* ]]; then
     say "building build/$1 on $(nproc) cores, which takes minutes the first time"

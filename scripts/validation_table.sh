@@ -1,13 +1,16 @@
 #!/bin/bash
-# The tables of docs/validation.md as Markdown, from the lines that validation_rows wrote (tests/judge/validation_rows.cpp
-# says how to make them): a table a driver and profile, a row a scene, size and strategy, pixels summed over the presets.
-# Usage: validation_table.sh FILE...
+# The tables of docs/data/validation_*.md, from the lines that validation_rows wrote (tests/judge/validation_rows.cpp
+# says how to make them): a file a driver and profile, a row a scene, size and strategy, pixels summed over the presets.
+# Usage: validation_table.sh FOLDER FILE...   (docs/data is the folder of the guides)
 #   lit: the least share of a preset's pixels with a surface that are EXACT or STORE-2, or TEX in a G-buffer
 #   seen / predicted: EDGE + DEPTH-TIE + CLIP + BRANCH pixels and how many are expected at most; in brackets the largest
 #   quotient of a preset
-# Ends with status 1 where a pixel is in no legal set.
+# Prints the names of the files. Ends with status 1 where a pixel is in no legal set.
 set -euo pipefail
-awk -F'\t' '
+(($# >= 2)) || { echo "usage: validation_table.sh FOLDER FILE..." >&2; exit 2; }
+folder=$1
+shift
+awk -F'\t' -v folder="$folder" '
   function row(key,  i, line) {
     line = "| " label[key] " | " presets[key] " |"
     for (i = 1; i <= 9; ++i) line = line " " sum[key, i] + 0 " |"
@@ -20,7 +23,7 @@ awk -F'\t' '
   END {
     for (c = 1; c <= count; ++c) {
       $0 = line_of[ids[c]]
-      title = $5 ", " $4; geometry = $7 == "gbuffer"
+      title = $5 FS $4; geometry = $7 == "gbuffer"
       key = title FS $1 FS $6 FS (geometry ? "" : $2) FS $7
       if (!(key in presets)) {
         label[key] = $1 " " $6 ", " (geometry ? "G-buffer" : $2 ($7 == "lighting" && ($2 ~ /volumes|multipass/) ? ", last image" : ""))
@@ -37,10 +40,15 @@ awk -F'\t' '
       violations += $17
     }
     for (t = 1; t <= tables; ++t) {
-      print "\n**" titles[t] "**\n"
-      print "| scene, strategy | frames | EXACT | STORE-2 | EDGE | DEPTH-TIE | CLIP | BRANCH | TEX | UNDEFINED | VIOLATION | lit | seen / predicted |"
-      print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-      for (i = 1; i <= rows[titles[t]]; ++i) print row(order[titles[t], i])
+      split(titles[t], part, FS)
+      out = folder "/validation_" part[1] "_" part[2] ".md"
+      print "# " part[1] ", held to `" part[2] "`\n" > out
+      print "Written by `scripts/validation_table.sh`; [../validation.md](../validation.md) says what the columns mean.\n" > out
+      print "| scene, strategy | frames | EXACT | STORE-2 | EDGE | DEPTH-TIE | CLIP | BRANCH | TEX | UNDEFINED | VIOLATION | lit | seen / predicted |" > out
+      print "|---|---|---|---|---|---|---|---|---|---|---|---|---|" > out
+      for (i = 1; i <= rows[titles[t]]; ++i) print row(order[titles[t], i]) > out
+      close(out)
+      print out
     }
     exit violations > 0
   }' "$@"

@@ -24,6 +24,8 @@ int64_t runnable() {
   static const int64_t targets = [] {  // before any SimdScope narrows what Highway reports
     int64_t bits = 0;
     for (const int64_t target : hwy::SupportedAndGeneratedTargets()) bits |= target;
+    if (bits == 0)
+      throw Error(ErrorKind::usage, "simd", "this build has no kernels for this machine's CPU", "build with TRUESHADE_SIMD=native");
     return bits;
   }();
   return targets;

@@ -3,7 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "raster/visibility/visibility.h"
+#include "raster/clusters/cluster_draw.h"
+#include "raster/clusters/clusters.h"
+#include "raster/view.h"
 
 namespace trueshade {
 

@@ -106,17 +106,17 @@ HWY_INLINE MWF pixel_spans(const Intervals& ndc, const WindowTransform& t, int a
 constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
 // A cluster of a run.
-struct BoxLane {
+struct ListedCluster {
   const ClusterRun* run;
   uint32_t cluster;
 };
 
 // Boxes and the clip space they are seen in, a lane each.
-struct PlacedBoxes {
+struct BoxLanes {
   VWF row[4][4], center[3], half[3];
 
   // An instance's boxes from the i-th on.
-  HWY_INLINE PlacedBoxes(const ClusterBoxes& boxes, const InstanceTransform& instance, size_t i) {
+  HWY_INLINE BoxLanes(const ClusterBoxes& boxes, const InstanceTransform& instance, size_t i) {
     const DWF d;
     for (size_t r = 0; r < 4; ++r)
       for (size_t c = 0; c < 4; ++c) row[r][c] = hn::Set(d, instance.clip[r][c]);
@@ -127,7 +127,7 @@ struct PlacedBoxes {
   }
 
   // Boxes of any instances, one each.
-  HWY_INLINE explicit PlacedBoxes(const BoxLane* of) {
+  HWY_INLINE explicit BoxLanes(const ListedCluster* of) {
     const DWF d;
     constexpr size_t kNumbers = 16 + 6;
     alignas(64) float lane[kNumbers][kMostLanes];
@@ -146,12 +146,12 @@ struct PlacedBoxes {
 };
 
 // Cones and the eye that sees them, a lane each.
-struct PlacedCones {
+struct ConeLanes {
   VWF axis[3], cosine, sine, off_center, inradius;
   VWF center[3], weight, center_slack, weight_slack;
 
   // A run's cones from the i-th cluster on.
-  HWY_INLINE PlacedCones(const ClusterRun& run, size_t i) {
+  HWY_INLINE ConeLanes(const ClusterRun& run, size_t i) {
     const DWF d;
     const ClusterCones& cones = run.mesh->cones;
     for (size_t c = 0; c < 3; ++c) axis[c] = hn::LoadU(d, cones.axis[c].data() + i);
@@ -163,7 +163,7 @@ struct PlacedCones {
   }
 
   // Cones of any runs, one each.
-  HWY_INLINE explicit PlacedCones(const BoxLane* of) {
+  HWY_INLINE explicit ConeLanes(const ListedCluster* of) {
     const DWF d;
     alignas(64) float lane[13][kMostLanes];
     for (size_t k = 0; k < hn::Lanes(d); ++k) {
@@ -186,7 +186,7 @@ struct PlacedCones {
 // A lower bound of n . g for all normals n in a box's cone, g = +-(center + weight p) at any corner p of a triangle: at
 // the box's centre |g| cos(angle to the axis + the cone's), from there to p's plane at most |weight| off_center. Sums
 // here are off by less than 32 u of what they add.
-HWY_INLINE VWF least_turn(const PlacedBoxes& in, const PlacedCones& cones, float sign) {
+HWY_INLINE VWF least_turn(const BoxLanes& in, const ConeLanes& cones, float sign) {
   const DWF d;
   const VWF zero = hn::Zero(d);
   VWF g[3], size = zero, places = zero, along = zero, across = hn::Set(d, 0x1p-100f);
@@ -214,7 +214,7 @@ HWY_INLINE VWF least_turn(const PlacedBoxes& in, const PlacedCones& cones, float
 // So its inradius is at least S rho (n . g) w_low / (w_high^3 K), rho that in object space. Corners that move by up to
 // e change the doubled area by at most e perimeter + 2.6 e^2, and a perimeter is at least 10.3 inradii: above 1.21 e no
 // sign turns. e is sqrt(2) times what an axis' snap and the vertex stage make. 1.77: 1.21 sqrt(2), and roundings here.
-HWY_INLINE MWF turned_away(const PlacedBoxes& in, const PlacedCones& cones, const ClipRow row[2], const ClipRow& w_row,
+HWY_INLINE MWF turned_away(const BoxLanes& in, const ConeLanes& cones, const ClipRow row[2], const ClipRow& w_row,
                            const Intervals& w, const Intervals ndc[2], const WindowTransform& t) {
   const DWF d;
   const float greatest = std::numeric_limits<float>::max();
@@ -242,11 +242,11 @@ struct Bounds {
   static constexpr int kMost = kMostLanes;
   alignas(64) int32_t x0[kMost], y0[kMost], x1[kMost], y1[kMost];
   alignas(64) float near[kMost];
-  uint32_t seen, unknown, plain;  // a bit a lane: may be seen; somewhere in the viewport; needs no care
+  uint32_t seen, unknown, no_clip;  // a bit a lane: may be seen; somewhere in the viewport; needs no clipping
 
   // `cones`: makes those of the boxes, asked only where faces are dropped; or null.
   template <class Cones>
-  HWY_INLINE void set(const PlacedBoxes& in, const Cones& cones, const WindowTransform& t) {
+  HWY_INLINE void set(const BoxLanes& in, const Cones& cones, const WindowTransform& t) {
     const DWF d;
     const ClipRow row[3] = {
         {in.row[0], in.center, in.half}, {in.row[1], in.center, in.half}, {in.row[2], in.center, in.half}};
@@ -278,10 +278,10 @@ struct Bounds {
     const VWF slack =
         hn::Add(hn::Mul(hn::Add(hn::Abs(least), hn::Abs(offset)), hn::Set(d, 0x1p-22f)), hn::Set(d, 0x1p-40f));
     hn::Store(hn::Sub(hn::Add(least, offset), slack), d, near);
-    plain = lane_bits(d, without_care(ndc, before_far, w, t)) & ~somewhere;
+    no_clip = lane_bits(d, without_clip(ndc, before_far, w, t)) & ~somewhere;
     if constexpr (!std::is_null_pointer_v<Cones>)
-      if (t.dropped != 0 && (seen & plain) != 0)
-        seen &= ~(plain & lane_bits(d, turned_away(in, cones(), row, w_row, w, ndc, t)));
+      if (t.dropped != 0 && (seen & no_clip) != 0)
+        seen &= ~(no_clip & lane_bits(d, turned_away(in, cones(), row, w_row, w, ndc, t)));
   }
 
  private:
@@ -290,8 +290,8 @@ struct Bounds {
     return hn::Sub(sum, sum);
   }
 
-  // Boxes in front of the near plane that lie wholly where place_vertices() finds nothing that needs care.
-  static HWY_INLINE MWF without_care(const Intervals ndc[2], const Intervals& before_far, const Intervals& w,
+  // Boxes in front of the near plane that lie wholly where project_vertices() finds nothing that needs clipping.
+  static HWY_INLINE MWF without_clip(const Intervals ndc[2], const Intervals& before_far, const Intervals& w,
                                      const WindowTransform& t) {
     const DWF d;
     MWF in = hn::Ge(w.low, hn::Set(d, t.float_snap ? std::numeric_limits<float>::infinity() : 0x1p-100f));
@@ -308,7 +308,7 @@ struct Bounds {
 
 ClusterDraw draw_of(const Bounds& b, int k, const WindowTransform& t, uint32_t instance, uint32_t cluster) {
   if (((b.unknown >> k) & 1) == 0)
-    return {instance,          cluster,           b.near[k],         ((b.plain >> k) & 1) != 0,
+    return {instance,          cluster,           b.near[k],         ((b.no_clip >> k) & 1) != 0,
             uint16_t(b.x0[k]), uint16_t(b.y0[k]), uint16_t(b.x1[k]), uint16_t(b.y1[k])};
   return {instance,
           cluster,
@@ -324,14 +324,14 @@ ClusterDraw draw_of(const Bounds& b, int k, const WindowTransform& t, uint32_t i
 void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t, std::vector<ClusterDraw>& out) {
   const auto lanes = uint32_t(hn::Lanes(DWF()));
   Bounds b;
-  BoxLane lane[kMostLanes];
+  ListedCluster lane[kMostLanes];
   uint32_t i = runs.empty() ? 0 : runs[0].first;
   for (size_t at = 0; at < runs.size();) {
     const ClusterRun& run = runs[at];
     const bool alone = run.last - i >= lanes || at + 1 == runs.size();
     if (alone)
       b.set(
-          PlacedBoxes(run.mesh->boxes, *run.transform, i), [&] { return PlacedCones(run, i); }, t);
+          BoxLanes(run.mesh->boxes, *run.transform, i), [&] { return ConeLanes(run, i); }, t);
     uint32_t count = 0;
     for (; count < lanes && at < runs.size(); ++count) {
       lane[count] = {&runs[at], i};
@@ -340,7 +340,7 @@ void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t
     if (!alone) {
       std::fill(lane + count, lane + lanes, lane[count - 1]);
       b.set(
-          PlacedBoxes(lane), [&] { return PlacedCones(lane); }, t);
+          BoxLanes(lane), [&] { return ConeLanes(lane); }, t);
     }
     for (uint32_t bits = b.seen & ((uint32_t(1) << count) - 1); bits != 0; bits &= bits - 1) {
       const int k = std::countr_zero(bits);
@@ -352,7 +352,7 @@ void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t
 bool may_be_seen_simd(const ClusterBoxes& boxes, const InstanceTransform& transform, const WindowTransform& t,
                       uint32_t index) {
   Bounds b;
-  b.set(PlacedBoxes(boxes, transform, index), nullptr, t);
+  b.set(BoxLanes(boxes, transform, index), nullptr, t);
   return (b.seen & 1) != 0;
 }
 

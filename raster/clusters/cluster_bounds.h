@@ -5,7 +5,7 @@
 
 #include "raster/clusters/clusters.h"
 #include "raster/view.h"
-#include "raster/visibility/visibility.h"
+#include "raster/clusters/cluster_draw.h"
 
 namespace trueshade {
 

@@ -17,18 +17,18 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void place_mesh_simd(const LightMesh& mesh, const Light& light, const View& view, const WindowTransform& window,
-                     const int origin_fx[2], PlacedMesh& out) {
+void transform_mesh_simd(const LightMesh& mesh, const Light& light, const View& view, const WindowTransform& window,
+                     const int origin_fx[2], TransformedMesh& out) {
   const D32 df;
   const SampleOrigin origin{origin_fx[0], origin_fx[1]};
   const size_t count = mesh.unit.size(), padded = (count + kClusterVertices - 1) / kClusterVertices * kClusterVertices;
   out.world.resize(count);
   light_vertices(mesh, light, out.world);
   for (auto& stream : out.clip) stream.resize(padded);
-  out.x.resize(padded), out.y.resize(padded), out.z.resize(padded), out.needs_care.resize(padded);
+  out.x.resize(padded), out.y.resize(padded), out.z.resize(padded), out.needs_clip.resize(padded);
   alignas(64) float p[3][kClusterVertices];
   WindowVertices v;
-  out.any_needs_care = false;
+  out.any_needs_clip = false;
   for (size_t from = 0; from < count; from += kClusterVertices) {
     const size_t here = std::min<size_t>(kClusterVertices, count - from);
     const size_t vectors_end = (here + hn::Lanes(df) - 1) / hn::Lanes(df) * hn::Lanes(df);
@@ -41,22 +41,22 @@ void place_mesh_simd(const LightMesh& mesh, const Light& light, const View& view
         clip[r] = affine_row(view.clip_from_world.data() + 4 * r, x, y, z);
         hn::StoreU(clip[r], df, out.clip[r].data() + from + i);
       }
-      const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], window, origin, i, v);
-      out.any_needs_care = out.any_needs_care || care;
+      const bool outside = project_vertices(clip[0], clip[1], clip[2], clip[3], window, origin, i, v);
+      out.any_needs_clip = out.any_needs_clip || outside;
     }
     std::copy_n(v.x, here, out.x.data() + from);
     std::copy_n(v.y, here, out.y.data() + from);
     std::copy_n(v.z, here, out.z.data() + from);
-    std::copy_n(v.needs_care, here, out.needs_care.data() + from);
+    std::copy_n(v.needs_clip, here, out.needs_clip.data() + from);
   }
 }
 
 /// Counts covered samples, whatever their depth.
-struct LayerCommit {
+struct LayerCountSink {
   uint16_t* counts;
   template <class T>
   void begin(const TriangleSetup<T>&) {}
-  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
+  void begin_piece(const ClipVertex*, const ClippedFan&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
   HWY_INLINE bool vector(int at, M64 covered, const V64*) {
     const D64 d;
@@ -73,26 +73,26 @@ struct LayerCommit {
   void finish_block(int) {}
 };
 
-void count_mesh_simd(const LightMesh& mesh, const PlacedMesh& placed, const GeometryState& state,
+void count_mesh_simd(const LightMesh& mesh, const TransformedMesh& placed, const GeometryState& state,
                      const WindowTransform& window, const TileRect& rect, uint16_t* counts) {
-  LayerCommit commit{counts};
+  LayerCountSink sink{counts};
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     WindowTriangle triangle;
     ClipVertex clip[3];
-    bool careful = false;
+    bool clipped = false;
     for (size_t k = 0; k < 3; ++k) {
       const size_t corner = mesh.indices[i + k];
       triangle.x[k] = placed.x[corner];
       triangle.y[k] = placed.y[corner];
       triangle.z[k] = placed.z[corner];
-      careful = careful || placed.needs_care[corner] != 0;
+      clipped = clipped || placed.needs_clip[corner] != 0;
       for (size_t c = 0; c < 4; ++c) clip[k].c[c] = placed.clip[c][corner];
     }
     TriangleSetup<double> setup;
-    if (careful)
-      draw_careful(clip, window, sample_origin(rect.x, rect.y), state, rect, commit);
+    if (clipped)
+      draw_clipped(clip, window, sample_origin(rect.x, rect.y), state, rect, sink);
     else if (set_up_triangle(triangle, state, window.upper_left, rect.limit, setup))
-      cover_blocks(setup, rect, commit);
+      cover_blocks(setup, rect, sink);
   }
 }
 
@@ -101,7 +101,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace trueshade {
-HWY_EXPORT(place_mesh_simd);
+HWY_EXPORT(transform_mesh_simd);
 HWY_EXPORT(count_mesh_simd);
 namespace {
 
@@ -163,7 +163,7 @@ double mesh_radius(LightExtent extent, float range) {
 
 struct OutlineTasks::Work {
   struct Part {
-    PlacedMesh placed;
+    TransformedMesh placed;
     OutlineMaker maker;
   };
   std::span<const Light> lights;
@@ -180,7 +180,7 @@ struct OutlineTasks::Work {
     const LightExtent extent = drawn_extent(light, volumes);
     if (!is_mesh(extent)) return part.maker.everywhere(OutlineKind::everywhere);
     if (out_of_view(*view, light.position, mesh_radius(extent, light.range))) return {};
-    HWY_DYNAMIC_DISPATCH(place_mesh_simd)((*meshes)[extent], light, *view, out->window, kWindowOrigin, part.placed);
+    HWY_DYNAMIC_DISPATCH(transform_mesh_simd)((*meshes)[extent], light, *view, out->window, kWindowOrigin, part.placed);
     return part.maker.outline((*meshes)[extent], part.placed);
   }
 };
@@ -281,8 +281,8 @@ int count_light_mesh(const LightMesh& mesh, const Light& light, const LightOutli
   const size_t pixels = size_t(rect.size) * size_t(rect.size);
   std::fill_n(counts, pixels, uint16_t(0));
   const int sample[2] = {rect.x * 256 + 128, rect.y * 256 + 128};
-  thread_local PlacedMesh placed;
-  HWY_DYNAMIC_DISPATCH(place_mesh_simd)(mesh, light, view, outlines.window, sample, placed);
+  thread_local TransformedMesh placed;
+  HWY_DYNAMIC_DISPATCH(transform_mesh_simd)(mesh, light, view, outlines.window, sample, placed);
   HWY_DYNAMIC_DISPATCH(count_mesh_simd)(mesh, placed, outlines.state, outlines.window, rect, counts);
   return *std::max_element(counts, counts + pixels);
 }

@@ -13,7 +13,7 @@ namespace {
 using Wide = __int128;
 
 // Whether clipping leaves nothing of the mesh in the viewport: all of it is behind the camera, or beyond one side.
-bool out_of_view(const PlacedMesh& placed) {
+bool out_of_view(const TransformedMesh& placed) {
   const size_t count = placed.world.size();
   bool behind = true, side[4] = {true, true, true, true};
   for (size_t i = 0; i < count; ++i) {
@@ -27,7 +27,7 @@ bool out_of_view(const PlacedMesh& placed) {
   return behind || side[0] || side[1] || side[2] || side[3];
 }
 
-int64_t doubled_area(const LightMesh& mesh, const PlacedMesh& placed, size_t triangle) {
+int64_t doubled_area(const LightMesh& mesh, const TransformedMesh& placed, size_t triangle) {
   const uint32_t* v = &mesh.indices[3 * triangle];
   return int64_t(placed.x[v[1]] - placed.x[v[0]]) * (placed.y[v[2]] - placed.y[v[0]]) -
          int64_t(placed.x[v[2]] - placed.x[v[0]]) * (placed.y[v[1]] - placed.y[v[0]]);
@@ -41,19 +41,19 @@ int32_t past_sample(int64_t v, int low, int high) {
 
 }  // namespace
 
-OutlineMaker::Outline OutlineMaker::outline(const LightMesh& mesh, const PlacedMesh& placed) {
+OutlineMaker::Outline OutlineMaker::outline(const LightMesh& mesh, const TransformedMesh& placed) {
   if (state_.cull_face == CullFace::front_and_back) return {};
   const size_t first = edges_.size();
   Outline out;
-  if (!placed.any_needs_care)
-    out = plain_outline(mesh, placed);
+  if (!placed.any_needs_clip)
+    out = unclipped_outline(mesh, placed);
   else if (!out_of_view(placed))
-    out = careful_outline(mesh, placed);
+    out = clipped_outline(mesh, placed);
   out.edges = uint32_t(edges_.size() - first);
   return out;
 }
 
-OutlineMaker::Outline OutlineMaker::plain_outline(const LightMesh& mesh, const PlacedMesh& placed) {
+OutlineMaker::Outline OutlineMaker::unclipped_outline(const LightMesh& mesh, const TransformedMesh& placed) {
   Outline out;
   const auto count = std::ptrdiff_t(placed.world.size());
   const auto [left, right] = std::minmax_element(placed.x.begin(), placed.x.begin() + count);
@@ -69,7 +69,7 @@ OutlineMaker::Outline OutlineMaker::plain_outline(const LightMesh& mesh, const P
 }
 
 // Of a mesh that clipping cuts, or that the camera is in.
-OutlineMaker::Outline OutlineMaker::careful_outline(const LightMesh& mesh, const PlacedMesh& placed) {
+OutlineMaker::Outline OutlineMaker::clipped_outline(const LightMesh& mesh, const TransformedMesh& placed) {
   int sign = 0;
   sides_.clear();
   if (!add_sides(mesh, placed, sign)) return everywhere(OutlineKind::mesh);
@@ -88,7 +88,7 @@ OutlineMaker::Outline OutlineMaker::careful_outline(const LightMesh& mesh, const
 }
 
 // Corners of the one loop around the triangles of a sign, counter-clockwise; false if there is another number.
-bool OutlineMaker::find_loop(const LightMesh& mesh, const PlacedMesh& placed, int sign) {
+bool OutlineMaker::find_loop(const LightMesh& mesh, const TransformedMesh& placed, int sign) {
   constexpr uint32_t kNone = UINT32_MAX;
   const size_t triangles = mesh.triangles();
   drawn_.assign(triangles, 0);
@@ -117,7 +117,7 @@ bool OutlineMaker::find_loop(const LightMesh& mesh, const PlacedMesh& placed, in
 
 // Sides of all pieces of the drawn triangles, the inside to the left, but for those that two triangles share which
 // clipping leaves alone: they would cancel. False where pieces of both signs are drawn, or a fan has turned over.
-bool OutlineMaker::add_sides(const LightMesh& mesh, const PlacedMesh& placed, int& sign) {
+bool OutlineMaker::add_sides(const LightMesh& mesh, const TransformedMesh& placed, int& sign) {
   const auto add = [&](const WindowTriangle& t, int piece_sign) {
     for (size_t k = 0; k < 3; ++k) {
       const size_t from = piece_sign > 0 ? k : (k + 1) % 3, to = piece_sign > 0 ? (k + 1) % 3 : k;
@@ -132,7 +132,7 @@ bool OutlineMaker::add_sides(const LightMesh& mesh, const PlacedMesh& placed, in
   drawn_.assign(mesh.triangles(), 0);
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     const uint32_t* const corner = &mesh.indices[i];
-    if ((placed.needs_care[corner[0]] | placed.needs_care[corner[1]] | placed.needs_care[corner[2]]) == 0) {
+    if ((placed.needs_clip[corner[0]] | placed.needs_clip[corner[1]] | placed.needs_clip[corner[2]]) == 0) {
       const int64_t area = doubled_area(mesh, placed, i / 3);
       if (area != 0 && joins(area > 0 ? 1 : -1)) drawn_[i / 3] = area > 0 ? 1 : -1;
       continue;
@@ -140,9 +140,9 @@ bool OutlineMaker::add_sides(const LightMesh& mesh, const PlacedMesh& placed, in
     ClipVertex clip[3];
     for (size_t k = 0; k < 3; ++k)
       for (size_t c = 0; c < 4; ++c) clip[k].c[c] = placed.clip[c][corner[k]];
-    const CarefulPieces fan = careful_pieces(clip, window_, 0, 0);
+    const ClippedFan fan = clipped_fan(clip, window_, 0, 0);
     if (fan.count == 0 || !joins(fan.facing)) continue;
-    if (fan.turned) return false;
+    if (fan.folded) return false;
     for (int piece = 0; piece < fan.count; ++piece) add(fan.piece[piece].triangle, fan.piece[piece].sign);
   }
   for (size_t i = 0; i < mesh.indices.size(); ++i) {

@@ -24,7 +24,7 @@ class OutlineMaker {
   }
 
   /// `placed` holds the mesh's vertices in the window, relative to (0, 0).
-  Outline outline(const LightMesh& mesh, const PlacedMesh& placed);
+  Outline outline(const LightMesh& mesh, const TransformedMesh& placed);
   Outline everywhere(OutlineKind kind) const { return {kind, 1, window_.x0, window_.y0, window_.x1, window_.y1, 0}; }
 
   /// Edges of all outlines so far.
@@ -41,10 +41,10 @@ class OutlineMaker {
     bool operator==(const Side&) const = default;
   };
 
-  Outline plain_outline(const LightMesh& mesh, const PlacedMesh& placed);
-  Outline careful_outline(const LightMesh& mesh, const PlacedMesh& placed);
-  bool find_loop(const LightMesh& mesh, const PlacedMesh& placed, int sign);
-  bool add_sides(const LightMesh& mesh, const PlacedMesh& placed, int& sign);
+  Outline unclipped_outline(const LightMesh& mesh, const TransformedMesh& placed);
+  Outline clipped_outline(const LightMesh& mesh, const TransformedMesh& placed);
+  bool find_loop(const LightMesh& mesh, const TransformedMesh& placed, int sign);
+  bool add_sides(const LightMesh& mesh, const TransformedMesh& placed, int& sign);
   void cancel_shared_sides();
   bool link_sides();
   bool convex_loop();

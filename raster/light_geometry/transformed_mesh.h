@@ -6,13 +6,13 @@
 namespace trueshade {
 
 /// Vertices of one light's mesh, from object to window.
-struct PlacedMesh {
+struct TransformedMesh {
   std::vector<glm::vec3> world;
   std::vector<float> clip[4];
-  std::vector<int32_t> x, y;  ///< window, relative to an origin; mean nothing where the vertex needs care
+  std::vector<int32_t> x, y;  ///< window, relative to an origin; mean nothing where the vertex needs clipping
   std::vector<double> z;
-  std::vector<int32_t> needs_care;
-  bool any_needs_care = false;
+  std::vector<int32_t> needs_clip;
+  bool any_needs_clip = false;
 };
 
 }  // namespace trueshade

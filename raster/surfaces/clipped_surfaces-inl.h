@@ -64,9 +64,9 @@ inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, cons
   any_side.cull_face = CullFace::none;
   ClipVertex clip[3];
   clip_corners(in, id_position(id), id_triangle(id), clip);
-  const CarefulPieces fan = careful_pieces(clip, t, origin.x, origin.y);
+  const ClippedFan fan = clipped_fan(clip, t, origin.x, origin.y);
   for (int i = 0; i < fan.count; ++i) {
-    const CarefulPieces::Piece& piece = fan.piece[i];
+    const ClippedFan::Piece& piece = fan.piece[i];
     TriangleSetup<__int128> setup;
     if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, setup))
       continue;

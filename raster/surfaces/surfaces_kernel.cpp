@@ -65,7 +65,7 @@ void fill_slot(const TileDraws& in, const TileRect& rect, uint32_t position, int
   }
   WindowVertices window;
   window_vertices(clusters, cluster, in.view.instances[draw.instance], in.view.window, sample_origin(rect.x, rect.y),
-                  draw.plain, window);
+                  draw.no_clip, window);
   std::copy_n(window.x, cluster.vertices, work.x.data() + at);
   std::copy_n(window.y, cluster.vertices, work.y.data() + at);
   std::copy_n(window.u, cluster.vertices, work.u.data() + at);
@@ -140,7 +140,7 @@ HWY_NOINLINE void apply_tile_maps(const TileDraws& in, const VisibilityTile& vis
   alignas(64) double plain[kMostLanes];
   for (size_t k = 0; k < hn::Lanes(d); ++k) {
     const uint32_t id = visible.id[size_t(i) + k];
-    plain[k] = id != 0 && !id_careful(id) ? 1.0 : 0.0;
+    plain[k] = id != 0 && !id_clipped(id) ? 1.0 : 0.0;
   }
   V64 edge_x[3], edge_y[3];
   edge_slopes(w, edge_x, edge_y);
@@ -194,7 +194,7 @@ void interpolate_careful(const TileDraws& in, const TileRect& rect, const Stream
     uint32_t done = 0;
     for (int lane = 0; lane < lanes; ++lane) {
       const uint32_t id = visible.id[i + lane];
-      if (id == 0 || !id_careful(id) || id == done) continue;
+      if (id == 0 || !id_clipped(id) || id == done) continue;
       done = id;
       if (std::none_of(surfaces.begin(), surfaces.end(), [id](const CarefulSurface& s) { return s.id == id; })) {
         float value[kStreams][3];

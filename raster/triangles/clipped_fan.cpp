@@ -40,8 +40,8 @@ __int128 doubled_area(const WindowTriangle& t) {
 }
 
 // About the origin (0, 0).
-CarefulPieces pieces_in_window(const ClipVertex v[3], const WindowTransform& t) {
-  CarefulPieces out;
+ClippedFan pieces_in_window(const ClipVertex v[3], const WindowTransform& t) {
+  ClippedFan out;
   out.polygon = clip_triangle(v, t);
   __int128 total = 0;
   int signs = 0;
@@ -55,7 +55,7 @@ CarefulPieces pieces_in_window(const ClipVertex v[3], const WindowTransform& t) 
   const int first = corners == 0 ? 0 : first_corner(out.polygon, placed);
   for (int i = 1; i + 1 < corners; ++i) {
     const int index[3] = {first, (first + i) % corners, (first + i + 1) % corners};
-    CarefulPieces::Piece piece{};
+    ClippedFan::Piece piece{};
     for (int k = 0; k < 3; ++k) {
       piece.corner[k] = out.polygon.corner[index[k]];
       piece.triangle.x[k] = placed[index[k]].x;
@@ -70,7 +70,7 @@ CarefulPieces pieces_in_window(const ClipVertex v[3], const WindowTransform& t) 
     out.piece[out.count++] = piece;
   }
   out.facing = (total > 0) - (total < 0);
-  out.turned = signs != out.count && signs != -out.count;
+  out.folded = signs != out.count && signs != -out.count;
   if (out.facing == 0) out.count = 0;
   return out;
 }
@@ -80,7 +80,7 @@ struct KeptPieces {
   bool any = false;
   ClipVertex v[3];
   WindowTransform window;
-  CarefulPieces pieces;
+  ClippedFan pieces;
 
   // Bit for bit, of what clipping and snapping read.
   bool holds(const ClipVertex of[3], const WindowTransform& t) const {
@@ -95,7 +95,7 @@ struct KeptPieces {
 
 }  // namespace
 
-CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
+ClippedFan clipped_fan(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y) {
   constexpr size_t kKept = 8;  // some 17 KB
   thread_local std::array<KeptPieces, kKept> kept;
   thread_local size_t next = 0;
@@ -106,7 +106,7 @@ CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, in
     std::copy_n(v, 3, found->v);
     found->window = t, found->any = true;
   }
-  CarefulPieces out = found->pieces;
+  ClippedFan out = found->pieces;
   for (int i = 0; i < out.count; ++i)
     for (int k = 0; k < 3; ++k) out.piece[i].triangle.x[k] -= origin_x, out.piece[i].triangle.y[k] -= origin_y;
   return out;

@@ -7,8 +7,8 @@
 
 namespace trueshade {
 
-/// What is left of a triangle that needs care, as the fan of its clipped polygon, snapped exactly.
-struct CarefulPieces {
+/// What is left of a triangle that needs clipping, as the fan of its clipped polygon, snapped exactly.
+struct ClippedFan {
   static constexpr int kMax = ClippedPolygon::kCorners - 2;
   struct Piece {
     WindowTriangle triangle;
@@ -19,12 +19,12 @@ struct CarefulPieces {
   Piece piece[kMax];
   int count = 0;
   int facing = 0;       ///< sign of the sum of the areas; 0: nothing is drawn
-  bool turned = false;  ///< some piece has the other sign
+  bool folded = false;  ///< some piece has the other sign
 };
 
 /// Clips and snaps. Coordinates come out relative to the sample (origin_x, origin_y), in 1/256 pixel. The calling
 /// thread keeps the last few triangles, clipped, as each tile asks for them again; what comes out does not depend on
 /// that.
-CarefulPieces careful_pieces(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y);
+ClippedFan clipped_fan(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y);
 
 }  // namespace trueshade

@@ -70,16 +70,16 @@ class VertexBox {
   V64 near_;
 };
 
-/// Vertices in window space, relative to the sample of a tile's pixel (0, 0). Where `needs_care` is set, x and y mean
+/// Vertices in window space, relative to the sample of a tile's pixel (0, 0). Where `needs_clip` is set, x and y mean
 /// nothing: the vertex is outside near or far, has w <= 0 or no finite value, or lies 2^25 subpixels away; clip.h sees
 /// to its triangles.
 struct WindowVertices {
   alignas(64) int32_t x[kClusterVertices], y[kClusterVertices];  ///< 1/256 pixel, y up, |.| < 2^26
   alignas(64) double z[kClusterVertices];                        ///< window depth
   alignas(64) double u[kClusterVertices];                        ///< 1 / w
-  alignas(64) int32_t needs_care[kClusterVertices];              ///< -1 or 0
-  bool any_needs_care;
-  WindowBox box;  ///< of all, where none needs care
+  alignas(64) int32_t needs_clip[kClusterVertices];              ///< -1 or 0
+  bool any_needs_clip;
+  WindowBox box;  ///< of all, where none needs clipping
 };
 
 /// Window position of the sample of a tile's pixel (0, 0), in 1/256 pixel.
@@ -154,8 +154,8 @@ HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTran
   return hn::DemoteTo(I32(), hn::IfThenElseZero(small, hn::Sub(window, hn::Set(d, double(origin)))));
 }
 
-/// Places one vector of clip positions at out[i...]; returns whether any of them needs care.
-HWY_INLINE bool place_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin, size_t i,
+/// Places one vector of clip positions at out[i...]; returns whether any of them needs clipping.
+HWY_INLINE bool project_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin, size_t i,
                                WindowVertices& out) {
   const D64 d;
   const I32 di;
@@ -173,15 +173,15 @@ HWY_INLINE bool place_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTrans
   hn::Store(snap_axis(wy, ww, u, t, 1, origin.y, fits), di, out.y + i);
   hn::Store(u, d, out.u + i);
   hn::Store(hn::Add(hn::Mul(hn::Mul(wz, u), hn::Set(d, t.z_scale)), hn::Set(d, t.z_offset)), d, out.z + i);
-  hn::Store(hn::DemoteTo(di, hn::IfThenElse(fits, hn::Zero(d), hn::Set(d, -1.0))), di, out.needs_care + i);
+  hn::Store(hn::DemoteTo(di, hn::IfThenElse(fits, hn::Zero(d), hn::Set(d, -1.0))), di, out.needs_clip + i);
   return !hn::AllTrue(d, fits);
 }
 
-/// The same for vertices known to need no care (ClusterDraw::plain), snapped as the profile `ideal` says. Holds what an
+/// The same for vertices known to need no clipping (ClusterDraw::no_clip), snapped as the profile `ideal` says. Holds what an
 /// instance's vertices share: stores of theirs might change what is read through references, so it would be read anew.
-class PlainVertices {
+class UnclippedVertices {
  public:
-  HWY_INLINE PlainVertices(const InstanceTransform& instance, const WindowTransform& t, SampleOrigin origin)
+  HWY_INLINE UnclippedVertices(const InstanceTransform& instance, const WindowTransform& t, SampleOrigin origin)
       : snap_scale_{t.scale[0], t.scale[1]},
         scale_{double(t.scale[0]), double(t.scale[1])},
         shift_{kWhole + double(t.offset[0] - origin.x), kWhole + double(t.offset[1] - origin.y)},
@@ -198,7 +198,7 @@ class PlainVertices {
   }
 
   /// The same for vectors of twice as many, whose sums fill a vector then, with their depths.
-  HWY_INLINE void place_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out,
+  HWY_INLINE void project_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out,
                             VertexBox& box) const {
     const hn::ScalableTag<float> d;
     const auto px = hn::LoadU(d, x + i), py = hn::LoadU(d, y + i), pz = hn::LoadU(d, z + i);
@@ -261,28 +261,28 @@ class PlainVertices {
   double scale_[2], shift_[2], z_scale_, z_offset_;
 };
 
-/// Window positions of all vertices of a cluster. `plain`: none of them needs care, by its bounds.
+/// Window positions of all vertices of a cluster. `no_clip`: its bounds say that none of them needs clipping.
 inline void window_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
-                            const WindowTransform& t, SampleOrigin origin, bool plain, WindowVertices& out) {
+                            const WindowTransform& t, SampleOrigin origin, bool no_clip, WindowVertices& out) {
   const D32 df;
   const I32 di;
   VertexBox box;
-  out.any_needs_care = false;
+  out.any_needs_clip = false;
   const float* position[3];
   for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
   const auto at = [&](size_t axis, size_t i) { return hn::LoadU(df, position[axis] + i); };
-  if (plain) {
-    const PlainVertices vertices(instance, t, origin);
+  if (no_clip) {
+    const UnclippedVertices vertices(instance, t, origin);
     for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(hn::ScalableTag<float>()))
-      vertices.place_two(position[0], position[1], position[2], i, out, box);
+      vertices.project_two(position[0], position[1], position[2], i, out, box);
     out.box = box.box();
     return;
   }
   for (size_t i = 0; i < cluster.vertices; i += hn::Lanes(df)) {
     V32 clip[4];
     for (int r = 0; r < 4; ++r) clip[r] = affine_row(instance.clip[r], at(0, i), at(1, i), at(2, i));
-    const bool care = place_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
-    out.any_needs_care = out.any_needs_care || care;
+    const bool outside = project_vertices(clip[0], clip[1], clip[2], clip[3], t, origin, i, out);
+    out.any_needs_clip = out.any_needs_clip || outside;
     box.add(hn::Load(di, out.x + i), hn::Load(di, out.y + i), hn::Load(D64(), out.z + i));
   }
   out.box = box.box();

@@ -41,7 +41,7 @@ struct AlphaTest {
     for (int i = 0; i < kValues; ++i) provoking[i] = source[i][provoking_corner];
   }
 
-  /// A triangle that needed no care: its corners are the vertices.
+  /// A triangle that needed no clipping: its corners are the vertices.
   void set_piece(const WindowTriangle& window, const double inverse_w[3]) {
     int order[3];
     canonical_order(window, order);
@@ -52,8 +52,8 @@ struct AlphaTest {
   }
 
   /// A piece of one that did.
-  void set_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
-    const CarefulPieces::Piece& piece = fan.piece[index];
+  void set_piece(const ClipVertex v[3], const ClippedFan& fan, int index, const WindowTransform& t) {
+    const ClippedFan::Piece& piece = fan.piece[index];
     int order[3];
     canonical_order(piece.triangle, order);
     for (int k = 0; k < 3; ++k) {

@@ -24,8 +24,8 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Draws the 4x4 blocks under the triangle's box, a vector of pixels at a time.
-template <class T, class Commit>
-HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
+template <class T, class Sink>
+HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Sink& sink) {
   const D64 d;
   const int lanes = int(hn::Lanes(d));
   const EdgeVectors<T> edges(s);
@@ -33,11 +33,11 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
   V64 least[3];
   for (int i = 0; i < 3; ++i) least[i] = hn::Set(d, double(s.least[i]));
   const bool limited = rect.limit[0] > 0 || rect.limit[1] > 0 || rect.limit[2] < rect.size || rect.limit[3] < rect.size;
-  commit.begin(s);
+  sink.begin(s);
   for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by) {
     for (int bx = s.x0 / kBlockSize; bx * kBlockSize < s.x1; ++bx) {
       const int block = by * (rect.size / kBlockSize) + bx;
-      if (commit.hidden(block)) continue;
+      if (sink.hidden(block)) continue;
       bool changed = false;
       for (int k = 0; k < kBlockPixels; k += lanes) {
         const int top = by * kBlockSize + k / kBlockSize;
@@ -54,61 +54,61 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Co
               hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
         }
         if (hn::AllFalse(d, covered)) continue;
-        changed |= commit.vector(block * kBlockPixels + k, covered, e);
+        changed |= sink.vector(block * kBlockPixels + k, covered, e);
       }
-      if (changed) commit.finish_block(block);
+      if (changed) sink.finish_block(block);
     }
   }
 }
 
 /// The same for a box of a few samples, where vectors would stay nearly empty.
-template <class Commit>
-HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& rect, Commit& commit) {
-  commit.begin(s);
+template <class Sink>
+HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& rect, Sink& sink) {
+  sink.begin(s);
   for (int y = s.y0; y < s.y1; ++y) {
     for (int x = s.x0; x < s.x1; ++x) {
       if (!s.covers(x, y)) continue;
       const int at = tile_index(rect.size, x, y);
-      if (commit.scalar(at, s.edge(0, x, y), s.edge(1, x, y), s.edge(2, x, y))) commit.finish_block(at / kBlockPixels);
+      if (sink.scalar(at, s.edge(0, x, y), s.edge(1, x, y), s.edge(2, x, y))) sink.finish_block(at / kBlockPixels);
     }
   }
 }
 
-/// The path for triangles over many samples, where the commit has one.
-template <class T, class Commit>
-HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Commit& commit) {
-  if constexpr (std::is_same_v<Commit, DepthCommit>) {
-    if (commit.fast && commit.alpha == nullptr && cover_large(s, rect, commit)) return;
+/// The path for triangles over many samples, where the sink has one.
+template <class T, class Sink>
+HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Sink& sink) {
+  if constexpr (std::is_same_v<Sink, DepthSink>) {
+    if (sink.fast && sink.alpha == nullptr && cover_large(s, rect, sink)) return;
   }
-  if constexpr (std::is_same_v<Commit, CountCommit>) {
-    if (commit.fast && count_blocks(s, rect, commit.counts)) return;
+  if constexpr (std::is_same_v<Sink, CountSink>) {
+    if (sink.fast && count_blocks(s, rect, sink.counts)) return;
   }
-  cover_blocks(s, rect, commit);
+  cover_blocks(s, rect, sink);
 }
 
 /// Draws a triangle by the path its size asks for.
-template <class Commit>
+template <class Sink>
 inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryState& state, bool upper_left,
-                                 const TileRect& rect, Commit& commit) {
+                                 const TileRect& rect, Sink& sink) {
   bool small = true;
   for (int i = 0; i < 3; ++i)
     small = small && std::abs(triangle.x[i]) < kVectorLimit && std::abs(triangle.y[i]) < kVectorLimit;
   if (small) {
     TriangleSetup<double> setup;
-    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, sink);
   } else {
     TriangleSetup<__int128> setup;
-    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, commit);
+    if (set_up_triangle(triangle, state, upper_left, rect.limit, setup)) cover(setup, rect, sink);
   }
 }
 
 /// A fan in which snapping has turned a piece over: a pixel belongs to the polygon if the pieces that cover it, counted
 /// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
-template <class Commit>
-inline void cover_turned_fan(const ClipVertex v[3], const CarefulPieces& fan, const WindowTransform& t,
-                             const GeometryState& state, const TileRect& rect, Commit& commit) {
-  TriangleSetup<__int128> setup[CarefulPieces::kMax];
-  bool used[CarefulPieces::kMax];
+template <class Sink>
+inline void cover_folded_fan(const ClipVertex v[3], const ClippedFan& fan, const WindowTransform& t,
+                             const GeometryState& state, const TileRect& rect, Sink& sink) {
+  TriangleSetup<__int128> setup[ClippedFan::kMax];
+  bool used[ClippedFan::kMax];
   GeometryState both_sides = state;
   both_sides.cull_face = CullFace::none;
   for (int i = 0; i < fan.count; ++i)
@@ -123,28 +123,28 @@ inline void cover_turned_fan(const ClipVertex v[3], const CarefulPieces& fan, co
       }
       if (winding * fan.facing <= 0) continue;
       const TriangleSetup<__int128>& s = setup[drawn];
-      commit.begin_piece(v, fan, drawn, t);
-      commit.begin(s);
-      commit.scalar(tile_index(rect.size, x, y), double(s.edge(0, x, y)), double(s.edge(1, x, y)),
+      sink.begin_piece(v, fan, drawn, t);
+      sink.begin(s);
+      sink.scalar(tile_index(rect.size, x, y), double(s.edge(0, x, y)), double(s.edge(1, x, y)),
                     double(s.edge(2, x, y)));
     }
   }
-  for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) commit.finish_block(block);
+  for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) sink.finish_block(block);
 }
 
-/// Draws a triangle that needs care: clipped, snapped exactly, by the path its size asks for.
-template <class Commit>
-inline void draw_careful(const ClipVertex v[3], const WindowTransform& t, SampleOrigin origin,
-                         const GeometryState& state, const TileRect& rect, Commit& commit) {
-  const CarefulPieces fan = careful_pieces(v, t, origin.x, origin.y);
+/// Draws a triangle that needs clipping: clipped, snapped exactly, by the path its size asks for.
+template <class Sink>
+inline void draw_clipped(const ClipVertex v[3], const WindowTransform& t, SampleOrigin origin,
+                         const GeometryState& state, const TileRect& rect, Sink& sink) {
+  const ClippedFan fan = clipped_fan(v, t, origin.x, origin.y);
   if (fan.count == 0 || culled(state, (fan.facing > 0) != t.upper_left)) return;
-  if (fan.turned) {
-    cover_turned_fan(v, fan, t, state, rect, commit);
+  if (fan.folded) {
+    cover_folded_fan(v, fan, t, state, rect, sink);
     return;
   }
   for (int i = 0; i < fan.count; ++i) {
-    commit.begin_piece(v, fan, i, t);
-    draw_window_triangle(fan.piece[i].triangle, state, t.upper_left, rect, commit);
+    sink.begin_piece(v, fan, i, t);
+    draw_window_triangle(fan.piece[i].triangle, state, t.upper_left, rect, sink);
   }
 }
 

@@ -29,25 +29,25 @@ void count_batch(const Batch& batch, const GeometryState& state, const WindowTra
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices v;
   for (size_t i = 0; i < 3 * batch.triangles; i += hn::Lanes(df))
-    place_vertices(hn::LoadU(df, batch.clip[0] + i), hn::LoadU(df, batch.clip[1] + i), hn::LoadU(df, batch.clip[2] + i),
+    project_vertices(hn::LoadU(df, batch.clip[0] + i), hn::LoadU(df, batch.clip[1] + i), hn::LoadU(df, batch.clip[2] + i),
                    hn::LoadU(df, batch.clip[3] + i), t, origin, i, v);
-  CountCommit commit{counts};
+  CountSink sink{counts};
   for (size_t i = 0; i < 3 * batch.triangles; i += 3) {
     WindowTriangle triangle;
     ClipVertex clip[3];
-    bool careful = false;
+    bool clipped = false;
     for (size_t k = 0; k < 3; ++k) {
       triangle.x[k] = v.x[i + k];
       triangle.y[k] = v.y[i + k];
       triangle.z[k] = v.z[i + k];
-      careful = careful || v.needs_care[i + k] != 0;
+      clipped = clipped || v.needs_clip[i + k] != 0;
       for (size_t c = 0; c < 4; ++c) clip[k].c[c] = batch.clip[c][i + k];
     }
     TriangleSetup<double> setup;
-    if (careful)
-      draw_careful(clip, t, origin, state, rect, commit);
+    if (clipped)
+      draw_clipped(clip, t, origin, state, rect, sink);
     else if (set_up_triangle(triangle, state, t.upper_left, rect.limit, setup))
-      cover_blocks(setup, rect, commit);
+      cover_blocks(setup, rect, sink);
   }
 }
 

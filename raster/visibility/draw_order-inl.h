@@ -27,14 +27,14 @@ struct ListedDraw {
   uint32_t position, instance, cluster;
   float near;              ///< what the depth test compares: no fragment is nearer
   uint8_t x0, y0, x1, y1;  ///< blocks that it may touch
-  bool plain;
+  bool no_clip;
 
   HWY_INLINE ListedDraw(const ClusterDraw& draw, uint32_t at, const TileRect& rect, const WindowTransform& t)
       : position(at),
         instance(draw.instance),
         cluster(draw.cluster),
         near(near_bound(double(draw.near_depth), t)),
-        plain(draw.plain) {
+        no_clip(draw.no_clip) {
     const BlockBox box = blocks_of(draw, rect);
     x0 = uint8_t(box.x0), y0 = uint8_t(box.y0), x1 = uint8_t(box.x1), y1 = uint8_t(box.y1);
   }
@@ -105,7 +105,7 @@ HWY_INLINE void fetch_streams(const TileDraws& in, const ListedDraw& draw) {
 /// Visits the clusters that their bounds do not hide, nearest first, each once what it needs was asked for some time
 /// ago.
 template <class Visit>
-HWY_INLINE void for_each_open(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
+HWY_INLINE void for_each_visible(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
                               const Visit& visit) {
   constexpr size_t kHeader = 2, kStreams = 4, kDraw = 7;  // clusters after the one whose instance is asked for
   const std::span<ListedDraw> order = nearest_first(in, rect);

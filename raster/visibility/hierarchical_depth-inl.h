@@ -58,13 +58,13 @@ HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const Bloc
 }
 
 /// Those of a tile's blocks in a box that are not nearer than some depth: a bit a column for each row.
-struct OpenBlocks {
+struct VisibleBlocks {
   alignas(64) uint16_t row[32] = {};  ///< of 16, as vectors read them
   bool all = true;                    ///< all of the box
 };
 
 /// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
-HWY_INLINE bool find_open(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, OpenBlocks& out) {
+HWY_INLINE bool find_visible(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, VisibleBlocks& out) {
   const hn::ScalableTag<float> d;
   constexpr int kLanes = int(hn::MaxLanes(d)), kRows = 4;
   const auto mine = hn::Set(d, near);

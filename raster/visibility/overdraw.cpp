@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Counts small triangles' fragments: what a SmallCommit tests for depth.
-struct SmallCount {
+/// Counts small triangles' fragments: what a DepthFragments tests for depth.
+struct CountedFragments {
   FragmentList& fragments;
   uint32_t* counts;
 
@@ -45,11 +45,11 @@ void count_triangle(const TileCount& t, const ClusteredMesh& mesh, const Cluster
   const WindowTransform& window = t.in.view.window;
   const size_t at = cluster.first_triangle + triangle;
   const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
-  CountCommit commit{t.counts, t.in.fast_paths};
-  if (v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0) {
+  CountSink sink{t.counts, t.in.fast_paths};
+  if (v.any_needs_clip && (v.needs_clip[corner[0]] | v.needs_clip[corner[1]] | v.needs_clip[corner[2]]) != 0) {
     ClipVertex clip[3];
     clip_corners(t.in, position, triangle, clip);
-    draw_careful(clip, window, sample_origin(t.rect.x, t.rect.y), t.in.state, t.rect, commit);
+    draw_clipped(clip, window, sample_origin(t.rect.x, t.rect.y), t.in.state, t.rect, sink);
     return;
   }
   WindowTriangle placed;
@@ -59,19 +59,19 @@ void count_triangle(const TileCount& t, const ClusteredMesh& mesh, const Cluster
     placed.z[k] = v.z[corner[k]];
   }
   TriangleSetup<double> setup;
-  if (set_up_triangle(placed, t.in.state, window.upper_left, t.rect.limit, setup)) cover(setup, t.rect, commit);
+  if (set_up_triangle(placed, t.in.state, window.upper_left, t.rect.limit, setup)) cover(setup, t.rect, sink);
 }
 
-/// The paths for usual triangles of a cluster none of whose vertices needs care: those of the geometry pass up to where
+/// The paths for usual triangles of a cluster none of whose vertices needs clipping: those of the geometry pass up to where
 /// that asks for depths.
 void count_usual(const TileCount& t, const ClusteredMesh& mesh, const Cluster& cluster, uint32_t position) {
   const TileRect& rect = t.rect;
   const bool upper_left = t.in.view.window.upper_left;
   const SmallDraw small{t.work.packed, true, t.in.state, upper_left, rect, PackedLimits(rect)};
-  const SmallCount into{t.work.fragments, t.counts};
-  Candidates& found = t.work.found;
+  const CountedFragments into{t.work.fragments, t.counts};
+  FilteredTriangles& found = t.work.found;
   pack_corners(t.vertices(), cluster.vertices, rect.size * 128, t.work.packed);
-  find_candidates(t.work.packed, small.any_held, mesh, cluster, small.limit, OpenBlocks(), found);
+  filter_triangles(t.work.packed, small.any_clamped, mesh, cluster, small.limit, VisibleBlocks(), found);
   draw_upto<2>(small, found.upto_2, found.count_2, into, nullptr);
   const int more = draw_upto<4>(small, found.more, found.count_more, into, found.upto_2);
   const int large = draw_upto_8(small, found.upto_2, more, into, found.large);
@@ -84,8 +84,8 @@ void count_cluster(const TileCount& t, uint32_t position) {
   const ClusteredMesh& mesh = t.in.clusters.meshes[t.in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
   window_vertices(mesh, cluster, t.in.view.instances[draw.instance], t.in.view.window,
-                  sample_origin(t.rect.x, t.rect.y), draw.plain, t.vertices());
-  if (t.in.fast_paths && !t.vertices().any_needs_care) return count_usual(t, mesh, cluster, position);
+                  sample_origin(t.rect.x, t.rect.y), draw.no_clip, t.vertices());
+  if (t.in.fast_paths && !t.vertices().any_needs_clip) return count_usual(t, mesh, cluster, position);
   for (uint32_t i = 0; i < cluster.triangles; ++i) count_triangle(t, mesh, cluster, position, i);
 }
 

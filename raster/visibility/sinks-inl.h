@@ -26,13 +26,13 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Counts covered samples: for overdraw, and for tests of watertightness.
-struct CountCommit {
+struct CountSink {
   uint32_t* counts;   ///< in tile_index() order
   bool fast = false;  ///< triangles may take the paths for usual ones
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}
-  void begin_piece(const ClipVertex*, const CarefulPieces&, int, const WindowTransform&) {}
+  void begin_piece(const ClipVertex*, const ClippedFan&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
   HWY_INLINE bool vector(int at, M64 covered, const V64*) {
     const D64 d;
@@ -113,8 +113,17 @@ HWY_INLINE hn::Mask<D32> passing(DepthFunc func, V32 z, V32 there) {
   return hn::Lt(z, z);  // none
 }
 
+/// Finds a block's largest depth.
+HWY_INLINE void set_far(VisibilityTile& tile, int block) {
+  const D32 df;
+  const float* depth = tile.depth + block * kBlockPixels;
+  V32 far = hn::Load(df, depth);
+  for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
+  tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
+}
+
 /// Tests depth and keeps the visible id.
-struct DepthCommit {
+struct DepthSink {
   VisibilityTile& tile;
   DepthFunc func;
   float range_low, range_high;
@@ -137,8 +146,8 @@ struct DepthCommit {
     nearest = rule.stored(std::min(std::max(float(z_low), range_low), range_high));
     if (alpha != nullptr) alpha->set_edges(s);
   }
-  /// Before begin(), for a piece of a triangle that needed care.
-  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+  /// Before begin(), for a piece of a triangle that needed clipping.
+  void begin_piece(const ClipVertex v[3], const ClippedFan& fan, int index, const WindowTransform& t) {
     if (alpha != nullptr) alpha->set_piece(v, fan, index, t);
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
@@ -236,19 +245,13 @@ struct DepthCommit {
     return true;
   }
 
-  HWY_INLINE void finish_block(int block) {
-    const D32 df;
-    const float* depth = tile.depth + block * kBlockPixels;
-    V32 far = hn::Load(df, depth);
-    for (size_t i = hn::Lanes(df); i < kBlockPixels; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
-    tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
-  }
+  HWY_INLINE void finish_block(int block) { set_far(tile, block); }
 };
 
 /// Lists the fragments that a depth test lets through; the depths stay.
-struct ListCommit {
+struct FragmentListSink {
   VisibilityTile& tile;
-  DepthCommit test;  ///< for its depths, and by its function
+  DepthSink test;  ///< for its depths, and by its function
   std::vector<DepthFragment>& out;
   bool skip_hidden;
   uint32_t id = 0;
@@ -257,7 +260,7 @@ struct ListCommit {
   void begin(const TriangleSetup<T>& s) {
     test.begin(s);
   }
-  void begin_piece(const ClipVertex v[3], const CarefulPieces& fan, int index, const WindowTransform& t) {
+  void begin_piece(const ClipVertex v[3], const ClippedFan& fan, int index, const WindowTransform& t) {
     test.begin_piece(v, fan, index, t);
   }
   bool hidden(int block) const { return test.hidden(block); }

@@ -7,7 +7,7 @@
 
 // Compiled once per SIMD target from visibility_kernel.cpp.
 namespace trueshade::HWY_NAMESPACE {
-decltype(trueshade::draw_visibility) draw_visibility_simd;
+decltype(trueshade::draw_visibility) draw_visibility_simd, draw_visibility_upon_simd;
 void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc func, bool culling,
                             VisibilityTile& visible, std::vector<DepthFragment>& out);
 decltype(trueshade::fragments_at_equal_depth) fragments_at_equal_depth_simd;
@@ -17,6 +17,7 @@ decltype(trueshade::clip_corners) clip_corners_simd;
 #if HWY_ONCE
 namespace trueshade {
 HWY_EXPORT(draw_visibility_simd);
+HWY_EXPORT(draw_visibility_upon_simd);
 HWY_EXPORT(passing_fragments_simd);
 HWY_EXPORT(fragments_at_equal_depth_simd);
 HWY_EXPORT(clip_corners_simd);
@@ -24,6 +25,11 @@ HWY_EXPORT(clip_corners_simd);
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts) {
   HWY_DYNAMIC_DISPATCH(draw_visibility_simd)(in, rect, culling, out, counts);
+}
+
+void draw_visibility_upon(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                          RasterCounts& counts) {
+  HWY_DYNAMIC_DISPATCH(draw_visibility_upon_simd)(in, rect, culling, out, counts);
 }
 
 void passing_fragments(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,

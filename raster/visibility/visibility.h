@@ -4,37 +4,25 @@
 #include <vector>
 
 #include "raster/triangles/clip.h"
+#include "raster/clusters/cluster_draw.h"
 #include "raster/clusters/clusters.h"
 #include "raster/fixed_point.h"
+#include "raster/tile.h"
 #include "raster/view.h"
 
 namespace trueshade {
 
-/// A cluster of an instance that may be seen, from cluster_bins.h.
-struct ClusterDraw {
-  uint32_t instance;
-  uint32_t cluster;         ///< of the instance's mesh
-  float near_depth;         ///< no fragment of it is nearer; -infinity where nothing is known
-  bool plain;               ///< its bounds say that no vertex needs care (vertex_stage-inl.h)
-  uint16_t x0, y0, x1, y1;  ///< pixels it may touch, inclusive, window coordinates, y up
-};
+/// What the corners of a visible triangle are: its vertices, or those of a clipped triangle's fan.
+enum class Corners : uint32_t { vertices, clipped };
 
-/// A square of pixels and which of them may be drawn; window coordinates, y up.
-struct TileRect {
-  int x, y;      ///< lower left pixel in the window
-  int size;      ///< 8, 16, 32, 48 or 64
-  int limit[4];  ///< x0, y0, x1, y1 in the tile, half open: inside viewport and image
-};
-
-// What is seen in a pixel: position in the tile's list, triangle of the cluster, and whether the triangle took the
-// careful path. 0 is nothing. Ids ascend in submission order.
-inline constexpr uint32_t kMaxTileClusters = (uint32_t(1) << 24) - 2;
-constexpr uint32_t visible_id(uint32_t position, uint32_t triangle, bool careful) {
-  return ((position + 1) << 8) | (triangle << 1) | uint32_t(careful);
+// What is seen in a pixel: position in the tile's list, triangle of the cluster, and its corners. 0 is nothing. Ids
+// ascend in the order of submission.
+constexpr uint32_t visible_id(uint32_t position, uint32_t triangle, Corners corners) {
+  return ((position + 1) << 8) | (triangle << 1) | uint32_t(corners);
 }
 constexpr uint32_t id_position(uint32_t id) { return (id >> 8) - 1; }
 constexpr uint32_t id_triangle(uint32_t id) { return (id >> 1) & 127; }
-constexpr bool id_careful(uint32_t id) { return id & 1; }
+constexpr bool id_clipped(uint32_t id) { return id & 1; }
 
 /// Depth and visible triangle of each pixel of a tile, in tile_index() order.
 struct VisibilityTile {
@@ -72,6 +60,10 @@ void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, Cli
 /// and draw front to back; never changes a bit.
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts);
+
+/// The same upon what `out` holds: depths of surfaces drawn before, with 0 as their id.
+void draw_visibility_upon(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                          RasterCounts& counts);
 
 /// The fragments that the state's depth test lets through against `visible`, whose depths stay: by pixel, then in order
 /// of submission. `culling`: as in draw_visibility(), which has drawn `visible`, perhaps from another list.

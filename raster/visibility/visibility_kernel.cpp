@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Triangles that have area and a sample in their box and the tile, many at a time, in 32-bit integers: in a cluster
 // that spans less than 2^15 subpixels a doubled area stays below 2^31. Returns how many it wrote to `out`.
-int candidates(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4],
+int sampled_triangles(const WindowVertices& v, const ClusteredMesh& mesh, const Cluster& cluster, const int limit[4],
                uint8_t* out) {
   const I32 di;
   const hn::Rebind<uint8_t, I32> d8;
@@ -63,8 +63,8 @@ int all_triangles(const Cluster& cluster, uint8_t* out) {
 // Clip positions of a cluster's vertices, and beyond which sides of the tile they lie. In clip space a side is a half
 // space through the eye: a triangle, clipped or not, all of whose corners are outside as seen from its near side covers
 // nothing of the tile. With slack for roundings and the snap.
-void place_careful_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
-                            const WindowTransform& t, const TileRect& rect, CarefulVertices& out) {
+void clip_vertices(const ClusteredMesh& mesh, const Cluster& cluster, const InstanceTransform& instance,
+                            const WindowTransform& t, const TileRect& rect, ClipVertices& out) {
   constexpr double kMargin = 2.0;  // pixels
   const D64 d;
   const D32 df;
@@ -109,28 +109,28 @@ void set_source(const TileDraws& in, const Instance& instance, const Cluster& cl
   test.set_source(in.scene.meshes[instance.mesh], vertex, in.state.provoking == Provoking::last ? 2 : 0);
 }
 
-DepthCommit& depth_test(DepthCommit& commit) { return commit; }
-DepthCommit& depth_test(ListCommit& commit) { return commit.test; }
+DepthSink& depth_test(DepthSink& sink) { return sink; }
+DepthSink& depth_test(FragmentListSink& sink) { return sink.test; }
 
-template <class Commit>
+template <class Sink>
 void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& draw, ClusterScratch& work,
-                  Commit& commit, RasterCounts& counts) {
+                  Sink& sink, RasterCounts& counts) {
   const uint32_t position = draw.position;
   const WindowTransform& t = in.view.window;
   // Corners' depths bound fragments from below unless an offset may bring these nearer.
-  const bool cull = commit.skip_hidden && !t.depth.may_come_nearer();
-  if (cull && hidden_draw(commit.tile, rect.size / kBlockSize, draw)) return;
+  const bool cull = sink.skip_hidden && !t.depth.may_come_nearer();
+  if (cull && hidden_draw(sink.tile, rect.size / kBlockSize, draw)) return;
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
   const Cluster& cluster = mesh.clusters[draw.cluster];
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   const Instance& instance = in.scene.instances[draw.instance];
-  AlphaTest* const masked = depth_test(commit).alpha = alpha_test(in, instance, work.alpha);
+  AlphaTest* const masked = depth_test(sink).alpha = alpha_test(in, instance, work.alpha);
   WindowVertices& v = work.vertices;
-  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, draw.plain, v);
+  window_vertices(mesh, cluster, in.view.instances[draw.instance], t, origin, draw.no_clip, v);
   uint8_t* triangle = work.triangle;
   int count = 0;
-  if (v.any_needs_care) {
-    place_careful_vertices(mesh, cluster, in.view.instances[draw.instance], t, rect, work.careful);
+  if (v.any_needs_clip) {
+    clip_vertices(mesh, cluster, in.view.instances[draw.instance], t, rect, work.clip);
     count = all_triangles(cluster, triangle);
   } else {
     const WindowBox& box = v.box;
@@ -142,43 +142,43 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
       const int blocks = rect.size / kBlockSize;
       const float near = near_bound(box.near, t);
       if (covered.count() > cluster.triangles) {
-        if (hidden_blocks(commit.tile, blocks, covered, near)) return;
-      } else if (!find_open(commit.tile, blocks, covered, near, work.open)) {
+        if (hidden_blocks(sink.tile, blocks, covered, near)) return;
+      } else if (!find_visible(sink.tile, blocks, covered, near, work.open)) {
         return;
       }
     }
     const int32_t span = std::max(box.x1 - box.x0, box.y1 - box.y0);
     bool sorted = false;
-    if constexpr (std::is_same_v<Commit, DepthCommit>) {
-      if (commit.fast && masked == nullptr && !t.depth.offsets()) {
-        draw_small_triangles(mesh, cluster, box, in.state, t.upper_left, rect, visible_id(position, 0, false), work,
-                             commit);
+    if constexpr (std::is_same_v<Sink, DepthSink>) {
+      if (sink.fast && masked == nullptr && !t.depth.offsets()) {
+        draw_small_triangles(mesh, cluster, box, in.state, t.upper_left, rect, visible_id(position, 0, Corners::vertices), work,
+                             sink);
         count = draw_large_triangles({v, in.state, t.upper_left, rect}, work.found.large, work.found.count_large,
-                                     visible_id(position, 0, false), commit, triangle);
+                                     visible_id(position, 0, Corners::vertices), sink, triangle);
         sorted = true;
       }
     }
     if (!sorted)
-      count = span < (1 << 15) ? candidates(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
+      count = span < (1 << 15) ? sampled_triangles(v, mesh, cluster, rect.limit, triangle) : all_triangles(cluster, triangle);
   }
   ++counts.clusters;
   counts.triangles += uint64_t(cluster.triangles);
   for (int i = 0; i < count; ++i) {
     const size_t at = cluster.first_triangle + triangle[i];
     const size_t corner[3] = {mesh.corner[0][at], mesh.corner[1][at], mesh.corner[2][at]};
-    const CarefulVertices& placed = work.careful;
-    if (in.fast_paths && v.any_needs_care &&
+    const ClipVertices& placed = work.clip;
+    if (in.fast_paths && v.any_needs_clip &&
         (placed.beside[corner[0]] & placed.beside[corner[1]] & placed.beside[corner[2]]) != 0)
       continue;
-    const bool careful =
-        v.any_needs_care && (v.needs_care[corner[0]] | v.needs_care[corner[1]] | v.needs_care[corner[2]]) != 0;
-    commit.id = visible_id(position, triangle[i], careful);
+    const bool clipped =
+        v.any_needs_clip && (v.needs_clip[corner[0]] | v.needs_clip[corner[1]] | v.needs_clip[corner[2]]) != 0;
+    sink.id = visible_id(position, triangle[i], clipped ? Corners::clipped : Corners::vertices);
     if (masked != nullptr) set_source(in, instance, cluster, corner, work.alpha);
-    if (careful) {
+    if (clipped) {
       ClipVertex clip[3];
       for (size_t k = 0; k < 3; ++k)
         for (int r = 0; r < 4; ++r) clip[k].c[r] = placed.clip[r][corner[k]];
-      draw_careful(clip, t, origin, in.state, rect, commit);
+      draw_clipped(clip, t, origin, in.state, rect, sink);
       continue;
     }
     WindowTriangle window;
@@ -187,7 +187,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
       window.y[k] = v.y[corner[k]];
       window.z[k] = v.z[corner[k]];
     }
-    if (cull && hidden_triangle(commit.tile, rect, window, t)) continue;
+    if (cull && hidden_triangle(sink.tile, rect, window, t)) continue;
     TriangleSetup<double> setup;
     if (!set_up_triangle(window, in.state, t.upper_left, rect.limit, setup)) continue;
     if (masked != nullptr) {
@@ -195,10 +195,28 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
       work.alpha.set_piece(window, inverse_w);
     }
     if (setup.samples() <= 4)
-      cover_samples(setup, rect, commit);
+      cover_samples(setup, rect, sink);
     else
-      cover(setup, rect, commit);
+      cover(setup, rect, sink);
   }
+}
+
+// Draws upon depths, ids and blocks' largest depths.
+void draw_clusters(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out, RasterCounts& counts) {
+  const DepthFunc func = in.state.depth_func;
+  const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
+  DepthSink sink{
+      out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins, in.view.window.depth};
+  sink.fast = in.fast_paths && sink.skip_hidden;
+  ClusterScratch work;
+  if (!sink.skip_hidden) {
+    for (uint32_t i = 0; i < in.list.size(); ++i)
+      draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, sink, counts);
+  } else {
+    for_each_visible(in, rect, out, !sink.rule.may_come_nearer(),
+                  [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, sink, counts); });
+  }
+  counts.fragments += sink.fragments;
 }
 
 void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
@@ -208,20 +226,13 @@ void draw_visibility_simd(const TileDraws& in, const TileRect& rect, bool cullin
   std::fill_n(out.depth, pixels, clear);
   std::fill_n(out.id, pixels, 0u);
   std::fill_n(out.far, pixels / kBlockPixels, clear);
-  const DepthFunc func = in.state.depth_func;
-  const bool nearest_wins = func == DepthFunc::less || func == DepthFunc::lequal;
-  DepthCommit commit{
-      out, func, in.view.window.depth_low, in.view.window.depth_high, culling && nearest_wins, in.view.window.depth};
-  commit.fast = in.fast_paths && commit.skip_hidden;
-  ClusterScratch work;
-  if (!commit.skip_hidden) {
-    for (uint32_t i = 0; i < in.list.size(); ++i)
-      draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, commit, counts);
-  } else {
-    for_each_open(in, rect, out, !commit.rule.may_come_nearer(),
-                  [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, commit, counts); });
-  }
-  counts.fragments += commit.fragments;
+  draw_clusters(in, rect, culling, out, counts);
+}
+
+void draw_visibility_upon_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
+                               RasterCounts& counts) {
+  for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) set_far(out, block);
+  draw_clusters(in, rect, culling, out, counts);
 }
 
 // Keeps the pixels where not the visible fragment alone has the stored depth.
@@ -240,11 +251,11 @@ void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc
   out.clear();
   const WindowTransform& t = in.view.window;
   const bool cull = culling && (func == DepthFunc::less || func == DepthFunc::lequal || func == DepthFunc::equal);
-  ListCommit commit{visible, {visible, func, t.depth_low, t.depth_high, cull, t.depth}, out, cull};
+  FragmentListSink sink{visible, {visible, func, t.depth_low, t.depth_high, cull, t.depth}, out, cull};
   RasterCounts uncounted;
   ClusterScratch work;
   for (uint32_t i = 0; i < in.list.size(); ++i)
-    draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, commit, uncounted);
+    draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, sink, uncounted);
   std::sort(out.begin(), out.end(), [](const DepthFragment& a, const DepthFragment& b) {
     return a.at < b.at || (a.at == b.at && a.id < b.id);
   });

@@ -1,7 +1,6 @@
 #!/bin/bash
 # Installs a build into a fresh prefix, and builds programs against it with find_package(trueshade): tests/consumer, which is
-# run, and every program that a guide shows (a `cpp` block, with the `cmake` block before it in the same page), which are
-# built and run. Usage: run.sh BUILD_FOLDER SOURCE_FOLDER COMPILER CXX_FLAGS
+# run, and every program (`cpp`) of a guide that has a `cmake` block, which are built with that block and run. Usage: run.sh BUILD_FOLDER SOURCE_FOLDER COMPILER CXX_FLAGS
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -37,5 +36,5 @@ while IFS=: read -r page count; do
     build "$work/$name" "$name" "$3" "$4"
     (cd "$work/$name" && "$work/build/$name/program")
   done
-done < <(cd "$2" && grep -c '^```cpp$' "$2/README.md" "$2"/docs/*.md | grep -v ':0$')
+done < <(grep -l '^```cmake$' "$2/README.md" "$2"/docs/*.md | xargs grep -cH '^```cpp$')
 ((programs > 0)) || { echo "no guide shows a program"; exit 1; }

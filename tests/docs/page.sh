@@ -2,9 +2,10 @@
 # Runs what a page of the guides shows, in the page's order, in a scratch folder. The blocks of a page, by language:
 #   sh      commands, a line each (a backslash at a line's end goes on); `# exit 3` states another exit code than 0
 #   text    after sh: lines that the commands before print, in this order; `...` stands for any text
-#   json    a scene or a pipeline, which is drawn; ply, csv, bash, yaml: a file. Each is written under the name in `backticks`
-#           that the line before the block gives last; a json without a name gets one.
-# cmake and cpp are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is not run.
+#   json    a scene or a pipeline, which is drawn; ply, csv, cpp, bash: a file. Each is written under the name in `backticks`
+#           that the line before the block gives last; a json without a name gets one, a cpp is left out.
+# The cpp blocks of pages with a cmake block are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is
+# not run.
 # The scratch folder starts with the files of tests/docs/files. Usage: page.sh COMMAND SOURCE_FOLDER PAGE
 set -euo pipefail
 export LC_ALL=C.UTF-8 TZ=UTC
@@ -99,6 +100,7 @@ write_file() {
     name=${BASH_REMATCH[1]} before=${BASH_REMATCH[2]}
   done
   if [[ -z $name ]]; then
+    [[ $ending != cpp ]] || return 0
     [[ $ending == json ]] || { fail "$number" "the line before the block names no file that ends in .$ending"; return; }
     name=line_$number.json
   fi
@@ -124,9 +126,8 @@ while IFS= read -r line || [[ -n $line ]]; do
     case $language in
       sh) run_commands "$first" "${block[@]}" ;;
       text) [[ $before_language != sh ]] || expect_output "$first" "${block[@]}" ;;
-      json | ply | csv) write_file "$first" "$language" "$before" "${block[@]}" ;;
+      json | ply | csv | cpp) write_file "$first" "$language" "$before" "${block[@]}" ;;
       bash) write_file "$first" sh "$before" "${block[@]}" ;;
-      yaml) write_file "$first" yml "$before" "${block[@]}" ;;
     esac
     before_language=$language language=
   fi

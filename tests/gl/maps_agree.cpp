@@ -240,7 +240,8 @@ TEST_CASE("Triangles that start with another vertex are bent alike") {
   CHECK(apart < first.width * first.height / 100);  // other texels and edges
 }
 
-TEST_CASE("Pictures with normal and specular maps are ours in every strategy, under models that read them or do not") {
+TEST_CASE("Pictures with normal and specular maps are ours in every strategy, under models that read them or do not",
+          "[slow]") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const std::string aovs[] = {"id.object"};

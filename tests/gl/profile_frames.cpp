@@ -102,7 +102,8 @@ OtherCodes other_codes(const Capture& gl, const Scene& scene, const Pipeline& pi
 
 }  // namespace
 
-TEST_CASE("Frames of constant colours are llvmpipe's bit for bit, every target format and strategy, glass and all") {
+TEST_CASE("Frames of constant colours are llvmpipe's bit for bit, every target format and strategy, glass and all",
+          "[slow]") {
   const GlContext* context = opened_mesa_22_3();
   if (context == nullptr) return;
   Random random(223);

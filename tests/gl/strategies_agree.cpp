@@ -49,7 +49,7 @@ Difference drawn_twice(const GlContext& context, const Scene& scene, Pipeline pi
 }  // namespace
 
 TEST_CASE(
-    "llvmpipe draws every preset in every strategy as we do, within two codes of a target that rounds light by light") {
+    "llvmpipe draws every preset in every strategy as we do, within two codes of a target that rounds light by light", "[slow]") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   for (const char* name : {"city,lights=200", "cornell", "circle"}) {

@@ -71,7 +71,8 @@ Scene glass_city() {
 
 }  // namespace
 
-TEST_CASE("llvmpipe blends transparent surfaces as we do, in both modes, every preset and strategy, within two codes") {
+TEST_CASE("llvmpipe blends transparent surfaces as we do, in both modes, every preset and strategy, within two codes",
+          "[slow]") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Stage atrium(*context, builtin_scene("atrium,glass=1,lights=10")), city(*context, glass_city());

@@ -69,7 +69,7 @@ TEST_CASE("llvmpipe's own wrong blends are rejected light by light, under its pr
   testing::try_blend_mutants(profiles_of(*context), driver.renderer(), driver.steps());
 }
 
-TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too") {
+TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too", "[slow]") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Driver driver(*context);
@@ -80,12 +80,13 @@ TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too") {
   // Under one preset all tries are needed: alpha from elsewhere shows on three scenes alone.
   testing::try_mutants(profiles_of(*context), driver.renderer(), 1, kSame, kInside, testing::Tries::all);
 }
-TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too") {
+TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too", "[slow]") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Driver driver(*context);
   testing::try_surface_mutants(profiles_of(*context), driver.renderer());
 }
-TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too") { try_glass(testing::Tries::half); }
+TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too",
+          "[slow]") { try_glass(testing::Tries::half); }
 
 TEST_CASE("llvmpipe's own wrong glass is rejected on every picture", "[long]") { try_glass(testing::Tries::all); }

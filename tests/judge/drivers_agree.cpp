@@ -67,7 +67,7 @@ bool other_surface(PixelClass c) {
 TEST_CASE("drawer: row 62 by llvmpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::llvmpipe); }
 TEST_CASE("drawer: row 62 by softpipe", "[.][long][drawer]") { draw_and_hand_over(GlDriver::softpipe); }
 
-TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained") {
+TEST_CASE("Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained", "[slow]") {
   const Scene scene = crowded_scene();
   const Pipeline pipeline = caveat_pipeline();
   CHECK(scene.triangle_count() == 46178);

@@ -163,7 +163,7 @@ void try_ours(testing::Tries tries) {
 
 }  // namespace
 
-TEST_CASE("Wrong ways of drawing transparent surfaces are rejected, right ones explained") {
+TEST_CASE("Wrong ways of drawing transparent surfaces are rejected, right ones explained", "[slow]") {
   try_ours(testing::Tries::half);
 }
 TEST_CASE("Wrong ways of drawing transparent surfaces are rejected on every picture", "[long]") {

@@ -40,7 +40,7 @@ class Edges {
   }
 
   /// How much a driver's attribute may be off for making its plane from the window's corner in floats
-  /// (docs/validation.md, False alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
+  /// (docs/data/drivers.md, False alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
   double plane_error(size_t value, Interpolation interpolation, const GeometryState& state, int x,
                      int y_from_top) const {
     const int y = height_ - 1 - y_from_top;

@@ -106,7 +106,8 @@ TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by 
   }
 }
 
-TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explained under every preset and strategy") {
+TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explained under every preset and strategy",
+          "[slow]") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const bool known = context->info().line().find("Mesa 22.3") != std::string::npos;

@@ -112,7 +112,7 @@ void try_surface_mutants(std::span<const Profile> profiles, const Renderer& rend
 
 }  // namespace trueshade::testing
 
-TEST_CASE("Wrong maps, ten-bit normals and extents are rejected, right ones explained") {
+TEST_CASE("Wrong maps, ten-bit normals and extents are rejected, right ones explained", "[slow]") {
   const Renderer render = [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); };
   std::vector<Profile> profiles;
   for (const char* name : {"ideal", "d3d-class", "unknown"}) {

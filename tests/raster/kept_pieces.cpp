@@ -25,8 +25,8 @@ bool alike(const ClipCorner& a, const ClipCorner& b) {
   return a.a == b.a && a.b == b.b && (a.kind == 1 ? a.plane == b.plane : a.t == b.t);
 }
 
-bool alike(const CarefulPieces& a, const CarefulPieces& b) {
-  if (a.count != b.count || a.facing != b.facing || a.turned != b.turned) return false;
+bool alike(const ClippedFan& a, const ClippedFan& b) {
+  if (a.count != b.count || a.facing != b.facing || a.folded != b.folded) return false;
   if (a.polygon.made != b.polygon.made || a.polygon.corners != b.polygon.corners) return false;
   bool same = true;
   for (int i = 0; i < a.polygon.made; ++i) same = same && alike(a.polygon.all[i], b.polygon.all[i]);
@@ -41,9 +41,9 @@ bool alike(const CarefulPieces& a, const CarefulPieces& b) {
 }
 
 /// By a thread that has none.
-CarefulPieces clipped_anew(const Asked& in) {
-  CarefulPieces out;
-  std::thread([&] { out = careful_pieces(in.v.data(), in.window, in.x, in.y); }).join();
+ClippedFan clipped_anew(const Asked& in) {
+  ClippedFan out;
+  std::thread([&] { out = clipped_fan(in.v.data(), in.window, in.x, in.y); }).join();
   return out;
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("Clipped triangles that a thread keeps are those that are clipped anew
       Asked& in = asked[k * step % asked.size()];
       in.x += 16384;
       for (int again = 0; again < 2; ++again, in.y += 16384) {
-        const CarefulPieces kept = careful_pieces(in.v.data(), in.window, in.x, in.y);
+        const ClippedFan kept = clipped_fan(in.v.data(), in.window, in.x, in.y);
         CHECK(alike(kept, clipped_anew(in)));
         seen += kept.count;
       }

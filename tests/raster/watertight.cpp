@@ -206,7 +206,7 @@ void run_fans_and_meshes(uint64_t seed, uint64_t count) {
 
 }  // namespace
 
-TEST_CASE("A million pairs of triangles hit no pixel twice along their edge and miss none") {
+TEST_CASE("A million pairs of triangles hit no pixel twice along their edge and miss none", "[slow]") {
   run_pairs(1000, 1000000);
 }
 

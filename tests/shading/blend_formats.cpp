@@ -266,7 +266,7 @@ size_t wrong_triples(const BlendTerm& term, const BlendTarget& target) {
 
 }  // namespace
 
-TEST_CASE("8-bit blending of all 65,536 pairs of codes in all states is the scalar twin's") {
+TEST_CASE("8-bit blending of all 65,536 pairs of codes in all states is the scalar twin's", "[slow]") {
   CHECK(wrong_pixels(CodePairs(1, false), {Format::rgba8}) == 0);
 }
 
@@ -281,7 +281,7 @@ TEST_CASE("8-bit and sRGB blending of all pairs in all states and channels is th
   CHECK(wrong_pixels(pairs, {Format::rgba8, NumericProfile::mesa_llvmpipe_22_3}) == 0);
 }
 
-TEST_CASE("8-bit blending of all 2^24 triples of codes in nine modes is the scalar twin's") {
+TEST_CASE("8-bit blending of all 2^24 triples of codes in nine modes is the scalar twin's", "[slow]") {
   for (const NamedMode& mode : usual_modes()) {
     INFO(mode.name);
     CHECK(wrong_triples(mode.term, {Format::rgba8}) == 0);

@@ -209,7 +209,8 @@ TEST_CASE("Estimates of bounded codes are as near to the terms as their proofs s
     }
 }
 
-TEST_CASE("Estimates of bounded sums are as near to the sums as their proof says, whatever the CPU's 1 / sqrt") {
+TEST_CASE("Estimates of bounded sums are as near to the sums as their proof says, whatever the CPU's 1 / sqrt",
+          "[slow]") {
   constexpr Hunt kSums[] = {
       {"No highlight", false, 0.5, 0.5, {0.9, 3}, false},
       {"In the highlight", false, 0.5, 1.2, {0, 0.05}, false},

@@ -184,7 +184,8 @@ TEST_CASE("lights whose range or cone just touches a pixel, a block or a tile ar
   }
 }
 
-TEST_CASE("lights that just touch are culled without changing a bit under every preset, strategy, target and profile") {
+TEST_CASE("lights that just touch are culled without changing a bit under every preset, strategy, target and profile",
+          "[slow]") {
   Random random(68);
   Scene scene = sheet(random);
   add_touching_lights(scene, render(scene, loop_pipeline("many-lights")), 60, random);

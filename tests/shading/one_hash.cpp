@@ -124,7 +124,7 @@ Way affordable(Way w, bool dense) {
 
 }  // namespace
 
-TEST_CASE("every built-in scene has one hash over pairs of all ways to draw it", "[determinism]") {
+TEST_CASE("every built-in scene has one hash over pairs of all ways to draw it", "[determinism][slow]") {
   const std::vector<std::string_view> targets = simd_targets();
   const std::vector<Choice> ways = pairwise(choice_counts(targets.size()));
   std::string loaded;

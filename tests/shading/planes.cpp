@@ -52,7 +52,7 @@ std::array<int, 2> unlike_and_lit(const PreparedScene& prepared, const Pipeline&
   return count;
 }
 
-TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32f image bit for bit", "[views]") {
+TEST_CASE("The planes light.<i>, added in index order in float32, are the rgba32f image bit for bit", "[views][slow]") {
   for (const char* spec : {"builtin:cornell", "builtin:circle", "builtin:red,lights=40", "builtin:lecture"}) {
     const Scene scene = load_scene(spec);
     const PreparedScene prepared(scene);

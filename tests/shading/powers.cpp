@@ -153,7 +153,8 @@ constexpr double kAtMost = 0.5 + 0x1p-15;
 
 }  // namespace
 
-TEST_CASE("pow of real exponents is within 0.50004 ulp of MPFR's over all positive floats and exponents", "[pow]") {
+TEST_CASE("pow of real exponents is within 0.50004 ulp of MPFR's over all positive floats and exponents",
+          "[pow][slow]") {
   const FpScope fp;
   const Worst worst = worst_real_powers(600000, 62);
   CAPTURE(worst.ulps, worst.x, worst.p, worst.computed, std::log2(worst.share));

@@ -53,7 +53,7 @@ struct MappedBlocks {
         const SeenRun& run = seen.run[i];
         if (!maps_of(run.triangle).any()) continue;
         // Of a triangle that needed care its pieces have taken the pixels.
-        if (run.pixels == 0 || id_careful(visible.id[block * kBlockPixels + std::countr_zero(run.pixels)])) {
+        if (run.pixels == 0 || id_clipped(visible.id[block * kBlockPixels + std::countr_zero(run.pixels)])) {
           map_careful(block, run.triangle);
           continue;
         }

@@ -85,7 +85,7 @@ struct BlockInterpolation {
     uint32_t chains = 0;
     for (uint32_t i = seen.runs; i-- > 0;) {
       const SeenRun& run = seen.run[i];
-      if (std::popcount(run.pixels) < kFew && !id_careful(id_of(run))) {
+      if (std::popcount(run.pixels) < kFew && !id_clipped(id_of(run))) {
         const BlockPlace block(run.block, blocks);
         for (uint32_t bits = run.pixels; bits != 0; bits &= bits - 1)
           mixed.add(seen, block, std::countr_zero(bits), run.triangle, wanted, out);
@@ -108,7 +108,7 @@ struct BlockInterpolation {
 
   /// The long runs of a triangle.
   HWY_INLINE void interpolate_runs(uint16_t first) {
-    if (HWY_UNLIKELY(id_careful(id_of(seen.run[first])))) return interpolate_careful_runs(first);
+    if (HWY_UNLIKELY(id_clipped(id_of(seen.run[first])))) return interpolate_careful_runs(first);
     const RunTriangle set_up(seen, seen.run[first].triangle, wanted);
     for (uint16_t i = first; i != VisibleTriangles::kNoRun; i = seen.next_run[i]) {
       const SeenRun& run = seen.run[i];

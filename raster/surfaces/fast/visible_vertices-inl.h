@@ -59,7 +59,7 @@ struct UsedVertices {
 
   /// Whether a cluster's vertices may join those that are here.
   HWY_INLINE bool takes(const ClusterDraw& other) const {
-    return count <= kEnough && draw->instance == other.instance && draw->plain == other.plain;
+    return count <= kEnough && draw->instance == other.instance && draw->no_clip == other.no_clip;
   }
 
   void add(const TileDraws& in, const VisibleCluster& seen, WantedStreams wanted) {
@@ -122,8 +122,8 @@ inline void place_used(const TileDraws& in, const TileRect& rect, const UsedVert
   const InstanceTransform& instance = in.view.instances[from.draw->instance];
   const float(&m)[4][4] = instance.clip;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
-  const PlainVertices plain(instance, in.view.window, origin);
-  const bool all_plain = from.draw->plain;
+  const UnclippedVertices plain(instance, in.view.window, origin);
+  const bool all_plain = from.draw->no_clip;
   const auto bias = hn::Set(du, PlacedVertex::kBias);
   for (int i = 0; i < from.count; i += int(hn::Lanes(df))) {
     const V32 x = hn::Load(df, from.stream[0] + i), y = hn::Load(df, from.stream[1] + i),
@@ -131,7 +131,7 @@ inline void place_used(const TileDraws& in, const TileRect& rect, const UsedVert
     if (all_plain)
       plain.place(x, y, z, 0, window);
     else
-      place_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
+      project_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
                      affine_row(m[3], x, y, z), in.view.window, origin, 0, window);
     const auto wx = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.x)), bias);
     const auto wy = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.y)), bias);

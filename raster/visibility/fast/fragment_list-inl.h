@@ -77,8 +77,8 @@ class CornerDepths {
 #endif
 };
 
-/// Depths of fragments, as triangle_setup.h and DepthCommit compute them.
-HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthCommit& commit) {
+/// Depths of fragments, as triangle_setup.h and DepthSink compute them.
+HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const DepthSink& sink) {
   const D64 d;
   const D32 df;
   const I32 di;
@@ -95,23 +95,23 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
     const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
     const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
     const V64 in_range =
-        hn::Min(hn::Max(in_hull, hn::Set(d, double(commit.range_low))), hn::Set(d, double(commit.range_high)));
-    hn::Store(commit.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
+        hn::Min(hn::Max(in_hull, hn::Set(d, double(sink.range_low))), hn::Set(d, double(sink.range_high)));
+    hn::Store(sink.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
   }
 }
 
 /// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
 /// triangle. No stored depth is negative, so those that are nearer have smaller bits; ids above or below them (turned
 /// over where the last wins a tie) settle ties: what is least is seen.
-HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
-                                 DepthCommit& commit) {
-  commit.fragments += uint64_t(fragments.count);
-  fragment_depths(fragments, vertex_z, commit);
+HWY_INLINE void test_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
+                                 DepthSink& sink) {
+  sink.fragments += uint64_t(fragments.count);
+  fragment_depths(fragments, vertex_z, sink);
   const float* const z = fragments.z;
   const int32_t *const place = fragments.at, *const word = fragments.word;
-  float* const depth = commit.tile.depth;
-  uint32_t* const seen = commit.tile.id;
-  const uint32_t turned = commit.func == DepthFunc::less ? 0u : ~0u;
+  float* const depth = sink.tile.depth;
+  uint32_t* const seen = sink.tile.id;
+  const uint32_t turned = sink.func == DepthFunc::less ? 0u : ~0u;
   uint16_t* const block = fragments.block;
   uint8_t* const touched = fragments.touched;
   size_t blocks = 0;
@@ -130,7 +130,7 @@ HWY_INLINE void commit_fragments(FragmentList& fragments, const double* vertex_z
     touched[in_block] = 1;
   }
   for (size_t i = 0; i < blocks; ++i) {
-    commit.finish_block(block[i]);
+    sink.finish_block(block[i]);
     touched[block[i]] = 0;
   }
   fragments.count = 0;

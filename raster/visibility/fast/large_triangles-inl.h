@@ -119,13 +119,13 @@ struct NearPlane {
   float first, across, up;  ///< in block (0, 0); to the next column, row
 
   template <class T>
-  HWY_INLINE NearPlane(const TriangleSetup<T>& s, const DepthCommit& commit) {
-    const double zx = double(s.sx[1]) * commit.g1 + double(s.sx[2]) * commit.g2;
-    const double zy = double(s.sy[1]) * commit.g1 + double(s.sy[2]) * commit.g2;
-    const double z1 = double(s.c[1]) * commit.g1, z2 = double(s.c[2]) * commit.g2;
-    const double least = commit.z0 + (z1 + z2) + 3.0 * (std::min(zx, 0.0) + std::min(zy, 0.0));
+  HWY_INLINE NearPlane(const TriangleSetup<T>& s, const DepthSink& sink) {
+    const double zx = double(s.sx[1]) * sink.g1 + double(s.sx[2]) * sink.g2;
+    const double zy = double(s.sy[1]) * sink.g1 + double(s.sy[2]) * sink.g2;
+    const double z1 = double(s.c[1]) * sink.g1, z2 = double(s.c[2]) * sink.g2;
+    const double least = sink.z0 + (z1 + z2) + 3.0 * (std::min(zx, 0.0) + std::min(zy, 0.0));
     // All its roundings, a few of f32, are less than 2^-20 of its terms' magnitudes.
-    const double terms = std::abs(commit.z0) + std::abs(z1) + std::abs(z2) + 64.0 * (std::abs(zx) + std::abs(zy));
+    const double terms = std::abs(sink.z0) + std::abs(z1) + std::abs(z2) + 64.0 * (std::abs(zx) + std::abs(zy));
     const bool bounded = terms < 0x1p100;
     first = bounded ? float(least - terms * 0x1p-20) : -0x1p100f;
     across = bounded ? float(kBlockSize * zx) : 0.0f;
@@ -134,11 +134,11 @@ struct NearPlane {
 
   /// Bits of the blocks from (bx, by) on that hide the plane.
   template <class F>
-  HWY_INLINE uint32_t hidden(F d, const DepthCommit& commit, const float* far, int bx, int by) const {
+  HWY_INLINE uint32_t hidden(F d, const DepthSink& sink, const float* far, int bx, int by) const {
     const auto lane = hn::Mul(hn::Iota(d, 0.0f), hn::Set(d, across));
     const auto near = hn::Add(hn::Set(d, first + (float(bx) * across + float(by) * up)), lane);
-    const auto compared = commit.stored(hn::Min(near, hn::Set(d, commit.range_high)));
-    return lane_bits(d, hn::Gt(hn::Max(compared, hn::Set(d, commit.nearest)), hn::LoadU(d, far)));
+    const auto compared = sink.stored(hn::Min(near, hn::Set(d, sink.range_high)));
+    return lane_bits(d, hn::Gt(hn::Max(compared, hn::Set(d, sink.nearest)), hn::LoadU(d, far)));
   }
 };
 
@@ -152,14 +152,14 @@ struct BlockDepths {
   V64 beyond[2][kBlockPixels / kHalf];  ///< of E_1 and E_2 from the first pixel of a block; not of wide setups
   V64 z0, g1, g2, low, high;
 
-  HWY_INLINE BlockDepths(const TriangleSetup<T>& s, const DepthCommit& commit) : edges(s) {
+  HWY_INLINE BlockDepths(const TriangleSetup<T>& s, const DepthSink& sink) : edges(s) {
     const D64 d;
-    z0 = hn::Set(d, commit.z0), g1 = hn::Set(d, commit.g1), g2 = hn::Set(d, commit.g2);
+    z0 = hn::Set(d, sink.z0), g1 = hn::Set(d, sink.g1), g2 = hn::Set(d, sink.g2);
     // To the hull and then to the range is to the hull's ends in that range.
     const auto in_range = [&](double z) {
-      return std::min(std::max(z, double(commit.range_low)), double(commit.range_high));
+      return std::min(std::max(z, double(sink.range_low)), double(sink.range_high));
     };
-    low = hn::Set(d, in_range(commit.z_low)), high = hn::Set(d, in_range(commit.z_high));
+    low = hn::Set(d, in_range(sink.z_low)), high = hn::Set(d, in_range(sink.z_high));
     if constexpr (!kWide) {
       for (int i = 0; i < 2; ++i)
         for (int part = 0; part < kBlockPixels / kHalf; ++part) {
@@ -195,20 +195,20 @@ struct BlockDepths {
     return hn::DemoteTo(D32(), hn::Min(hn::Max(plane, low), high));
   }
 
-  HWY_INLINE void draw(int px, int py, int block, uint32_t covered, DepthCommit& commit) const {
+  HWY_INLINE void draw(int px, int py, int block, uint32_t covered, DepthSink& sink) const {
     const D d;
     const hn::RebindToUnsigned<D> du;
-    commit.fragments += uint64_t(std::popcount(covered));
+    sink.fragments += uint64_t(std::popcount(covered));
     bool changed = false;
     const First start = first(px, py);
     auto far = hn::Set(d, -std::numeric_limits<float>::infinity());
     for (int k = 0; k < kBlockPixels; k += kLanes) {
-      float* const depth = commit.tile.depth + block * kBlockPixels + k;
-      uint32_t* const id = commit.tile.id + block * kBlockPixels + k;
-      const auto z = commit.stored(joined(d, at(start, px, py, k), at(start, px, py, k + kLanes - kHalf)));
+      float* const depth = sink.tile.depth + block * kBlockPixels + k;
+      uint32_t* const id = sink.tile.id + block * kBlockPixels + k;
+      const auto z = sink.stored(joined(d, at(start, px, py, k), at(start, px, py, k + kLanes - kHalf)));
       const auto there = hn::Load(d, depth);
-      const auto there_id = hn::Load(du, id), my_id = hn::Set(du, commit.id);
-      const auto wins = commit.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
+      const auto there_id = hn::Load(du, id), my_id = hn::Set(du, sink.id);
+      const auto wins = sink.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
       const auto pass = hn::And(lane_mask(d, covered >> k),
                                 hn::Or(hn::Lt(z, there), hn::And(hn::Eq(z, there), hn::RebindMask(d, wins))));
       const auto kept = hn::IfThenElse(pass, z, there);
@@ -218,7 +218,7 @@ struct BlockDepths {
       hn::Store(kept, d, depth);
       hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, id);
     }
-    if (changed) commit.tile.far[block] = hn::GetLane(hn::MaxOfLanes(d, far));
+    if (changed) sink.tile.far[block] = hn::GetLane(hn::MaxOfLanes(d, far));
   }
 };
 
@@ -232,16 +232,16 @@ inline uint32_t allowed_pixels(const int limit[4], int px, int py) {
   return bits;
 }
 
-/// Draws a triangle into a commit that skips what is hidden and tests no alpha. False, and nothing drawn, if the
+/// Draws a triangle into a sink that skips what is hidden and tests no alpha. False, and nothing drawn, if the
 /// triangle is too long.
 template <class T>
-inline bool cover_large(const TriangleSetup<T>& s, const TileRect& rect, DepthCommit& commit) {
+inline bool cover_large(const TriangleSetup<T>& s, const TileRect& rect, DepthSink& sink) {
   using Edges = WholeEdges<T>;
   Edges edges;
   if (!edges.set(s)) return false;
-  commit.begin(s);
-  const NearPlane near(s, commit);
-  const BlockDepths<T> depths(s, commit);
+  sink.begin(s);
+  const NearPlane near(s, sink);
+  const BlockDepths<T> depths(s, sink);
   const int* limit = rect.limit;
   const int blocks = rect.size / kBlockSize, first = s.x0 / kBlockSize, last = (s.x1 - 1) / kBlockSize;
   for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by) {
@@ -250,13 +250,13 @@ inline bool cover_large(const TriangleSetup<T>& s, const TileRect& rect, DepthCo
       uint32_t touched, whole;
       edges.classify(bx, by, touched, whole);
       uint32_t open = touched & range_bits(first, last, bx, Edges::kLanes);
-      open &= ~near.hidden(typename Edges::F(), commit, commit.tile.far + by * blocks + bx, bx, by);
+      open &= ~near.hidden(typename Edges::F(), sink, sink.tile.far + by * blocks + bx, bx, by);
       for (; open != 0; open &= open - 1) {
         const int k = std::countr_zero(open), px = (bx + k) * kBlockSize;
         uint32_t covered = (whole >> k) & 1 ? 0xFFFFu : edges.covered(px, py);
         if (px < limit[0] || py < limit[1] || px + kBlockSize > limit[2] || py + kBlockSize > limit[3])
           covered &= allowed_pixels(limit, px, py);
-        if (covered != 0) depths.draw(px, py, by * blocks + bx + k, covered, commit);
+        if (covered != 0) depths.draw(px, py, by * blocks + bx + k, covered, sink);
       }
     }
   }

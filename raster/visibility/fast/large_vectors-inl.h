@@ -35,7 +35,7 @@ struct LargeSetups {
   alignas(64) double c[2][kMost], sx[2][kMost], sy[2][kMost];  ///< of E_1 and E_2
   alignas(64) double z0[kMost], g1[kMost], g2[kMost], low[kMost], high[kMost];
   alignas(64) float near[kMost],
-      near_across[kMost], near_up[kMost], nearest[kMost];  ///< NearPlane, DepthCommit::nearest
+      near_across[kMost], near_up[kMost], nearest[kMost];  ///< NearPlane, DepthSink::nearest
   uint32_t drawn, too_long;  ///< a bit a triangle: may cover a sample; may, but is for other paths
 };
 
@@ -105,7 +105,7 @@ HWY_INLINE void set_near_planes(V64 z0, const V64 c[3], const V64 sx[3], const V
 
 /// Edge functions and depth planes of the triangles [i, i + lanes), and the bits of those with an area that culling
 /// leaves and of those too long for WholeEdges.
-HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthCommit& commit, int i, LargeSetups& out) {
+HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthSink& sink, int i, LargeSetups& out) {
   const D64 d;
   const D32 df;
   const I32 di;
@@ -154,28 +154,28 @@ HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthCommit& commit, int
   const V64 lower = hn::IfThenElse(rising, z[1], z[2]), higher = hn::IfThenElse(rising, z[2], z[1]);
   const V64 z_low = hn::IfThenElse(hn::Lt(z[0], lower), z[0], lower),
             z_high = hn::IfThenElse(hn::Gt(z[0], higher), z[0], higher);
-  const V64 range_low = hn::Set(d, double(commit.range_low)), range_high = hn::Set(d, double(commit.range_high));
+  const V64 range_low = hn::Set(d, double(sink.range_low)), range_high = hn::Set(d, double(sink.range_high));
   const V64 low = hn::Min(hn::Max(z_low, range_low), range_high);
   hn::Store(z[0], d, out.z0 + i);
   hn::Store(g1, d, out.g1 + i);
   hn::Store(g2, d, out.g2 + i);
   hn::Store(low, d, out.low + i);
   hn::Store(hn::Min(hn::Max(z_high, range_low), range_high), d, out.high + i);
-  hn::Store(commit.stored(hn::DemoteTo(df, low)), df, out.nearest + i);
+  hn::Store(sink.stored(hn::DemoteTo(df, low)), df, out.nearest + i);
   set_near_planes(z[0], c, sx, sy, g1, g2, i, out);
   out.drawn |= lane_bits(d, hn::And(face, fits)) << i;
   out.too_long |= lane_bits(d, hn::AndNot(fits, face)) << i;
 }
 
 /// The first `count` words of a list, or a vector of them.
-HWY_INLINE void set_up_large(const LargeDraw& in, const int32_t* list, int count, const DepthCommit& commit,
+HWY_INLINE void set_up_large(const LargeDraw& in, const int32_t* list, int count, const DepthSink& sink,
                              LargeSetups& out) {
   const DT d;
   const VT word = hn::Load(d, list);
   const auto present = hn::FirstN(d, size_t(count));
   const uint32_t sampled = lane_bits(d, hn::And(present, order_corners(in, word, out)));
   out.drawn = out.too_long = 0;
-  for (int i = 0; i < std::min(count, int(hn::Lanes(d))); i += int(hn::Lanes(D64()))) set_up_lanes(in, commit, i, out);
+  for (int i = 0; i < std::min(count, int(hn::Lanes(d))); i += int(hn::Lanes(D64()))) set_up_lanes(in, sink, i, out);
   out.drawn &= sampled, out.too_long &= sampled;
 }
 
@@ -219,20 +219,20 @@ class LargeTriangle {
                     hn::Mul(hn::PromoteTo(dd, hn::Load(di, kPixelRow + p * kHalf)), hn::Set(dd, s.sy[i][t])));
   }
 
-  HWY_INLINE void draw(const TileRect& rect, bool limited, DepthCommit& commit) const {
+  HWY_INLINE void draw(const TileRect& rect, bool limited, DepthSink& sink) const {
     const int x0 = s.x0[t], y0 = s.y0[t], x1 = s.x1[t], y1 = s.y1[t];
     for (int by = y0; by <= y1; by += kRows)
       for (int bx = x0; bx <= x1; bx += kColumns) {
         const uint32_t columns = (2u << std::min(x1 - bx, kColumns - 1)) - 1;
         const uint32_t rows = (2u << (std::min(y1 - by + 1, kRows) * kColumns - 1)) - 1;
-        draw_window(bx, by, (kColumns == kBlockSize ? columns * 0x1111u : columns) & rows, rect, limited, commit);
+        draw_window(bx, by, (kColumns == kBlockSize ? columns * 0x1111u : columns) & rows, rect, limited, sink);
       }
   }
 
  private:
   /// Draws the window whose first block is (bx, by); `wanted` are those of its blocks that hold samples of the box.
   HWY_INLINE void draw_window(int bx, int by, uint32_t wanted, const TileRect& rect, bool limited,
-                              DepthCommit& commit) const {
+                              DepthSink& sink) const {
     const DT d;
     const F df;
     const int blocks = rect.size / kBlockSize, place = by * blocks + bx;
@@ -240,7 +240,7 @@ class LargeTriangle {
     for (int i = 0; i < 3; ++i)
       e[i] = hn::Add(blocks_[i], hn::Set(d, s.first[i][t] + kBlockSize * (bx * s.across[i][t] + by * s.up[i][t])));
     const auto touched = hn::Gt(hn::Or(hn::Or(e[0], e[1]), e[2]), hn::Set(d, -1));
-    const auto hidden = hn::Gt(nearest(bx, by, commit), window_of(df, commit.tile.far + place, blocks));
+    const auto hidden = hn::Gt(nearest(bx, by, sink), window_of(df, sink.tile.far + place, blocks));
     uint32_t open = lane_bits(d, touched) & ~lane_bits(df, hidden) & wanted;
     if (open == 0) return;
     alignas(64) int32_t edge[3][kLanes];
@@ -253,19 +253,19 @@ class LargeTriangle {
       uint32_t allowed = 0xFFFF;
       if (limited) allowed = allowed_pixels(rect.limit, kBlockSize * (bx + column), kBlockSize * (by + row));
       const int32_t first[3] = {edge[0][k], edge[1][k], edge[2][k]};
-      draw_block(place + row * blocks + column, first, e1[k], e2[k], allowed, commit);
+      draw_block(place + row * blocks + column, first, e1[k], e2[k], allowed, sink);
     }
   }
 
   /// The least depth in each block of a window.
-  HWY_INLINE VWF nearest(int bx, int by, const DepthCommit& commit) const {
+  HWY_INLINE VWF nearest(int bx, int by, const DepthSink& sink) const {
     const DT d;
     const F df;
     const float start = s.near[t] + (float(bx) * s.near_across[t] + float(by) * s.near_up[t]);
     const VWF across = hn::Mul(hn::ConvertTo(df, hn::Load(d, kPixelColumn)), hn::Set(df, s.near_across[t])),
               up = hn::Mul(hn::ConvertTo(df, hn::Load(d, kPixelRow)), hn::Set(df, s.near_up[t]));
     const VWF near = hn::Add(hn::Set(df, start), hn::Add(across, up));
-    return hn::Max(commit.stored(hn::Min(near, hn::Set(df, commit.range_high))), hn::Set(df, s.nearest[t]));
+    return hn::Max(sink.stored(hn::Min(near, hn::Set(df, sink.range_high))), hn::Set(df, s.nearest[t]));
   }
 
   /// An edge function at the first pixel of each block of a window.
@@ -288,30 +288,30 @@ class LargeTriangle {
 
   /// No branch on what is covered or passes: that cannot be predicted.
   HWY_INLINE void draw_block(int block, const int32_t first[3], double first_e1, double first_e2, uint32_t allowed,
-                             DepthCommit& commit) const {
+                             DepthSink& sink) const {
     const DT d;
     const F df;
     const hn::RebindToUnsigned<F> du;
     const V64 e1 = hn::Set(D64(), first_e1), e2 = hn::Set(D64(), first_e2);
-    const auto my_id = hn::Set(du, commit.id);
+    const auto my_id = hn::Set(du, sink.id);
     VWF far = hn::Set(df, -std::numeric_limits<float>::infinity());
     for (int p = 0; p < kParts; ++p) {
-      float* const depth = commit.tile.depth + block * kBlockPixels + p * kLanes;
-      uint32_t* const id = commit.tile.id + block * kBlockPixels + p * kLanes;
+      float* const depth = sink.tile.depth + block * kBlockPixels + p * kLanes;
+      uint32_t* const id = sink.tile.id + block * kBlockPixels + p * kLanes;
       const VT e =
           hn::Or(hn::Or(hn::Add(pixels_[0][p], hn::Set(d, first[0])), hn::Add(pixels_[1][p], hn::Set(d, first[1]))),
                  hn::Add(pixels_[2][p], hn::Set(d, first[2])));
       auto covered = hn::RebindMask(df, hn::Gt(e, hn::Set(d, -1)));
       if (allowed != 0xFFFF) covered = hn::And(covered, lane_mask(df, allowed >> (p * kLanes)));
-      commit.fragments += uint64_t(lane_count(df, covered));
+      sink.fragments += uint64_t(lane_count(df, covered));
       const int part = p * (kLanes / kHalf);
-      const VWF z = commit.stored(joined(df, depths(e1, e2, part), depths(e1, e2, part + kLanes / kHalf - 1)));
+      const VWF z = sink.stored(joined(df, depths(e1, e2, part), depths(e1, e2, part + kLanes / kHalf - 1)));
       const VWF there = hn::Load(df, depth);
       const auto there_id = hn::Load(du, id);
       auto pass = hn::And(covered, hn::Lt(z, there));
       const auto tied = hn::And(covered, hn::Eq(z, there));
       if (HWY_UNLIKELY(!hn::AllFalse(df, tied))) {
-        const auto wins = commit.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
+        const auto wins = sink.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
         pass = hn::Or(pass, hn::And(tied, hn::RebindMask(df, wins)));
       }
       const VWF kept = hn::IfThenElse(pass, z, there);
@@ -319,7 +319,7 @@ class LargeTriangle {
       hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, id);
       far = hn::Max(far, kept);
     }
-    commit.tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
+    sink.tile.far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
 
   const LargeSetups& s;
@@ -330,19 +330,19 @@ class LargeTriangle {
 
 /// Draws the listed triangles; returns how many it left, too long for this path, whose numbers are in `left` then.
 inline int draw_large_triangles(const LargeDraw& in, const int32_t* list, int count, uint32_t first_id,
-                                DepthCommit& commit, uint8_t* left) {
+                                DepthSink& sink, uint8_t* left) {
   const int* limit = in.rect.limit;
   const bool limited = ((limit[0] | limit[1] | limit[2] | limit[3]) & (kBlockSize - 1)) != 0;
   int count_left = 0;
   LargeSetups setups;
   for (int i = 0; i < count; i += int(hn::Lanes(DT()))) {
-    set_up_large(in, list + i, count - i, commit, setups);
+    set_up_large(in, list + i, count - i, sink, setups);
     for (uint32_t bits = setups.too_long; bits != 0; bits &= bits - 1)
       left[count_left++] = uint8_t(uint32_t(list[i + std::countr_zero(bits)]) >> 24);
     for (uint32_t bits = setups.drawn; bits != 0; bits &= bits - 1) {
       const int t = std::countr_zero(bits);
-      commit.id = first_id + ((uint32_t(list[i + t]) >> 24) << 1);
-      LargeTriangle(setups, t).draw(in.rect, limited, commit);
+      sink.id = first_id + ((uint32_t(list[i + t]) >> 24) << 1);
+      LargeTriangle(setups, t).draw(in.rect, limited, sink);
     }
   }
   return count_left;

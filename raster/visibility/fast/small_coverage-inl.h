@@ -47,10 +47,10 @@ struct SampleBoxes {
 
   /// Those of at most side x side samples, of triangles none of whose corners is held: held ones are at the ends of the
   /// range.
-  HWY_INLINE hn::Mask<DT> upto(int side, bool any_held) const {
+  HWY_INLINE hn::Mask<DT> upto(int side, bool any_clamped) const {
     const DT d;
     const auto few = hn::Lt(hn::Or(columns, rows), hn::Set(d, side));  // side is a power of two
-    if (!any_held) return few;
+    if (!any_clamped) return few;
     const VT reach = hn::Max(hn::Max(right, hn::Sub(hn::Set(d, 2 * kPackedLimit), left)),
                              hn::Add(hn::Max(top, hn::Neg(bottom)), hn::Set(d, kPackedLimit)));
     return hn::And(few, hn::Lt(reach, hn::Set(d, 2 * kPackedLimit - 1)));
@@ -114,7 +114,7 @@ HWY_INLINE VT row_index(VT y, int size) {
 /// A vector of triangles in canonical order: smallest (y, x) first, the others as they follow.
 struct OrderedTriangles {
   VT q0, q1, q2;  ///< packed corners
-  VT word;        ///< as in Candidates
+  VT word;        ///< as in FilteredTriangles
 
   HWY_INLINE OrderedTriangles(VT p0, VT p1, VT p2, VT named) {
     const DT d;
@@ -135,7 +135,7 @@ struct OrderedTriangles {
 /// What drawing a cluster's small triangles reads.
 struct SmallDraw {
   const int32_t* packed;  ///< corners
-  bool any_held;
+  bool any_clamped;
   const GeometryState& state;
   bool upper_left;
   const TileRect& rect;

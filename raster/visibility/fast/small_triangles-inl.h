@@ -25,7 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 static_assert((64 + 1) * 16 <= kMostFragments);
 
 /// Vertices of a cluster some of which need care.
-struct CarefulVertices {
+struct ClipVertices {
   alignas(64) float clip[4][kClusterVertices];
   alignas(64) int32_t beside[kClusterVertices];  ///< a bit for each side of the tile that the vertex lies beyond
 };
@@ -33,27 +33,27 @@ struct CarefulVertices {
 /// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
 struct ClusterScratch {
   WindowVertices vertices;
-  CarefulVertices careful;
+  ClipVertices clip;
   AlphaTest alpha;  ///< of the cluster at work, where its material has one
   alignas(64) int32_t packed[kClusterVertices];
-  alignas(64) uint8_t triangle[kMostCandidates];
-  OpenBlocks open;
-  Candidates found;
+  alignas(64) uint8_t triangle[kMostFiltered];
+  VisibleBlocks open;
+  FilteredTriangles found;
   FragmentList fragments;
 };
 
 /// Where fragments go.
-struct SmallCommit {
+struct DepthFragments {
   FragmentList& fragments;
   const double* vertex_z;
   uint32_t first_id;  ///< of the cluster's first triangle
-  DepthCommit& commit;
+  DepthSink& sink;
 
   HWY_INLINE void make_room(int count) const {
     if (fragments.count + count > int(kMostFragments)) finish();
   }
   HWY_INLINE void finish() const {
-    if (fragments.count != 0) commit_fragments(fragments, vertex_z, first_id, commit);
+    if (fragments.count != 0) test_fragments(fragments, vertex_z, first_id, sink);
   }
 };
 
@@ -73,7 +73,7 @@ struct ListedTriangles {
 };
 
 /// Draws the listed triangles of at most kSide x kSide samples; returns how many larger ones it listed in `larger`.
-/// `into`: a SmallCommit, or what else takes fragments.
+/// `into`: a DepthFragments, or what else takes fragments.
 template <int kSide, class Into>
 HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, const Into& into,
                          [[maybe_unused]] int32_t* larger) {
@@ -85,7 +85,7 @@ HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, co
     const ListedTriangles t(in, list, count, i);
     auto drawn = t.present;
     if constexpr (kSide == 4) {
-      drawn = hn::And(t.present, t.box.upto(4, in.any_held));
+      drawn = hn::And(t.present, t.box.upto(4, in.any_clamped));
       count_larger = append(larger, count_larger, hn::AndNot(drawn, t.present), t.word);
       if (hn::AllFalse(d, drawn)) continue;
     }
@@ -101,12 +101,12 @@ template <class Into>
 HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, const Into& into, int32_t* larger) {
   const DT d;
   const int lanes = int(hn::Lanes(d));
-  alignas(64) int32_t back[kMostCandidates];
+  alignas(64) int32_t back[kMostFiltered];
   int fronts = 0, backs = 0;
   for (int i = 0; i < count; i += lanes) {
     const ListedTriangles t(in, list, count, i);
     auto rest = t.present;
-    const auto upto_8 = hn::And(t.present, t.box.upto(8, in.any_held));
+    const auto upto_8 = hn::And(t.present, t.box.upto(8, in.any_clamped));
     if (2 * lane_count(d, upto_8) >= lanes) {
       into.make_room((64 + 1) * lanes);
       cover_small<8>(in, OrderedTriangles(t.p0, t.p1, t.p2, t.word), t.box, upto_8, into.fragments);
@@ -124,18 +124,18 @@ HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, 
 }
 
 /// Draws those of a cluster's triangles whose box holds few samples; the others that may cover any are left in
-/// `work.found.large`. Its vertices are in `work`, and none needs care; `box` is theirs, `work.open` says which blocks
+/// `work.found.large`. Its vertices are in `work`, and none needs clipping; `box` is theirs, `work.open` says which blocks
 /// do not hide it. Not under polygon offset.
 inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const WindowBox& box,
                                  const GeometryState& state, bool upper_left, const TileRect& rect, uint32_t first_id,
-                                 ClusterScratch& work, DepthCommit& commit) {
+                                 ClusterScratch& work, DepthSink& sink) {
   const int32_t middle = rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
-  const bool any_held = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
-  const SmallDraw in{work.packed, any_held, state, upper_left, rect, PackedLimits(rect)};
-  const SmallCommit into{work.fragments, work.vertices.z, first_id, commit};
-  Candidates& found = work.found;
+  const bool any_clamped = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
+  const SmallDraw in{work.packed, any_clamped, state, upper_left, rect, PackedLimits(rect)};
+  const DepthFragments into{work.fragments, work.vertices.z, first_id, sink};
+  FilteredTriangles& found = work.found;
   pack_corners(work.vertices, cluster.vertices, middle, work.packed);
-  find_candidates(work.packed, any_held, mesh, cluster, in.limit, work.open, found);
+  filter_triangles(work.packed, any_clamped, mesh, cluster, in.limit, work.open, found);
   draw_upto<2>(in, found.upto_2, found.count_2, into, nullptr);
   const int larger = draw_upto<4>(in, found.more, found.count_more, into, found.upto_2);
   found.count_large = draw_upto_8(in, found.upto_2, larger, into, found.large);

@@ -33,13 +33,13 @@ using VP = hn::Vec<DP>;
 
 inline constexpr int kPackedLimit = 1 << 14;  // |packed coordinate| is less; x is stored with this added
 // Lists are written a whole vector at a time, and are a multiple of every vector long.
-inline constexpr size_t kMostCandidates = 144;
-static_assert(kClusterTriangles + 16 <= kMostCandidates);
+inline constexpr size_t kMostFiltered = 144;
+static_assert(kClusterTriangles + 16 <= kMostFiltered);
 
 /// A cluster's triangles that have a sample in their box and the tile: corners' vertices and triangle, a byte each.
-struct Candidates {
-  alignas(64) int32_t upto_2[kMostCandidates], more[kMostCandidates];  ///< those of at most 2x2 samples; the others
-  alignas(64) int32_t large[kMostCandidates];                          ///< of the others those of more than 4x4
+struct FilteredTriangles {
+  alignas(64) int32_t upto_2[kMostFiltered], more[kMostFiltered];  ///< those of at most 2x2 samples; the others
+  alignas(64) int32_t large[kMostFiltered];                          ///< of the others those of more than 4x4
   int count_2 = 0, count_more = 0, count_large = 0;
 };
 
@@ -138,10 +138,10 @@ HWY_INLINE int append(int32_t* out, int count, hn::Mask<DT> which, VT word) {
 }
 
 /// Which of a vector of triangles have a sample in their box and the tile, and which of these at most 2x2: a bit each.
-class CandidateTest {
+class BoxFilter {
  public:
-  HWY_INLINE CandidateTest(const PackedLimits& limit, bool any_held, const OpenBlocks& open)
-      : limit_(limit), any_held_(any_held), all_open_(open.all), rows_(open.row), bits_(kSixteenBits) {}
+  HWY_INLINE BoxFilter(const PackedLimits& limit, bool any_clamped, const VisibleBlocks& open)
+      : limit_(limit), any_clamped_(any_clamped), all_visible_(open.all), rows_(open.row), bits_(kSixteenBits) {}
 
   HWY_INLINE void operator()(const VP x[3], const VP y[3], uint32_t& sampled, uint32_t& upto_2) const {
     const DP d;
@@ -155,11 +155,11 @@ class CandidateTest {
     const VP beyond = hn::Or(hn::Sub(last_column, column), hn::Sub(last_row, row));  // one less than there are
     auto any = hn::Gt(beyond, set(-1));
     auto few = hn::Lt(beyond, set(2));
-    if (any_held_) {
+    if (any_clamped_) {
       few = hn::And(few, hn::And(hn::Gt(left, set(1)), hn::Lt(right, set(2 * kPackedLimit - 1))));
       few = hn::And(few, hn::And(hn::Gt(bottom, set(1 - kPackedLimit)), hn::Lt(top, set(kPackedLimit - 1))));
     }
-    if (!all_open_) {
+    if (!all_visible_) {
       // Boxes of up to 4x4 samples touch two rows of blocks and two columns.
       const VP first_x = set(limit_.first_x / kBlockSize), first_y = set(limit_.first_y / kBlockSize);
       const auto block = [](VP at, VP first) { return hn::Sub(hn::ShiftRight<2>(at), first); };
@@ -177,20 +177,20 @@ class CandidateTest {
                                                             1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
                                                             1 << 12, 1 << 13, 1 << 14, 1 << 15};
   const PackedLimits& limit_;
-  const bool any_held_, all_open_;
+  const bool any_clamped_, all_visible_;
   const SixteenWords rows_, bits_;
 };
 
 /// Lists a cluster's triangles by what their boxes hold: at most 2x2 samples, more; not those that hold none, or lie
 /// behind blocks that are not `open`. No fragment of the cluster is nearer than what these were asked for.
-HWY_INLINE void find_candidates(const int32_t* packed, bool any_held, const ClusteredMesh& mesh, const Cluster& cluster,
-                                const PackedLimits& limit, const OpenBlocks& open, Candidates& out) {
+HWY_INLINE void filter_triangles(const int32_t* packed, bool any_clamped, const ClusteredMesh& mesh, const Cluster& cluster,
+                                const PackedLimits& limit, const VisibleBlocks& open, FilteredTriangles& out) {
   const DT d;
   const hn::Rebind<uint8_t, DT> d8;
   const uint8_t* corner[3];
   for (size_t k = 0; k < 3; ++k) corner[k] = mesh.corner[k].data() + cluster.first_triangle;
   const CornerHalves corners(packed);
-  const CandidateTest test(limit, any_held, open);
+  const BoxFilter test(limit, any_clamped, open);
   constexpr int kLanes = int(hn::MaxLanes(d)), kBoth = int(hn::MaxLanes(DP()));
   VT number = hn::ShiftLeft<24>(hn::Iota(d, 0));
   const VT next = hn::Set(d, kLanes << 24);

@@ -1,0 +1,18 @@
+#pragma once
+#include <cstdint>
+
+namespace trueshade {
+
+/// A cluster of an instance that may be seen, from cluster_bins.h.
+struct ClusterDraw {
+  uint32_t instance;
+  uint32_t cluster;         ///< of the instance's mesh
+  float near_depth;         ///< no fragment of it is nearer; -infinity where nothing is known
+  bool no_clip;             ///< by its bounds none of its vertices needs clipping (WindowVertices::needs_clip)
+  uint16_t x0, y0, x1, y1;  ///< pixels it may touch, inclusive, window coordinates, y up
+};
+
+/// A tile lists fewer clusters than this, so that a position in its list fits into 24 bits.
+inline constexpr uint32_t kMaxTileClusters = (uint32_t(1) << 24) - 2;
+
+}  // namespace trueshade

@@ -1,0 +1,27 @@
+#!/bin/bash
+# Shows that speed-only code can be deleted: copies the sources, removes every folder named fast or bounded and every line
+# marked `// fast path`, builds the library for this machine's best SIMD target and draws the golden frames.
+# Usage: run.sh SOURCE_FOLDER COMPILER COMPILER_LAUNCHER
+set -euo pipefail
+source=$1 compiler=$2 launcher=${3:-}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/source"
+(cd "$source" && tar -cf - CMakeLists.txt CMakePresets.json cmake core scenes raster shading oracle judge gl bench cli tests/golden tests/general_path) |
+  tar -xf - -C "$work/source"
+cd "$work/source"
+
+mapfile -t folders < <(find raster shading -type d \( -name fast -o -name bounded \))
+lines=$({ grep -rhoE '// fast path$' core raster shading || true; } | wc -l)
+((${#folders[@]} > 0 && lines > 0)) || { echo "no fast path was found: the marks and folders have other names"; exit 1; }
+rm -r "${folders[@]}"
+find core raster shading -name '*.h' -o -name '*.cpp' | xargs sed -i '\,// fast path$,d'
+echo "removed: ${folders[*]}, and $lines lines"
+
+options=(-DCMAKE_CXX_COMPILER="$compiler" -DTRUESHADE_SIMD=native -DTRUESHADE_TESTS=OFF)
+[[ -n $launcher ]] && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher")
+cmake -S . --preset release "${options[@]}" >"$work/configure.log" 2>&1 || { cat "$work/configure.log"; exit 1; }
+cmake --build build/release --target trueshade_shading >"$work/build.log" 2>&1 || { grep -E 'error|FAILED' "$work/build.log" | head -n 40; exit 1; }
+"$compiler" -std=c++20 -O2 -I. -DGLM_FORCE_EXPLICIT_CTOR -DGLM_FORCE_PURE tests/general_path/main.cpp -o general_path \
+  build/release/{shading,raster,scenes,core}/libtrueshade_*.a $(pkg-config --libs libhwy tbb zlib) -pthread
+./general_path
