@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using AnyTerms = LightTerms<AnyShape>;
 
-HWY_NOINLINE void blend_out_of_line(const BlendPlan& plan, const VF source[4], VF stored[4]) {
+inline HWY_NOINLINE void blend_out_of_line(const BlendPlan& plan, const VF source[4], VF stored[4]) {
   blend_vectors(plan, source, stored);
 }
 
@@ -50,7 +50,7 @@ inline MF inside_extent(const PixelVector& px, const LightRow& light) {
   return hn::And(px.covered, hn::Lt(dot3(to_light, to_light), hn::Set(d, light.extent2)));
 }
 
-HWY_NOINLINE void term_out_of_line(const AnyTerms& terms, const PixelVector& px, const LightRow& light,
+inline HWY_NOINLINE void term_out_of_line(const AnyTerms& terms, const PixelVector& px, const LightRow& light,
                                    LightTerm& term) {
   term = terms(px, light);
 }

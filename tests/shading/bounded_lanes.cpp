@@ -314,9 +314,9 @@ HWY_EXPORT(bounded_errors_of);
 
 namespace testing {
 
-bool bounds_codes() { return HWY_DYNAMIC_DISPATCH(trueshade::bounds_codes)(); }
+bool bounds_codes() { return HWY_DYNAMIC_DISPATCH(bounds_codes)(); }
 
-bool bounds_windows() { return HWY_DYNAMIC_DISPATCH(trueshade::bounds_windows)(); }
+bool bounds_windows() { return HWY_DYNAMIC_DISPATCH(bounds_windows)(); }
 
 void window_errors(const LightTable& lights, const BoundedLights& bounded, const LightModel& model, RootSource root,
                    const BoundedPixels& pixels, BoundedErrors& errors) {

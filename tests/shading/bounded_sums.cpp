@@ -66,7 +66,7 @@ TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights 
       CHECK(image_hash(bounded.color) == image_hash(sums.color));
       CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
       CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
-      fewer += settled.stats.evaluated_pixel_lights < sums.stats.evaluated_pixel_lights;
+      fewer += bounded.stats.evaluated_pixel_lights < sums.stats.evaluated_pixel_lights;
       ++frames;
     }
   }
@@ -106,7 +106,7 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
       CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
       CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
       const Frame added = render_frame(prepared, p, {.simd = simd, .settled_sums = false}, kCounts);
-      otherwise += settled.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
+      otherwise += bounded.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
       ++frames;
     }
   }
