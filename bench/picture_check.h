@@ -17,8 +17,9 @@ struct PeerPicture {
 /// OpenGL's edges and light terms go either way. A code is 1/255 of the larger value, of 1 where that is less.
 inline constexpr uint64_t kOnePixelIn = 100;
 
-/// 2; where textured surfaces are blended light by light, more: a texel that differs by a part of a code (GL_RULES
-/// section 5) takes each light's term to the next code or does not, a random walk of as many steps as there are lights.
+/// 2; where textured surfaces are blended light by light, more: a texel that differs by a part of a code
+/// (docs/gl_rules.md section 5) takes each light's term to the next code or does not, a random walk of as many steps as
+/// there are lights.
 double picture_codes(const Scene& scene, Strategy strategy);
 
 uint64_t pixels_apart(const Image& a, const Image& b, double codes);

@@ -12,7 +12,7 @@
 
 #include "core/simd/simd_target.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "shading/frame.h"
 

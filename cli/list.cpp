@@ -42,7 +42,9 @@ std::vector<Section> sections() {
   planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
   for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd};
+  Section schemas{"schemas", "JSON Schemas, for editors (installed in share/trueshade, in the sources in scenes/schemas)", {}};
+  schemas.entries = {{"scene.schema.json", "of scene files"}, {"pipeline.schema.json", "of pipeline files"}};
+  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd, schemas};
 }
 
 std::string json_of(const std::vector<Section>& list) {

@@ -35,8 +35,8 @@ Format stored_format(const Pipeline& pipeline, const std::string& plane) {
   return plane == "depth" ? Format::d32f : Format::r32ui;
 }
 
-/// The code k whose value a file stored: k / largest, rounded, as drivers read it back (GL_RULES section 3 measured
-/// k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off, or in a 16-bit code.
+/// The code k whose value a file stored: k / largest, rounded, as drivers read it back (docs/gl_rules.md section 3
+/// measured k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off, or in a 16-bit code.
 std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo& from) {
   const double code = std::nearbyint(value * largest);
   if (!(code >= 0.0 && code <= largest)) return std::nullopt;
@@ -47,7 +47,8 @@ std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo
   return std::fabs(value - code / largest) <= off ? std::optional(uint32_t(code)) : std::nullopt;
 }
 
-/// The sRGB code whose linear value that is: within what llvmpipe's decoding is off (GL_RULES section 3: 2.5 %).
+/// The sRGB code whose linear value that is: within what llvmpipe's decoding is off, 2.5 % (docs/gl_rules.md section
+/// 3).
 std::optional<uint32_t> srgb_code_of(double value) {
   const uint32_t code = srgb8_from_linear(float(value));
   const double exact = double(kLinearOfSrgb8[code]);

@@ -8,7 +8,7 @@ target_compile_options(
 target_compile_definitions(
   trueshade_flags
   INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_PURE)
-# Ours only, not a consumer's: warnings are errors, and the hardening of docs/reliability.
+# Ours only, not a consumer's: warnings are errors, and the usual hardening.
 add_library(trueshade_private_flags INTERFACE)
 target_compile_options(
   trueshade_private_flags

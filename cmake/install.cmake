@@ -17,6 +17,9 @@ foreach(header
   install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder})
 endforeach()
 
+install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_SOURCE_DIR}/scenes/schemas/pipeline.schema.json
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade)
+
 install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir})
 install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)

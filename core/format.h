@@ -104,7 +104,7 @@ constexpr std::optional<Format> format_from_name(std::string_view name) {
 }
 
 /// Rounding of float32 to floats of 16, 11 and 10 bits. OpenGL leaves it open; D3D and both Mesa rasterizers truncate
-/// (GL_RULES 3).
+/// (docs/gl_rules.md section 3).
 enum class HalfRound : uint8_t { toward_zero, nearest };
 
 }  // namespace trueshade

@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/fp_env.h"
 #include "core/half.h"
+#include "core/image_rows.h"
 #include "core/sha256.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
@@ -88,22 +90,26 @@ void Image::set_code(int x, int y, int channel, uint32_t bits) {
 }
 
 double Image::value(int x, int y, int channel) const {
-  const FormatInfo layout = info(format);
-  const uint32_t bits = code(x, y, channel);
-  if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[bits]);
-  if (layout.number_class == NumberClass::unorm) return double(float(bits) / float(layout.largest_code(channel)));
-  if (layout.number_class == NumberClass::integer) return double(bits);
+  const FpScope fp;
+  return value_of_code(info(format), channel, code(x, y, channel));
+}
+
+double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
+  if (layout.srgb_channel(channel)) return double(kLinearOfSrgb8[code]);
+  if (layout.number_class == NumberClass::unorm) return double(float(code) / float(layout.largest_code(channel)));
+  if (layout.number_class == NumberClass::integer) return double(code);
   switch (const int size = layout.bits[size_t(channel)]) {
     case 32:
-      return double(std::bit_cast<float>(bits));
+      return double(std::bit_cast<float>(code));
     case 16:
-      return double(float_from_half(uint16_t(bits)));
+      return double(float_from_half(uint16_t(code)));
     default:
-      return double(float_from_unsigned(bits, size));
+      return double(float_from_unsigned(code, size));
   }
 }
 
 std::string image_hash(const Image& image) {
+  const FpScope fp;
   const FormatInfo layout = info(image.format);
   Sha256 hash;
   if (layout.number_class != NumberClass::floating) {

@@ -50,7 +50,7 @@ void read_row(const Image& image, int y, int channels, float* out) {
         image, y, channels, [](uint8_t code, int) { return kOfCode[code]; }, out);
   }
   for (int x = 0; x < image.width; ++x)
-    for (int c = 0; c < channels; ++c) out[channels * x + c] = float(image.value(x, y, c));
+    for (int c = 0; c < channels; ++c) out[channels * x + c] = float(value_of_code(layout, c, image.code(x, y, c)));
 }
 
 void read_row(const Image& image, int y, uint32_t* out) {

@@ -7,7 +7,7 @@
 
 namespace trueshade {
 
-/// Whose bits a frame has where OpenGL leaves a choice (GL_RULES section 0).
+/// Whose bits a frame has where OpenGL leaves a choice (docs/gl_rules.md section 0).
 ///   ideal:              our own choices: exact snapping, nearest stores, blending in float32. docs/arithmetic.md
 ///   mesa_llvmpipe_22_3: that driver's, on a CPU with FMA (sRGB targets: of AMD), for stores and fetches, blending, and
 ///                       snapping and filling of triangles wholly inside the viewport. docs/arithmetic.md section 11

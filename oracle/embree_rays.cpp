@@ -52,7 +52,7 @@ RayHit shoot(const RayScene& rays, const View& view, int x, int y) {
 }
 
 /// A triangle near a pixel's centre: how far inside it the centre lies, and its depth there.
-struct Candidate {
+struct PossibleSurface {
   uint32_t instance;
   double inside;       ///< pixels to the nearest edge; negative outside
   double depth;        ///< window z
@@ -89,8 +89,8 @@ struct ProjectedTriangle {
   }
 };
 
-/// The candidate that a triangle is at a pixel's centre; false where it stays away by more than `reach`.
-bool candidate_at(const ProjectedTriangle& t, const View& view, double x, double y, double reach, Candidate& out) {
+/// The possible surface that a triangle is at a pixel's centre; false where it stays away by more than `reach`.
+bool candidate_at(const ProjectedTriangle& t, const View& view, double x, double y, double reach, PossibleSurface& out) {
   const double ndc_x = view.ndc_x(x), ndc_y = view.ndc_y(y), sign = t.determinant < 0 ? -1 : 1;
   out.inside = std::numeric_limits<double>::infinity();
   double one_over_w = 0;
@@ -111,7 +111,7 @@ bool candidate_at(const ProjectedTriangle& t, const View& view, double x, double
 struct Suspect {
   int x, y;
   size_t pixel;
-  std::vector<Candidate> candidates;
+  std::vector<PossibleSurface> possible;
 };
 
 /// Pixels whose centres may lie within a pixel of the triangle; the whole image where it reaches behind the eye.
@@ -149,11 +149,11 @@ void add_candidates(const Scene& scene, const View& view, const std::vector<int>
       if (x0 >= x1 || y0 >= y1) continue;
       const ProjectedTriangle projected(c[0], c[1], c[2]);
       if (projected.determinant == 0) continue;
-      Candidate candidate{};
-      candidate.instance = id;
+      PossibleSurface possible{};
+      possible.instance = id;
       const auto consider = [&](Suspect& s) {
-        if (candidate_at(projected, view, s.x + 0.5, s.y + 0.5, kEmbreeReach, candidate))
-          s.candidates.push_back(candidate);
+        if (candidate_at(projected, view, s.x + 0.5, s.y + 0.5, kEmbreeReach, possible))
+          s.possible.push_back(possible);
       };
       if (size_t(x1 - x0) * size_t(y1 - y0) > suspects.size()) {
         for (Suspect& s : suspects)
@@ -170,12 +170,12 @@ void add_candidates(const Scene& scene, const View& view, const std::vector<int>
 }
 
 /// Whether a surface is one that the geometry allows, edges being as uncertain as `reach`.
-bool allowed(const std::vector<Candidate>& candidates, uint32_t instance, double depth, double reach) {
+bool allowed(const std::vector<PossibleSurface>& possible, uint32_t instance, double depth, double reach) {
   double front = std::numeric_limits<double>::infinity();  // nothing behind this can be seen
-  for (const Candidate& c : candidates)
+  for (const PossibleSurface& c : possible)
     if (c.inside > reach) front = std::min(front, c.depth + c.slack(reach));
   if (instance == kNoInstance) return front > 1;
-  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+  return std::any_of(possible.begin(), possible.end(), [&](const PossibleSurface& c) {
     return c.instance == instance && c.inside >= -reach && c.depth - c.slack(reach) <= front &&
            std::fabs(depth - c.depth) <= c.slack(reach);
   });
@@ -211,8 +211,8 @@ VisibilityReport judge_visibility(const Scene& scene, const Pipeline& pipeline, 
   report.disagreements = suspects.size();
   for (const Suspect& s : suspects) {
     const RayHit& hit = hits[s.pixel];
-    if (!allowed(s.candidates, hit.instance, hit.depth, kEmbreeReach)) ++report.embree_mistakes;
-    if (allowed(s.candidates, instances[s.pixel], depths[s.pixel], kEdgeReach)) continue;
+    if (!allowed(s.possible, hit.instance, hit.depth, kEmbreeReach)) ++report.embree_mistakes;
+    if (allowed(s.possible, instances[s.pixel], depths[s.pixel], kEdgeReach)) continue;
     ++report.unexplained_count;
     if (report.unexplained.size() < 16)
       report.unexplained.push_back({s.x, s.y, instances[s.pixel], hit.instance, depths[s.pixel], hit.depth});

@@ -40,8 +40,8 @@ struct UnexplainedPixel {
 struct VisibilityReport {
   uint64_t pixels = 0;
   uint64_t disagreements = 0;      ///< another instance, or a depth more than 2^-20 off
-  uint64_t embree_mistakes = 0;    ///< of those: Embree's hit is not among the candidates within kEmbreeReach
-  uint64_t unexplained_count = 0;  ///< of those: the image's surface is not among the candidates within kEdgeReach
+  uint64_t embree_mistakes = 0;    ///< of those: Embree's hit is not among the possible surfaces within kEmbreeReach
+  uint64_t unexplained_count = 0;  ///< of those: the image's surface is not among the possible surfaces within kEdgeReach
   std::vector<UnexplainedPixel> unexplained;  ///< the first 16
 };
 

@@ -32,7 +32,7 @@ struct LodRange {
 LodRange legal_lod(const Texture& texture, const TexturePlace& place);
 
 /// The filter's result at a level of detail. `weight_bits`: the fractional bits of the weights of texels and levels,
-/// rounded to nearest even; 0: exact (GL_RULES section 5, d3d-class has 8).
+/// rounded to nearest even; 0: exact (docs/gl_rules.md section 5, d3d-class has 8).
 Rgba filtered(const Texture& texture, const Sampler& sampler, long double u, long double v, long double lod,
               int weight_bits = 0);
 

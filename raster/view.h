@@ -23,7 +23,7 @@ struct DepthRule {
   float stored(float z) const { return largest_code == 0.0f ? z : std::nearbyint(z * largest_code) / largest_code; }
 };
 
-/// Units are codes of a fixed-point format, or two of them as llvmpipe counts (GL_RULES section 2).
+/// Units are codes of a fixed-point format, or two of them as llvmpipe counts (docs/gl_rules.md section 2).
 DepthRule depth_rule(const GeometryState& state, NumericProfile profile);
 
 /// From clip space to window space, in the constants of docs/arithmetic.md sections 3 to 5.

@@ -1,6 +1,7 @@
+#include "scenes/add_normals.h"
+
 #include <glm/vec3.hpp>
 
-#include "scenes/files/load_ply.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

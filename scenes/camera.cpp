@@ -1,5 +1,6 @@
 #include "scenes/camera.h"
 
+#include "core/fp_env.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -42,6 +43,7 @@ Matrix4 view_from_world(const Camera& camera) {
 }  // namespace
 
 Matrix4 product(const Matrix4& a, const Matrix4& b) {
+  const FpScope fp;
   Matrix4 m{};
   for (size_t c = 0; c < 4; ++c)
     for (size_t r = 0; r < 4; ++r)
@@ -50,6 +52,7 @@ Matrix4 product(const Matrix4& a, const Matrix4& b) {
 }
 
 Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one) {
+  const FpScope fp;
   if (!camera.clip_from_world) return product(clip_from_view(camera, aspect, zero_to_one), view_from_world(camera));
   Matrix4 m{};
   for (size_t i = 0; i < 16; ++i) m[i] = double((*camera.clip_from_world)[i]);
@@ -57,6 +60,7 @@ Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one) {
 }
 
 glm::vec3 view_axis(const Camera& camera) {
+  const FpScope fp;
   if (!camera.clip_from_world) return glm::vec3(-unit(glm::dvec3(camera.target) - glm::dvec3(camera.eye)));
   const std::array<float, 16>& m = *camera.clip_from_world;
   const glm::dvec3 w(m[3], m[7], m[11]);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 
 namespace trueshade {
 namespace {

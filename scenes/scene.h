@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <glm/mat4x3.hpp>
@@ -32,7 +33,8 @@ struct Material {
   float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
   bool transparent = false;         ///< drawn as Pipeline::transparency says, its alpha the source's when blended
 
-  bool masked() const { return alpha_cutoff > 0.0f; }
+  /// Whether alpha_cutoff is above 0, by bits: a caller's flush-to-zero would take a denormal for 0.
+  bool masked() const { return std::bit_cast<int32_t>(alpha_cutoff) > 0; }
   bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }
 };
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <span>
 
+#include "core/fp_env.h"
 #include "core/sha256.h"
 #include "scenes/scene.h"
 
@@ -132,6 +133,7 @@ class SceneHasher {
 }  // namespace
 
 std::string scene_hash(const Scene& scene) {
+  const FpScope fp;
   SceneHasher hasher;
   hasher.count(scene.meshes.size());
   for (const Mesh& mesh : scene.meshes) hasher.add(mesh);

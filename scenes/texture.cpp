@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/fp_env.h"
 #include "core/half.h"
 #include "core/srgb.h"
 
@@ -13,9 +14,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-const std::array<float, 256> kLinearFromSrgb8 = [] {
+/// RN(code / 255). A table, so that no rounding mode takes part in reading a texel.
+constexpr std::array<float, 256> kOfCode = [] {
   std::array<float, 256> values{};
-  for (size_t k = 0; k < values.size(); ++k) values[k] = float(linear_from_srgb(double(k) / 255.0));
+  for (size_t code = 0; code < values.size(); ++code) values[code] = float(code) / 255.0f;
   return values;
 }();
 
@@ -68,7 +70,7 @@ std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, in
     case TextureFormat::rgba8:
     case TextureFormat::srgb8_a8:
       for (size_t c = 0; c < 4; ++c)
-        value[c] = texture.format == TextureFormat::srgb8_a8 && c < 3 ? kLinearFromSrgb8[at[c]] : float(at[c]) / 255.0f;
+        value[c] = texture.format == TextureFormat::srgb8_a8 && c < 3 ? kLinearOfSrgb8[at[c]] : kOfCode[at[c]];
       break;
     case TextureFormat::rgba16f:
       for (size_t c = 0; c < 4; ++c) value[c] = float_from_half(uint16_t(at[2 * c] | at[2 * c + 1] << 8));
@@ -81,6 +83,7 @@ std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, in
 }
 
 void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes) {
+  const FpScope fp;
   for (size_t c = 0; c < 4; ++c) {
     switch (format) {
       case TextureFormat::rgba8:
@@ -100,6 +103,7 @@ void append_texel(TextureFormat format, const std::array<float, 4>& value, std::
 }
 
 void build_mip_chain(Texture& texture) {
+  const FpScope fp;
   texture.levels.resize(1);
   while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
     const size_t above = texture.levels.size() - 1;

@@ -52,18 +52,21 @@ Placement placement_at(const ObjectMotion& motion, double time) {
 }  // namespace
 
 glm::dvec4 value_at(const Track& track, double time) {
+  const FpScope fp;
   const Place at = place_at(track, time);
   if (at.part == 0.0) return track.values[at.step];
   return mixed(track.values[at.step], track.values[at.step + 1], at.part);
 }
 
 glm::dvec3 direction_at(const Track& track, double time) {
+  const FpScope fp;
   const Place at = place_at(track, time);
   const glm::dvec3 value(value_at(track, time));
   return at.part == 0.0 ? value : unit(value);
 }
 
 glm::dvec4 rotation_at(const Track& track, double time) {
+  const FpScope fp;
   const Place at = place_at(track, time);
   if (at.part == 0.0) return track.values[at.step];
   const glm::dvec4 &a = track.values[at.step], &b = track.values[at.step + 1];
@@ -72,6 +75,7 @@ glm::dvec4 rotation_at(const Track& track, double time) {
 }
 
 glm::vec3 position_at(const Orbit& orbit, double time) {
+  const FpScope fp;
   const double turns = time / double(orbit.period) + double(orbit.phase), first = double(orbit.phase);
   const double a = 2.0 * kPi * (turns - std::floor(turns)), a0 = 2.0 * kPi * (first - std::floor(first));
   const double c = cosine(a) - cosine(a0), s = sine(a) - sine(a0);
@@ -82,6 +86,7 @@ glm::vec3 position_at(const Orbit& orbit, double time) {
 }
 
 void set_property(Light& light, LightProperty property, const glm::dvec4& value) {
+  const FpScope fp;
   switch (property) {
     case LightProperty::color:
       light.color = glm::vec3(value);
@@ -117,6 +122,7 @@ void set_property(Light& light, LightProperty property, const glm::dvec4& value)
 }
 
 void set_property(Camera& camera, CameraProperty property, const glm::dvec4& value) {
+  const FpScope fp;
   switch (property) {
     case CameraProperty::eye:
       camera.eye = glm::vec3(value);
@@ -137,9 +143,9 @@ void set_property(Camera& camera, CameraProperty property, const glm::dvec4& val
 }
 
 void set_time(Scene& scene, double time) {
+  const FpScope fp;
   if (!(std::fabs(time) <= kLatestTime))
     throw Error(ErrorKind::usage, "time", "it is no number of seconds within 1e6", "say 1.5");
-  const FpScope environment;
   const Timeline& timeline = scene.timeline;
   for (const MovingInstance& moving : timeline.instances) {
     const Placement placement = copied(placement_at(timeline.motions[moving.motion], time), moving.copy);

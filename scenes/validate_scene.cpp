@@ -4,7 +4,8 @@
 #include <span>
 
 #include "core/error.h"
-#include "scenes/files/json_value.h"
+#include "core/fp_env.h"
+#include "scenes/json/json_value.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -208,14 +209,8 @@ void check_limit(const std::string& spec, const char* what, uint64_t count, uint
 
 }  // namespace
 
-glm::dvec3 reach_of(const Mesh& mesh) {
-  glm::dvec3 reach(0.0);
-  for (size_t c = 0; c < 3; ++c)
-    for (const float x : mesh.position[c]) reach[int(c)] = std::max(reach[int(c)], std::abs(double(x)));
-  return reach;
-}
-
 void validate(const Scene& scene, const SceneLimits& limits) {
+  const FpScope fp;
   const std::string& spec = scene.spec;
   const auto part = [&](const char* kind, size_t index) { return Part{spec, kind, index}; };
   check_limit(spec, "lights", scene.lights.size(), limits.lights);
@@ -238,6 +233,7 @@ void validate(const Scene& scene, const SceneLimits& limits) {
 }
 
 void validate_moving(const Scene& scene, double time) {
+  const FpScope fp;
   const Timeline& timeline = scene.timeline;
   const std::string spec = scene.spec + ": time " + json::number_text(time);
   const auto part = [&](const char* kind, size_t index) { return Part{spec, kind, index}; };

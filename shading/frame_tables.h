@@ -6,7 +6,7 @@
 #include "raster/clusters/cluster_bins.h"
 #include "raster/light_geometry/light_outlines.h"
 #include "raster/view.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "shading/frame.h"
 #include "shading/frame_plan.h"
 #include "shading/light/light_table.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"

@@ -84,6 +84,7 @@ bool is_aov_name(std::string_view name) { return is_plane(name); }
 
 Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
                    std::span<const std::string> aovs, const Progress& progress) {
+  const FpScope fp;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   validate(pipeline);
@@ -93,7 +94,6 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   const bool lit = pipeline.view == ImageView::lit || execution.count_as_gl ||
                    std::any_of(needed.begin(), needed.end(), shows_light);
   Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), lit, progress);
-  const FpScope fp;
   const bool post = pipeline.view == ImageView::lit && pipeline.post.active();
   Image finished;
   if (post)

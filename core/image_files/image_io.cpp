@@ -11,6 +11,7 @@
 #include "core/image_files/exr_channels.h"
 #include "core/fp_env.h"
 #include "core/image_files/guarded.h"
+#include "core/image_rows.h"
 #include "core/srgb.h"
 
 namespace trueshade {
@@ -78,7 +79,7 @@ void pack_png_rows(const Image& color, int first, int end, std::vector<uint8_t>&
           append(rows, widened_code(color.code(x, y, channel), layout.largest_code(channel)));
           continue;
         }
-        const auto value = float(color.value(x, y, channel));
+        const auto value = float(value_of_code(layout, channel, color.code(x, y, channel)));
         rows.push_back(channel == 3 ? unorm8(value) : srgb8_from_linear(value));
       }
 }
@@ -92,7 +93,7 @@ void pack_exr_rows(std::span<const FileChannel> channels, int first, int end, st
         const FormatInfo layout = info(source.image->format);
         const uint32_t code = source.image->code(x, y, source.channel);
         if (layout.number_class == NumberClass::unorm)
-          append(rows, float(source.image->value(x, y, source.channel)));
+          append(rows, float(value_of_code(layout, source.channel, code)));
         else if (layout.small_float())
           append(rows, layout.packed() ? uint16_t(code << (15 - layout.bits[size_t(source.channel)])) : uint16_t(code));
         else

@@ -246,6 +246,7 @@ Image exr_color(const std::string& where, std::span<const uint8_t> content) {
 }  // namespace
 
 ImageFileInfo read_image_info(const std::string& path) {
+  const FpScope fp;
   const std::vector<uint8_t> bytes = read_bytes(path);
   if (starts_with(bytes, kPng)) return png_header(path, bytes);
   if (starts_with(bytes, kExr)) return guarded(path, [&] { return exr_header(path, bytes); });

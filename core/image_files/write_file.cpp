@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/fp_env.h"
 #include "core/image_files/image_io.h"
 
 namespace trueshade {
@@ -160,6 +161,7 @@ class Temporary {
 }  // namespace
 
 void write_file(const std::string& path, std::span<const uint8_t> bytes) {
+  const FpScope fp;
   const Destination to = destination_of(path);
   if (to.stream) return write_stream(to.path, bytes);
   Temporary file(to.path);
@@ -168,6 +170,7 @@ void write_file(const std::string& path, std::span<const uint8_t> bytes) {
 }
 
 void check_writable(const std::string& path) {
+  const FpScope fp;
   const Destination to = destination_of(path);
   if (!to.stream) const Temporary file(to.path);
 }

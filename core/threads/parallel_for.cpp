@@ -22,6 +22,7 @@ LoopTimes::LoopTimes() : outer_(std::exchange(current, this)) {}
 LoopTimes::~LoopTimes() { current = outer_; }
 
 void parallel_for(int count, int threads, TaskRef body) {
+  const FpScope fp;
   const auto one = [body](int i) {
     const FpScope ieee;
     body(i);

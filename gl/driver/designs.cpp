@@ -18,24 +18,6 @@
 
 namespace trueshade::oracle {
 
-std::string_view name_of(GlDesign design) {
-  switch (design) {
-    case GlDesign::deferred_loop:
-      return "deferred-loop";
-    case GlDesign::deferred_volumes:
-      return "deferred-volumes";
-    case GlDesign::tiled:
-      return "tiled";
-    case GlDesign::forward_plus:
-      return "forward-plus";
-    case GlDesign::forward_loop:
-      return "forward-loop";
-    case GlDesign::forward_multipass:
-      return "forward-multipass";
-  }
-  return {};
-}
-
 struct GlPeer::Work {
   GlRenderer& renderer;
   const Pipeline pipeline;

@@ -16,7 +16,7 @@
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/surface_uniforms.h"
 #include "oracle/matrices.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gl/driver/objects.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 

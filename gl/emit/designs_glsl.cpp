@@ -88,24 +88,6 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
 
 }  // namespace
 
-Pipeline design_pipeline(const Pipeline& pipeline, GlDesign design) {
-  Pipeline p = pipeline;
-  p.strategy = strategy_of(design);
-  LightVolumes& v = p.light_volumes;
-  const bool bare = v.point == LightExtent::unbounded && v.spot == LightExtent::unbounded;
-  if (design == GlDesign::deferred_volumes && bare && ends_at_range(p.light_model.falloff)) {
-    v.point = v.spot = LightExtent::box;  // the light-volume paper's state
-    v.cull_face = CullFace::front;
-    v.depth_clamp = true;
-  }
-  if (design == GlDesign::tiled) {
-    p.gbuffer.position_from_depth = true;
-    p.gbuffer.normal.format = Format::rgba16f;
-  }
-  if (is_forward(design)) p.gbuffer.position_from_depth = false;
-  return p;
-}
-
 DesignShaders lighting_shaders(const Pipeline& p, const GlslOptions& options, GlDesign design) {
   if (is_forward(design)) return {vertex_text(p, options), forward_fragment_text(p, options, design)};
   const std::string frag = deferred_fragment_text(p, options, design);

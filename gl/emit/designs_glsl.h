@@ -1,7 +1,8 @@
 #pragma once
 #include <string>
 
-#include "gl/driver/designs.h"
+#include "gl/emit/designs.h"
+#include "gl/emit/glsl.h"
 
 namespace trueshade::oracle {
 
@@ -17,10 +18,5 @@ std::string base_fragment_text(const Pipeline& pipeline, const GlslOptions& opti
 
 /// Depth alone.
 std::string empty_fragment_text(int version);
-
-inline bool is_forward(GlDesign design) {
-  return design == GlDesign::forward_plus || design == GlDesign::forward_loop || design == GlDesign::forward_multipass;
-}
-inline bool is_binned(GlDesign design) { return design == GlDesign::tiled || design == GlDesign::forward_plus; }
 
 }  // namespace trueshade::oracle

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "gl/emit/post_glsl.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 

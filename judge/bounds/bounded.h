@@ -1,6 +1,6 @@
 #pragma once
 // Numbers as an unknown but legal float32 arithmetic may compute them: the real value and how far off the computed one
-// can be. The propagation rule of GL_RULES section 6, whose per-operation errors are those of GLSL 4.60, 4.7.1.
+// can be. The propagation rule of docs/gl_rules.md section 6, whose per-operation errors are those of GLSL 4.60, 4.7.1.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -35,6 +35,19 @@ HWY_INLINE V times(V a, V b) { return hn::Mul(a, b); }
 HWY_INLINE V times(V a, double b) { return hn::Mul(a, all(b)); }
 HWY_INLINE V plus(V a, double b) { return hn::Add(a, all(b)); }
 
+/// The lanes added up, in order.
+HWY_INLINE double sum_of(V v) {
+  const D d;
+  HWY_ALIGN double lane[hn::MaxLanes(D())];
+  hn::Store(v, d, lane);
+  double sum = 0;
+  for (size_t i = 0; i < hn::Lanes(d); ++i) sum += lane[i];
+  return sum;
+}
+
+/// Lanes that are set, counted as numbers: g++ 12 may spill a mask narrow and read it wide, so no mask becomes a word.
+HWY_INLINE int count_of(M mask) { return int(sum_of(hn::IfThenElseZero(mask, all(1)))); }
+
 /// max(x, 0) as positive() has it.
 HWY_INLINE Both positive(Both x) {
   const V zero = hn::Zero(D()), high = hn::Max(zero, plus(x.value, x.error));
@@ -330,14 +343,14 @@ HWY_INLINE void judge_vector(const LightColumns& lights, size_t i, const LaneMod
   }
   left = hn::And(left, taken);
   const M judged = hn::And(inside, hn::Not(left));
-  out.added += int(hn::CountTrue(d, judged));
-  out.lights_low += int(hn::CountTrue(d, hn::And(judged, hn::And(sure, facing))));
-  out.lights_high += int(hn::CountTrue(d, hn::And(judged, maybe_facing)));
+  out.added += count_of(judged);
+  out.lights_low += count_of(hn::And(judged, hn::And(sure, facing)));
+  out.lights_high += count_of(hn::And(judged, maybe_facing));
   if (hn::AllFalse(d, left)) return;
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, left, bits);
-  for (size_t lane_of_left = 0; lane_of_left < hn::Lanes(d); ++lane_of_left)
-    if ((bits[0] >> lane_of_left & 1) != 0) out.left.push_back(uint32_t(i + lane_of_left));
+  HWY_ALIGN double is_left[hn::MaxLanes(D())];
+  hn::Store(hn::IfThenElseZero(left, all(1)), d, is_left);
+  for (size_t k = 0; k < hn::Lanes(d); ++k)
+    if (is_left[k] != 0) out.left.push_back(uint32_t(i + k));
 }
 
 void judge_lanes_simd(const LightColumns& lights, const LaneModel& model, const LanePixel& in, LaneSums& out) {
@@ -348,9 +361,9 @@ void judge_lanes_simd(const LightColumns& lights, const LaneModel& model, const 
   for (size_t i = 0; i < lights.count; i += hn::Lanes(d))
     judge_vector(lights, i, model, px, in.shininess, hn::FirstN(d, lights.count - i), sums, out);
   for (int k = 0; k < 3; ++k) {
-    out.value[k] += hn::GetLane(hn::SumOfLanes(d, sums.value[k]));
-    out.error[k] += hn::GetLane(hn::SumOfLanes(d, sums.error[k]));
-    out.magnitude[k] += hn::GetLane(hn::SumOfLanes(d, sums.magnitude[k]));
+    out.value[k] += sum_of(sums.value[k]);
+    out.error[k] += sum_of(sums.error[k]);
+    out.magnitude[k] += sum_of(sums.magnitude[k]);
   }
 }
 

@@ -28,7 +28,7 @@ Profile d3d_class() {
   return p;
 }
 
-/// GL_RULES sections 1 to 6: 24.8 to nearest even, planes from unsnapped positions, clipping at the viewport.
+/// docs/gl_rules.md sections 1 to 6: 24.8 to nearest even, planes from unsnapped positions, clipping at the viewport.
 Profile llvmpipe() {
   Profile p;
   p.name = "mesa-llvmpipe-22.3";

@@ -1,6 +1,6 @@
 #pragma once
-// What is known of the implementation that drew an image: the knobs of GL_RULES section 0 as values. A tighter profile
-// allows fewer values; `unknown` allows whatever OpenGL allows.
+// What is known of the implementation that drew an image: the knobs of docs/gl_rules.md section 0 as values. A tighter
+// profile allows fewer values; `unknown` allows whatever OpenGL allows.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,8 +27,9 @@ enum class BlendRule : uint8_t {
   mesa_codes,     ///< section 11: products of codes, rgb10_a2's in 16 bits; float32 for floats and sRGB
 };
 
-/// How far a texture lookup may be from real arithmetic (GL_RULES section 5). OpenGL states no precision of weights, of
-/// filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers measured do.
+/// How far a texture lookup may be from real arithmetic (docs/gl_rules.md section 5). OpenGL states no precision of
+/// weights, of filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers
+/// measured do.
 struct Sampling {
   double weight_error = 0x1p-7;       ///< of a weight between texels of 8 bits a channel (VK-GL-CTS: 7 bits of u and v)
   double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
@@ -53,14 +54,15 @@ struct Profile {
   bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
   double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
-  double srgb_reach = 1.0;  ///< the same of an encoded sRGB value; drivers approximate the power (GL_RULES section 3)
+  /// The same of an encoded sRGB value: drivers approximate the power (docs/gl_rules.md section 3).
+  double srgb_reach = 1.0;
   HalfStore half = HalfStore::either;
   HalfStore likely_half = HalfStore::toward_zero;    ///< the nominal one of either: resolved() has the pipeline's
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
   /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25
-  /// ulp at most (GL_RULES section 3).
+  /// ulp at most (docs/gl_rules.md section 3).
   double fetch_error = 2.5 * 0x1p-23;
   Sampling sampling;
   Arithmetic arithmetic;

@@ -144,12 +144,12 @@ LitRange LightBounds::alone(const ShadedSurface& surface, const Term& term, uint
 void LightBounds::apart(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const {
   const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
   lit.color.resize(lights.size());
-  lit.plain.assign(lights.size(), term.undefined() ? 0 : 1);
+  lit.one_outcome.assign(lights.size(), term.undefined() ? 0 : 1);
   if (term.undefined()) return;
   const auto by_itself = [&](size_t i) {
     const LitRange one = alone(surface, term, lights[i]);
     lit.color[i] = one.color;
-    lit.plain[i] = one.undefined || !one.branches.empty() ? 0 : 1;
+    lit.one_outcome[i] = one.undefined || !one.branches.empty() ? 0 : 1;
   };
   LanePixel pixel;
   const bool in_lanes = columns_.count > 0 && term.for_lanes(pixel);

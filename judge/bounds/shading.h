@@ -1,6 +1,6 @@
 #pragma once
-// The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of GL_RULES section 6 on what legal
-// float arithmetic makes of the sum.
+// The lights of docs/arithmetic.md section 8 summed as real numbers, with the bound of docs/gl_rules.md section 6 on
+// what legal float arithmetic makes of the sum.
 #include <span>
 #include <vector>
 
@@ -35,8 +35,9 @@ struct LitRange {
 /// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
 struct LitApart {
   std::vector<std::array<Bounded, 3>> color;
-  std::vector<uint8_t>
-      plain;  ///< 0: a comparison may go either way, or the value is undefined: LightBounds::alone() tells
+  /// 1 where `color` is the only outcome; 0 where a comparison may go either way or the value is undefined, which
+  /// LightBounds::alone() tells.
+  std::vector<uint8_t> one_outcome;
 
   LightColumns columns;  // what lanes work on
   LaneTerms terms;

@@ -289,7 +289,8 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
     double ndc = c.c[axis] / w;
     if (a == 1 && pipeline_.geometry.clip_origin == ClipOrigin::upper_left) ndc = -ndc;
     v.exact[axis] = ndc * half + (half + corner);
-    // GL_RULES section 9: fp32 divide and viewport, 2^-23 (2 |x/w| px/2 + |xw|); and what the clip error comes to.
+    // docs/gl_rules.md section 9: fp32 divide and viewport, 2^-23 (2 |x/w| px/2 + |xw|); and what the clip error comes
+    // to.
     const double error = exact ? 0
                                : half * (c.error[axis] + std::fabs(ndc) * c.error[3]) / room +
                                      0x1p-23 * (2 * std::fabs(ndc) * half + std::fabs(v.exact[axis] + drawn_at_[axis]));

@@ -1,6 +1,6 @@
 #pragma once
-// Triangles in the window, as boxes: where an implementation of a profile may have put each vertex (GL_RULES section
-// 9).
+// Triangles in the window, as boxes: where an implementation of a profile may have put each vertex (docs/gl_rules.md
+// section 9).
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -39,7 +39,7 @@ enum class Cover : uint8_t { no, maybe, certain };
 
 /// Coverage of the sample (x, y), pixels; edge i runs from vertex i+1 to vertex i+2. Edge interval: with A and B the
 /// ends relative to the sample, each coordinate in its own interval, E = Ax By - Ay Bx; the four occur once each, so
-/// interval arithmetic gives the exact hull. It contains the sum (|dx| + |dy|) e_v of GL_RULES section 9.
+/// interval arithmetic gives the exact hull. It contains the sum (|dx| + |dy|) e_v of docs/gl_rules.md section 9.
 struct Coverage {
   Cover cover = Cover::no;
   unsigned uncertain_edges = 0;  ///< bit i: the edge's interval contains 0

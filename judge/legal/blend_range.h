@@ -1,5 +1,6 @@
 #pragma once
-// From what a fragment may output and what a pixel may hold to what the pixel may hold afterwards (GL_RULES section 4).
+// From what a fragment may output and what a pixel may hold to what the pixel may hold afterwards (docs/gl_rules.md
+// section 4).
 #include <array>
 
 #include "core/blend_state.h"
@@ -31,7 +32,8 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
 Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                    const Texel& stored);
 
-/// What drivers' decoding of an sRGB code was found to be off at most (GL_RULES section 3), with room for its rounding.
+/// What drivers' decoding of an sRGB code was found to be off at most (docs/gl_rules.md section 3), with room for its
+/// rounding.
 inline constexpr double kSrgbDecodeError = 1.3e-3;
 
 /// The smallest texel that holds both; the first one's nominal value.

@@ -51,7 +51,7 @@ AddedCodes::AddedCodes(Format format, const BlendState& blend) {
   largest_ = double(layout.largest_code(0));
 }
 
-bool AddedCodes::plain(const Bounded3& color, const uint8_t* before, const uint8_t* after) const {
+bool AddedCodes::as_predicted(const Bounded3& color, const uint8_t* before, const uint8_t* after) const {
   const auto code = [this](const uint8_t* texel, size_t k) {
     return bytes_ == 1 ? int(texel[k]) : int(texel[2 * k]) | int(texel[2 * k + 1]) << 8;
   };

@@ -5,7 +5,7 @@
 
 #include "judge/legal/blend_range.h"
 #include "judge/legal/light_output.h"
-#include "judge/stages/verdict.h"
+#include "judge/legal/pixel_class.h"
 
 namespace trueshade::oracle {
 
@@ -31,8 +31,8 @@ std::vector<Way> ways_from(const Texel& from, std::span<const DrawnFragment> fra
                            Format format, const Profile& profile);
 
 /// Targets of whole codes that draws of one light each only add to, with no other step: what a pixel may become is told
-/// by its codes alone. Deletable: what it does not call plain is judged from ways_from(), and what it does is EXACT
-/// there, with no rounding that could have gone another way.
+/// by its codes alone. Deletable: ways_from() judges whatever is not as_predicted(), and finds what is as_predicted()
+/// EXACT, with no rounding that could have gone another way.
 class AddedCodes {
  public:
   AddedCodes(Format format, const BlendState& blend);
@@ -41,7 +41,7 @@ class AddedCodes {
 
   /// Whether `after` is `before` and the nominal codes of one fragment, alpha left alone, where no other code than the
   /// nominal one is predicted.
-  bool plain(const Bounded3& color, const uint8_t* before, const uint8_t* after) const;
+  bool as_predicted(const Bounded3& color, const uint8_t* before, const uint8_t* after) const;
 
  private:
   bool suit_ = false;

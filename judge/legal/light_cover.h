@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "judge/bounds/window.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 

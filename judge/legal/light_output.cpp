@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "judge/stages/captured_surface.h"
 #include "oracle/scalar_renderer.h"
 
 namespace trueshade::oracle {
+
+Range output_range(const LightModel& model, const Bounded& value) {
+  const Range r = range_of(value);
+  if (!model.clamp_result) return r;
+  return {std::clamp(r.value, 0.0, 1.0), std::clamp(r.low, 0.0, 1.0), std::clamp(r.high, 0.0, 1.0)};
+}
 
 LightOutputs::LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile)
     : pipeline_(pipeline), profile_(profile) {
@@ -35,7 +40,7 @@ LightOutput LightOutputs::start(const ShadedSurface& surface) const {
   return output(surface, start_->one_by_one(surface));
 }
 
-LightOutput LightOutputs::plain(const ShadedSurface& surface, const Bounded3& color) const {
+LightOutput LightOutputs::of_color(const ShadedSurface& surface, const Bounded3& color) const {
   LightOutput out;
   for (size_t k = 0; k < 3; ++k) out.nominal[k] = output_range(pipeline_.light_model, color[k]);
   out.nominal[3] = alpha(surface);

@@ -14,8 +14,11 @@ struct LightOutput {
   bool undefined = false;               ///< OpenGL gives the value no meaning
 };
 
-/// Of the strategies that draw light by light. A Scene of no meshes but the camera and some lights stands for the
-/// scene.
+/// A colour of the lights as the fragment outputs it: clamped where the model says so.
+Range output_range(const LightModel& model, const Bounded& value);
+
+/// The outputs of strategies that draw light by light. A Scene without meshes, of the camera and some lights, stands
+/// for the scene.
 class LightOutputs {
  public:
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
@@ -24,8 +27,8 @@ class LightOutputs {
   void set_lights(std::span<const Light> lights);
 
   LightOutput term(const ShadedSurface& surface, uint32_t light) const;  ///< the light's own, alone
-  LightOutput first(
-      const ShadedSurface& surface) const;  ///< with what the sum starts from, where only one light is set
+  /// With what the sum starts from; only one light may be set.
+  LightOutput first(const ShadedSurface& surface) const;
   LightOutput start(const ShadedSurface& surface) const;  ///< what a surface has without lights
 
   /// How many fragments of a quad that ends at the light's range the surface has: 1, 0, or either.
@@ -45,8 +48,8 @@ class LightOutputs {
   void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const {
     lights_->apart(surface, lights, lit);
   }
-  /// What `color`, of a light that has no other, becomes; alpha as in term().
-  LightOutput plain(const ShadedSurface& surface, const Bounded3& color) const;
+  /// The output of a light whose colour is `color` and cannot be another; alpha as in term().
+  LightOutput of_color(const ShadedSurface& surface, const Bounded3& color) const;
 
  private:
   LightOutput output(const ShadedSurface& surface, const LitRange& lit) const;

@@ -26,14 +26,14 @@ int winding(const Piece& piece, double x, double y) {
 
 }  // namespace
 
-std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<const Candidate> candidates, double x,
+std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<const PossibleSurface> possible, double x,
                                         double y) {
   std::vector<size_t> members;
   std::vector<Piece> shapes, pieces;
   std::vector<DoubtfulEdge> edges;
   const ClipOrigin origin = projector.pipeline().geometry.clip_origin;
-  for (size_t k = 0; k < candidates.size(); ++k) {
-    const Candidate& c = candidates[k];
+  for (size_t k = 0; k < possible.size(); ++k) {
+    const PossibleSurface& c = possible[k];
     if (c.certain || c.masked) continue;
     projector.pieces(c.instance, c.triangle, pieces);
     const Piece& piece = pieces[c.piece];
@@ -50,7 +50,7 @@ std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<co
   for (size_t i = 0; i < edges.size(); ++i) {
     for (size_t j = i + 1; j < edges.size() && !paired[i]; ++j) {
       const bool twins = !paired[j] && edges[i].from == edges[j].to && edges[i].to == edges[j].from &&
-                         candidates[members[edges[i].member]].instance == candidates[members[edges[j].member]].instance;
+                         possible[members[edges[i].member]].instance == possible[members[edges[j].member]].instance;
       if (!twins) continue;
       paired[i] = paired[j] = true;
       parent[root_of(parent, edges[i].member)] = root_of(parent, edges[j].member);
@@ -77,12 +77,12 @@ std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<co
   return patches;
 }
 
-double patch_key(const Projector& projector, std::span<const Candidate> candidates, double x, double y) {
+double patch_key(const Projector& projector, std::span<const PossibleSurface> possible, double x, double y) {
   double key = HUGE_VAL;
-  for (const ClosedPatch& patch : closed_patches(projector, candidates, x, y)) {
+  for (const ClosedPatch& patch : closed_patches(projector, possible, x, y)) {
     if (patch.turns == 0) continue;
     double behind = -HUGE_VAL;
-    for (const ClosedPatch::Member& m : patch.members) behind = std::max(behind, candidates[m.candidate].high);
+    for (const ClosedPatch::Member& m : patch.members) behind = std::max(behind, possible[m.surface].high);
     key = std::min(key, behind);
   }
   return key;

@@ -15,7 +15,7 @@ constexpr size_t kBatch = 64;      // pieces of work between merges: bounds the 
 
 struct Entry {
   uint32_t pixel;
-  Candidate candidate;
+  PossibleSurface surface;
 };
 
 struct Work {
@@ -32,7 +32,7 @@ struct Search {
   }
 };
 
-void key_range(const GeometryState& state, const Range& z, double order, Candidate& c) {
+void key_range(const GeometryState& state, const Range& z, double order, PossibleSurface& c) {
   switch (state.depth_func) {
     case DepthFunc::less:
     case DepthFunc::lequal:
@@ -60,9 +60,9 @@ bool near_a_limit(const GeometryState& state, const Range& z) {
   return z.low <= std::min(near, far) || z.high >= std::max(near, far);
 }
 
-/// What the alpha test leaves of a candidate; false: nothing.
+/// What the alpha test leaves of a possible surface; false: nothing.
 bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values,
-                double x, double y, Candidate& c) {
+                double x, double y, PossibleSurface& c) {
   const Material& material = p.scene().materials[p.scene().instances[c.instance].material];
   if (!material.masked()) return true;
   const AlphaVerdict verdict = alpha_verdict(p, material, piece, point, values, x, y);
@@ -74,7 +74,7 @@ bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& poin
 }
 
 /// `bound`: of each pixel, what is sure to be in front; what lies behind is not added.
-void add_piece(const Projector& p, const Piece& piece, Candidate base, double order, const PixelRect& rect,
+void add_piece(const Projector& p, const Piece& piece, PossibleSurface base, double order, const PixelRect& rect,
                const std::vector<double>& bound, std::vector<Entry>& out) {
   const GeometryState& state = p.pipeline().geometry;
   const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
@@ -93,7 +93,7 @@ void add_piece(const Projector& p, const Piece& piece, Candidate base, double or
       if (cover.cover == Cover::no) continue;
       const SurfacePoint point(piece, p.profile(), p.window_reach(), x + 0.5, y + 0.5);
       const Range z = stored_depth(point, state, p.profile(), largest);
-      Candidate c = base;
+      PossibleSurface c = base;
       c.cut = piece.cut || piece.leaves_view;
       c.certain = cover.cover == Cover::certain && point.bounded();
       c.chance_other = float(cover.chance_other);
@@ -115,7 +115,7 @@ void scan(const Projector& projector, const Work& work, double order, const std:
   for (uint32_t t = work.first; t < work.last; ++t) {
     if (!projector.near_pixels(work.instance, t, rect)) continue;
     projector.pieces(work.instance, t, pieces);
-    Candidate base;
+    PossibleSurface base;
     base.instance = work.instance;
     base.triangle = t;
     for (size_t k = 0; k < pieces.size(); ++k) {
@@ -142,10 +142,10 @@ double clear_key(const GeometryState& state) {
   switch (state.depth_func) {
     case DepthFunc::less:
     case DepthFunc::lequal:
-      return held_depth_of(state, double(state.clear_depth));
+      return depth_in_buffer(state, double(state.clear_depth));
     case DepthFunc::greater:
     case DepthFunc::gequal:
-      return -held_depth_of(state, double(state.clear_depth));
+      return -depth_in_buffer(state, double(state.clear_depth));
     case DepthFunc::never:
       return -HUGE_VAL;
     default:
@@ -156,7 +156,7 @@ double clear_key(const GeometryState& state) {
 namespace {
 
 /// `bound`: of each pixel, what is in front of all that is looked for.
-CandidateMap found(const Projector& projector, const Search& search, std::vector<double> bound, int threads) {
+PossibleSurfaces found(const Projector& projector, const Search& search, std::vector<double> bound, int threads) {
   const size_t pixels = bound.size();
   const GeometryState& state = projector.pipeline().geometry;
   const double clear = clear_key(state);
@@ -177,39 +177,39 @@ CandidateMap found(const Projector& projector, const Search& search, std::vector
     for (const std::vector<Entry>& list : lists)
       for (Entry e : list) {
         double& limit = bound[e.pixel];
-        if (e.candidate.low > limit) continue;
+        if (e.surface.low > limit) continue;
         if (!search.transparent) {
-          if (e.candidate.low == clear && !equal_passes) continue;
-          if (e.candidate.high > clear || (e.candidate.high == clear && !equal_passes)) e.candidate.certain = false;
-          e.candidate.certain = e.candidate.certain && ordered;
-          if (e.candidate.certain) limit = std::min(limit, e.candidate.high);
+          if (e.surface.low == clear && !equal_passes) continue;
+          if (e.surface.high > clear || (e.surface.high == clear && !equal_passes)) e.surface.certain = false;
+          e.surface.certain = e.surface.certain && ordered;
+          if (e.surface.certain) limit = std::min(limit, e.surface.high);
         }
         entries.push_back(e);
       }
   }
-  CandidateMap map;
+  PossibleSurfaces map;
   map.first.assign(pixels + 1, 0);
-  const auto kept = [&](const Entry& e) { return e.candidate.low <= bound[e.pixel]; };
+  const auto kept = [&](const Entry& e) { return e.surface.low <= bound[e.pixel]; };
   for (const Entry& e : entries)
     if (kept(e)) ++map.first[e.pixel + 1];
   for (size_t i = 0; i < pixels; ++i) map.first[i + 1] += map.first[i];
   map.list.resize(map.first[pixels]);
   std::vector<uint32_t> next(map.first.begin(), map.first.end() - 1);
   for (const Entry& e : entries)
-    if (kept(e)) map.list[next[e.pixel]++] = e.candidate;
+    if (kept(e)) map.list[next[e.pixel]++] = e.surface;
   return map;
 }
 
 }  // namespace
 
-CandidateMap find_candidates(const Projector& projector, int threads) {
+PossibleSurfaces possible_surfaces(const Projector& projector, int threads) {
   const std::vector<double> clear(size_t(projector.width()) * size_t(projector.height()),
                                   clear_key(projector.pipeline().geometry));
   const Search search{false, draws_transparent(projector.scene(), projector.pipeline())};
   return found(projector, search, clear, threads);
 }
 
-CandidateMap find_transparent(const Projector& projector, std::vector<double> front, int threads) {
+PossibleSurfaces find_transparent(const Projector& projector, std::vector<double> front, int threads) {
   return found(projector, {true, true}, std::move(front), threads);
 }
 

@@ -10,7 +10,7 @@
 
 namespace trueshade::oracle {
 
-struct Candidate {
+struct PossibleSurface {
   uint32_t instance = 0, triangle = 0;
   uint8_t piece = 0;
   bool certain = false;                  ///< covers the sample whatever the profile leaves open
@@ -21,24 +21,25 @@ struct Candidate {
   double low = 0, high = 0, middle = 0;  ///< of the test's key: smaller is in front
 };
 
-/// Candidates of every pixel, in submission order; row 0 is the bottom row.
-struct CandidateMap {
+/// Possible surfaces of every pixel, in submission order; row 0 is the bottom row.
+struct PossibleSurfaces {
   std::vector<uint32_t> first;  ///< width * height + 1
-  std::vector<Candidate> list;
-  std::span<const Candidate> at(size_t pixel) const {
+  std::vector<PossibleSurface> list;
+  std::span<const PossibleSurface> at(size_t pixel) const {
     return {list.data() + first[pixel], first[pixel + 1] - first[pixel]};
   }
 };
 
 /// How a depth test orders fragments: the least key is seen. LESS and LEQUAL: z; GREATER and GEQUAL: -z; ALWAYS: the
-/// last drawn; EQUAL, NOTEQUAL: all alike, so that whatever was drawn is a candidate; NEVER: nothing passes.
+/// last drawn; EQUAL, NOTEQUAL: all alike, so that whatever was drawn is a possible surface; NEVER: nothing passes.
 double clear_key(const GeometryState& state);
 
-/// All candidates of surfaces that hide one another, with every core. Memory: 56 bytes each, a few per covered pixel.
-CandidateMap find_candidates(const Projector& projector, int threads = 0);
+/// The possible surfaces of pixels where surfaces hide one another, found with every core. Memory: 56 bytes each, a few
+/// per covered pixel.
+PossibleSurfaces possible_surfaces(const Projector& projector, int threads = 0);
 
 /// All fragments of transparent surfaces but those sure to lie behind `front`, the key of what is in front of each
 /// pixel (row 0 the bottom row). None hides another; `certain` is of coverage and the alpha test alone.
-CandidateMap find_transparent(const Projector& projector, std::vector<double> front, int threads = 0);
+PossibleSurfaces find_transparent(const Projector& projector, std::vector<double> front, int threads = 0);
 
 }  // namespace trueshade::oracle

@@ -71,7 +71,7 @@ LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
     const double rounding = profile.unorm_reach == 1.0 ? 0 : 0x1p-24;  // the product is a float before it is rounded
     return clamped * (1 + direction * rounding);
   };
-  // RNE(fl32(x * largest)) of a float x in [0, 1], as GL_RULES section 3 measured it.
+  // RNE(fl32(x * largest)) of a float x in [0, 1], as docs/gl_rules.md section 3 measured it.
   const auto nearest_code = [&](double x) {
     return std::nearbyint(double(float(std::clamp(x, 0.0, 1.0)) * float(largest)));
   };

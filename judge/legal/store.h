@@ -1,5 +1,5 @@
 #pragma once
-// From the interval a value lies in to the texels it may be stored as (GL_RULES section 3).
+// From the interval a value lies in to the texels it may be stored as (docs/gl_rules.md section 3).
 #include "core/format.h"
 #include "judge/bounds/profile.h"
 

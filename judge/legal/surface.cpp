@@ -327,14 +327,14 @@ Range stored_depth(const SurfacePoint& point, const GeometryState& state, const 
   return {code.value / codes, code.low / codes, code.high / codes};
 }
 
-double held_depth_of(const GeometryState& state, double depth) {
+double depth_in_buffer(const GeometryState& state, double depth) {
   const double codes = fixed_point_codes(state);
   return codes == 0 ? depth : std::nearbyint(depth * codes) / codes;
 }
 
 bool is_clear_depth(const GeometryState& state, double depth) {
   const double codes = fixed_point_codes(state), clear = double(state.clear_depth);
-  return codes == 0 ? depth == clear : std::fabs(held_depth_of(state, depth) - clear) * codes < 1;
+  return codes == 0 ? depth == clear : std::fabs(depth_in_buffer(state, depth) - clear) * codes < 1;
 }
 
 }  // namespace trueshade::oracle

@@ -1,5 +1,6 @@
 #pragma once
-// What a piece's planes may give at a sample: depth and attributes as ranges (GL_RULES section 9, "plane origin").
+// What a piece's planes may give at a sample: depth and attributes as ranges (docs/gl_rules.md section 9, "plane
+// origin").
 #include <array>
 #include <memory>
 
@@ -88,7 +89,7 @@ void piece_values(const Piece& piece, const TriangleValues& values, size_t index
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
 
 /// A depth that was read back, or cleared to, as stored_depth() has it: of fixed-point formats the nearest k / largest.
-double held_depth_of(const GeometryState& state, double depth);
+double depth_in_buffer(const GeometryState& state, double depth);
 
 /// Whether a depth read back is what the buffer was cleared to: in fixed point either neighbour of clear_depth.
 bool is_clear_depth(const GeometryState& state, double depth);

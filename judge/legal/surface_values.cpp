@@ -5,14 +5,14 @@
 
 namespace trueshade::oracle {
 
-SurfaceValues::SurfaceValues(const Projector& projector, const Candidate& candidate, double x, double y)
+SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y)
     : projector_(projector),
       model_(projector.pipeline().light_model),
-      material_(&projector.scene().materials[projector.scene().instances[candidate.instance].material]) {
-  projector.pieces(candidate.instance, candidate.triangle, pieces_);
-  piece_ = &pieces_[candidate.piece];
+      material_(&projector.scene().materials[projector.scene().instances[possible.instance].material]) {
+  projector.pieces(possible.instance, possible.triangle, pieces_);
+  piece_ = &pieces_[possible.piece];
   point_.emplace(*piece_, projector.profile(), projector.window_reach(), x, y);
-  values_ = triangle_values(projector, candidate.instance, candidate.triangle);
+  values_ = triangle_values(projector, possible.instance, possible.triangle);
   const auto texel = [&](const TextureSlot& slot) {
     return map_texel(projector, slot, *piece_, *point_, values_, x, y);
   };
@@ -22,7 +22,7 @@ SurfaceValues::SurfaceValues(const Projector& projector, const Candidate& candid
   if (!bumps) return;
   std::array<Range, 3> n;
   for (size_t k = 0; k < 3; ++k) n[k] = attribute(kNormal + k, projector.pipeline().gbuffer.normal.interpolation);
-  bent_ = bent_normal(n, tangent_frame(projector, candidate.instance, candidate.triangle, values_), *bumps,
+  bent_ = bent_normal(n, tangent_frame(projector, possible.instance, possible.triangle, values_), *bumps,
                       double(material_->normal_scale), projector.profile());
 }
 

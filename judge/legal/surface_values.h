@@ -1,5 +1,5 @@
 #pragma once
-// What a candidate hands to the fragment shader at a sample, and what the material makes of it.
+// What a possible surface hands to the fragment shader at a sample, and what the material makes of it.
 #include <optional>
 #include <vector>
 
@@ -10,10 +10,10 @@
 
 namespace trueshade::oracle {
 
-/// One candidate at one sample (x, y), pixels, y up. Borrows the projector.
+/// One possible surface at one sample (x, y), pixels, y up. Borrows the projector.
 class SurfaceValues {
  public:
-  SurfaceValues(const Projector& projector, const Candidate& candidate, double x, double y);
+  SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
   bool bounded() const { return point_->bounded(); }
   // Which channels come from a lookup: the colour's, the specular colour's, the normal's.
@@ -44,7 +44,7 @@ class SurfaceValues {
   std::optional<std::array<Range, 3>> bent_;
 };
 
-/// A candidate's fragment as lights read it where no plane is between.
+/// A possible surface's fragment as lights read it where no plane is between.
 ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
 
 /// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.

@@ -1,6 +1,6 @@
 #pragma once
 // What a texture lookup may give: the union over the places, levels of detail and weights that a profile leaves open
-// (GL_RULES sections 5 and 9). The class TEX.
+// (docs/gl_rules.md sections 5 and 9). The class TEX.
 #include <array>
 
 #include "judge/legal/surface.h"

@@ -162,7 +162,7 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
     const int light = first_ + int(i);
     if (count.least < count.most) may_be_other(x, y, light, count);
     if (count_) count_lights(x, y, i, count);
-    if (!stored && settled(x, y, i, j, count, work)) {
+    if (!stored && as_predicted(x, y, i, j, count, work)) {
       if (color_.quantised()) rows_[size_t(y)].stored_values += uint64_t(color_.channels);
       continue;
     }
@@ -174,21 +174,23 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
 
 /// Whether the light's draw is EXACT and has nothing to tell: no fragment adds anything and nothing changed, or the
 /// only one there is added its nominal codes.
-bool BlendingJudge::settled(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const {
+bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const FragmentCount& count,
+                                 const RowWork& work) const {
   if (!seen_ || !keeps_dark_) return false;
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const bool covered = covered_[at(x, y)] != 0;
   const uint8_t *old = before(i).texel(x, y), *now = batch_[i].texel(x, y);
   const auto dark = [&](const LitApart& lit) {
     const Bounded3& c = lit.color[j];
-    return lit.plain[j] != 0 &&
+    return lit.one_outcome[j] != 0 &&
            std::all_of(c.begin(), c.end(), [](const Bounded& b) { return b.value == 0 && b.error <= kSmallestFloat; });
   };
   bool all_dark = !covered || dark(work.lit[tied.size()]);
   for (size_t t = 0; t < tied.size() && all_dark; ++t) all_dark = dark(work.lit[t]);
   if (all_dark) return std::memcmp(old, now, size_t(color_.layout.bytes_per_texel())) == 0;
-  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1 || work.lit[0].plain[j] == 0) return false;
-  if (!codes_.plain(work.lit[0].color[j], old, now)) return false;
+  if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1) return false;
+  if (work.lit[0].one_outcome[j] == 0) return false;
+  if (!codes_.as_predicted(work.lit[0].color[j], old, now)) return false;
   return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], uint32_t(i)).surely;
 }
 
@@ -229,7 +231,7 @@ void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCo
   work.fragments.clear();
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const auto output = [&](const ShadedSurface& surface, const LitApart& lit) {
-    return lit.plain[j] != 0 ? outputs_.plain(surface, lit.color[j]) : outputs_.term(surface, uint32_t(i));
+    return lit.one_outcome[j] != 0 ? outputs_.of_color(surface, lit.color[j]) : outputs_.term(surface, uint32_t(i));
   };
   const auto add_tied = [&](bool before) {
     for (size_t t = 0; t < tied.size(); ++t)

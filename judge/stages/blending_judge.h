@@ -14,7 +14,7 @@
 #include "judge/legal/light_cover.h"
 #include "judge/stages/tied_surfaces.h"
 #include "judge/stages/transparent_layers.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 
@@ -86,7 +86,7 @@ class BlendingJudge {
   void judge_batch();
   void judge_row(int y, RowWork& work);
   void judge_pixel(int x, int y, RowWork& work);
-  bool settled(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const;
+  bool as_predicted(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) const;
   void fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const;
   void judge(int x, int y, int light, const Image* before, const Image* given, std::span<const DrawnFragment> fragments,
              const BlendState& blend);

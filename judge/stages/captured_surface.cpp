@@ -127,10 +127,4 @@ Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic) {
   return difference(arithmetic, {2 * fetched.value, 2 * fetched.error}, {1, 0});
 }
 
-Range output_range(const LightModel& model, const Bounded& value) {
-  const Range r = range_of(value);
-  if (!model.clamp_result) return r;
-  return {std::clamp(r.value, 0.0, 1.0), std::clamp(r.low, 0.0, 1.0), std::clamp(r.high, 0.0, 1.0)};
-}
-
 }  // namespace trueshade::oracle

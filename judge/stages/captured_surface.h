@@ -1,6 +1,7 @@
 #pragma once
 // A capture's planes as the light pass reads them.
 #include "judge/bounds/shading.h"
+#include "judge/legal/light_output.h"
 #include "judge/stages/tally.h"
 #include "oracle/matrices.h"
 
@@ -38,8 +39,5 @@ class CapturedSurface {
 /// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not
 /// the difference is rounded once.
 Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic);
-
-/// A colour of the lights as the fragment outputs it: clamped where the model says so.
-Range output_range(const LightModel& model, const Bounded& value);
 
 }  // namespace trueshade::oracle

@@ -1,6 +1,6 @@
 #pragma once
-// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (GL_RULES section 6,
-// "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+// Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (docs/gl_rules.md
+// section 6, "amplification": an 8-bit normal one code off moves a lit pixel by 11).
 #include <span>
 #include <vector>
 
@@ -14,18 +14,18 @@ namespace trueshade::oracle {
 
 /// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has,
 /// and specular and emission where the light model reads them) against the surfaces each pixel may show. A pixel must
-/// equal one candidate in all planes together, or the clear values where nothing is sure to cover it. Transparent
-/// surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that their draws
-/// may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two triangles has
-/// exactly one owner: where triangles that meet about a sample close around it, the clear value and what is behind them
-/// are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round. Throws
-/// Error(bad_input) for planes of another size than the pipeline's, or none at all.
+/// equal one possible surface in all planes together, or the clear values where nothing is sure to cover it.
+/// Transparent surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that
+/// their draws may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two
+/// triangles has exactly one owner: where triangles that meet about a sample close around it, the clear value and what
+/// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
+/// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                            const Capture& capture);
 
-/// The target against the lights summed over the capture's own planes, in double, with the error bound of GL_RULES
-/// section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or depth tell where
-/// there is a surface. light.count, where captured, must be one the comparisons allow.
+/// The target against the lights summed over the capture's own planes, in double, with the error bound of
+/// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or
+/// depth tell where there is a surface. light.count, where captured, must be one the comparisons allow.
 /// Surfaces transparent after the lights are followed, each fragment from what the pixel may hold before it.
 /// Under strategies that blend light by light: the final image against the interval of all blends (judge_blending.h),
 /// and light.count is not looked at.

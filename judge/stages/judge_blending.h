@@ -1,6 +1,6 @@
 #pragma once
-// Strategies that draw light by light: each draw's output blended into the target, as GL_RULES sections 4 and 9 bound
-// it.
+// Strategies that draw light by light: each draw's output blended into the target, as docs/gl_rules.md sections 4 and 9
+// bound it.
 #include "judge/stages/judge.h"
 
 namespace trueshade::oracle {

@@ -46,7 +46,7 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, capture.name, "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
-    candidates_ = find_candidates(projector_);
+    possible_ = possible_surfaces(projector_);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
         capture.plane("albedo") != nullptr)
       layers_.emplace(scene, pipeline, profile, capture);
@@ -105,7 +105,7 @@ class GBufferJudge {
     if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
   }
 
-  Match match(const Candidate& c, int x, int y_top, bool& bounded) const {
+  Match match(const PossibleSurface& c, int x, int y_top, bool& bounded) const {
     Match m;
     const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
     const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
@@ -120,7 +120,7 @@ class GBufferJudge {
     const SurfaceValues surface(projector_, c, sx, sy);
     bounded = surface.bounded();
     if (depth_)
-      m.channel_is(depth_, "depth", 0, surface.depth(), held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)),
+      m.channel_is(depth_, "depth", 0, surface.depth(), depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)),
                    pixel, profile_);
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
@@ -173,47 +173,49 @@ class GBufferJudge {
     }
   }
 
-  /// Candidates that may be seen, the nominal one first.
-  std::vector<const Candidate*> legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
-                                                 bool& certain) const;
+  /// Possible surfaces that may be seen, the nominal one first.
+  std::vector<const PossibleSurface*> legal_surfaces(std::span<const PossibleSurface> all,
+                                                     const PossibleSurface*& nominal,
+                                                     bool& certain) const;
   void judge_pixel(int x, int y_top, RowTally& row) const;
-  PixelClass class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const;
+  PixelClass class_of(const Match& m, bool bounded, const PossibleSurface* seen, const PossibleSurface* nominal) const;
 
   Projector projector_;
   const Pipeline pipeline_;
   const Profile profile_;
   PlaneView depth_, object_, material_, specular_, emission_;
   std::vector<AttributePlane> planes_;
-  CandidateMap candidates_;
+  PossibleSurfaces possible_;
   std::optional<TransparentLayers> layers_;  ///< blended into the albedo
 };
 
-std::string name_of(const Candidate* c) {
+std::string name_of(const PossibleSurface* c) {
   if (c == nullptr) return "nothing drawn";
   return "instance " + std::to_string(c->instance) + ", triangle " + std::to_string(c->triangle);
 }
 
 /// Whether `later` loses to `earlier`, which is sure to be drawn first with the very same depth.
-bool ruled_out(const Projector& p, const Candidate& earlier, const Candidate& later, bool last_wins) {
-  const Candidate &winner = last_wins ? later : earlier, &loser = last_wins ? earlier : later;
+bool ruled_out(const Projector& p, const PossibleSurface& earlier, const PossibleSurface& later, bool last_wins) {
+  const PossibleSurface &winner = last_wins ? later : earlier, &loser = last_wins ? earlier : later;
   if (!winner.certain) return false;
   const bool points = winner.low == winner.high && loser.low == loser.high && winner.low == loser.low;
   return points || (p.clip_of(earlier.instance, earlier.triangle) == p.clip_of(later.instance, later.triangle) &&
                     earlier.piece == later.piece);
 }
 
-std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Candidate> all, const Candidate*& nominal,
-                                                             bool& certain) const {
+std::vector<const PossibleSurface*> GBufferJudge::legal_surfaces(std::span<const PossibleSurface> all,
+                                                                 const PossibleSurface*& nominal,
+                                                                 bool& certain) const {
   const DepthFunc func = pipeline_.geometry.depth_func;
   const bool last_wins = func == DepthFunc::lequal || func == DepthFunc::gequal;
-  std::vector<const Candidate*> legal;
+  std::vector<const PossibleSurface*> legal;
   certain = false;
   double bound = HUGE_VAL;
-  for (const Candidate& c : all)
+  for (const PossibleSurface& c : all)
     if (c.certain) certain = true, bound = std::min(bound, c.high);
   for (size_t i = 0; i < all.size(); ++i) {
     bool out = all[i].low > bound;
-    // Ties matter only between candidates that are both in front.
+    // Ties matter only between possible surfaces that are both in front.
     for (size_t j = 0; j < all.size() && !out; ++j) {
       if (i == j || all[j].low > bound || all[j].low > all[i].high || all[i].low > all[j].high) continue;
       const bool earlier = j < i;
@@ -222,18 +224,19 @@ std::vector<const Candidate*> GBufferJudge::legal_candidates(std::span<const Can
     if (!out) legal.push_back(&all[i]);
   }
   nominal = nullptr;
-  for (const Candidate* c : legal) {
+  for (const PossibleSurface* c : legal) {
     if (!c->nominal && !c->certain) continue;
     if (nominal == nullptr || c->middle < nominal->middle || (last_wins && c->middle == nominal->middle)) nominal = c;
   }
-  std::stable_sort(legal.begin(), legal.end(), [&](const Candidate* a, const Candidate* b) {
+  std::stable_sort(legal.begin(), legal.end(), [&](const PossibleSurface* a, const PossibleSurface* b) {
     if ((a == nominal) != (b == nominal)) return a == nominal;
     return a->middle < b->middle;
   });
   return legal;
 }
 
-PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate* seen, const Candidate* nominal) const {
+PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const PossibleSurface* seen,
+                                  const PossibleSurface* nominal) const {
   if (seen == nominal) {
     if (!bounded) return PixelClass::undefined;
     if (m.layered != PixelClass::exact) return m.layered;
@@ -249,9 +252,9 @@ PixelClass GBufferJudge::class_of(const Match& m, bool bounded, const Candidate*
 
 /// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or of two
 /// depths spread evenly over [a0, a1] and [b0, b1] the farther comes first, which is overlap^2 / 2 over both widths.
-double chance_of_other(const std::vector<const Candidate*>& legal, const Candidate* nominal) {
+double chance_of_other(const std::vector<const PossibleSurface*>& legal, const PossibleSurface* nominal) {
   double same = nominal != nullptr ? 1 - double(nominal->chance_other) : 1;
-  for (const Candidate* c : legal) {
+  for (const PossibleSurface* c : legal) {
     if (c == nominal) continue;
     double before = 1;
     if (nominal != nullptr) {
@@ -265,14 +268,14 @@ double chance_of_other(const std::vector<const Candidate*>& legal, const Candida
 }
 
 void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
-  const std::span<const Candidate> all = candidates_.at(pixel_of(x, y_top));
-  const Candidate* nominal = nullptr;
+  const std::span<const PossibleSurface> all = possible_.at(pixel_of(x, y_top));
+  const PossibleSurface* nominal = nullptr;
   bool certain = false;
-  const std::vector<const Candidate*> legal = legal_candidates(all, nominal, certain);
+  const std::vector<const PossibleSurface*> legal = legal_surfaces(all, nominal, certain);
   if (nominal != nullptr) ++row.covered;
   const bool clear_legal = !certain;
   if (legal.size() + (clear_legal ? 1 : 0) > 1) {
-    const Candidate* first = nominal != nullptr ? nominal : legal.front();
+    const PossibleSurface* first = nominal != nullptr ? nominal : legal.front();
     row.may_be_other(uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
   }
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
@@ -286,7 +289,7 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
   Match closest;
   bool first = true;
   std::optional<double> patch;
-  for (const Candidate* c : legal) {
+  for (const PossibleSurface* c : legal) {
     bool bounded = true;
     Match m = match(*c, x, y_top, bounded);
     if (m.legal && c != nominal) {

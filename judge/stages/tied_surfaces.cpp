@@ -20,19 +20,19 @@ class TieFinder {
         primitive_(plane_of(capture, pipeline, "id.primitive")),
         depth_(plane_of(capture, pipeline, "depth")),
         normal_(plane_of(capture, pipeline, "normal")),
-        candidates_(find_candidates(projector_)) {}
+        possible_(possible_surfaces(projector_)) {}
 
   std::vector<TiedSurface> at(int x, int y_top) const {
     const int y = pipeline_.height - 1 - y_top;
-    const std::span<const Candidate> all = candidates_.at(size_t(y) * size_t(pipeline_.width) + size_t(x));
+    const std::span<const PossibleSurface> all = possible_.at(size_t(y) * size_t(pipeline_.width) + size_t(x));
     const bool covered = object_ ? object_.stored(x, y_top, 0) != 0
                                  : depth_ && !is_clear_depth(pipeline_.geometry, depth_.stored(x, y_top, 0));
     std::vector<TiedSurface> list;
     if (all.empty() || (covered && all.size() == 1)) return list;
-    const Candidate* seen = covered ? visible(all, x, y_top) : nullptr;
+    const PossibleSurface* seen = covered ? visible(all, x, y_top) : nullptr;
     if (covered && seen == nullptr) return list;  // shows what it cannot: the G-buffer's fault
     const double clear = clear_key(pipeline_.geometry);
-    for (const Candidate& c : all) {
+    for (const PossibleSurface& c : all) {
       if (&c == seen) continue;
       const bool may = seen != nullptr ? c.low <= seen->high && c.high >= seen->low : c.low <= clear && c.high >= clear;
       if (may)
@@ -44,18 +44,18 @@ class TieFinder {
 
  private:
   /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen.
-  const Candidate* visible(std::span<const Candidate> all, int x, int y_top) const {
+  const PossibleSurface* visible(std::span<const PossibleSurface> all, int x, int y_top) const {
     const double object = object_ ? object_.stored(x, y_top, 0) : 0;
     const double primitive = primitive_ ? primitive_.stored(x, y_top, 0) : 0;
-    const auto named = [&](const Candidate& c) {
+    const auto named = [&](const PossibleSurface& c) {
       return (!object_ || object == c.instance + 1.0) && (!primitive_ || primitive == c.triangle + 1.0);
     };
     const auto first = std::find_if(all.begin(), all.end(), named);
     if (first == all.end()) return nullptr;
     if (std::none_of(first + 1, all.end(), named)) return &*first;
-    const Candidate* best = nullptr;
+    const PossibleSurface* best = nullptr;
     double least = HUGE_VAL;
-    for (const Candidate& c : all) {
+    for (const PossibleSurface& c : all) {
       if (!named(c)) continue;
       const double off = difference(c, x, y_top);
       if (best == nullptr || off < least) best = &c, least = off;
@@ -63,24 +63,25 @@ class TieFinder {
     return best;
   }
 
-  /// How far the pixel's normal and depth are from the middle of the candidate's.
-  double difference(const Candidate& c, int x, int y_top) const {
+  /// How far the pixel's normal and depth are from the middle of the possible surface's.
+  double difference(const PossibleSurface& c, int x, int y_top) const {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
       off +=
           std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value - normal_.image->value(x, y_top, k));
-    if (depth_) off += std::fabs(values.depth().value - held_depth_of(pipeline_.geometry, depth_.stored(x, y_top, 0)));
+    if (depth_)
+      off += std::fabs(values.depth().value - depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
   }
 
   /// Equal clip coordinates give equal depths (GL 4.6 core, appendix A, rule 5).
-  bool ties(const Candidate& a, const Candidate& b) const {
+  bool ties(const PossibleSurface& a, const PossibleSurface& b) const {
     return b.certain && a.piece == b.piece &&
            projector_.clip_of(a.instance, a.triangle) == projector_.clip_of(b.instance, b.triangle);
   }
 
-  ShadedSurface surface_of(const Candidate& c, double x, double y) const {
+  ShadedSurface surface_of(const PossibleSurface& c, double x, double y) const {
     const SurfaceValues values(projector_, c, x, y);
     return shaded_surface(values, pipeline_.gbuffer);
   }
@@ -88,7 +89,7 @@ class TieFinder {
   const Pipeline pipeline_;
   const Projector projector_;
   const PlaneView object_, primitive_, depth_, normal_;
-  const CandidateMap candidates_;
+  const PossibleSurfaces possible_;
 };
 
 }  // namespace

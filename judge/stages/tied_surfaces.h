@@ -16,8 +16,8 @@ struct TiedSurface {
   bool before = false;    ///< submitted before the visible one
 };
 
-/// Of every pixel, in order of submission; y from the top. Where nothing is visible: what may have the clear depth.
-/// The visible surface is the candidate of the capture's id.object (and id.primitive, where captured) whose normal and
+/// Of every pixel, in order of submission; y from the top. Where nothing is visible: what may have the clear depth. The
+/// visible surface is the possible one of the capture's id.object (and id.primitive, where captured) whose normal and
 /// depth are nearest to those stored. Triangles that share an edge are counted apart, although only one can have the
 /// sample.
 class TiedSurfaces {

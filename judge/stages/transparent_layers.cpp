@@ -65,15 +65,15 @@ void TransparentLayers::find_fronts(const Capture& capture) {
   if (depth) {
     for (int y = 0; y < pipeline_.height; ++y)
       for (int x = 0; x < pipeline_.width; ++x) {
-        const double held = held_depth_of(state, depth.stored(x, y, 0));
+        const double stored = depth_in_buffer(state, depth.stored(x, y, 0));
         const size_t pixel = size_t(pipeline_.height - 1 - y) * size_t(pipeline_.width) + size_t(x);
-        front_low_[pixel] = front_high_[pixel] = up ? -held : held;
+        front_low_[pixel] = front_high_[pixel] = up ? -stored : stored;
       }
     return;
   }
-  const CandidateMap opaque = find_candidates(projector_);
+  const PossibleSurfaces opaque = possible_surfaces(projector_);
   for (size_t pixel = 0; pixel < pixels; ++pixel)
-    for (const Candidate& c : opaque.at(pixel)) {
+    for (const PossibleSurface& c : opaque.at(pixel)) {
       front_low_[pixel] = std::min(front_low_[pixel], c.low);
       if (c.certain) front_high_[pixel] = std::min(front_high_[pixel], c.high);
     }
@@ -130,9 +130,9 @@ void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& lay
 TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {
   const int y = pipeline_.height - 1 - y_top;
   const size_t pixel = size_t(y) * size_t(pipeline_.width) + size_t(x);
-  const std::span<const Candidate> all = fragments_.at(pixel);
+  const std::span<const PossibleSurface> all = fragments_.at(pixel);
   TransparentPixel out;
-  const auto ours = [&](const Candidate& c) { return c.instance >= first && c.instance < end; };
+  const auto ours = [&](const PossibleSurface& c) { return c.instance >= first && c.instance < end; };
   if (std::none_of(all.begin(), all.end(), ours)) return out;
   const std::vector<ClosedPatch> patches = closed_patches(projector_, all, x + 0.5, y + 0.5);
   for (const ClosedPatch& patch : patches) {
@@ -141,7 +141,7 @@ TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_
     out.turns.push_back(known ? patch.turns : kOpenPatch);
   }
   for (size_t i = 0; i < all.size(); ++i) {
-    const Candidate& c = all[i];
+    const PossibleSurface& c = all[i];
     if (!ours(c)) continue;
     TransparentLayer layer;
     layer.instance = c.instance, layer.triangle = c.triangle;
@@ -149,7 +149,7 @@ TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_
     layer.doubt = c.masked ? PixelClass::tex : c.cut ? PixelClass::clip : PixelClass::edge;
     for (size_t p = 0; p < patches.size(); ++p)
       for (const ClosedPatch::Member& m : patches[p].members)
-        if (m.candidate == i) layer.patch = int(p), layer.turn = m.sense;
+        if (m.surface == i) layer.patch = int(p), layer.turn = m.sense;
     const SurfaceValues values(projector_, c, x + 0.5, y + 0.5);
     const int patch = layer.patch;
     const bool passes = test_depth(values, {front_low_[pixel], front_high_[pixel]}, layer);

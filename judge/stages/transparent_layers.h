@@ -90,7 +90,7 @@ class TransparentLayers {
   LightModel model_;
   Projector projector_;
   std::vector<double> front_low_, front_high_;  ///< keys of the opaque depth, row 0 the bottom row
-  CandidateMap fragments_;
+  PossibleSurfaces fragments_;
   std::optional<LightBounds> lights_;
 };
 

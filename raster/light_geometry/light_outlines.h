@@ -7,7 +7,7 @@
 #include "raster/region.h"
 #include "raster/view.h"
 #include "raster/visibility/visibility.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade {
 

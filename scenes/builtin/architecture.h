@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "scenes/mesh.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 
-// Turned and arched parts of buildings, for the built-in scenes. As scenes/builtin/shapes.h: computed in double, triangles
+// Turned and arched parts of buildings, for the built-in scenes. As scenes/shapes.h: computed in double, triangles
 // counter-clockwise seen from where the normals point to.
 namespace trueshade {
 

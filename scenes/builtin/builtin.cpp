@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "core/fp_env.h"
 #include "scenes/builtin/builtin_scenes.h"
 
 namespace trueshade {
@@ -159,6 +160,7 @@ std::span<const BuiltinInfo> builtin_scenes() {
 }
 
 Scene builtin_scene(std::string_view spec, const SceneLimits& limits) {
+  const FpScope fp;
   SpecReader reader(spec);
   const Row& row = reader.scene();
   Scene scene = row.make(reader.parameters(row, limits));

@@ -1,6 +1,6 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // After "TouchDesigner Deferred Lighting - Point Lights": lights on a circle, their colours from a ramp and noise,

@@ -3,7 +3,7 @@
 
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // A city at night. Blocks of four lots between streets, the lots built up from the centre outwards with towers of one

@@ -1,6 +1,6 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // The Cornell box (Goral and others, "Modeling the Interaction of Light Between Diffuse Surfaces", 1984): white floor,

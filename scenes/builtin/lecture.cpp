@@ -2,7 +2,7 @@
 
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "scenes/trig.h"
 

@@ -3,7 +3,7 @@
 #include <tuple>
 #include <vector>
 
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/surface_net.h"
 #include "scenes/trig.h"
 

@@ -2,7 +2,7 @@
 
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // A canyon in red rock: one mesh of 2000 x 2000 vertices, terraced along a meandering river, under a faint ambient

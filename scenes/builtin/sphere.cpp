@@ -1,6 +1,6 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // One sphere of 20,000 faces inside a shell of lights that overlap strongly: the worst case for culling by tiles, since

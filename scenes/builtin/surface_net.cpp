@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

@@ -2,7 +2,7 @@
 #include <span>
 #include <string>
 
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/scene.h"
 
 namespace trueshade {

@@ -3,15 +3,10 @@
 #include <span>
 #include <string_view>
 
+#include "scenes/add_normals.h"
 #include "scenes/mesh.h"
 
 namespace trueshade {
-
-/// How normals are made for a file that has none.
-enum class MissingNormals : uint8_t {
-  flat,    ///< one a triangle; vertices are then not shared
-  smooth,  ///< one a vertex: the sum of its triangles' normals, each as long as the triangle is large, made unit
-};
 
 /// Reads a PLY file (Greg Turk, "The PLY Polygon File Format", 1994): ascii, binary_little_endian, binary_big_endian.
 /// Element vertex: x y z, and where present nx ny nz, red green blue [alpha] (integers as value / maximum, floats as
@@ -19,8 +14,5 @@ enum class MissingNormals : uint8_t {
 /// vertex_index; polygons become fans around their first vertex. Other elements and properties are skipped.
 /// Error(bad_input): `WHERE: line N` in text, `WHERE: byte N` in binary data.
 Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, MissingNormals missing_normals);
-
-/// Gives a mesh without normals its normals; flat takes vertices apart. Zero-area triangles give a zero normal.
-void add_normals(Mesh& mesh, MissingNormals kind);
 
 }  // namespace trueshade

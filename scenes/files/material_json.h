@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/scene.h"
 #include "scenes/files/scene_files.h"
 

@@ -6,7 +6,7 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

@@ -16,7 +16,7 @@ constexpr double kLargest = 1e18;
 constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "textures", "materials",
-                                          "objects", "lights", "pipeline", "fps"};
+                                          "objects", "lights", "pipeline", "fps",      "$schema"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "fov_deg",       "fov_axis", "near",
                                             "far", "clip_from_world", "steps", "interpolation", "repeat"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
@@ -83,6 +83,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
   root.check_keys(kObjects[kRoot]);
+  if (const auto schema = root.find("$schema")) schema->string();  // for editors
   root.member("version").integer(1, 1);
   Scene scene;
   scene.spec = path;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/timeline.h"
 
 // How the values of an object, a light or a camera of a scene's text are read: said once, or by steps over time.

@@ -149,7 +149,7 @@ void validate(const Execution& execution);
 std::string pipeline_json(const Pipeline& pipeline);
 
 /// Reads `text` over `base`: keys present replace, unknown keys and bad values throw Error(bad_input) with a JSON
-/// pointer behind `where`. The schema is scenes/pipeline/pipeline.schema.json.
+/// pointer behind `where`. The schema is scenes/schemas/pipeline.schema.json.
 Pipeline pipeline_from_json(std::string_view text, std::string_view where, const Pipeline& base);
 
 }  // namespace trueshade

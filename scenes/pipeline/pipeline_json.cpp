@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/fp_env.h"
 #include "scenes/pipeline/pipeline_words.h"
 #include "scenes/pipeline/presets.h"
 
@@ -188,6 +189,7 @@ std::span<const json::ObjectKeys> pipeline_object_keys() { return kObjects; }
 
 Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   node.check_keys(kObjects[kRoot]);
+  if (const auto schema = node.find("$schema")) schema->string();  // for editors
   if (const auto version = node.find("version")) version->integer(1, 1);
   Pipeline p = base;
   if (const auto preset = node.find("preset")) {
@@ -218,6 +220,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
 }
 
 Pipeline pipeline_from_json(std::string_view text, std::string_view where, const Pipeline& base) {
+  const FpScope fp;
   const json::Value value = json::parse(text, where);
   return pipeline_from_node(json::Node(value, where), base);
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/pipeline/pipeline.h"
 
 // Inside of pipeline_json.cpp that the scene reader and the tests share.

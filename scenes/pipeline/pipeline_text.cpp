@@ -1,5 +1,6 @@
 #include <string>
 
+#include "core/fp_env.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/pipeline/pipeline_words.h"
 
@@ -163,6 +164,7 @@ void write_post(std::string& out, const PostChain& p) {
 }  // namespace
 
 std::string pipeline_json(const Pipeline& pipeline) {
+  const FpScope fp;
   std::string out;
   {
     Writer w(out);

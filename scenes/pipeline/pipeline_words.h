@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 
 namespace trueshade::pipeline_words {
 
@@ -32,9 +32,9 @@ inline constexpr std::string_view kSpeculars[] = {"blinn_phong", "phong", "none"
 inline constexpr std::string_view kSpecularSources[] = {"model", "albedo", "material", "metallic_roughness"};
 inline constexpr std::string_view kViewers[] = {"local", "infinite"};
 
-inline constexpr std::string_view kRootKeys[] = {"version",  "preset",      "width",         "height", "geometry",
-                                                 "gbuffer",  "light_model", "light_volumes", "blend",  "transparency",
-                                                 "strategy", "target",      "profile",       "post",   "view"};
+inline constexpr std::string_view kRootKeys[] = {
+    "version", "preset",       "width",    "height", "geometry", "gbuffer", "light_model", "light_volumes",
+    "blend",   "transparency", "strategy", "target", "profile",  "post",    "view",        "$schema"};
 inline constexpr std::string_view kGeometryKeys[] = {"viewport",
                                                      "depth_near",
                                                      "depth_far",

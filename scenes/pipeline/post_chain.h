@@ -33,10 +33,7 @@ struct PostChain {
   Format output = Format::rgba8;  ///< of kPostOutputs; not read where there is nothing else to do
 
   bool operator==(const PostChain&) const = default;
-  bool active() const {
-    return samples > 1 || marker_radius > 0.0f || bloom.strength > 0.0f || tone_map != ToneMap::none ||
-           encode != Encode::linear || edge_filter;
-  }
+  bool active() const;  ///< Whether anything is done with the target.
 };
 
 }  // namespace trueshade

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/fp_env.h"
+
 namespace trueshade {
 namespace {
 
@@ -118,12 +120,14 @@ Preset redsdk() {
 }  // namespace
 
 std::span<const Preset> presets() {
+  const FpScope fp;
   static const std::array<Preset, 8> rows{many_lights(),   touchdesigner(),         gl_fixed(), punctual(), lecture(),
                                           light_volumes(), light_volumes_literal(), redsdk()};
   return rows;
 }
 
 std::optional<Pipeline> preset_pipeline(std::string_view name) {
+  const FpScope fp;
   for (const Preset& row : presets())
     if (row.name == name) return row.pipeline;
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/fp_env.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -137,6 +138,7 @@ void check_post(const PostChain& p) {
 }  // namespace
 
 void validate(const Pipeline& pipeline) {
+  const FpScope fp;
   require_integer(pipeline.width, 1, 65536, "width", "1 to 65536 pixels");
   require_integer(pipeline.height, 1, 65536, "height", "1 to 65536 pixels");
   check_geometry(pipeline.geometry);
@@ -155,6 +157,7 @@ void validate(const Pipeline& pipeline) {
 }
 
 void validate(const Execution& execution) {
+  const FpScope fp;
   require_integer(execution.threads, 0, 1024, "threads", "0 to 1024; 0 is one a core");
   constexpr int kTiles[] = {0, 8, 16, 32, 48, 64};
   if (std::find(std::begin(kTiles), std::end(kTiles), execution.tile) == std::end(kTiles))

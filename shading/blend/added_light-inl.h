@@ -24,7 +24,7 @@ HWY_INLINE VF added_code(VF x, MF adds, VF largest) {
 }
 
 /// A vector of target pixels in registers, onto which light is added: where a light adds nothing nothing changes, and
-/// alpha is not written. kCodes: fixed point, by adding codes (DESIGN, settled 4), which is exact in float32 and so may
+/// alpha is not written. kCodes: fixed point, by adding codes (docs/gl_rules.md section 10, point 4), which is exact in float32 and so may
 /// be held to the largest code later.
 template <bool kCodes>
 struct AddedLight {

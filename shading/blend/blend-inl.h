@@ -1,5 +1,6 @@
 // OpenGL blending for vectors: a lane is a pixel. Included once per SIMD target. docs/arithmetic.md sections 10 and 11.
-// Sources: OpenGL 4.6 core, 17.3.6; Mesa 22.3's lp_bld_blend.c and lp_bld_blend_aos.c, and measurement (GL_RULES 4).
+// Sources: OpenGL 4.6 core, 17.3.6; Mesa 22.3's lp_bld_blend.c and lp_bld_blend_aos.c, and measurement
+// (docs/gl_rules.md section 4).
 #if defined(TRUESHADE_SHADING_BLEND_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_SHADING_BLEND_BLEND_INL_H_
 #undef TRUESHADE_SHADING_BLEND_BLEND_INL_H_
@@ -86,7 +87,8 @@ struct BlendPlan {
 
   const Group& group(int c) const { return c == 3 ? alpha : rgb; }
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
-  /// Light upon light in fixed point: codes are added (DESIGN, settled 4); not where codes are no linear values.
+  /// Light upon light in fixed point: codes are added (docs/gl_rules.md section 10, point 4); not where codes are no
+  /// linear values.
   bool adds_codes(int c) const {
     return unorm() && target.profile == NumericProfile::ideal && !layout.srgb_channel(c) &&
            group(c).term == kAccumulate;

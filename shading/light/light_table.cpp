@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/threads/parallel_for.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

@@ -1,4 +1,4 @@
-// What a user can do wrong: one line that says what, the exit code of DESIGN section 5, and no file left behind.
+// What a user can do wrong: one line that says what, the exit code of docs/exit_codes.md, and no file left behind.
 #include <unistd.h>
 
 #include <filesystem>

@@ -50,7 +50,7 @@ TEST_CASE("a PNG holds the codes of an rgba8 image untouched, whatever alpha is"
 TEST_CASE("a PNG of a float image is sRGB-encoded with linear alpha") {
   const ScratchFolder folder;
   const std::string path = folder.path("srgb.png");
-  // GL_RULES row 36, IEC 61966-2-1; then what numbers do not reach.
+  // docs/gl_rules.md row 36, IEC 61966-2-1; then what numbers do not reach.
   const float inf = std::numeric_limits<float>::infinity();
   const float values[] = {0.5f,  0.18f, 0.75f,         0.0031308f, 0.001f, 0.2140411f,
                           -1.0f, inf,   std::nanf(""), 0.0f,       1.0f,   2.0f};

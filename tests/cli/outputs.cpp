@@ -241,7 +241,7 @@ TEST_CASE("help, version and lists go to standard output") {
   CHECK(output_of({"--version"}).starts_with("trueshade "));
   CHECK(output_of({"list"}).find("city") != std::string::npos);
   const std::string json = output_of({"list", "--json"});
-  for (const char* key : {"scenes", "presets", "strategies", "profiles", "driver_profiles", "formats", "simd"})
+  for (const char* key : {"scenes", "presets", "strategies", "profiles", "driver_profiles", "formats", "simd", "schemas"})
     CHECK(json.find('"' + std::string(key) + "\": [") != std::string::npos);
   for (const std::string& text : {output_of({"list"}), json})
     for (const char* name : {"ideal", "mesa-llvmpipe-22.3", "d3d-class"}) {

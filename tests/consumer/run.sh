@@ -18,6 +18,10 @@ read -r hash lit < <("$work/build/consumer/consumer" "$work/picture.png")
 echo "hash $hash, $lit pixels lit"
 [[ $hash =~ ^[0-9a-f]{64}$ && $lit -gt 400 && -s $work/picture.png ]]
 "$work/prefix/bin/trueshade" info "$work/picture.png"
+for schema in $(grep -o '[a-z]*\.schema\.json' < <("$work/prefix/bin/trueshade" list)); do
+  [[ -s $work/prefix/share/trueshade/$schema ]]
+done
+[[ -s $work/prefix/share/trueshade/scene.schema.json ]]
 
 # block LANGUAGE NUMBER PAGE: the lines of the page's block of that language and number, from 1.
 block() {

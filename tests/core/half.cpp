@@ -60,7 +60,7 @@ TEST_CASE("between two halves truncation takes the one nearer zero and rounding 
   }
 }
 
-TEST_CASE("GL_RULES row 34: the values Mesa stores in a half target") {
+TEST_CASE("Row 34: the values Mesa stores in a half target") {
   CHECK(half_from_float(1.0f + 1.5f * 0x1p-11f, kTruncate) == 0x3c00);
   CHECK(half_from_float(1.0f + 1.5f * 0x1p-11f, kNearest) == 0x3c01);
   CHECK(half_from_float(0.3f, kTruncate) == 0x34cc);

@@ -54,7 +54,7 @@ TEST_CASE("as floats, code starts are the least floats of their codes, and codes
   }
 }
 
-TEST_CASE("GL_RULES row 36: sRGB codes") {
+TEST_CASE("Row 36: sRGB codes") {
   CHECK(int(srgb8_from_linear(0.5f)) == 188);
   CHECK(int(srgb8_from_linear(0.18f)) == 118);
   CHECK(int(srgb8_from_linear(0.75f)) == 225);

@@ -1,5 +1,5 @@
 // OpenGL's own lighting, glLight on points one a pixel, against the fixed-function model: every channel inside what the
-// formula allows a driver's arithmetic. GL_RULES section 8, rows 52 to 54.
+// formula allows a driver's arithmetic. docs/gl_rules.md section 8, rows 52 to 54.
 #include "gl/driver/fixed_function.h"
 
 #include <cmath>

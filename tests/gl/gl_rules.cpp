@@ -1,5 +1,5 @@
-// GL_RULES section 8 on a real driver: rows that llvmpipe reproduces. They show that the harness hands over state,
-// vertices and planes as it should; a wrong row here is ours before it is the driver's.
+// docs/gl_rules.md section 8 on a real driver: rows that llvmpipe reproduces. They show that the harness hands over
+// state, vertices and planes as it should; a wrong row here is ours before it is the driver's.
 #include <cmath>
 #include <cstring>
 
@@ -86,7 +86,8 @@ TEST_CASE("Rows 14, 15 and 21: llvmpipe clips at near and far, planes included")
     for (int x = 0; x < kWindow; ++x) row += planes.covered(x, y) ? 1 : 0;
     CHECK((row > 0) == (y >= 64 && y < 192));
   }
-  CHECK(std::fabs(double(planes.depth[planes.index(128, 64)]) - 0.00390625) < 4e-6);  // GL_RULES section 9, D32F
+  // 4e-6: docs/gl_rules.md section 9, D32F.
+  CHECK(std::fabs(double(planes.depth[planes.index(128, 64)]) - 0.00390625) < 4e-6);
   CHECK(std::fabs(double(planes.depth[planes.index(128, 127)]) - 0.49609375) < 4e-6);
   const auto flat = [](double z) { return std::vector<Corners>{{{{0, 0, z}, {256, 0, z}, {0, 256, z}}}}; };
   Pipeline always = window_pipeline();

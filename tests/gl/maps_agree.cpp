@@ -122,9 +122,9 @@ struct Bent {
   Real bound;  ///< of each component's error
 };
 
-/// Section 13 with the driver's own N, and what the shader's roundings make of it, u = 2^-23 (GL_RULES section 6): U to
-/// the world 3.5, N.U, its quotient, product and difference 8 of |U|, so 12 of |U| / |T|; T's unit length 4.5, C and
-/// B 7 more; 2 r - 1 of a texel 3.5 each; products and sums 4.
+/// Section 13 with the driver's own N, and what the shader's roundings make of it, u = 2^-23 (docs/gl_rules.md section
+/// 6): U to the world 3.5, N.U, its quotient, product and difference 8 of |U|, so 12 of |U| / |T|; T's unit length 4.5,
+/// C and B 7 more; 2 r - 1 of a texel 3.5 each; products and sums 4.
 Bent bent(const Real3& n, const std::array<Real3, 2>& frame, const std::array<float, 4>& texel, float scale) {
   const Real n2 = dot(n, n), un = dot(n, frame[0]) / n2;
   Real3 t{frame[0][0] - n[0] * un, frame[0][1] - n[1] * un, frame[0][2] - n[2] * un};

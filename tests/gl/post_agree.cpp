@@ -1,5 +1,5 @@
 // The post chain as passes on a real driver against ours, both of the driver's own target: equal where both do the same
-// operations, else within what GLSL's operations may differ by (GL_RULES section 6), u = 2^-23.
+// operations, else within what GLSL's operations may differ by (docs/gl_rules.md section 6), u = 2^-23.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -246,7 +246,7 @@ TEST_CASE("Light markers on llvmpipe are where ours are, but for their edges and
     CAPTURE(markers, unlike);
     CHECK(markers > 200);
     CHECK(unexplained == 0);
-    CHECK(unlike <= markers / 50);  // 0.4 of 100 crossings (GL_RULES section 9)
+    CHECK(unlike <= markers / 50);  // 0.4 of 100 crossings (docs/gl_rules.md section 9)
   }
 }
 

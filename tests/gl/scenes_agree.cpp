@@ -72,7 +72,8 @@ TEST_CASE("llvmpipe draws every scene and preset as we do, off edges, within a c
       CAPTURE(a.covered, a.other_object, a.unexplained, a.far_codes);
       CHECK(a.covered > 3000);
       CHECK(a.unexplained == 0);
-      CHECK(a.other_object <= a.covered / 1000);  // all on edges: 0.4 of 100 crossings expected (GL_RULES section 9)
+      // All on edges: 0.4 of 100 crossings are expected (docs/gl_rules.md section 9).
+      CHECK(a.other_object <= a.covered / 1000);
       CHECK(a.far_codes <= 300);                  // of 30,000
     }
   }

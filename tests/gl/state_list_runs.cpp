@@ -12,7 +12,7 @@
 #include "gl/driver/surface_uniforms.h"
 #include "oracle/matrices.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"

@@ -128,7 +128,7 @@ TEST_CASE("Lights blended into every target format on llvmpipe come out as ours,
             bool near = true;
             for (int k = 0; k < 3; ++k) {
               const double p = color.value(x, y, k), q = ours.color.value(x, y, k);
-              // A step a light, and what the shader's terms differ by: GL_RULES section 6, 8.0e-4 at most.
+              // A step a light, and what the shader's terms differ by: docs/gl_rules.md section 6, 8.0e-4 at most.
               const double steps = counts.value(x, y, 0) + 1;
               near = near && std::fabs(p - q) <= steps * step_at(target, k, std::max(p, q)) + 8e-4;
             }
@@ -184,8 +184,8 @@ TEST_CASE("Normals of ten bits on llvmpipe are one of the two codes next to the 
         ++covered;
         for (int k = 0; k < 3; ++k) {
           const double exact = 1023 * std::clamp((real.value(x, y, k) + 1) / 2, 0.0, 1.0);
-          // Either neighbour (GL_RULES section 3; llvmpipe does not take the nearest of ten bits), and three roundings
-          // of the shader and the store.
+          // Either neighbour (docs/gl_rules.md section 3; llvmpipe does not take the nearest of ten bits), and three
+          // roundings of the shader and the store.
           wrong += std::fabs(1023 * stored.value(x, y, k) - exact) >= 1 + 3 * 1023 * 0x1p-23 ? 1 : 0;
           negative += real.value(x, y, k) < 0 ? 1 : 0;
         }

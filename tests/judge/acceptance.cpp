@@ -1,4 +1,5 @@
-// GL_RULES rows 61, 63 and 64, and our own frames: what is judged must be explained, and nothing more be let through.
+// docs/gl_rules.md rows 61, 63 and 64, and our own frames: what is judged must be explained, and nothing more be let
+// through.
 #include <cmath>
 #include <cstring>
 
@@ -86,7 +87,8 @@ TEST_CASE("Our own frames are explained under every preset and strategy") {
   }
 }
 
-// The pictures that the Khronos suite's fuzzyCompare scores as perfect (GL_RULES section 7), made of a frame of ours.
+// The pictures that the Khronos suite's fuzzyCompare scores as perfect (docs/gl_rules.md section 7), made of a frame of
+// ours.
 TEST_CASE("The nine pictures that fool the fuzzy compare are violations with a list of pixels") {
   const Scene scene = builtin_scene("cornell");
   Pipeline pipeline;

@@ -104,7 +104,7 @@ TEST_CASE("What lies outside is not legal: a code more than any neighbour, a ter
   CHECK(legal("d3d-class", kAddLight, 10.25f).high == 110);
   CHECK(legal("ideal", kAddLight, 10.75f).low == 111);
   CHECK(legal("unknown", kAddLight, 200).high == 255);
-  // GL_RULES row 40: s = 244, a = 197, d = 4, SRC_ALPHA, ONE: 192.502.
+  // docs/gl_rules.md row 40: s = 244, a = 197, d = 4, SRC_ALPHA, ONE: 192.502.
   BlendState state = kAddLight;
   state.rgb = {BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one};
   const auto row40 = [&](const char* profile) {
@@ -146,7 +146,7 @@ std::vector<uint16_t> exact_counts(const Scene& scene, const Pipeline& pipeline,
 
 TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rules, with no other code in sight") {
   Pcg32 random(31);
-  int plain = 0, close = 0;
+  int predicted = 0, close = 0;
   for (const char* name : {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"})
     for (const Format format : {Format::rgba8, Format::rgba16}) {
       const Profile profile = *profile_named(name);
@@ -171,8 +171,8 @@ TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rul
           after.set_code(0, 0, k, uint32_t(std::clamp(int(old) + moved, 0, largest)));
         }
         if (random.below(50) == 0) after.set_code(0, 0, 3, after.code(0, 0, 3) ^ 1);
-        if (!codes.plain(color, before.texel(0, 0), after.texel(0, 0))) continue;
-        ++plain;
+        if (!codes.as_predicted(color, before.texel(0, 0), after.texel(0, 0))) continue;
+        ++predicted;
         const std::vector<Way> ways = ways_from(from, {&fragment, 1}, kAddLight, format, profile);
         REQUIRE(ways.size() == 1);
         for (int k = 0; k < 4; ++k) {
@@ -185,7 +185,7 @@ TEST_CASE("What is settled by added codes alone is EXACT to the whole of the rul
         }
       }
     }
-  CHECK(plain > 50000);
+  CHECK(predicted > 50000);
   CHECK(close > 1000);
   for (const Format f : {Format::srgb8_a8, Format::rgb10_a2, Format::rgba16f, Format::rgba32f})
     CHECK_FALSE(AddedCodes(f, kAddLight).suit());
@@ -262,8 +262,8 @@ TEST_CASE(
   CAPTURE(samples, doubtful, drawn, behind);
   CHECK(drawn > samples / 8);
   CHECK(behind > 40);
-  // An edge over L rows has 2 e L samples in doubt (GL_RULES section 9), e = 1/512 and what floats add: far below a
-  // percent.
+  // An edge over L rows has 2 e L samples in doubt (docs/gl_rules.md section 9), e = 1/512 and what floats add: far
+  // below a percent.
   CHECK(doubtful < drawn / 200);
   std::printf("light geometry: %zu samples, %zu drawn, %zu in doubt\n", samples, drawn, doubtful);
 }

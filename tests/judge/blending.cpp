@@ -138,7 +138,7 @@ TEST_CASE("A light too many or too few in light.count is found, by the light and
     }
 }
 
-TEST_CASE("GL_RULES row 50: 64 lights of a quarter of a code blended give 0, or up to 64 by the letter") {
+TEST_CASE("Row 50: 64 lights of a quarter of a code blended give 0, or up to 64 by the letter") {
   Scene scene = builtin_scene("cornell");
   scene.lights.resize(64);
   for (Light& l : scene.lights) {
@@ -200,7 +200,7 @@ Scene many_lamps(int count) {
 
 }  // namespace
 
-// GL_RULES section 9: RTZ accumulation "must be detected even where each step is legal".
+// docs/gl_rules.md section 9: RTZ accumulation "must be detected even where each step is legal".
 TEST_CASE(
     "Halves truncated after each of 256 lights are legal where they should be nearest, and not what chance makes") {
   const Scene scene = many_lamps(256);

@@ -1,12 +1,12 @@
-// Depth buffers of every format, with and without polygon offset (GL_RULES sections 2 and 8, rows 20 to 26): frames of
-// ours and of llvmpipe are explained, wrong depths are not.
+// Depth buffers of every format, with and without polygon offset (docs/gl_rules.md sections 2 and 8, rows 20 to 26):
+// frames of ours and of llvmpipe are explained, wrong depths are not.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
 #include "gl/driver/renderer.h"
 #include "judge/stages/judge.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"

@@ -1,11 +1,11 @@
-// GL_RULES row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
+// docs/gl_rules.md row 62: the scene of section 6's caveat by two drivers. Where they show different surfaces the judge
 // explains it.
 #include <cstdio>
 
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/drivers.h"
 

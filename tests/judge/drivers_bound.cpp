@@ -1,5 +1,5 @@
-// GL_RULES row 57 on real drivers: 256 x 128 pixels, N lights, shininess s, lighting judged from the driver's own
-// planes.
+// docs/gl_rules.md row 57 on real drivers: 256 x 128 pixels, N lights, shininess s, lighting judged from the driver's
+// own planes.
 #include <cmath>
 #include <cstdio>
 

@@ -130,9 +130,9 @@ Scene lights_around(int count, uint64_t seed) {
   return scene;
 }
 
-/// GL_RULES row 57: N lights and shininess s on a wavy sheet of 256 x 128 pixels, of which every `step`th along both
-/// axes is lit. Arithmetic as llvmpipe's (to nearest) keeps within a fifth of the bound; arithmetic that errs as far as
-/// GLSL lets it stays inside.
+/// docs/gl_rules.md row 57: N lights and shininess s on a wavy sheet of 256 x 128 pixels, of which every `step`th along
+/// both axes is lit. Arithmetic as llvmpipe's (to nearest) keeps within a fifth of the bound; arithmetic that errs as
+/// far as GLSL lets it stays inside.
 void check_bound(int count, float s, int step) {
   const Scene scene = lights_around(count, uint64_t(count) * 1000 + uint64_t(s));
   LightModel model;

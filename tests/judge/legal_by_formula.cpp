@@ -6,7 +6,7 @@
 
 #include "oracle/scalar_light.h"
 #include "oracle/scalar_renderer.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::testing {
 
@@ -14,7 +14,7 @@ using namespace trueshade::oracle;
 
 namespace {
 
-// GL_RULES 9, how far a driver's planes were seen from the truth; two pictures may be twice that apart.
+// docs/gl_rules.md section 9, how far a driver's planes were seen from the truth; two pictures may be twice that apart.
 constexpr double kPlaneCeiling = 2 * 1e-5;  // attributes, w within a ratio of 10, relative to the largest value
 constexpr double kDepthCeiling = 2 * 4e-6;  // depth in 32 bits
 
@@ -111,7 +111,7 @@ std::optional<Surface> surface_at(const Capture& c, int x, int y) {
 Lit lit_by(const Scene& scene, const LightModel& m, const Surface& s, const std::array<double, 3>& axis) {
   const LitSum sum = lit_sum(s, scene, m, axis);
   const double shininess = reads_specular_plane(m) ? s.shininess : double(m.shininess);
-  // GL_RULES 6: the power's share, and roundings of the terms and of their sum.
+  // docs/gl_rules.md section 6: the power's share, and roundings of the terms and of their sum.
   const double relative = shininess * 0x1p-21 * std::log(2.0) + double(scene.lights.size() + 40) * 0x1p-23;
   Lit lit;
   for (size_t k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 #pragma once
 // Whether a picture that no profile's judge rejects is legal, told without any of the judge: from the exact geometry of
-// oracle/exact_coverage.h, the long double lights of oracle/scalar_light.h and the figures of GL_RULES sections 3, 6
-// and 9.
+// oracle/exact_coverage.h, the long double lights of oracle/scalar_light.h and the figures of docs/gl_rules.md sections
+// 3, 6 and 9.
 #include <string>
 
 #include "oracle/capture.h"

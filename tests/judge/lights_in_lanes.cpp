@@ -160,9 +160,9 @@ TEST_CASE("Lights asked for apart have the bounds of each alone, whichever are a
     for (size_t j = 0; j < lights.size(); ++j) {
       const LitRange alone = bounds.alone(surface, lights[j]);
       CAPTURE(round, lights[j], int(model.falloff), int(model.order), int(model.specular), all_lights.ideal);
-      CHECK((lit.plain[j] != 0) == (!alone.undefined && alone.branches.empty()));
-      if (lit.plain[j] == 0) ++open;
-      for (size_t k = 0; k < 3 && lit.plain[j] != 0; ++k) {
+      CHECK((lit.one_outcome[j] != 0) == (!alone.undefined && alone.branches.empty()));
+      if (lit.one_outcome[j] == 0) ++open;
+      for (size_t k = 0; k < 3 && lit.one_outcome[j] != 0; ++k) {
         const Bounded &found = lit.color[j][k], &expected = alone.color[k];
         CAPTURE(found.value, expected.value, found.error, expected.error, found.error / expected.error);
         if (expected.value == 0) CHECK(found.value == 0);

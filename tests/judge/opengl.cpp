@@ -1,4 +1,4 @@
-// A real driver judged: GL_RULES rows 62 and 63. Skipped, saying why, where there is no such driver.
+// A real driver judged: docs/gl_rules.md rows 62 and 63. Skipped, saying why, where there is no such driver.
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -72,7 +72,7 @@ void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& sc
   }
 }
 
-/// At most twice what was predicted (GL_RULES section 9), no slack.
+/// At most twice what was predicted (docs/gl_rules.md section 9), no slack.
 void check_density(const std::map<std::string, Others>& others) {
   CHECK(!others.empty());
   for (const auto& [what, sum] : others) {

@@ -1,6 +1,6 @@
 #include "tests/judge/random_scene.h"
 
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
 
 namespace trueshade::testing {

@@ -7,7 +7,7 @@
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"

@@ -1,5 +1,5 @@
-// Textured surfaces judged: class TEX (GL_RULES sections 5 and 9). Our own frames and real drivers pass, wrong lookups
-// do not.
+// Textured surfaces judged: class TEX (docs/gl_rules.md sections 5 and 9). Our own frames and real drivers pass, wrong
+// lookups do not.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include "judge/legal/texture_range.h"
 #include "judge/stages/validate.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"

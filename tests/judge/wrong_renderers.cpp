@@ -9,7 +9,7 @@
 
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/legal_by_formula.h"

@@ -1,4 +1,5 @@
-// The exact oracle against numbers computed by hand: GL_RULES section 8, rows 2 to 16 (docs/arithmetic.md 3 and 4).
+// The exact oracle against numbers computed by hand: docs/gl_rules.md section 8, rows 2 to 16 (docs/arithmetic.md 3 and
+// 4).
 #include "oracle/exact_coverage.h"
 
 #include <cmath>

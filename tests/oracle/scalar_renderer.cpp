@@ -1,4 +1,5 @@
-// The scalar renderer against numbers computed by hand: GL_RULES section 8 rows 20, 21, 28, 31, 52 and simple lights.
+// The scalar renderer against numbers computed by hand: docs/gl_rules.md section 8 rows 20, 21, 28, 31, 52 and simple
+// lights.
 #include "oracle/scalar_renderer.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "core/fp_env.h"
 #include "raster/clusters/cluster_bins.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/raster/drawn_alike.h"
 

@@ -1,5 +1,5 @@
-// GL_RULES section 8, rows 1 to 17: viewport, snap, fill rule, clipping, facing. Coordinates are window pixels, y up,
-// in a 256 x 256 viewport. Every row runs on every SIMD target with three tile sizes.
+// docs/gl_rules.md section 8, rows 1 to 17: viewport, snap, fill rule, clipping, facing. Coordinates are window pixels,
+// y up, in a 256 x 256 viewport. Every row runs on every SIMD target with three tile sizes.
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,5 +1,5 @@
-// GL_RULES section 8, rows 22, 25 and 26: fixed-point depth and polygon offset, on every SIMD target with three tile
-// sizes; and that culling by depth stays lossless under them. Coordinates as in gl_rules_values.cpp.
+// docs/gl_rules.md section 8, rows 22, 25 and 26: fixed-point depth and polygon offset, on every SIMD target with three
+// tile sizes; and that culling by depth stays lossless under them. Coordinates as in gl_rules_values.cpp.
 #include <cmath>
 #include <random>
 

@@ -1,6 +1,6 @@
-// GL_RULES section 8, rows 18 to 21, 23, 24 and 27 to 31: depth and attributes. Coordinates are window pixels, y up, in
-// a 256 x 256 viewport. Every row runs on every SIMD target with three tile sizes. Rows 22, 25 and 26 (D24 and D16
-// stores, polygon offset) are in gl_rules_depth.cpp. Row 23 speaks of a depth written by a shader: there is
+// docs/gl_rules.md section 8, rows 18 to 21, 23, 24 and 27 to 31: depth and attributes. Coordinates are window pixels,
+// y up, in a 256 x 256 viewport. Every row runs on every SIMD target with three tile sizes. Rows 22, 25 and 26 (D24 and
+// D16 stores, polygon offset) are in gl_rules_depth.cpp. Row 23 speaks of a depth written by a shader: there is
 // none either, and depth clamp stands in. The fragment's w of row 28 is in no plane; the smooth attributes there hold
 // it, and tests/oracle its own value.
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Texture lookups against the scalar oracle, and the rows of GL_RULES section 8 about them, on every SIMD target.
+// Texture lookups against the scalar oracle, and the rows of docs/gl_rules.md section 8 about them, on every SIMD
+// target.
 #include <algorithm>
 #include <bit>
 #include <cmath>

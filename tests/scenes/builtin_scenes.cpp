@@ -6,7 +6,7 @@
 
 #include "expect_error.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 
 namespace trueshade {
 namespace {

@@ -1,5 +1,5 @@
 #include "expect_error.h"
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 
 namespace trueshade::json {
 namespace {

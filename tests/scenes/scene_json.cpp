@@ -4,7 +4,7 @@
 #include <set>
 
 #include "expect_error.h"
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"

@@ -2,7 +2,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenes/files/json_value.h"
+#include "expect_error.h"
+#include "scenes/json/json_value.h"
 #include "scenes/pipeline/pipeline_json.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/files/scene_json.h"
@@ -44,12 +45,61 @@ void check_agreement(const std::string& name, std::span<const json::ObjectKeys> 
 }
 
 TEST_CASE("readers and schemas list the same keys") {
-  check_agreement("pipeline/pipeline.schema.json", pipeline_object_keys());
-  check_agreement("files/scene.schema.json", scene_object_keys());
+  check_agreement("schemas/pipeline.schema.json", pipeline_object_keys());
+  check_agreement("schemas/scene.schema.json", scene_object_keys());
+}
+
+/// Every key of every object has a description of its own: a sentence.
+void check_descriptions(const std::string& name, size_t least) {
+  const json::Value value = schema(name);
+  const json::Node root(value, name);
+  const json::Node definitions = root.member("$defs");
+  size_t keys = 0;
+  const auto check_object = [&](const json::Node& object) {
+    const json::Node properties = object.member("properties");
+    for (const std::string& key : keys_of(properties)) {
+      const json::Node property = properties.member(key);
+      INFO(name << property.pointer());
+      const auto description = property.find("description");
+      REQUIRE(description);
+      const std::string& text = description->string();
+      CHECK(text.size() > 20);
+      CHECK(((text[0] >= 'A' && text[0] <= 'Z') || text[0] == '1'));
+      CHECK(text.back() == '.');
+      if (property.find("default")) CHECK(text.find("Default: ") != std::string::npos);
+      ++keys;
+    }
+  };
+  check_object(root);
+  for (const std::string& object : keys_of(definitions)) check_object(definitions.member(object));
+  CHECK(keys >= least);
+}
+
+TEST_CASE("every key of a schema has a description, with the default where there is one") {
+  check_descriptions("schemas/pipeline.schema.json", 91);
+  check_descriptions("schemas/scene.schema.json", 180);
+}
+
+TEST_CASE("scene and pipeline files may name their schema, by a string") {
+  CHECK(pipeline_from_json(R"({"$schema": "pipeline.schema.json", "width": 7})", "p.json", Pipeline{}).width == 7);
+  CHECK(scene_from_json(R"({"$schema": "https://example.org/scene.schema.json", "version": 1})", "s.json", {})
+            .lights.empty());
+  CHECK_STARTS_WITH(
+      error_of(ErrorKind::bad_input, [] { pipeline_from_json(R"({"$schema": 7})", "p.json", Pipeline{}); }),
+      "p.json: /$schema: ");
+  CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [] { scene_from_json(R"({"$schema": {}})", "s.json", {}); }),
+                    "s.json: /$schema: ");
+}
+
+TEST_CASE("a schema names the other beside it") {
+  const json::Value value = schema("schemas/scene.schema.json");
+  const json::Node root(value, "scene.schema.json"), properties = root.member("properties");
+  const std::string file = properties.member("pipeline").member("$ref").string();
+  CHECK(schema("schemas/" + file).is.index() != 0);
 }
 
 TEST_CASE("the pipeline schema lists the presets that exist") {
-  const json::Value value = schema("pipeline/pipeline.schema.json");
+  const json::Value value = schema("schemas/pipeline.schema.json");
   const json::Node root(value, "pipeline.schema.json"),
       properties = root.member("properties"), preset = properties.member("preset"), names = preset.member("enum");
   REQUIRE(names.array(1, 100).size() == presets().size());

@@ -232,7 +232,7 @@ TEST_CASE("a constant texture has constant levels, and a column is a row turned"
   for (size_t k = 0; k < row.levels.size(); ++k) CHECK(row.levels[k].bytes == column.levels[k].bytes);
 }
 
-TEST_CASE("levels are averaged as light, not as codes") {  // GL_RULES rows 36 and 59
+TEST_CASE("levels are averaged as light, not as codes") {  // docs/gl_rules.md rows 36 and 59
   Texture texture{"", TextureFormat::srgb8_a8, {{2, 1, {0, 0, 0, 0, 255, 255, 255, 255}}}};
   build_mip_chain(texture);
   CHECK(texture.levels[1].bytes == std::vector<uint8_t>{188, 188, 188, 128});
@@ -241,7 +241,7 @@ TEST_CASE("levels are averaged as light, not as codes") {  // GL_RULES rows 36 a
   CHECK(texture.levels[1].bytes == std::vector<uint8_t>{128, 128, 128, 128});
 }
 
-TEST_CASE("texels read as OpenGL says") {  // GL_RULES rows 37 and 38
+TEST_CASE("texels read as OpenGL says") {  // docs/gl_rules.md rows 37 and 38
   Texture codes{"", TextureFormat::rgba8, {{256, 1, {}}}};
   for (int k = 0; k < 256; ++k)
     for (int c = 0; c < 4; ++c) codes.levels[0].bytes.push_back(uint8_t(k));

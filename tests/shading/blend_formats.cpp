@@ -1,5 +1,6 @@
-// The formats beside rgba8, rgba16f and rgba32f: GL_RULES section 8, rows 35 to 37 and 51, what DESIGN's settled 4 says
-// of fixed point, formats without alpha; and the drift of lights blended one by one (GL_RULES section 4).
+// The formats beside rgba8, rgba16f and rgba32f: docs/gl_rules.md section 8, rows 35 to 37 and 51, what
+// docs/gl_rules.md section 10, point 4 says of fixed point, formats without alpha; and the drift of lights blended one
+// by one (docs/gl_rules.md section 4).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -147,7 +148,7 @@ TEST_CASE("Row 51: light upon light in sRGB adds what the codes stand for") {
   });
 }
 
-TEST_CASE("DESIGN, settled 4: ADD ONE ONE in fixed point is min(max, D + q(s)), in every format and group") {
+TEST_CASE("Settled point 4: ADD ONE ONE in fixed point is min(max, D + q(s)), in every format and group") {
   on_every_simd([](std::string_view simd) {
     for (const Format format : kTargetFormats) {
       if (info(format).number_class != NumberClass::unorm) continue;
@@ -349,7 +350,7 @@ Drifts even_drift_of(int lights, std::string_view simd) {
 
 }  // namespace
 
-TEST_CASE("Lights blended one by one drift as GL_RULES section 4 measured, and a loop does not") {
+TEST_CASE("Lights blended one by one drift as docs/gl_rules.md section 4 measured, and a loop does not") {
   struct Row {
     int lights;
     double unorm8, truncated, nearest;  // bias, codes of 255
@@ -373,7 +374,7 @@ TEST_CASE("Lights blended one by one drift as GL_RULES section 4 measured, and a
 // Section 4 gives the biases of "inverse-square-like" contributions and not their formula. This is one of that kind, a
 // light at a distance u of [0, 1), whose biases in plain scalar arithmetic on integers are the section's; what it does
 // not show is whose contributions they were. The fourth number, of nearest halves, was not looked at for the choice.
-TEST_CASE("256 lights of contributions like an inverse square drift as GL_RULES section 4 has it") {
+TEST_CASE("256 lights of contributions like an inverse square drift as docs/gl_rules.md section 4 has it") {
   on_every_simd([&](std::string_view simd) {
     const Drifts drifts = drift_of(256, simd, [](double u) { return 2.3 / 256 / (1 + 120 * u * u); });
     CHECK(std::fabs(drifts.unorm8.bias - -18.2) < .3);

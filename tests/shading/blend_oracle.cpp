@@ -101,7 +101,7 @@ void compare_all(size_t pixels, Random& random, std::string_view simd) {
           }
 }
 
-/// Codes by GL_RULES section 4: products of pre-rounded codes, each rounded.
+/// Codes by docs/gl_rules.md section 4: products of pre-rounded codes, each rounded.
 int mul(int a, int b) {
   int t = a * b;
   t += t >> 8;

@@ -1,4 +1,4 @@
-// GL_RULES section 8, rows 32 to 34 and 38 to 50: stores and blending, on every SIMD target.
+// docs/gl_rules.md section 8, rows 32 to 34 and 38 to 50: stores and blending, on every SIMD target.
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/shading/nan_search.h"
 

@@ -1,5 +1,5 @@
-// GL_RULES section 8, rows 52, 55 and 56: the light pass against a naive float32 loop written from docs/arithmetic.md
-// sections 8 and 9, bit for bit, over the stored planes of the same frame.
+// docs/gl_rules.md section 8, rows 52, 55 and 56: the light pass against a naive float32 loop written from
+// docs/arithmetic.md sections 8 and 9, bit for bit, over the stored planes of the same frame.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -182,7 +182,8 @@ TEST_CASE("The light sums of both presets are the real numbers' to within the bo
                                   {pixel.albedo[0], pixel.albedo[1], pixel.albedo[2]}};
           const std::array<double, 3> real = oracle::lit_color(surface, scene, model);
           for (size_t k = 0; k < 3; ++k) {
-            // Each light: some ten roundings of its terms, and shininess times those of N.H (GL_RULES section 6).
+            // Each light: some ten roundings of its terms, and shininess times those of N.H (docs/gl_rules.md section
+            // 6).
             double bound = 0;
             for (const Light& light : scene.lights)
               bound += double(light.color[int(k)]) * (double(pixel.albedo[k]) + double(model.specular_color[int(k)]));

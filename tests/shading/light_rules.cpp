@@ -1,5 +1,5 @@
-// GL_RULES section 8, rows 52 to 54, and what lossless culling must survive: lights that touch, are out of range or
-// hold no numbers, and any number of them.
+// docs/gl_rules.md section 8, rows 52 to 54, and what lossless culling must survive: lights that touch, are out of
+// range or hold no numbers, and any number of them.
 #include <bit>
 #include <cmath>
 #include <cstring>

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/simd/simd_target.h"
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/shading/two_squares.h"

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "tests/judge/mutants/surface_mutants.h"
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 
 namespace trueshade::oracle {
 

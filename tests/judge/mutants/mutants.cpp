@@ -145,12 +145,12 @@ void other_clear(Scene& s, Pipeline&) { s.clear += glm::vec4(0.01f, 0.0f, 0.0f, 
 /// One triangle that is seen: the one nominally in front nearest to the middle of the picture.
 void triangle_dropped(Scene& s, Pipeline& p) {
   const Projector projector(s, p, Profile{});
-  const CandidateMap map = find_candidates(projector);
+  const PossibleSurfaces map = possible_surfaces(projector);
   const auto pixels = size_t(p.width) * size_t(p.height);
   for (size_t step = 0; step < pixels; ++step) {
-    const std::span<const Candidate> list = map.at((pixels / 2 + size_t(p.width) / 2 + step) % pixels);
-    const Candidate* front = nullptr;
-    for (const Candidate& c : list)
+    const std::span<const PossibleSurface> list = map.at((pixels / 2 + size_t(p.width) / 2 + step) % pixels);
+    const PossibleSurface* front = nullptr;
+    for (const PossibleSurface& c : list)
       if (c.certain && (front == nullptr || c.middle < front->middle)) front = &c;
     if (front == nullptr) continue;
     std::vector<uint32_t>& indices = s.meshes[s.instances[front->instance].mesh].indices;

@@ -1,4 +1,4 @@
-#include "scenes/light_mesh.h"
+#include "scenes/pipeline/light_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 
 #include <algorithm>
 #include <charconv>

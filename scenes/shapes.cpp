@@ -1,4 +1,4 @@
-#include "scenes/builtin/shapes.h"
+#include "scenes/shapes.h"
 
 #include <cstdlib>
 

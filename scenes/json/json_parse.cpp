@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "scenes/files/json_value.h"
+#include "scenes/json/json_value.h"
 
 namespace trueshade::json {
 namespace {

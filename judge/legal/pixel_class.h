@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace trueshade::oracle {
+
+/// Why a pixel is what it is (docs/gl_rules.md section 7). The image passes where no pixel is a violation.
+enum class PixelClass : uint8_t {
+  exact,    ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
+  store_2,  ///< the nominal surface, some channel stored as another legal neighbour
+  edge,     ///< another surface, whose edge the profile allows on either side of the sample
+  depth_tie,  ///< another surface, whose depth the profile cannot tell from the nominal one's
+  clip,       ///< another surface, at an edge made by clipping
+  branch,     ///< a comparison in the shader may go either way
+  tex,        ///< a texture lookup, or the alpha test it decides, has several legal results
+  undefined,  ///< OpenGL gives the value no meaning: normalize(0), a triangle that may have no area
+  violation,  ///< in no legal set
+};
+inline constexpr size_t kPixelClasses = 9;
+std::string_view text(PixelClass c);
+
+/// A class a pixel keeps when another of its draws has a lesser one.
+bool worse(PixelClass a, PixelClass b);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+
+#include "scenes/mesh.h"
+
+namespace trueshade {
+
+/// How normals are made for a mesh that has none.
+enum class MissingNormals : uint8_t {
+  flat,    ///< One normal a triangle. No two triangles share a vertex afterwards.
+  smooth,  ///< One normal a vertex: the unit vector along the sum of the cross products of the triangles around it.
+};
+
+/// Gives a mesh without normals normals. A triangle without an area gives a zero normal.
+void add_normals(Mesh& mesh, MissingNormals kind);
+
+}  // namespace trueshade

@@ -1,0 +1,231 @@
+// scenes/: what is read, moved, checked and hashed.
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/pipeline.h"
+#include "tests/fp_modes/rows.h"
+#include "tests/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+constexpr const char* kText = R"({"version": 1, "fps": 29.97,
+  "camera": {"target": [0.1, 1, 0], "fov_deg": 41.3,
+             "steps": [{"time": 0, "eye": [0, 3, 9.1]}, {"time": 7, "eye": [6.3, 3, 6]}]},
+  "clear": [0.1, 1e-40, 0.3, 0.7],
+  "textures": [{"name": "tiles", "pattern": {"type": "noise", "size": [13, 9], "cells": [3, 3], "format": "rgba32f"}}],
+  "materials": [{"name": "tiled", "color": [0.9, 0.7, 1e-40], "roughness": 0.3, "alpha_cutoff": 1e-40,
+                 "color_map": {"texture": "tiles", "lod_bias": 0.1}}],
+  "objects": [{"mesh": "sphere", "material": "tiled", "scale": 0.7, "rotation_deg": [10, 20, 33.3],
+               "grid": {"count": [2, 1, 2], "spacing": 1.3, "jitter": 0.4, "shrink": 0.3, "turn_deg": 77, "seed": 3}},
+              {"mesh": "cube", "color": [0.1, 0.2, 0.3],
+               "steps": [{"time": 0, "position": [0.1, 0, 0], "rotation_deg": [0, 0, 0]},
+                         {"time": 3, "position": [1.7, 1e-40, 0], "rotation_deg": [0, 0, 100]}]}],
+  "lights": [{"type": "spot", "position": [2, 4, 3], "cone_deg": 20.1, "penumbra_deg": 8, "range": 12.1,
+              "color": [0.1, 1e-40, 3],
+              "steps": [{"time": 0, "direction": [-1, -2, 0], "intensity": 0.3},
+                        {"time": 3, "direction": [1, -2, 0], "intensity": 2}]},
+             {"type": "ring", "count": 5, "radius": 1.7, "range": 4.1, "turn_s": 20.3, "noise": 0.3, "seed": 4,
+              "colors": [[0.4, 0.1, 0], [0, 0.1, 0.4]]}],
+  "pipeline": {"light_model": {"damping": 0.1}}})";
+
+constexpr const char* kPly = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                             "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0.1 0.2 0.3 1 2 3\n1.1 0.7 0 4 5 6\n1 1.3 1e-40 200 8 9\n0 1 0.1 10 11 12\n4 0 1 2 3\n";
+
+const ScratchFolder& folder() {
+  static const ScratchFolder scratch;
+  return scratch;
+}
+
+/// Both are written under the default mode, as scene_of_all() is made there first.
+const std::string& scene_path() {
+  static const std::string path = folder().write("scene.json", kText);
+  return path;
+}
+const std::string& mesh_path() {
+  static const std::string path = folder().write("mesh.ply", kPly);
+  return path;
+}
+
+const Orbit kOrbit{0, {0.1f, 0.2f, 0.3f}, {1.3f, 0.0f, 1e-40f}, {0.0f, 1.7f, 0.0f}, 3.3f, 0.21f};
+const Track kTrack{{0.1, 0.7}, {{0.1, 0.2, 0.3, 0.4}, {1.0, 1e-310, 3.0, 0.7}}, Between::linear, true, 0.1, 0.9};
+const Placement kPlacement{{0.1, 0.2, 1e-310}, {0.1, 0.2, 0.3, 0.9273618495495704}, {0.7, 1.1, 3.0}};
+
+void call_load(Bytes& out) {
+  out.put(load_scene(scene_path()));
+  out.put(load_scene(mesh_path()));
+  out.put(load_scene("builtin:cornell"));
+  out.put_error([] { load_scene("builtin:city,lights=0.1"); });
+  out.put_error([] { load_scene(scratch_path("absent.json")); });
+}
+
+void call_hash(Bytes& out) {
+  out.put(scene_hash(scene_of_all()));
+  out.put(scene_of_all().triangle_count());
+  for (const Material& material : scene_of_all().materials) {
+    out.put(material.masked());
+    out.put(material.textured());
+  }
+}
+
+void call_validate(Bytes& out) {
+  validate(scene_of_all());
+  validate_moving(scene_of_all(), 0.1);
+  for (const Mesh& mesh : scene_of_all().meshes) out.put(reach_of(mesh));
+  out.put_error([] {
+    Scene scene = scene_of_all();
+    scene.lights[0].range = -1e-40f;
+    validate(scene);
+  });
+  out.put_error([] {
+    Scene scene = scene_of_all();
+    scene.camera.near = 0.0f;
+    validate_moving(scene, 0.1);  // the error prints the time
+  });
+}
+
+void call_set_time(Bytes& out) {
+  Scene scene = scene_of_all();
+  for (const double time : {0.0, 0.1, 2.7, -1e5}) {
+    set_time(scene, time);
+    out.put(scene);
+  }
+  out.put_error([&] { set_time(scene, 1e7); });
+  out.put_error([&] { set_time(scene, std::numeric_limits<double>::quiet_NaN()); });
+}
+
+void call_tracks(Bytes& out) {
+  for (const double time : {0.3, 0.65, 17.3}) {
+    out.put(value_at(kTrack, time));
+    out.put(direction_at(kTrack, time));
+    out.put(rotation_at(kTrack, time));
+    out.put(position_at(kOrbit, time));
+  }
+  Light light;
+  Camera camera;
+  set_property(light, LightProperty::color, {0.1, 1e-40, 0.7, 0.0});
+  set_property(light, LightProperty::intensity, {0.3, 0.0, 0.0, 0.0});
+  set_property(camera, CameraProperty::fov_y, {0.7, 0.0, 0.0, 0.0});
+  out.put_light(light);
+  out.put(camera.fov_y_rad);
+  out.put(scene_of_all().timeline.empty());
+}
+
+void call_placements(Bytes& out) {
+  out.put(world_from_object(kPlacement));
+  out.put(copied(kPlacement, kPlacement));
+  out.put(turned(kPlacement.rotation, {0.5, 0.5, 0.1, 0.7}));
+  out.put(turn_about(1, 0.7));
+  out.put(unit(glm::dvec4(0.1, 0.2, 0.3, 0.4)));
+}
+
+void call_camera(Bytes& out) {
+  Camera camera = scene_of_all().camera;
+  const Matrix4 clip = clip_from_world(camera, 1.7), other = clip_from_world(camera, 0.3, true);
+  out.put(clip);
+  out.put(other);
+  out.put(product(clip, other));
+  out.put(view_axis(camera));
+  camera.clip_from_world.emplace();
+  camera.clip_from_world->fill(0.1f);
+  out.put(clip_from_world(camera, 1.7));
+  out.put(view_axis(camera));
+}
+
+void call_textures(Bytes& out) {
+  for (const TextureFormat format :
+       {TextureFormat::rgba8, TextureFormat::srgb8_a8, TextureFormat::rgba16f, TextureFormat::rgba32f}) {
+    Texture texture{"t", format, {{3, 2, {}}}};
+    for (const float x : {0.1f, 0.5f, 1e-40f, 0.3f, 3e-8f, 0.999f})
+      append_texel(format, {x, 0.7f, x, 0.25f}, texture.levels[0].bytes);
+    build_mip_chain(texture);
+    for (const TextureLevel& level : texture.levels) out.put(level.bytes);
+    for (int x = 0; x < 3; ++x) out.put(texel_value(texture, 0, x, 1));
+    out.put(bytes_per_texel(format));
+  }
+  out.put(scene_of_all().materials[0].color_map.used());
+}
+
+void call_shininess(Bytes& out) {
+  for (const float roughness : {1e-40f, 0.1f, 0.3f, 0.77f, 1.0f}) out.put(shininess_of_roughness(roughness));
+}
+
+void call_builtin(Bytes& out) {
+  for (const BuiltinInfo& scene : builtin_scenes()) out.put(scene.name);
+  out.put(builtin_scene("circle,lights=7,objects=5"));
+  out.put_error([] { builtin_scene("nowhere"); });
+}
+
+void call_mesh(Bytes& out) {
+  const Mesh& mesh = scene_of_all().meshes[0];
+  out.put(mesh.vertex_count());
+  out.put(mesh.triangle_count());
+  out.put(mesh.has_uv());
+  out.put(mesh.has_color());
+}
+
+constexpr Row kRows[] = {
+    {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
+    {"scenes/camera.h", "clip_from_world product view_axis", call_camera},
+    {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color", call_mesh},
+    {"scenes/placement.h", "world_from_object copied turned turn_about unit", call_placements},
+    {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used", call_textures},
+    {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property empty", call_tracks},
+    {"scenes/pipeline/transparency.h", "draws_transparent",
+     [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},
+    {"scenes/scene.h", "load_scene Image", call_load},
+    {"scenes/scene.h", "scene_hash triangle_count masked textured", call_hash},
+    {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
+    {"scenes/scene.h", "set_time", call_set_time},
+    {"scenes/scene.h", "shininess_of_roughness", call_shininess},
+};
+
+}  // namespace
+
+void Bytes::put_light(const Light& light) {
+  put(light.type);
+  for (const glm::vec3& three : {light.position, light.direction, light.color, light.attenuation, light.ambient})
+    put(three);
+  for (const float number : {light.range, light.cone_rad, light.penumbra_rad, light.spot_exponent}) put(number);
+}
+
+void Bytes::put(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    for (const auto& stream : mesh.position) put(stream);
+    for (const auto& stream : mesh.normal) put(stream);
+    for (const auto& stream : mesh.uv) put(stream);
+    for (const auto& stream : mesh.color) put(stream);
+    put(mesh.indices);
+  }
+  for (const Material& material : scene.materials) {
+    put(material.base_color);
+    put(material.shininess);
+  }
+  for (const Texture& texture : scene.textures)
+    for (const TextureLevel& level : texture.levels) put(level.bytes);
+  put(scene.instances);
+  for (const Light& light : scene.lights) put_light(light);
+  put(scene.clear);
+  put(scene.camera.eye);
+  put(scene.camera.target);
+  put(scene.camera.fov_y_rad);
+  put(scene.camera.near);
+  put(scene.camera.far);
+  put(scene.timeline.fps);
+  put(scene.pipeline_text);
+}
+
+const Scene& scene_of_all() {
+  static const Scene scene = load_scene(scene_path());
+  return scene;
+}
+
+/// Joined as text: paths of the standard library grow by floating-point arithmetic, which a mode may trap.
+std::string scratch_path(std::string_view name) {
+  static const std::string root = folder().path("");
+  return root + std::string(name);
+}
+
+std::span<const Row> rows_of_scenes() { return kRows; }
+
+}  // namespace trueshade
