@@ -75,7 +75,7 @@ void boxes(benchmark::State& state, bool bars, bool fast, std::string_view targe
   const FpScope fp;
   const SimdScope simd(target);
   const Scene scene = bars ? light_box_edges(city().scene) : light_boxes(city().scene);
-  const Execution execution{.threads = 1, .fast_geometry = fast, .simd = target};
+  const Execution execution{.threads = 1, .simd = target, .fast_geometry = fast};
   const Image& depth = plane_named(city().planes, "depth");
   per_item(state, double(scene.triangle_count()), [&] {
     benchmark::DoNotOptimize(overlay(scene, city().pipeline, execution, depth).texels.data());

@@ -106,7 +106,7 @@ HWY_INLINE MWF pixel_spans(const Intervals& ndc, const WindowTransform& t, int a
 constexpr int kMostLanes = HWY_MAX_BYTES / sizeof(float);
 
 // A cluster of a run.
-struct ListedCluster {
+struct LaneCluster {
   const ClusterRun* run;
   uint32_t cluster;
 };
@@ -127,7 +127,7 @@ struct BoxLanes {
   }
 
   // Boxes of any instances, one each.
-  HWY_INLINE explicit BoxLanes(const ListedCluster* of) {
+  HWY_INLINE explicit BoxLanes(const LaneCluster* of) {
     const DWF d;
     constexpr size_t kNumbers = 16 + 6;
     alignas(64) float lane[kNumbers][kMostLanes];
@@ -163,7 +163,7 @@ struct ConeLanes {
   }
 
   // Cones of any runs, one each.
-  HWY_INLINE explicit ConeLanes(const ListedCluster* of) {
+  HWY_INLINE explicit ConeLanes(const LaneCluster* of) {
     const DWF d;
     alignas(64) float lane[13][kMostLanes];
     for (size_t k = 0; k < hn::Lanes(d); ++k) {
@@ -324,7 +324,7 @@ ClusterDraw draw_of(const Bounds& b, int k, const WindowTransform& t, uint32_t i
 void append_seen_simd(std::span<const ClusterRun> runs, const WindowTransform& t, std::vector<ClusterDraw>& out) {
   const auto lanes = uint32_t(hn::Lanes(DWF()));
   Bounds b;
-  ListedCluster lane[kMostLanes];
+  LaneCluster lane[kMostLanes];
   uint32_t i = runs.empty() ? 0 : runs[0].first;
   for (size_t at = 0; at < runs.size();) {
     const ClusterRun& run = runs[at];

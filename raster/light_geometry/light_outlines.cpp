@@ -51,31 +51,9 @@ void transform_mesh_simd(const LightMesh& mesh, const Light& light, const View& 
   }
 }
 
-/// Counts covered samples, whatever their depth.
-struct LayerCountSink {
-  uint16_t* counts;
-  template <class T>
-  void begin(const TriangleSetup<T>&) {}
-  void begin_piece(const ClipVertex*, const ClippedFan&, int, const WindowTransform&) {}
-  bool hidden(int) const { return false; }
-  HWY_INLINE bool vector(int at, M64 covered, const V64*) {
-    const D64 d;
-    alignas(64) double one[HWY_MAX_BYTES / sizeof(double)];
-    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i)
-      counts[size_t(at) + i] = uint16_t(counts[size_t(at) + i] + (one[i] != 0.0));
-    return false;
-  }
-  bool scalar(int at, double, double, double) {
-    ++counts[at];
-    return false;
-  }
-  void finish_block(int) {}
-};
-
 void count_mesh_simd(const LightMesh& mesh, const TransformedMesh& placed, const GeometryState& state,
                      const WindowTransform& window, const TileRect& rect, uint16_t* counts) {
-  LayerCountSink sink{counts};
+  CountSink<uint16_t> sink{counts};
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     WindowTriangle triangle;
     ClipVertex clip[3];

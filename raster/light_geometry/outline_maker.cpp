@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "raster/triangles/clipped_fan.h"
+#include "raster/triangles/edge_rule.h"
 
 namespace trueshade {
 namespace {
@@ -234,7 +235,7 @@ OutlineKind OutlineMaker::add_edges() {
   for (size_t i = 0; i < loop_.size(); ++i) {
     const Corner &a = loop_[i], &b = loop_[i + 1 < loop_.size() ? i + 1 : 0];
     const int64_t dx = b.x - a.x, dy = b.y - a.y;
-    const bool owns = dy < 0 || (dy == 0 && (window_.upper_left ? dx < 0 : dx > 0));
+    const bool owns = owns_edge(dx, dy, window_.upper_left);
     const Wide e =
         Wide(dx) * (int64_t(window_.y0) * 256 + 128 - a.y) - Wide(dy) * (int64_t(window_.x0) * 256 + 128 - a.x);
     const Wide at = (e - (owns ? 0 : 1)) >> 8, right = Wide(-dy) * (width - 1), top = Wide(dx) * (height - 1);

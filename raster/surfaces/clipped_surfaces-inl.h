@@ -1,5 +1,5 @@
-// Surfaces of triangles that were clipped or are too large for the vector path: a few triangles, each over many
-// pixels. Included once per SIMD target. docs/arithmetic.md section 5.
+// Surfaces of triangles that were clipped, or that are too large for vectors' coordinates: few triangles, each over
+// many pixels. Included once per SIMD target. docs/arithmetic.md section 5.
 #if defined(TRUESHADE_RASTER_SURFACES_CLIPPED_SURFACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SURFACES_CLIPPED_SURFACES_INL_H_
 #undef TRUESHADE_RASTER_SURFACES_CLIPPED_SURFACES_INL_H_
@@ -12,52 +12,55 @@
 #include <algorithm>
 #include <vector>
 
+#include "raster/surfaces/interpolate-inl.h"
+#include "raster/surfaces/material_maps-inl.h"
+#include "raster/surfaces/surface_task.h"
 #include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/surfaces/interpolate-inl.h"
 #include "raster/triangles/lanes-inl.h"
-#include "raster/textures/maps-inl.h"
-#include "raster/surfaces/surfaces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-struct StreamGroup {
-  int first, count;
-  PlaneState plane;
-};
-
-// Which planes are interpolated, and how.
-inline int stream_groups(const GBufferState& planes, bool need_uv, StreamGroup out[4]) {
-  int count = 0;
-  if (!planes.position_from_depth) out[count++] = {kPosition, 3, planes.position};
-  out[count++] = {kNormal, 3, planes.normal};
-  out[count++] = {kAlbedo, 4, planes.albedo};
-  if (need_uv) out[count++] = {kUv, 2, planes.uv};
-  return count;
-}
-
-inline bool all_smooth(const StreamGroup* group, int groups) {
-  return std::all_of(group, group + groups,
-                     [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
-}
-
-// A piece of a triangle that needed care, with everything interpolation wants: one triangle, many pixels.
-struct CarefulSurface {
+/// A piece of a clipped triangle with everything that interpolation reads.
+struct ClippedPiece {
   uint32_t id;
   TriangleSetup<__int128> setup;
   EdgeVectors<__int128> edges;
-  double u[3], area;  // canonical order
-  double attribute[kStreams][3], low[kStreams], high[kStreams];
+  double u[3], area;  ///< 1 / w of the corners in canonical order; the edges' exact sum, rounded once
+  double attribute[kStreams][3];
   float provoking[kStreams];
 
-  CarefulSurface(uint32_t of, const TriangleSetup<__int128>& s) : id(of), setup(s), edges(s) {}
+  ClippedPiece(uint32_t of, const TriangleSetup<__int128>& s)
+      : id(of), setup(s), edges(s), area(double(s.edge(0, 0, 0) + s.edge(1, 0, 0) + s.edge(2, 0, 0))) {}
+
+  /// Edge functions at the vector of pixels that begins at (px, py) of the tile.
+  HWY_INLINE void edges_at(double px, double py, V64 e[3]) const {
+    for (int k = 0; k < 3; ++k) e[k] = edges.at(k, px, py);
+  }
+  /// Pixels that the piece covers.
+  HWY_INLINE M64 covers(const V64 e[3]) const {
+    M64 inside = hn::Ge(e[0], hn::Set(D64(), double(setup.least[0])));
+    for (int k = 1; k < 3; ++k) inside = hn::And(inside, hn::Ge(e[k], hn::Set(D64(), double(setup.least[k]))));
+    return inside;
+  }
+  HWY_INLINE Barycentrics weights(const V64 e[3]) const {
+    const D64 d;
+    const V64 inverse_w[3] = {hn::Set(d, u[0]), hn::Set(d, u[1]), hn::Set(d, u[2])};
+    return barycentrics(e, inverse_w, hn::Set(d, area));
+  }
 };
 
-// `value`: of each stream at the triangle's corners, as submitted.
-inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
-                                 uint32_t id, const float value[kStreams][3], std::vector<CarefulSurface>& out) {
+/// Whether the pieces of triangle `id` are among these.
+inline bool has_pieces(const std::vector<ClippedPiece>& pieces, uint32_t id) {
+  return std::any_of(pieces.begin(), pieces.end(), [id](const ClippedPiece& p) { return p.id == id; });
+}
+
+/// Adds the pieces of triangle `id`. `value`: of each stream at the triangle's corners, as submitted. Attributes are
+/// set for the streams of `group`.
+inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
+                               uint32_t id, const float value[kStreams][3], std::vector<ClippedPiece>& out) {
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   const WindowTransform& t = in.view.window;
   GeometryState any_side = in.state;
@@ -70,68 +73,75 @@ inline void add_careful_surfaces(const TileDraws& in, const TileRect& rect, cons
     TriangleSetup<__int128> setup;
     if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, setup))
       continue;
-    CarefulSurface surface(id, setup);
-    surface.area = double(surface.setup.edge(0, 0, 0) + surface.setup.edge(1, 0, 0) + surface.setup.edge(2, 0, 0));
+    ClippedPiece& made = out.emplace_back(id, setup);
     int order[3];
     canonical_order(piece.triangle, order);
-    for (int k = 0; k < 3; ++k) surface.u[k] = 1.0 / fan.polygon.all[piece.corner[order[k]]].c[3];
+    for (int k = 0; k < 3; ++k) made.u[k] = 1.0 / fan.polygon.all[piece.corner[order[k]]].c[3];
     for (int g = 0; g < groups; ++g) {
       for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
         const float* v = value[c];
-        surface.provoking[c] = v[in.state.provoking == Provoking::last ? 2 : 0];
+        made.provoking[c] = v[in.state.provoking == Provoking::last ? 2 : 0];
         for (int k = 0; k < 3; ++k)
-          surface.attribute[c][k] = corner_attribute(fan.polygon, piece.corner[order[k]], clip, t, v[0], v[1], v[2]);
-        const double* const a = surface.attribute[c];
-        surface.low[c] = std::min({a[0], a[1], a[2]});
-        surface.high[c] = std::max({a[0], a[1], a[2]});
+          made.attribute[c][k] = corner_attribute(fan.polygon, piece.corner[order[k]], clip, t, v[0], v[1], v[2]);
       }
     }
-    out.push_back(surface);
   }
 }
 
-// The maps of the lanes that a piece owns, from its weights there.
+/// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes.
 template <class Frames>
-HWY_INLINE void map_piece(const CarefulSurface& s, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
+HWY_INLINE void map_piece(const ClippedPiece& piece, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
                           const Frames& frames, SurfaceTile& out) {
   const D64 d;
-  V64 edge_x[3], edge_y[3], u[3];
-  for (int i = 0; i < 3; ++i) {
-    edge_x[i] = hn::Set(d, double(s.setup.sx[i]));
-    edge_y[i] = hn::Set(d, double(s.setup.sy[i]));
-    u[i] = hn::Set(d, s.u[i]);
+  EdgeSlopes edge;
+  V64 corner[2][3];
+  for (int k = 0; k < 3; ++k) {
+    edge.along_x[k] = hn::Set(d, double(piece.setup.sx[k]));
+    edge.along_y[k] = hn::Set(d, double(piece.setup.sy[k]));
+    edge.u[k] = hn::Set(d, piece.u[k]);
+    for (int c = 0; c < 2; ++c) corner[c][k] = hn::Set(d, piece.attribute[kUv + c][k]);
   }
-  const BarycentricSlopes along_x = slopes(w, edge_x, u), along_y = slopes(w, edge_y, u);
   UvPoint uv;
-  for (int c = 0; c < 2; ++c) {
-    const double* a = s.attribute[kUv + c];
-    coordinate_slopes(along_x, along_y, maps.uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), uv.x[c],
-                      uv.y[c]);
-  }
+  set_uv_slopes(w, edge, maps.uv_how, corner, uv);
   apply_maps(maps, &uv, &owned, &at, frames, out);
 }
 
-// The attributes of one piece at the lanes it owns; the other lanes keep what they have.
-inline void interpolate_piece(const CarefulSurface& s, const V64 e[3], M64 owned, const StreamGroup* group, int groups,
-                              int at, const SceneMaps& maps, const VisibleVertices& work, SurfaceTile& out) {
-  const D64 d;
+/// The attributes of one piece at the lanes that it owns; other lanes keep what they have.
+inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece, const V64 e[3], M64 owned, int at) {
   const D32 df;
-  const V64 u[3] = {hn::Set(d, s.u[0]), hn::Set(d, s.u[1]), hn::Set(d, s.u[2])};
-  const Barycentrics w = barycentrics(e, u, hn::Set(d, s.area));
-  for (int g = 0; g < groups; ++g) {
-    for (int c = group[g].first; c < group[g].first + group[g].count; ++c) {
-      const double* a = s.attribute[c];
-      const V64 plane = affine(group[g].plane.interpolation == Interpolation::smooth ? w.smooth : w.linear,
-                               hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]));
-      const V64 low = hn::Set(d, s.low[c]), high = hn::Set(d, s.high[c]);
-      const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
-      V64 value = hn::IfThenElse(hn::Gt(above, high), high, above);
-      if (group[g].plane.interpolation == Interpolation::flat) value = hn::Set(d, double(s.provoking[c]));
-      const V64 there = hn::PromoteTo(d, hn::Load(df, out.plane[c] + at));
-      hn::Store(hn::DemoteTo(df, hn::IfThenElse(owned, value, there)), df, out.plane[c] + at);
+  const SceneMaps& maps = task.in.view.maps;
+  const auto mine = float_mask(owned);
+  const Barycentrics w = piece.weights(e);
+  for (const StreamGroup* g = task.group; g != task.group + task.groups; ++g) {
+    for (int c = g->first; c < g->first + g->count; ++c) {
+      float* const plane = task.out.plane[c] + at;
+      const V32 value = triangle_attribute(w, g->plane.interpolation, piece.attribute[c], piece.provoking[c]);
+      hn::Store(hn::IfThenElse(mine, value, hn::Load(df, plane)), df, plane);
     }
   }
-  if (maps.textured()) map_piece(s, w, owned, at, maps, GatheredFrames{work, at}, out);
+  if (maps.textured()) map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at}, task.out);
+}
+
+/// The pixels of clipped triangle `id` among those of the vector that begins at pixel `at`: each is of the first piece
+/// that covers it.
+inline void interpolate_clipped_triangle(const SurfaceTask& task, const std::vector<ClippedPiece>& pieces, uint32_t id,
+                                         int at) {
+  const D64 d;
+  const int block = at / kBlockPixels, k = at % kBlockPixels;
+  const double px = block % task.blocks() * kBlockSize + k % kBlockSize;
+  const double py = block / task.blocks() * kBlockSize + k / kBlockSize;
+  alignas(64) double of_id[kMostLanes];
+  for (size_t lane = 0; lane < hn::Lanes(d); ++lane) of_id[lane] = task.visible.id[size_t(at) + lane] == id ? 1.0 : 0.0;
+  M64 undecided = hn::Gt(hn::Load(d, of_id), hn::Zero(d));
+  for (const ClippedPiece& piece : pieces) {
+    if (piece.id != id) continue;
+    V64 e[3];
+    piece.edges_at(px, py, e);
+    const M64 owned = hn::And(undecided, piece.covers(e));
+    if (hn::AllFalse(d, owned)) continue;
+    interpolate_piece(task, piece, e, owned, at);
+    undecided = hn::AndNot(owned, undecided);
+  }
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

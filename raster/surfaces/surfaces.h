@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/surfaces/fast/visible_triangles.h"  // fast path
 #include "raster/visibility/visibility.h"
-#include "raster/surfaces/fast/visible_triangles.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -24,10 +24,6 @@ struct SurfaceTile {
   int covered_pixels;
 };
 
-/// Streams in the order in which a vertex's values lie, without uv and with it: what is wanted comes first.
-inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
-                                                   {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
-
 /// A cluster of which a pixel was seen.
 struct SeenCluster {
   uint32_t position;          ///< in the tile's list
@@ -43,7 +39,7 @@ struct VisibleVertices {
   std::vector<int32_t> slot_of;     ///< by position in the tile's list; -1: not seen
   std::vector<SeenCluster> seen;    ///< by slot
   std::vector<uint32_t> corner[3];  ///< by pixel: vertices of its triangle, in the order submitted
-  VisibleTriangles triangles;       ///< instead of all that, where all attributes are smooth
+  VisibleTriangles triangles;       // fast path
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'

@@ -12,12 +12,11 @@
 #include <algorithm>
 
 #include "raster/textures/texture.h"
-#include "raster/triangles/vertex_stage-inl.h"
+#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using Mask64 = hn::Mask<D64>;
 
 /// Texture coordinates of pixels, floats held in f64, and their derivatives from pixel to pixel.
 struct UvPoint {
@@ -78,15 +77,14 @@ HWY_INLINE void levels_of_detail(const TextureView& texture, const UvPoint* at, 
             high = hn::Set(d, double(s.lod_max));
   for (int h = 0; h < kVectors; ++h) {
     const V64 biased = hn::Add(hn::Mul(hn::Set(d, 0.5), lod[h]), bias);
-    const V64 above = hn::IfThenElse(hn::Lt(biased, low), low, biased);
-    lod[h] = hn::IfThenElse(hn::Gt(above, high), high, above);
+    lod[h] = clamped(biased, low, high);
   }
 }
 
 /// The level a lookup reads first, an integer, the share of the next one, and whether texels are mixed.
 struct MipChoice {
   V64 level, part;
-  Mask64 linear;
+  M64 linear;
 
   HWY_INLINE void set_level(const TextureView& texture, V64 lod) {
     const D64 d;
@@ -98,9 +96,9 @@ struct MipChoice {
       const V64 chosen = hn::Add(below, hn::IfThenElseZero(hn::Gt(hn::Sub(positive, below), half), one));
       level = hn::IfThenElse(hn::Gt(chosen, last), last, chosen);
     } else if (texture.sampler.mip_filter == MipFilter::linear) {
-      const V64 held = hn::IfThenElse(hn::Gt(positive, last), last, positive);
-      level = hn::Floor(held);
-      part = hn::Sub(held, level);
+      const V64 within = hn::IfThenElse(hn::Gt(positive, last), last, positive);
+      level = hn::Floor(within);
+      part = hn::Sub(within, level);
     }
   }
 

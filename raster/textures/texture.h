@@ -31,7 +31,7 @@ struct MaterialMaps {
   std::optional<TextureView> specular;  ///< where the light model reads the material's specular colour
   float normal_scale;
   float base_alpha, alpha_cutoff;  ///< cutoff 0: no test
-  bool one_place = false;          ///< all maps are read at the same texels
+  bool same_texels = false;        ///< all maps read the same texels of the same levels
   bool any() const { return color || specular || normal; }
 };
 

@@ -24,6 +24,31 @@ using DWF = hn::ScalableTag<float>;  // whole vectors
 using VWF = hn::Vec<DWF>;
 using M64 = hn::Mask<D64>;
 
+/// The smaller and the larger of two numbers: the first where they are equal or one is NaN, so that -0 and 0 give the
+/// same answer on every target. x86's instructions have this meaning with the operands exchanged, and Highway's Min and
+/// Max are these instructions if a vector has lanes; elsewhere Min and Max choose otherwise.
+inline constexpr bool kMinTakesSecond = HWY_ARCH_X86 && hn::MaxLanes(D32()) > 1;
+template <class V>
+HWY_INLINE V lesser(V a, V b) {
+  if constexpr (kMinTakesSecond)
+    return hn::Min(b, a);
+  else
+    return hn::IfThenElse(hn::Lt(b, a), b, a);
+}
+template <class V>
+HWY_INLINE V greater(V a, V b) {
+  if constexpr (kMinTakesSecond)
+    return hn::Max(b, a);
+  else
+    return hn::IfThenElse(hn::Gt(b, a), b, a);
+}
+
+/// v within [low, high]; v itself where it equals an end, and NaN where it is NaN.
+template <class V>
+HWY_INLINE V clamped(V v, V low, V high) {
+  return lesser(greater(v, low), high);
+}
+
 /// The lowest `count` of 32 bits, or all.
 HWY_INLINE uint32_t first_bits(int count) { return uint32_t((uint64_t(1) << std::min(count, 32)) - 1); }
 
@@ -39,6 +64,11 @@ HWY_INLINE hn::Mask<D> lane_mask(D d, uint32_t bits) {
   uint8_t bytes[8] = {};
   std::memcpy(bytes, &bits, sizeof(bits));
   return hn::LoadMaskBits(d, bytes);
+}
+
+/// The same lanes of as many floats.
+HWY_INLINE hn::Mask<D32> float_mask(M64 mask) {
+  return hn::Gt(hn::DemoteTo(D32(), hn::IfThenElseZero(mask, hn::Set(D64(), 1.0))), hn::Zero(D32()));
 }
 
 /// Moves some lanes of vectors to the front, given by bits or as a mask too; what follows them means nothing. Where a

@@ -2,6 +2,8 @@
 #include <cstdint>
 
 #include "raster/fixed_point.h"
+#include "raster/triangles/depth_plane.h"
+#include "raster/triangles/edge_rule.h"
 #include "raster/view.h"
 #include "scenes/pipeline/pipeline.h"
 
@@ -21,8 +23,7 @@ struct TriangleSetup {
   T c[3], sx[3], sy[3];
   T least[3];          ///< covered where E_i >= least_i: 0 on edges that own their points, 1 on the others
   int x0, y0, x1, y1;  ///< pixels of the tile whose samples the box contains, half open
-  double z0, g1, g2;   ///< z = z0 + (E_1 g1 + E_2 g2)
-  double z_low, z_high;
+  DepthPlane depth;
 
   int samples() const { return (x1 - x0) * (y1 - y0); }  ///< in the box
   T edge(int i, int px, int py) const { return c[i] + sx[i] * T(px) + sy[i] * T(py); }
@@ -47,6 +48,22 @@ inline void canonical_order(const WindowTriangle& t, int order[3]) {
   for (int i = 0; i < 3; ++i) order[i] = (first + i) % 3;
 }
 
+constexpr int64_t least_of(const int64_t v[3]) {
+  return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]);
+}
+constexpr int64_t most_of(const int64_t v[3]) {
+  return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]);
+}
+
+/// The first of a tile's samples, in pixels, that is not below `v` or `low`; one past the last that is not above `v`
+/// and below `high`.
+constexpr int first_sample(int64_t v, int low) {
+  return int(v <= int64_t(low) * 256 ? low : (v + 255 > int64_t(kMaxTile) * 256 ? kMaxTile : (v + 255) >> 8));
+}
+constexpr int past_sample(int64_t v, int high) {
+  return int(v >= int64_t(high) * 256 ? high : (v < 0 ? 0 : (v >> 8) + 1));
+}
+
 /// Sets up a triangle; false if it covers nothing: no area, culled, or no sample in its box and [0, limit).
 /// Corners are put in canonical order, smallest (y, x) first, and signs turned so that the area is positive.
 template <class T>
@@ -62,41 +79,22 @@ inline bool set_up_triangle(const WindowTriangle& in, const GeometryState& state
   const T area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (area == T(0)) return false;
   if (culled(state, (area > T(0)) != upper_left)) return false;
-  const auto min3 = [](const int64_t* v) {
-    return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]);
-  };
-  const auto max3 = [](const int64_t* v) {
-    return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]);
-  };
-  const auto first_sample = [](int64_t v, int low) {
-    return int(v <= int64_t(low) * 256 ? low : (v + 255 > int64_t(kMaxTile) * 256 ? kMaxTile : (v + 255) >> 8));
-  };
-  const auto past_sample = [](int64_t v, int high) {
-    return int(v >= int64_t(high) * 256 ? high : (v < 0 ? 0 : (v >> 8) + 1));
-  };
-  out.x0 = first_sample(min3(in.x), limit[0]);
-  out.y0 = first_sample(min3(in.y), limit[1]);
-  out.x1 = past_sample(max3(in.x), limit[2]);
-  out.y1 = past_sample(max3(in.y), limit[3]);
+  out.x0 = first_sample(least_of(in.x), limit[0]);
+  out.y0 = first_sample(least_of(in.y), limit[1]);
+  out.x1 = past_sample(most_of(in.x), limit[2]);
+  out.y1 = past_sample(most_of(in.y), limit[3]);
   if (out.x0 >= out.x1 || out.y0 >= out.y1) return false;
 
-  const bool turned = area < T(0);
+  const bool clockwise = area < T(0);
   for (int i = 0; i < 3; ++i) {
     const T xa = x[(i + 1) % 3], ya = y[(i + 1) % 3], dx = x[(i + 2) % 3] - xa, dy = y[(i + 2) % 3] - ya;
     const T c = dy * xa - dx * ya;
-    out.c[i] = turned ? -c : c;
-    out.sx[i] = (turned ? dy : -dy) * T(256);
-    out.sy[i] = (turned ? -dx : dx) * T(256);
-    const bool owns = out.sx[i] > T(0) || (out.sx[i] == T(0) && (upper_left ? out.sy[i] < T(0) : out.sy[i] > T(0)));
-    out.least[i] = owns ? T(0) : T(1);
+    out.c[i] = clockwise ? -c : c;
+    out.sx[i] = (clockwise ? dy : -dy) * T(256);
+    out.sy[i] = (clockwise ? -dx : dx) * T(256);
+    out.least[i] = owns_edge(clockwise ? -dx : dx, clockwise ? -dy : dy, upper_left) ? T(0) : T(1);
   }
-  const double z1 = in.z[order[1]], z2 = in.z[order[2]], size = double(turned ? -area : area);
-  out.z0 = in.z[order[0]];
-  out.g1 = (z1 - out.z0) / size;
-  out.g2 = (z2 - out.z0) / size;
-  const double low = z1 < z2 ? z1 : z2, high = z1 < z2 ? z2 : z1;
-  out.z_low = out.z0 < low ? out.z0 : low;
-  out.z_high = out.z0 > high ? out.z0 : high;
+  out.depth = DepthPlane::of_corners(in.z[order[0]], in.z[order[1]], in.z[order[2]], double(clockwise ? -area : area));
   return true;
 }
 

@@ -155,8 +155,8 @@ HWY_INLINE hn::Vec<I32> snap_axis(V64 coordinate, V64 w, V64 u, const WindowTran
 }
 
 /// Places one vector of clip positions at out[i...]; returns whether any of them needs clipping.
-HWY_INLINE bool project_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin, size_t i,
-                               WindowVertices& out) {
+HWY_INLINE bool project_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTransform& t, SampleOrigin origin,
+                                 size_t i, WindowVertices& out) {
   const D64 d;
   const I32 di;
   const V64 wx = hn::PromoteTo(d, cx), wy = hn::PromoteTo(d, cy), wz = hn::PromoteTo(d, cz), ww = hn::PromoteTo(d, cw);
@@ -177,8 +177,9 @@ HWY_INLINE bool project_vertices(V32 cx, V32 cy, V32 cz, V32 cw, const WindowTra
   return !hn::AllTrue(d, fits);
 }
 
-/// The same for vertices known to need no clipping (ClusterDraw::no_clip), snapped as the profile `ideal` says. Holds what an
-/// instance's vertices share: stores of theirs might change what is read through references, so it would be read anew.
+/// The same for vertices known to need no clipping (ClusterDraw::no_clip), snapped as the profile `ideal` says. Holds
+/// what an instance's vertices share: stores of theirs might change what is read through references, so it would be
+/// read anew.
 class UnclippedVertices {
  public:
   HWY_INLINE UnclippedVertices(const InstanceTransform& instance, const WindowTransform& t, SampleOrigin origin)
@@ -199,7 +200,7 @@ class UnclippedVertices {
 
   /// The same for vectors of twice as many, whose sums fill a vector then, with their depths.
   HWY_INLINE void project_two(const float* x, const float* y, const float* z, size_t i, WindowVertices& out,
-                            VertexBox& box) const {
+                              VertexBox& box) const {
     const hn::ScalableTag<float> d;
     const auto px = hn::LoadU(d, x + i), py = hn::LoadU(d, y + i), pz = hn::LoadU(d, z + i);
     hn::Vec<decltype(d)> clip[4];

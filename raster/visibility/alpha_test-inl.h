@@ -9,11 +9,9 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
-
-#include "raster/triangles/clipped_fan.h"
 #include "raster/surfaces/interpolate-inl.h"
 #include "raster/textures/texture-inl.h"
+#include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -71,41 +69,29 @@ struct AlphaTest {
   }
 
   /// Lanes of `asked` whose alpha is not below the cutoff.
-  hn::Mask<D32> opaque(const V64 e[3], Mask64 asked) const {
+  hn::Mask<D32> opaque(const V64 e[3], M64 asked) const {
     const D64 d;
     const D32 df;
     const V64 w[3] = {hn::Set(d, u[0]), hn::Set(d, u[1]), hn::Set(d, u[2])};
     const Barycentrics b = barycentrics(e, w, hn::Set(d, area));
-    V32 alpha = interpolated_value(b, kAlpha, alpha_how);
+    V32 alpha = triangle_attribute(b, alpha_how, value[kAlpha], provoking[kAlpha]);
     if (maps->color) {
-      V64 edge[2][3];
-      for (int i = 0; i < 3; ++i) edge[0][i] = hn::Set(d, slope_x[i]), edge[1][i] = hn::Set(d, slope_y[i]);
-      const BarycentricSlopes along_x = slopes(b, edge[0], w), along_y = slopes(b, edge[1], w);
-      UvPoint at;
-      for (int k = 0; k < 2; ++k) {
-        at.uv[k] = hn::PromoteTo(d, interpolated_value(b, k, uv_how));
-        const double* a = value[k];
-        coordinate_slopes(along_x, along_y, uv_how, hn::Set(d, a[0]), hn::Set(d, a[1]), hn::Set(d, a[2]), at.x[k],
-                          at.y[k]);
+      EdgeSlopes edge;
+      V64 corner[2][3];
+      for (int i = 0; i < 3; ++i) {
+        edge.along_x[i] = hn::Set(d, slope_x[i]), edge.along_y[i] = hn::Set(d, slope_y[i]), edge.u[i] = w[i];
+        for (int k = 0; k < 2; ++k) corner[k][i] = hn::Set(d, value[k][i]);
       }
+      UvPoint at;
+      for (int k = 0; k < 2; ++k)
+        at.uv[k] = hn::PromoteTo(d, triangle_attribute(b, uv_how, value[k], provoking[k]));
+      set_uv_slopes(b, edge, uv_how, corner, at);
       V32 rgba[4];
       sample(*maps->color, at, asked, rgba, kAlphaBit);
       alpha = hn::Mul(alpha, rgba[3]);
     }
     alpha = hn::Mul(alpha, hn::Set(df, maps->base_alpha));
     return hn::Ge(alpha, hn::Set(df, maps->alpha_cutoff));
-  }
-
- private:
-  V32 interpolated_value(const Barycentrics& b, int i, Interpolation how) const {
-    const D64 d;
-    if (how == Interpolation::flat) return hn::Set(D32(), provoking[i]);
-    const double* a = value[i];
-    const V64 plane = affine(how == Interpolation::smooth ? b.smooth : b.linear, hn::Set(d, a[0]), hn::Set(d, a[1]),
-                             hn::Set(d, a[2]));
-    const V64 low = hn::Set(d, std::min({a[0], a[1], a[2]})), high = hn::Set(d, std::max({a[0], a[1], a[2]}));
-    const V64 above = hn::IfThenElse(hn::Lt(plane, low), low, plane);
-    return hn::DemoteTo(D32(), hn::IfThenElse(hn::Gt(above, high), high, above));
   }
 };
 

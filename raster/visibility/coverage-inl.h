@@ -9,27 +9,34 @@
 
 #include <hwy/highway.h>
 
-#include <type_traits>
-
 #include "raster/triangles/clipped_fan.h"
-#include "raster/visibility/sinks-inl.h"
-#include "raster/visibility/fast/count_blocks-inl.h"
-#include "raster/visibility/fast/large_triangles-inl.h"
+#include "raster/triangles/edge_vectors-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/fast/count_blocks-inl.h"     // fast path
+#include "raster/visibility/fast/large_triangles-inl.h"  // fast path
+#include "raster/visibility/sinks-inl.h"
 #include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Draws the 4x4 blocks under the triangle's box, a vector of pixels at a time.
+/// Lanes of a vector of samples, the first at pixel (px, py) of the tile, that lie inside the tile's limits.
+HWY_INLINE M64 within_limits(const int limit[4], double px, double py) {
+  const D64 d;
+  const V64 x = hn::Add(hn::Set(d, px), hn::LoadU(d, kLaneColumn)), y = hn::Add(hn::Set(d, py), hn::LoadU(d, kLaneRow));
+  const M64 columns = hn::And(hn::Ge(x, hn::Set(d, limit[0])), hn::Lt(x, hn::Set(d, limit[2])));
+  return hn::And(columns, hn::And(hn::Ge(y, hn::Set(d, limit[1])), hn::Lt(y, hn::Set(d, limit[3]))));
+}
+
+/// Covers the 4x4 blocks under the triangle's box, a vector of pixels at a time. This is the definition of coverage: a
+/// sample is covered where no edge function is below `least`.
 template <class T, class Sink>
 HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Sink& sink) {
   const D64 d;
   const int lanes = int(hn::Lanes(d));
   const EdgeVectors<T> edges(s);
-  const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);
   V64 least[3];
   for (int i = 0; i < 3; ++i) least[i] = hn::Set(d, double(s.least[i]));
   const bool limited = rect.limit[0] > 0 || rect.limit[1] > 0 || rect.limit[2] < rect.size || rect.limit[3] < rect.size;
@@ -46,13 +53,7 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Si
         V64 e[3];
         for (int i = 0; i < 3; ++i) e[i] = edges.at(i, px, py);
         M64 covered = hn::And(hn::Ge(e[0], least[0]), hn::And(hn::Ge(e[1], least[1]), hn::Ge(e[2], least[2])));
-        if (limited) {
-          const V64 x = hn::Add(hn::Set(d, px), column), y = hn::Add(hn::Set(d, py), row);
-          covered =
-              hn::And(covered, hn::And(hn::Ge(x, hn::Set(d, rect.limit[0])), hn::Lt(x, hn::Set(d, rect.limit[2]))));
-          covered =
-              hn::And(covered, hn::And(hn::Ge(y, hn::Set(d, rect.limit[1])), hn::Lt(y, hn::Set(d, rect.limit[3]))));
-        }
+        if (limited) covered = hn::And(covered, within_limits(rect.limit, px, py));
         if (hn::AllFalse(d, covered)) continue;
         changed |= sink.vector(block * kBlockPixels + k, covered, e);
       }
@@ -61,28 +62,11 @@ HWY_INLINE void cover_blocks(const TriangleSetup<T>& s, const TileRect& rect, Si
   }
 }
 
-/// The same for a box of a few samples, where vectors would stay nearly empty.
-template <class Sink>
-HWY_INLINE void cover_samples(const TriangleSetup<double>& s, const TileRect& rect, Sink& sink) {
-  sink.begin(s);
-  for (int y = s.y0; y < s.y1; ++y) {
-    for (int x = s.x0; x < s.x1; ++x) {
-      if (!s.covers(x, y)) continue;
-      const int at = tile_index(rect.size, x, y);
-      if (sink.scalar(at, s.edge(0, x, y), s.edge(1, x, y), s.edge(2, x, y))) sink.finish_block(at / kBlockPixels);
-    }
-  }
-}
-
-/// The path for triangles over many samples, where the sink has one.
+/// Gives a triangle's covered samples to a sink.
 template <class T, class Sink>
 HWY_INLINE void cover(const TriangleSetup<T>& s, const TileRect& rect, Sink& sink) {
-  if constexpr (std::is_same_v<Sink, DepthSink>) {
-    if (sink.fast && sink.alpha == nullptr && cover_large(s, rect, sink)) return;
-  }
-  if constexpr (std::is_same_v<Sink, CountSink>) {
-    if (sink.fast && count_blocks(s, rect, sink.counts)) return;
-  }
+  if (cover_large(s, rect, sink)) return;   // fast path
+  if (count_blocks(s, rect, sink)) return;  // fast path
   cover_blocks(s, rect, sink);
 }
 
@@ -102,7 +86,7 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
   }
 }
 
-/// A fan in which snapping has turned a piece over: a pixel belongs to the polygon if the pieces that cover it, counted
+/// A fan in which snapping has turned over a piece: a pixel belongs to the polygon if the pieces that cover it, counted
 /// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
 template <class Sink>
 inline void cover_folded_fan(const ClipVertex v[3], const ClippedFan& fan, const WindowTransform& t,
@@ -126,7 +110,7 @@ inline void cover_folded_fan(const ClipVertex v[3], const ClippedFan& fan, const
       sink.begin_piece(v, fan, drawn, t);
       sink.begin(s);
       sink.scalar(tile_index(rect.size, x, y), double(s.edge(0, x, y)), double(s.edge(1, x, y)),
-                    double(s.edge(2, x, y)));
+                  double(s.edge(2, x, y)));
     }
   }
   for (int block = 0; block < rect.size * rect.size / kBlockPixels; ++block) sink.finish_block(block);

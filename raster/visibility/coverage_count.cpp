@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/fp_env.h"
-#include "raster/visibility/coverage-inl.h"
 #include "core/simd/simd_target.h"
+#include "raster/visibility/coverage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -29,9 +29,9 @@ void count_batch(const Batch& batch, const GeometryState& state, const WindowTra
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   WindowVertices v;
   for (size_t i = 0; i < 3 * batch.triangles; i += hn::Lanes(df))
-    project_vertices(hn::LoadU(df, batch.clip[0] + i), hn::LoadU(df, batch.clip[1] + i), hn::LoadU(df, batch.clip[2] + i),
-                   hn::LoadU(df, batch.clip[3] + i), t, origin, i, v);
-  CountSink sink{counts};
+    project_vertices(hn::LoadU(df, batch.clip[0] + i), hn::LoadU(df, batch.clip[1] + i),
+                     hn::LoadU(df, batch.clip[2] + i), hn::LoadU(df, batch.clip[3] + i), t, origin, i, v);
+  CountSink<uint32_t> sink{counts};
   for (size_t i = 0; i < 3 * batch.triangles; i += 3) {
     WindowTriangle triangle;
     ClipVertex clip[3];

@@ -106,7 +106,7 @@ HWY_INLINE void fetch_streams(const TileDraws& in, const ListedDraw& draw) {
 /// ago.
 template <class Visit>
 HWY_INLINE void for_each_visible(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
-                              const Visit& visit) {
+                                 const Visit& visit) {
   constexpr size_t kHeader = 2, kStreams = 4, kDraw = 7;  // clusters after the one whose instance is asked for
   const std::span<ListedDraw> order = nearest_first(in, rect);
   const int blocks = rect.size / kBlockSize;

@@ -64,7 +64,8 @@ struct VisibleBlocks {
 };
 
 /// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
-HWY_INLINE bool find_visible(const VisibilityTile& tile, int blocks, const BlockBox& box, float near, VisibleBlocks& out) {
+HWY_INLINE bool find_visible_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near,
+                                    VisibleBlocks& out) {
   const hn::ScalableTag<float> d;
   constexpr int kLanes = int(hn::MaxLanes(d)), kRows = 4;
   const auto mine = hn::Set(d, near);
@@ -105,6 +106,17 @@ HWY_INLINE BlockBox blocks_of(const ClusterDraw& draw, const TileRect& rect) {
     return (low & ~past) | (last & past);
   };
   return {block(draw.x0, first_x), block(draw.y0, first_y), block(draw.x1, first_x), block(draw.y1, first_y)};
+}
+
+/// Finds the blocks of a cluster's box that do not hide it; false if all do. Of boxes with more blocks than the cluster
+/// has triangles it only says whether there is any.
+HWY_INLINE bool find_visible(const VisibilityTile& tile, const TileRect& rect, const WindowBox& box,
+                             const WindowTransform& t, int triangles, VisibleBlocks& out) {
+  const BlockBox covered = blocks_of(box, rect);
+  const int blocks = rect.size / kBlockSize;
+  const float near = near_bound(box.near, t);
+  if (covered.count() > triangles) return !hidden_blocks(tile, blocks, covered, near);
+  return find_visible_blocks(tile, blocks, covered, near, out);
 }
 
 /// Whether the blocks under a triangle's box hide it: cheaper than setting it up.

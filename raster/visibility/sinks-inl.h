@@ -1,4 +1,6 @@
-// What happens to covered samples: they are counted, or tested for depth and kept. Included once per SIMD target.
+// Where covered samples go. A sink counts them, tests their depths and keeps the visible one, or lists those that pass.
+// begin() takes a triangle; vector() and scalar() take its samples, and return whether a block's depths changed, of
+// which finish_block() then finds the largest. Included once per SIMD target.
 // docs/arithmetic.md sections 5 and 6.
 #if defined(TRUESHADE_RASTER_VISIBILITY_SINKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_VISIBILITY_SINKS_INL_H_
@@ -15,31 +17,39 @@
 #include <limits>
 #include <vector>
 
-#include "raster/visibility/alpha_test-inl.h"
+#include "raster/triangles/depth_plane-inl.h"
 #include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/alpha_test-inl.h"
+#include "raster/visibility/depth_test-inl.h"
 #include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Counts covered samples: for overdraw, and for tests of watertightness.
+/// Counts covered samples: for overdraw, and for tests of watertightness. Count: uint16_t or uint32_t.
+template <class Count>
 struct CountSink {
-  uint32_t* counts;   ///< in tile_index() order
-  bool fast = false;  ///< triangles may take the paths for usual ones
+  Count* counts;      ///< in tile_index() order
+  bool fast = false;  ///< triangles may take fast paths
+  uint32_t id = 0;    ///< is not read
+
+  const VisibilityTile* hiding() const { return nullptr; }  ///< hidden fragments count
+  AlphaTest* masked_by(AlphaTest*) { return nullptr; }      ///< so do those that the alpha test would drop
 
   template <class T>
   void begin(const TriangleSetup<T>&) {}
   void begin_piece(const ClipVertex*, const ClippedFan&, int, const WindowTransform&) {}
   bool hidden(int) const { return false; }
   HWY_INLINE bool vector(int at, M64 covered, const V64*) {
-    const D64 d;
-    constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(double);
-    alignas(64) double one[kLanes];
-    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0)), d, one);
-    for (size_t i = 0; i < hn::Lanes(d); ++i) counts[size_t(at) + i] += one[i] != 0.0;
+    const hn::Rebind<Count, D64> d;
+    const auto one = hn::DemoteTo(I32(), hn::IfThenElseZero(covered, hn::Set(D64(), 1.0)));
+    if constexpr (sizeof(Count) == sizeof(int32_t))
+      hn::StoreU(hn::Add(hn::LoadU(d, counts + at), hn::BitCast(d, one)), d, counts + at);
+    else
+      hn::StoreU(hn::Add(hn::LoadU(d, counts + at), hn::DemoteTo(d, one)), d, counts + at);
     return false;
   }
   bool scalar(int at, double, double, double) {
@@ -49,68 +59,21 @@ struct CountSink {
   void finish_block(int) {}
 };
 
-/// Whether a fragment replaces what is there. Ties of the ordered functions go by submission, so order of drawing is
-/// free.
-constexpr bool passes(DepthFunc func, float z, float there, uint32_t id, uint32_t there_id) {
-  switch (func) {
-    case DepthFunc::never:
-      return false;
-    case DepthFunc::less:
-      return z < there || (z == there && id < there_id);
-    case DepthFunc::lequal:
-      return z < there || (z == there && id > there_id);
-    case DepthFunc::greater:
-      return z > there || (z == there && id < there_id);
-    case DepthFunc::gequal:
-      return z > there || (z == there && id > there_id);
-    case DepthFunc::equal:
-      return z == there;
-    case DepthFunc::notequal:
-      return z != there;
-    case DepthFunc::always:
-      return true;
-  }
-  return false;
-}
-
 /// The polygon offset of a triangle: m the larger of |dz/dx| and |dz/dy| per pixel, r a unit of the format, for floats
 /// 2^(e - 23) with e the exponent of the largest |z| of its corners as an f32, within [-126, 127].
 template <class T>
 double polygon_offset(const TriangleSetup<T>& s, const DepthRule& rule) {
   if (!rule.offsets()) return 0.0;
-  const double across = double(s.sx[1]) * s.g1 + double(s.sx[2]) * s.g2;
-  const double up = double(s.sy[1]) * s.g1 + double(s.sy[2]) * s.g2;
+  const double across = double(s.sx[1]) * s.depth.g1 + double(s.sx[2]) * s.depth.g2;
+  const double up = double(s.sy[1]) * s.depth.g1 + double(s.sy[2]) * s.depth.g2;
   const double slope = std::max(std::abs(across), std::abs(up));
   double unit = rule.unit;
   if (rule.largest_code == 0.0f) {
-    const auto most = float(std::min(std::max({std::abs(s.z_low), std::abs(s.z_high), 0x1p-126}), 0x1p127));
+    const auto most = float(std::min(std::max({std::abs(s.depth.low), std::abs(s.depth.high), 0x1p-126}), 0x1p127));
     unit =
         std::bit_cast<double>((std::bit_cast<uint64_t>(double(most)) & 0x7FF0000000000000ull) - (uint64_t(23) << 52));
   }
   return slope * rule.factor + unit * rule.units;
-}
-
-/// Lanes that a depth test lets through, whatever was submitted when; none of those that are NaN.
-HWY_INLINE hn::Mask<D32> passing(DepthFunc func, V32 z, V32 there) {
-  switch (func) {
-    case DepthFunc::never:
-      break;
-    case DepthFunc::less:
-      return hn::Lt(z, there);
-    case DepthFunc::lequal:
-      return hn::Le(z, there);
-    case DepthFunc::greater:
-      return hn::Gt(z, there);
-    case DepthFunc::gequal:
-      return hn::Ge(z, there);
-    case DepthFunc::equal:
-      return hn::Eq(z, there);
-    case DepthFunc::notequal:
-      return hn::Or(hn::Lt(z, there), hn::Gt(z, there));
-    case DepthFunc::always:
-      return hn::Eq(z, z);
-  }
-  return hn::Lt(z, z);  // none
 }
 
 /// Finds a block's largest depth.
@@ -129,21 +92,26 @@ struct DepthSink {
   float range_low, range_high;
   bool skip_hidden;  ///< use the blocks' largest depths
   DepthRule rule{};
-  bool fast = false;           ///< triangles may take the paths for usual ones (small_triangles, large_triangles)
+  bool fast = false;           ///< triangles may take fast paths
   AlphaTest* alpha = nullptr;  ///< of the material drawn; null: every fragment counts
   uint64_t fragments = 0;
   uint32_t id = 0;
-  double z0 = 0, g1 = 0, g2 = 0, z_low = 0, z_high = 0;
-  float nearest = 0;
+  DepthPlane plane{};  ///< of the triangle at work, offset and clamped to the range
+  float nearest = 0;   ///< the depth test compares no less for any of its fragments
+
+  /// The tile whose blocks hide what is behind them; null where nothing may be skipped.
+  const VisibilityTile* hiding() const { return skip_hidden ? &tile : nullptr; }
+  AlphaTest* masked_by(AlphaTest* test) { return alpha = test; }
 
   template <class T>
   void begin(const TriangleSetup<T>& s) {
-    z0 = s.z0, g1 = s.g1, g2 = s.g2, z_low = s.z_low, z_high = s.z_high;
+    plane = s.depth;
     if (rule.offsets()) {
       const double offset = polygon_offset(s, rule);
-      z0 += offset, z_low += offset, z_high += offset;
+      plane.z0 += offset, plane.low += offset, plane.high += offset;
     }
-    nearest = rule.stored(std::min(std::max(float(z_low), range_low), range_high));
+    plane = plane.in_range(double(range_low), double(range_high));
+    nearest = rule.stored(float(plane.low));
     if (alpha != nullptr) alpha->set_edges(s);
   }
   /// Before begin(), for a piece of a triangle that needed clipping.
@@ -152,7 +120,7 @@ struct DepthSink {
   }
   bool hidden(int block) const { return skip_hidden && nearest > tile.far[block]; }
 
-  /// What the depth test compares, of any vector of floats.
+  /// What the depth test compares, of any vector of floats: DepthRule::stored().
   template <class V>
   HWY_INLINE V stored(V z) const {
     if (rule.largest_code == 0.0f) return z;
@@ -162,55 +130,18 @@ struct DepthSink {
 
   /// Depths of a vector of samples; NaN where not covered, which passes no comparison.
   HWY_INLINE V32 depths(M64 covered, V64 e1, V64 e2) const {
-    const D64 d;
-    const V64 plane = hn::Add(hn::Set(d, z0), hn::Add(hn::Mul(e1, hn::Set(d, g1)), hn::Mul(e2, hn::Set(d, g2))));
-    const V64 in_hull = hn::Min(hn::Max(plane, hn::Set(d, z_low)), hn::Set(d, z_high));
-    const V64 in_range = hn::Min(hn::Max(in_hull, hn::Set(d, double(range_low))), hn::Set(d, double(range_high)));
-    const V64 nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-    return stored(hn::DemoteTo(D32(), hn::IfThenElse(covered, in_range, nan)));
+    const V64 nan = hn::Set(D64(), std::numeric_limits<double>::quiet_NaN());
+    return stored(hn::DemoteTo(D32(), hn::IfThenElse(covered, DepthPlanes(plane).at(e1, e2), nan)));
   }
-  float depth(double e1, double e2) const {
-    const double plane = z0 + (e1 * g1 + e2 * g2);
-    const double in_hull = std::min(std::max(plane, z_low), z_high);
-    return rule.stored(float(std::min(std::max(in_hull, double(range_low)), double(range_high))));
-  }
+  float depth(double e1, double e2) const { return rule.stored(float(plane.at(e1, e2))); }
 
   HWY_INLINE bool vector(int at, M64 covered, const V64 e[3]) {
     const D32 df;
     const U32 du;
     fragments += uint64_t(lane_count(D64(), covered));
-    const V32 z = depths(covered, e[1], e[2]);
-    const V32 there = hn::Load(df, tile.depth + at);
-    const auto there_id = hn::Load(du, tile.id + at);
-    const auto my_id = hn::Set(du, id);
-    const auto tie_first = hn::And(hn::Eq(z, there), hn::RebindMask(df, hn::Gt(there_id, my_id)));
-    const auto tie_last = hn::And(hn::Eq(z, there), hn::RebindMask(df, hn::Gt(my_id, there_id)));
-    auto pass = hn::Lt(z, there);
-    switch (func) {
-      case DepthFunc::never:
-        return false;
-      case DepthFunc::less:
-        pass = hn::Or(pass, tie_first);
-        break;
-      case DepthFunc::lequal:
-        pass = hn::Or(pass, tie_last);
-        break;
-      case DepthFunc::greater:
-        pass = hn::Or(hn::Gt(z, there), tie_first);
-        break;
-      case DepthFunc::gequal:
-        pass = hn::Or(hn::Gt(z, there), tie_last);
-        break;
-      case DepthFunc::equal:
-        pass = hn::Eq(z, there);
-        break;
-      case DepthFunc::notequal:
-        pass = hn::Or(pass, hn::Gt(z, there));
-        break;
-      case DepthFunc::always:
-        pass = hn::Eq(z, z);
-        break;
-    }
+    const V32 z = depths(covered, e[1], e[2]), there = hn::Load(df, tile.depth + at);
+    const auto my_id = hn::Set(du, id), there_id = hn::Load(du, tile.id + at);
+    auto pass = winners(func, z, there, my_id, there_id);
     if (hn::AllFalse(df, pass)) return false;
     if (alpha != nullptr) {
       pass = hn::And(pass, opaque(e, pass));
@@ -238,7 +169,7 @@ struct DepthSink {
   bool scalar(int at, double e0, double e1, double e2) {
     ++fragments;
     const float z = depth(e1, e2);
-    if (!passes(func, z, tile.depth[at], id, tile.id[at])) return false;
+    if (!wins(func, z, tile.depth[at], id, tile.id[at])) return false;
     if (alpha != nullptr && !opaque(e0, e1, e2)) return false;
     tile.depth[at] = z;
     tile.id[at] = id;
@@ -256,6 +187,8 @@ struct FragmentListSink {
   bool skip_hidden;
   uint32_t id = 0;
 
+  const VisibilityTile* hiding() const { return skip_hidden ? &tile : nullptr; }
+  AlphaTest* masked_by(AlphaTest* alpha) { return test.masked_by(alpha); }
   template <class T>
   void begin(const TriangleSetup<T>& s) {
     test.begin(s);

@@ -13,24 +13,24 @@
 #include <bit>
 #include <vector>
 
-#include "raster/textures/maps-inl.h"
 #include "raster/surfaces/fast/triangle_in_blocks-inl.h"
+#include "raster/surfaces/material_maps-inl.h"
 #include "raster/surfaces/surfaces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What the maps of a triangle's pixels want of it: edge functions at the tile's first sample and their changes to the
-/// next pixels, 1 / w, what l_1, l_2 and their sum with l_0 change by, differences of texture coordinates, tangents;
-/// of triangles of one normal also what bump_frame() makes of them.
+/// What the maps of a triangle's pixels read: edge functions at the tile's first sample and their changes to the next
+/// pixels, 1 / w, the changes of l_1, l_2 and l_0 + l_1 + l_2, differences of texture coordinates, and the tangent
+/// frame; of a triangle with one normal also its bump frame.
 struct alignas(64) MappedTriangle {
   enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
   enum Frame { kFrame = 22, kBumpFrame = 28, kOneNormal = 34, kValues = 40 };
   double value[kValues];
 };
 
-/// Values of the triangle that a vector of pixels see, and of several.
+/// The values of the triangles that a vector of pixels sees: one, two, or several.
 struct OneTriangle {
   const double* at;
   HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
@@ -49,7 +49,7 @@ struct SeveralTriangles {
   HWY_INLINE V64 operator()(int k) const { return hn::GatherIndex(D64(), first + k, at); }
 };
 
-/// How texture coordinates change from pixel to pixel: `slopes` and `affine_slope` of interpolate-inl.h.
+/// Sets the derivatives of texture coordinates: set_uv_slopes() of interpolate-inl.h from the triangles' values.
 template <class Triangle>
 HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
   V64 e[3], u[3];
@@ -58,12 +58,11 @@ HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoin
                    hn::Mul(row, triangle(MappedTriangle::kEdgeY + k)));
     u[k] = triangle(MappedTriangle::kInverseW + k);
   }
-  const Barycentrics w = barycentrics(e, u, e[0]);  // what is smooth does not ask for the area
-  const auto slope = [&](int along, int k) {
-    return hn::Mul(hn::Sub(triangle(along + k), hn::Mul(w.smooth[k], triangle(along + 2))), w.r);
-  };
-  const V64 x[2] = {slope(MappedTriangle::kAlongX, 0), slope(MappedTriangle::kAlongX, 1)};
-  const V64 y[2] = {slope(MappedTriangle::kAlongY, 0), slope(MappedTriangle::kAlongY, 1)};
+  const PerspectiveWeights w = perspective_weights(hn::Mul(e[0], u[0]), hn::Mul(e[1], u[1]), hn::Mul(e[2], u[2]));
+  constexpr int kX = MappedTriangle::kAlongX, kY = MappedTriangle::kAlongY;
+  const V64 x_sum = triangle(kX + 2), y_sum = triangle(kY + 2);
+  const V64 x[2] = {weight_slope(triangle(kX), w.b1, x_sum, w.r), weight_slope(triangle(kX + 1), w.b2, x_sum, w.r)};
+  const V64 y[2] = {weight_slope(triangle(kY), w.b1, y_sum, w.r), weight_slope(triangle(kY + 1), w.b2, y_sum, w.r)};
   for (int c = 0; c < 2; ++c) {
     const V64 to_1 = triangle(MappedTriangle::kUv1 + c), to_2 = triangle(MappedTriangle::kUv2 + c);
     uv.x[c] = hn::Add(hn::Mul(x[0], to_1), hn::Mul(x[1], to_2));
@@ -80,39 +79,40 @@ HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3& norm
   return bump_frame({vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3)}, normal);
 }
 
-/// Blocks whose maps are applied at once, so that none waits for the quotients and sums of one alone.
-struct WaitingBlocks {
+/// Blocks whose maps are applied at once: one block alone would wait for its own quotients and sums.
+struct MapBatch {
   static constexpr int kBlocks = kHalves <= 2 ? 2 : 1, kVectors = kBlocks * kHalves;
   static constexpr int64_t kNone = -1;
   const SceneMaps& maps;
   const std::vector<MappedTriangle>& triangle;
   SurfaceTile& out;
   int count = 0;
-  alignas(64) int64_t place[kBlocks * kBlockPixels] = {};  ///< of each pixel's triangle among all values
-  int64_t first[kVectors] = {};                            ///< triangles of vectors, none where there are more than two
+  alignas(64) int64_t
+      triangle_at[kBlocks * kBlockPixels] = {};  ///< where each pixel's triangle begins among all values
+  int64_t first[kVectors] = {};                  ///< triangles of vectors, none where there are more than two
   int64_t second[kVectors] = {};
   M64 of_second[kVectors] = {}, owned[kVectors] = {};
   UvPoint uv[kVectors] = {};
   int pixel[kVectors] = {};  ///< the first
 
-  /// Of the next block's pixels; all of them are the first triangle's until others are told.
+  /// The triangles of the next block's pixels, for the caller to set; before any is set, all become `at`.
   HWY_INLINE int64_t* next(bool begun, int64_t at) {
-    int64_t* const to = place + count * kBlockPixels;
+    int64_t* const to = triangle_at + count * kBlockPixels;
     if (!begun) std::fill_n(to, kBlockPixels, at);
     return to;
   }
 
-  /// Values of the triangles that a vector sees: gathers are for those of more than two.
+  /// Calls use(values) with the values of the triangles that a vector sees; only three and more triangles are gathered.
   template <class Use>
   HWY_INLINE auto with_triangles(int h, const Use& use) const {
     const double* const values = triangle[0].value;
     if (first[h] != kNone && second[h] == kNone) return use(OneTriangle{values + first[h]});
     if (first[h] != kNone) return use(TwoTriangles{values + first[h], values + second[h], of_second[h]});
-    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), place + h * kHalf)});
+    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), triangle_at + h * kHalf)});
   }
 
-  /// Adds the block whose places were set, if any was.
-  void add(const BlockPlace& where, uint32_t pixels) {
+  /// Adds the block whose triangles were set by next(), if it has pixels.
+  void add(const BlockPosition& where, uint32_t pixels) {
     if (pixels == 0) return;
     const D64 d;
     const SeveralTriangles::DI di;
@@ -121,9 +121,9 @@ struct WaitingBlocks {
       const uint32_t bits = pixels >> part * kHalf & kHalfBits;
       owned[h] = lane_mask(d, bits);
       pixel[h] = where.at + part * kHalf;
-      const int64_t* const at = place + h * kHalf;
-      const auto places = hn::Load(di, at);
-      const auto beside = [&](int64_t triangle) { return hn::Ne(places, hn::Set(di, triangle)); };
+      const int64_t* const at = triangle_at + h * kHalf;
+      const auto all = hn::Load(di, at);
+      const auto beside = [&](int64_t triangle) { return hn::Ne(all, hn::Set(di, triangle)); };
       first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], second[h] = kNone;
       const auto others = beside(first[h]);
       if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
@@ -137,7 +137,7 @@ struct WaitingBlocks {
     if (++count == kBlocks) finish();
   }
 
-  /// Applies the maps of those that wait.
+  /// Applies the maps of the blocks that were added.
   HWY_INLINE void finish() {
     if (count == 0) return;
     for (int h = count * kHalves; h < kVectors; ++h) {  // unused

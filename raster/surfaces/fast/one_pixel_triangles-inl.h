@@ -1,5 +1,5 @@
-// Smooth attributes of pixels that each see another triangle: weights for a vector of pixels, then each pixel's
-// attributes side by side, by the same operations as interpolate-inl.h. Included once per SIMD target.
+// Smooth attributes of pixels that each see another triangle: the weights of a vector of pixels, then each pixel's
+// attributes side by side, by the rules of interpolate-inl.h. Included once per SIMD target.
 // docs/arithmetic.md section 5.
 #if defined(TRUESHADE_RASTER_SURFACES_FAST_ONE_PIXEL_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SURFACES_FAST_ONE_PIXEL_TRIANGLES_INL_H_
@@ -20,34 +20,19 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Smooth barycentrics of vertices 1 and 2 at pixels, from the corners' positions relative to them and 1 / w.
-struct SmoothWeights {
-  V64 b1, b2;
-
-  HWY_INLINE void set(const V64 x[3], const V64 y[3], const V64 u[3]) {
-    const D64 d;
-    const V64 l0 = hn::Mul(hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1])), u[0]);
-    const V64 l1 = hn::Mul(hn::Sub(hn::Mul(x[2], y[0]), hn::Mul(x[0], y[2])), u[1]);
-    const V64 l2 = hn::Mul(hn::Sub(hn::Mul(x[0], y[1]), hn::Mul(x[1], y[0])), u[2]);
-    const V64 r = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(l0, l1), l2));
-    b1 = hn::Mul(l1, r);
-    b2 = hn::Mul(l2, r);
-  }
-};
-
 /// Pixels that see different triangles, a block's worth at a time: a block of them, or pixels from anywhere in the
 /// tile.
-struct MixedPixels {
-  /// All pixels of a block. Those that are not covered become anyone's.
-  HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPlace& block, WantedValues wanted,
+struct OnePixelTriangles {
+  /// Interpolates all pixels of a block. Pixels that are not covered receive any values.
+  HWY_INLINE void interpolate(const VisibleTriangles& in, const BlockPosition& block, WantedValues wanted,
                               SurfaceTile& out) {
-    for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, {in.place[block.at + i], in.corners[block.at + i]}, i);
+    for (int i = 0; i < kBlockPixels; ++i) set_triangle(in, {in.triangle[block.at + i], in.corners[block.at + i]}, i);
     for (int h = 0; h < kHalves; ++h) set_weights(in, block.column(h), block.row(h), h);
     for (int row = 0; row < kBlockSize; ++row) set_rows<false>(in, wanted, row * kBlockSize, block.at, out);
   }
 
-  /// A pixel that waits for others.
-  HWY_INLINE void add(const VisibleTriangles& in, const BlockPlace& block, int pixel, SeenTriangle triangle,
+  /// Adds a pixel, which is interpolated once a block's worth of them is there.
+  HWY_INLINE void add(const VisibleTriangles& in, const BlockPosition& block, int pixel, SeenTriangle triangle,
                       WantedValues wanted, SurfaceTile& out) {
     at[count] = block.at + pixel;
     x[count] = block.x + pixel % kBlockSize;
@@ -55,7 +40,7 @@ struct MixedPixels {
     set_triangle(in, triangle, count);
     if (++count == kBlockPixels) finish(in, wanted, out);
   }
-  /// The pixels that wait.
+  /// Interpolates the pixels that were added.
   HWY_NOINLINE void finish(const VisibleTriangles& in, WantedValues wanted, SurfaceTile& out) {
     const D64 d;
     if (count == 0) return;
@@ -79,20 +64,14 @@ struct MixedPixels {
     for (int k = 0; k < 3; ++k) vertex[k][i] = of.vertex[k];
   }
 
-  /// Turns the vertices of a vector of pixels into canonical order, with them what is given of them.
-  HWY_INLINE void turn(hn::Vec<DU64> key[3], hn::Vec<DU64> inverse[3], int h) {
+  /// Rotates the vertices of a vector of pixels into canonical order, and with them their keys and 1 / w.
+  HWY_INLINE void rotate(hn::Vec<DU64> key[3], hn::Vec<DU64> inverse[3], int h) {
     const DU64 d;
     const auto from_2 = hn::And(hn::Lt(key[2], key[0]), hn::Lt(key[2], key[1]));
     const auto from_1 = hn::AndNot(from_2, hn::Lt(key[1], key[0]));
-    const auto turned = [&](auto a, auto from_b, auto from_c) {
-      return hn::IfThenElse(from_2, from_c, hn::IfThenElse(from_1, from_b, a));
-    };
     hn::Vec<DU64> name[3];
     for (int k = 0; k < 3; ++k) name[k] = hn::Load(d, vertex[k] + h * kHalf);
-    for (auto* of : {key, inverse, name}) {
-      const auto v0 = of[0], v1 = of[1], v2 = of[2];
-      of[0] = turned(v0, v1, v2), of[1] = turned(v1, v2, v0), of[2] = turned(v2, v0, v1);
-    }
+    for (auto* of : {key, inverse, name}) rotate_corners(from_1, from_2, of);
     for (int k = 0; k < 3; ++k) hn::Store(name[k], d, vertex[k] + h * kHalf);
   }
 
@@ -101,22 +80,27 @@ struct MixedPixels {
     const DU64 du;
     V64 rx[3], ry[3], u[3];
     // A double 2^52 + n has the bits of n at its end.
-    const V64 zero = hn::Set(d, 0x1p52 + double(PlacedVertex::kBias)), pixel = hn::Set(d, 256.0);
+    const V64 zero = hn::Set(d, 0x1p52 + double(VertexPosition::kBias)), pixel = hn::Set(d, 256.0);
     const V64 sx = hn::Add(zero, hn::Mul(column, pixel)), sy = hn::Add(zero, hn::Mul(row, pixel));
     const auto exponent = hn::Set(du, 0x4330000000000000u), low = hn::Set(du, 0xFFFFFFFFu);
     hn::Vec<DU64> key[3], inverse[3];
-    const PlacedVertex* const placed = in.placed.data();
+    const VertexPosition* const positions = in.position.data();
     for (int k = 0; k < 3; ++k)
       load_pairs(
-          du, [&](size_t i) { return &vertex_at(placed, vertex[k][size_t(h * kHalf) + i]).key; }, key[k], inverse[k]);
-    turn(key, inverse, h);
+          du, [&](size_t i) { return &vertex_at(positions, vertex[k][size_t(h * kHalf) + i]).key; }, key[k],
+          inverse[k]);
+    rotate(key, inverse, h);
     for (int k = 0; k < 3; ++k) {
       rx[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::And(key[k], low), exponent)), sx);
       ry[k] = hn::Sub(hn::BitCast(d, hn::Or(hn::ShiftRight<32>(key[k]), exponent)), sy);
       u[k] = hn::BitCast(d, inverse[k]);
     }
-    SmoothWeights w;
-    w.set(rx, ry, u);
+    V64 l[3];
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      l[k] = hn::Mul(hn::Sub(hn::Mul(rx[a], ry[b]), hn::Mul(rx[b], ry[a])), u[k]);
+    }
+    const PerspectiveWeights w = perspective_weights(l[0], l[1], l[2]);
     hn::Store(w.b1, d, b1 + h * kHalf);
     hn::Store(w.b2, d, b2 + h * kHalf);
   }
@@ -148,13 +132,13 @@ struct MixedPixels {
       set_group<kRest, kAnywhere>(in.rest.data(), g, stream + kValues, 0, to - kValues, first, at_block, out);
   }
 
-  /// Those of a record, from kPlace on: no loop, as what is known of each place is worth knowing.
-  template <bool kAnywhere, int kPlace>
+  /// The attributes of a record from index kFrom on: a recursion, not a loop, so that the compiler knows each index.
+  template <bool kAnywhere, int kFrom>
   HWY_INLINE void set_record(const VisibleTriangles& in, const int* stream, int from, int to, int first, int at_block,
                              SurfaceTile& out) const {
-    set_group<kGroup, kAnywhere>(in.record.data(), kPlace, stream, from, to, first, at_block, out);
-    if constexpr (kPlace + kGroup < VertexRecord::kValues)
-      if (kPlace + kGroup < to) set_record<kAnywhere, kPlace + kGroup>(in, stream, from, to, first, at_block, out);
+    set_group<kGroup, kAnywhere>(in.record.data(), kFrom, stream, from, to, first, at_block, out);
+    if constexpr (kFrom + kGroup < VertexRecord::kValues)
+      if (kFrom + kGroup < to) set_record<kAnywhere, kFrom + kGroup>(in, stream, from, to, first, at_block, out);
   }
 
   /// Two attributes of the four pixels from `pixel` on, in one vector of doubles: a pixel's behind those of the one
@@ -187,7 +171,9 @@ struct MixedPixels {
     const hn::Vec<D> a0 = pairs_at(d, rest, pixel, 0), a1 = pairs_at(d, rest, pixel, 1),
                      a2 = pairs_at(d, rest, pixel, 2);
     const auto wider = [&](hn::Vec<D> a) { return hn::PromoteTo(wide, a); };
-    return held(hn::DemoteTo(d, plane_at(w1, w2, wider(a0), wider(a1), wider(a2))), a0, a1, a2);
+    const auto first = wider(a0);
+    const auto plane = plane_value(w1, w2, first, hn::Sub(wider(a1), first), hn::Sub(wider(a2), first));
+    return within_corners(hn::DemoteTo(d, plane), a0, a1, a2);
   }
   /// Half a vector, twice: no load spans what two stores wrote.
   template <class D>
@@ -206,7 +192,7 @@ struct MixedPixels {
     }
   }
 
-  /// kCount attributes from place `from` on of those in [first, last).
+  /// kCount attributes from index `from` on of those in [first, last).
   template <int kCount, bool kAnywhere, class Record>
   HWY_INLINE void set_group(const Record* records, int from, const int* stream, int first, int last, int pixel,
                             int at_block, SurfaceTile& out) const {
@@ -237,7 +223,7 @@ struct MixedPixels {
     }
   }
 
-  /// Attributes of pixel i side by side, from place `from` on.
+  /// Attributes of pixel i side by side, from index `from` on.
   template <class D, class Record>
   HWY_INLINE hn::Vec<D> values(D d, const Record* records, int from, int i) const {
     const float* const at_0 = vertex_at(records, vertex[0][i]).value + from;
@@ -249,20 +235,10 @@ struct MixedPixels {
     const auto part = [&](size_t k) {
       const auto a0 = hn::PromoteTo(wide, hn::LoadU(df, at_0 + k)), a1 = hn::PromoteTo(wide, hn::LoadU(df, at_1 + k)),
                  a2 = hn::PromoteTo(wide, hn::LoadU(df, at_2 + k));
-      return hn::DemoteTo(df, plane_at(w1, w2, a0, a1, a2));
+      return hn::DemoteTo(df, plane_value(w1, w2, a0, hn::Sub(a1, a0), hn::Sub(a2, a0)));
     };
-    return held(joined(d, part(0), part(hn::MaxLanes(d) - hn::MaxLanes(wide))), hn::LoadU(d, at_0), hn::LoadU(d, at_1),
-                hn::LoadU(d, at_2));
-  }
-
-  template <class V>
-  static HWY_INLINE V plane_at(V w1, V w2, V a0, V a1, V a2) {
-    return hn::Add(a0, hn::Add(hn::Mul(w1, hn::Sub(a1, a0)), hn::Mul(w2, hn::Sub(a2, a0))));
-  }
-  template <class V>
-  static HWY_INLINE V held(V value, V a0, V a1, V a2) {
-    const V low = lesser(lesser(a0, a1), a2), high = greater(greater(a0, a1), a2);
-    return lesser(greater(value, low), high);
+    return within_corners(joined(d, part(0), part(hn::MaxLanes(d) - hn::MaxLanes(wide))), hn::LoadU(d, at_0),
+                          hn::LoadU(d, at_1), hn::LoadU(d, at_2));
   }
 
   /// From four vectors of attributes to vectors of four pixels' attributes k and k + 4.

@@ -1,5 +1,5 @@
 // Smooth attributes of a triangle that fills a good part of some blocks: block after block, all of its pixels at once,
-// by the same operations as interpolate-inl.h. Included once per SIMD target. docs/arithmetic.md section 5.
+// by the rules of interpolate-inl.h. Included once per SIMD target. docs/arithmetic.md section 5.
 #if defined(TRUESHADE_RASTER_SURFACES_FAST_TRIANGLE_IN_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SURFACES_FAST_TRIANGLE_IN_BLOCKS_INL_H_
 #undef TRUESHADE_RASTER_SURFACES_FAST_TRIANGLE_IN_BLOCKS_INL_H_
@@ -11,11 +11,11 @@
 
 #include <bit>
 
-#include "raster/triangles/edge_vectors-inl.h"
-#include "raster/surfaces/interpolate-inl.h"
-#include "raster/triangles/lanes-inl.h"
-#include "raster/surfaces/surfaces.h"
 #include "raster/surfaces/fast/visible_triangles-inl.h"
+#include "raster/surfaces/interpolate-inl.h"
+#include "raster/surfaces/surfaces.h"
+#include "raster/triangles/edge_vectors-inl.h"
+#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -26,10 +26,10 @@ inline constexpr int kHalves = kBlockPixels / kHalf;
 inline constexpr uint32_t kHalfBits = (1u << kHalf) - 1;
 
 /// A block of a tile.
-struct BlockPlace {
-  int x, y, at;  ///< first pixel, and its place in the planes
+struct BlockPosition {
+  int x, y, at;  ///< first pixel, and its index in the planes
 
-  HWY_INLINE BlockPlace(int block, int blocks)
+  HWY_INLINE BlockPosition(int block, int blocks)
       : x(block % blocks * kBlockSize), y(block / blocks * kBlockSize), at(block * kBlockPixels) {}
   HWY_INLINE V64 column(int half) const {
     const D64 d;
@@ -41,7 +41,7 @@ struct BlockPlace {
   }
 };
 
-/// Attributes that are interpolated, by their places in a vertex: [first, last), and the streams that all places have.
+/// Attributes that are interpolated, by their indices in a vertex: [first, last), and the stream of each index.
 struct WantedValues {
   int first, last;
   const int* stream;
@@ -55,8 +55,8 @@ struct BlockWeights {
 
   /// From the edge functions times 1 / w.
   HWY_INLINE void set(int half, V64 l0, V64 l1, V64 l2) {
-    const V64 r = hn::Div(hn::Set(D64(), 1.0), hn::Add(hn::Add(l0, l1), l2));
-    b1[half] = hn::Mul(l1, r), b2[half] = hn::Mul(l2, r);
+    const PerspectiveWeights w = perspective_weights(l0, l1, l2);
+    b1[half] = w.b1, b2[half] = w.b2;
   }
 };
 
@@ -64,7 +64,7 @@ struct BlockWeights {
 /// Where the corners agree, with both differences 0, the plane a_0 + (b_1*0 + b_2*0) is a_0 + 0 at every pixel: weights
 /// there are finite, and edge functions, 1 / w and so weights not negative.
 template <class Hull>
-struct RunAttributes {
+struct TriangleAttributes {
   static constexpr int kRoom = 16;  ///< whole vectors
   static_assert(kRoom >= kStreams);
   const int* stream;           ///< of each
@@ -72,7 +72,7 @@ struct RunAttributes {
   alignas(64) double a0[kRoom], to_1[kRoom] = {}, to_2[kRoom] = {};
   alignas(64) Hull low[kRoom], high[kRoom];
 
-  /// Those of the pixels `mine` of a block. `whole`: the block's others are anyone's.
+  /// Stores the attributes of the pixels `mine` of a block. `whole`: other pixels of the block may receive any values.
   HWY_INLINE void put(const BlockWeights& w, int at, uint32_t mine, bool whole, SurfaceTile& out) const {
     const DF d;
     for (int p = 0; p < kBlockPixels; p += kTogether) {
@@ -124,39 +124,40 @@ struct RunAttributes {
     for (uint32_t bits = varying; bits != 0; bits &= bits - 1) {
       const int k = std::countr_zero(bits);
       const V64 from = hn::Set(D64(), a0[k]), d1 = hn::Set(D64(), to_1[k]), d2 = hn::Set(D64(), to_2[k]);
-      const auto plane = [&](V64 w1, V64 w2) { return hn::Add(from, hn::Add(hn::Mul(w1, d1), hn::Mul(w2, d2))); };
-      const auto value = held(d, plane(b1, b2), plane(upper_b1, upper_b2), low[k], high[k]);
+      const auto value =
+          rounded(d, plane_value(b1, b2, from, d1, d2), plane_value(upper_b1, upper_b2, from, d1, d2), low[k], high[k]);
       float* const to = out.plane[stream[k]] + at;
       store_lanes_or_all(value, mask, all, d, to);
     }
   }
 
+  /// Two vectors of doubles as floats within the hull. A hull of floats may clamp the rounded values: rounding is
+  /// monotone. The values of a clipped triangle's corners are doubles, so the values are clamped before they are
+  /// rounded.
   template <class D>
-  static HWY_INLINE hn::Vec<D> held(D d, V64 lower, V64 upper, float low, float high) {
+  static HWY_INLINE hn::Vec<D> rounded(D d, V64 lower, V64 upper, float least, float most) {
     const D32 dh;
-    const auto value = joined(d, hn::DemoteTo(dh, lower), hn::DemoteTo(dh, upper));
-    return lesser(greater(value, hn::Set(d, low)), hn::Set(d, high));
+    return clamped(joined(d, hn::DemoteTo(dh, lower), hn::DemoteTo(dh, upper)), hn::Set(d, least), hn::Set(d, most));
   }
   template <class D>
-  static HWY_INLINE hn::Vec<D> held(D d, V64 lower, V64 upper, double low, double high) {
+  static HWY_INLINE hn::Vec<D> rounded(D d, V64 lower, V64 upper, double least, double most) {
     const D32 dh;
-    const V64 least = hn::Set(D64(), low), most = hn::Set(D64(), high);
-    return joined(d, hn::DemoteTo(dh, lesser(greater(lower, least), most)),
-                  hn::DemoteTo(dh, lesser(greater(upper, least), most)));
+    const V64 low = hn::Set(D64(), least), high = hn::Set(D64(), most);
+    return joined(d, hn::DemoteTo(dh, clamped(lower, low, high)), hn::DemoteTo(dh, clamped(upper, low, high)));
   }
 };
 
 /// One triangle, set up for many pixels.
-struct RunTriangle : RunAttributes<float> {
+struct TriangleInBlocks : TriangleAttributes<float> {
   double c[3], sx[3], sy[3], u[3];  // E_i = c + px sx + py sy, exact
 
-  RunTriangle(const VisibleTriangles& in, SeenTriangle triangle, WantedValues wanted) {
+  TriangleInBlocks(const VisibleTriangles& in, SeenTriangle triangle, WantedValues wanted) {
     const CanonicalVertices canonical(in, triangle);
     const uint32_t(&vertex)[3] = canonical.vertex;
-    const PlacedVertex* const placed = in.placed.data();
+    const VertexPosition* const positions = in.position.data();
     double x[3], y[3];
     for (int k = 0; k < 3; ++k) {
-      const PlacedVertex& v = vertex_at(placed, vertex[k]);
+      const VertexPosition& v = vertex_at(positions, vertex[k]);
       x[k] = v.x(), y[k] = v.y(), u[k] = v.u;
     }
     for (int k = 0; k < 3; ++k) {
@@ -171,8 +172,8 @@ struct RunTriangle : RunAttributes<float> {
     sort(wanted);
   }
 
-  /// The pixels of a run of its; `whole`: the block's others are anyone's.
-  HWY_INLINE void put_run(const BlockPlace& block, uint32_t mine, bool whole, SurfaceTile& out) const {
+  /// Interpolates the pixels `mine` of a block. `whole`: other pixels of the block may receive any values.
+  HWY_INLINE void put_part(const BlockPosition& block, uint32_t mine, bool whole, SurfaceTile& out) const {
     const D64 d;
     BlockWeights w{};
     const V64 column = hn::LoadU(d, kLaneColumn), row = hn::LoadU(d, kLaneRow);

@@ -1,4 +1,4 @@
-// Finds the triangles that a tile's pixels see and has the vertices transformed that these have. Included once per SIMD
+// Finds the triangles that a tile's pixels see and transforms their vertices. Included once per SIMD
 // target.
 #if defined(TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_TRIANGLES_INL_H_
@@ -14,15 +14,15 @@
 #include <bit>
 #include <cstring>
 
-#include "raster/triangles/lanes-inl.h"
+#include "raster/surfaces/fast/used_vertices-inl.h"
 #include "raster/surfaces/surfaces.h"
-#include "raster/surfaces/fast/visible_vertices-inl.h"
+#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lists a cluster that is seen; returns the place of its first triangle.
+/// Lists a cluster that is seen; returns the index of its first triangle.
 HWY_NOINLINE inline uint32_t add_cluster(const TileDraws& in, uint32_t position, VisibleTriangles& work) {
   const ClusterDraw& draw = in.draws[in.list[position]];
   const Instance& instance = in.scene.instances[draw.instance];
@@ -35,24 +35,25 @@ HWY_NOINLINE inline uint32_t add_cluster(const TileDraws& in, uint32_t position,
   seen.material = instance.material + 1;
   for (size_t c = 0; c < 3; ++c) {
     seen.corner[c] = &mesh.corner[c][first];
-    for (size_t line = 0; line < kTrianglePlaces; line += 64) hwy::Prefetch(seen.corner[c] + line);
+    for (size_t line = 0; line < kTriangleStep; line += 64) hwy::Prefetch(seen.corner[c] + line);
   }
-  return slot * kTrianglePlaces;
+  return slot * kTriangleStep;
 }
 
 /// Empties the lists and makes room for what a tile can show.
 inline void begin_lists(const TileDraws& in, int pixels, VisibleTriangles& work) {
   const size_t most = std::min(in.list.size(), size_t(pixels)) + 1;
-  if (work.slot_of.size() < in.list.size() + 1) work.slot_of.resize(in.list.size() + 1, VisibleTriangles::kNoSlot);
+  if (work.first_triangle.size() < in.list.size() + 1)
+    work.first_triangle.resize(in.list.size() + 1, VisibleTriangles::kUnseen);
   if (work.cluster.size() < most) {
     work.cluster.resize(most);
-    work.first_run.resize(most * kTrianglePlaces, VisibleTriangles::kNoRun);
+    work.first_part.resize(most * kTriangleStep, VisibleTriangles::kNoPart);
   }
-  work.slot_of[0] = 0;
-  static constexpr uint8_t kNothing[kTrianglePlaces] = {};
+  work.first_triangle[0] = 0;
+  static constexpr uint8_t kNothing[kTriangleStep] = {};
   work.cluster[0] = {{}, {kNothing, kNothing, kNothing}, 1, 0, 0, 0, 0};
   work.clusters = 1;
-  work.runs = work.manys = 0;
+  work.parts = work.crowds = 0;
 }
 
 /// Vectors of a block's words.
@@ -85,23 +86,23 @@ struct TriangleFinder {
   const TileDraws& in;
   VisibleTriangles& work;
   SurfaceTile& out;
-  uint32_t* const slot_of = work.slot_of.data();
+  uint32_t* const first_triangle = work.first_triangle.data();
   VisibleCluster* const cluster = work.cluster.data();
 
-  /// Place of the first triangle of a pixel's cluster.
-  HWY_INLINE uint32_t slot_at(uint32_t id) const {
-    uint32_t& slot = slot_of[id >> 8];
-    if (HWY_UNLIKELY(slot == VisibleTriangles::kNoSlot)) slot = add_cluster(in, id_position(id), work);
-    return slot;
+  /// Index of the first triangle of a pixel's cluster.
+  HWY_INLINE uint32_t first_of(uint32_t id) const {
+    uint32_t& first = first_triangle[id >> 8];
+    if (HWY_UNLIKELY(first == VisibleTriangles::kUnseen)) first = add_cluster(in, id_position(id), work);
+    return first;
   }
-  HWY_INLINE void add_run(int at, uint32_t pixels, uint32_t slot, uint32_t id) const {
-    work.run[work.runs++] = {uint16_t(at / kBlockPixels), uint16_t(pixels), {slot + id_triangle(id), 0}};
+  HWY_INLINE void add_part(int at, uint32_t pixels, uint32_t slot, uint32_t id) const {
+    work.part[work.parts++] = {uint16_t(at / kBlockPixels), uint16_t(pixels), {slot + id_triangle(id), 0}};
   }
 
   /// A block whose pixels all see one triangle.
   HWY_INLINE void one(const uint32_t* id, int at) const {
-    const uint32_t slot = slot_at(id[0]);
-    add_run(at, 0xFFFF, slot, id[0]);
+    const uint32_t slot = first_of(id[0]);
+    add_part(at, 0xFFFF, slot, id[0]);
     set_object(cluster_at(cluster, slot), at, out);
   }
 
@@ -110,23 +111,23 @@ struct TriangleFinder {
     const DBlock d;
     hn::Vec<DBlock> here[kBlockVectors];
     for (int v = 0; v < kBlockVectors; ++v) here[v] = hn::Load(d, id + v * kBlockLanes);
-    const uint32_t first = work.runs;
+    const uint32_t first = work.parts;
     uint32_t objects = 0, slot = 0;  // bits in which objects differ from the last
     for (uint32_t rest = covered; rest != 0;) {
       const uint32_t one = id[std::countr_zero(rest)], before = slot;
       uint32_t mine = 0;
       for (int v = 0; v < kBlockVectors; ++v)
         mine |= lane_bits(d, hn::Eq(here[v], hn::Set(d, one))) << (v * kBlockLanes);
-      slot = slot_at(one);
+      slot = first_of(one);
       if (rest != covered) objects |= cluster_at(cluster, slot).object ^ cluster_at(cluster, before).object;
       rest &= ~mine;
-      add_run(at, mine, slot, one);
+      add_part(at, mine, slot, one);
     }
     set_object(cluster_at(cluster, slot), at, out);
-    for (uint32_t i = first; i < work.runs && objects != 0; ++i) {
-      const VisibleCluster& its = cluster_at(cluster, work.run[i].triangle.place);
+    for (uint32_t i = first; i < work.parts && objects != 0; ++i) {
+      const VisibleCluster& its = cluster_at(cluster, work.part[i].triangle.index);
       for (int v = 0; v < kBlockVectors; ++v) {
-        const auto mask = lane_mask(d, uint32_t(work.run[i].pixels) >> (v * kBlockLanes));
+        const auto mask = lane_mask(d, uint32_t(work.part[i].pixels) >> (v * kBlockLanes));
         store_lanes(hn::Set(d, its.object), mask, d, out.object + at + v * kBlockLanes);
         store_lanes(hn::Set(d, its.material), mask, d, out.material + at + v * kBlockLanes);
       }
@@ -134,17 +135,17 @@ struct TriangleFinder {
   }
 
   /// A block of more triangles than pay to be told apart.
-  HWY_INLINE void many(const uint32_t* id, int at, uint32_t covered) const {
+  HWY_INLINE void crowd(const uint32_t* id, int at, uint32_t covered) const {
     const DBlock d;
-    work.many[work.manys++] = uint16_t(at / kBlockPixels);
-    const uint32_t first_id = id[std::countr_zero(covered)], first = slot_at(first_id);
+    work.crowded[work.crowds++] = uint16_t(at / kBlockPixels);
+    const uint32_t first_id = id[std::countr_zero(covered)], first = first_of(first_id);
     const uint32_t object = cluster_at(cluster, first).object;
     if (of_one_cluster(id, first_id)) {
       for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
         const auto here = hn::Load(d, id + k);
-        const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, kTrianglePlaces - 1));
-        const auto place = hn::Add(triangle, hn::Set(d, first));
-        hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), place), d, work.place + at + k);
+        const auto triangle = hn::And(hn::ShiftRight<1>(here), hn::Set(d, kTriangleStep - 1));
+        const auto index = hn::Add(triangle, hn::Set(d, first));
+        hn::Store(hn::IfThenZeroElse(hn::Eq(here, hn::Zero(d)), index), d, work.triangle + at + k);
       }
       set_object(cluster_at(cluster, first), at, out);
       return;
@@ -152,14 +153,14 @@ struct TriangleFinder {
     uint32_t others = 0;
     cluster[0].object = object;  // of what is not covered
     for (int k = 0; k < kBlockPixels; ++k) {
-      const uint32_t slot = slot_at(id[k]);
+      const uint32_t slot = first_of(id[k]);
       others |= cluster_at(cluster, slot).object ^ object;
-      work.place[at + k] = slot + id_triangle(id[k]);
+      work.triangle[at + k] = slot + id_triangle(id[k]);
     }
     if (others == 0) return set_object(cluster_at(cluster, first), at, out);
     cluster[0].object = 0;
     for (int k = 0; k < kBlockPixels; ++k) {
-      const VisibleCluster& seen = cluster_at(cluster, work.place[at + k]);
+      const VisibleCluster& seen = cluster_at(cluster, work.triangle[at + k]);
       out.object[at + k] = seen.object;
       out.material[at + k] = seen.material;
     }
@@ -178,14 +179,14 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
   out.covered_pixels = 0;
   for (int at = 0; at < pixels; at += kBlockPixels) {
     const uint32_t* const id = visible.id + at;
-    uint32_t covered = 0, same = 0, changed = 0, careful = 0;  // the first block's changes are not counted
+    uint32_t covered = 0, same = 0, changed = 0, clipped = 0;  // the first block's changes are not counted
     for (int k = 0; k < kBlockPixels; k += kBlockLanes) {
       const auto here = hn::Load(d, id + k), before = hn::LoadU(d, id + k - (at + k > 0 ? 1 : 0));
       const auto drawn = hn::Ne(here, hn::Zero(d));
       covered |= lane_bits(d, drawn) << k;
       same |= lane_bits(d, hn::Eq(here, hn::Set(d, id[0]))) << k;
       changed |= lane_bits(d, hn::Ne(here, before)) << k;
-      careful |= lane_bits(d, hn::Ne(hn::And(here, hn::Set(d, 1)), hn::Zero(d))) << k;
+      clipped |= lane_bits(d, hn::Ne(hn::And(here, hn::Set(d, 1)), hn::Zero(d))) << k;
       hn::Store(hn::VecFromMask(di, hn::RebindMask(di, drawn)), di, out.covered + at + k);
     }
     work.covered[at / kBlockPixels] = uint16_t(covered);
@@ -194,19 +195,19 @@ inline void find_triangles(const TileDraws& in, const TileRect& rect, const Visi
       set_object({}, at, out);
     else if (same == 0xFFFF)
       find.one(id, at);
-    else if (careful != 0 || std::popcount(changed) <= kFewChanges)
+    else if (clipped != 0 || std::popcount(changed) <= kFewChanges)
       find.few(id, at, covered);
     else
-      find.many(id, at, covered);
+      find.crowd(id, at, covered);
   }
   for (uint32_t slot = 1; slot < work.clusters; ++slot)
-    find.slot_of[find.cluster[slot].position + 1] = VisibleTriangles::kNoSlot;
+    find.first_triangle[find.cluster[slot].position + 1] = VisibleTriangles::kUnseen;
 }
 
-/// The corners of the triangle at a place, whose vertices become used ones.
-HWY_INLINE uint32_t corners_at(uint32_t place, VisibleCluster* cluster) {
-  const uint32_t triangle = place % kTrianglePlaces;
-  VisibleCluster& its = cluster_at(cluster, place);
+/// The corners of the triangle of an index, whose vertices become used ones.
+HWY_INLINE uint32_t corners_at(uint32_t index, VisibleCluster* cluster) {
+  const uint32_t triangle = index % kTriangleStep;
+  VisibleCluster& its = cluster_at(cluster, index);
   const size_t a = its.corner[0][triangle], b = its.corner[1][triangle], c = its.corner[2][triangle];
   its.mark[a] = its.mark[b] = its.mark[c] = 1;
   return uint32_t(a | b << 8 | c << 16);
@@ -226,13 +227,13 @@ HWY_INLINE uint64_t taken_marks(uint8_t* mark) {
 }
 
 /// Finds the corners of the triangles that are seen and transforms the vertices that these use.
-inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams wanted, VisibleTriangles& work) {
+inline void transform_seen(const TileDraws& in, const TileRect& rect, WantedStreams wanted, VisibleTriangles& work) {
   VisibleCluster* const cluster = work.cluster.data();
-  for (uint32_t i = 0; i < work.manys; ++i)
-    for (int k = work.many[i] * kBlockPixels, end = k + kBlockPixels; k < end; ++k)
-      work.corners[k] = corners_at(work.place[k], cluster);
-  for (uint32_t i = 0; i < work.runs; ++i)
-    work.run[i].triangle.corners = corners_at(work.run[i].triangle.place, cluster);
+  for (uint32_t i = 0; i < work.crowds; ++i)
+    for (int k = work.crowded[i] * kBlockPixels, end = k + kBlockPixels; k < end; ++k)
+      work.corners[k] = corners_at(work.triangle[k], cluster);
+  for (uint32_t i = 0; i < work.parts; ++i)
+    work.part[i].triangle.corners = corners_at(work.part[i].triangle.index, cluster);
   uint32_t vertices = 0;
   taken_marks(cluster[0].mark);  // of nothing
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {
@@ -241,8 +242,8 @@ inline void place_seen(const TileDraws& in, const TileRect& rect, WantedStreams 
     vertices += uint32_t(std::popcount(cluster[slot].used));
   }
   constexpr uint32_t kSlack = 16;  // whole vectors are written
-  if (work.placed.size() < vertices + kSlack) {
-    work.placed.resize(2 * vertices + kSlack);
+  if (work.position.size() < vertices + kSlack) {
+    work.position.resize(2 * vertices + kSlack);
     work.record.resize(2 * vertices + kSlack);
   }
   if (wanted.rest() && work.rest.size() < vertices + kSlack) work.rest.resize(2 * vertices + kSlack);
@@ -262,7 +263,7 @@ struct SubmittedVertices {
   uint32_t vertex[3];
 
   HWY_INLINE SubmittedVertices(const VisibleTriangles& in, SeenTriangle triangle) {
-    const VisibleCluster& cluster = cluster_at(in.cluster.data(), triangle.place);
+    const VisibleCluster& cluster = cluster_at(in.cluster.data(), triangle.index);
     for (int k = 0; k < 3; ++k) vertex[k] = vertex_of(cluster, ~triangle.corners >> (8 * k));
   }
 };
@@ -271,14 +272,14 @@ struct SubmittedVertices {
 struct CanonicalVertices : SubmittedVertices {
   HWY_INLINE CanonicalVertices(const VisibleTriangles& in, SeenTriangle triangle) : SubmittedVertices(in, triangle) {
     // No branch that cannot be predicted.
-    const PlacedVertex* const placed = in.placed.data();
-    const uint64_t key_0 = vertex_at(placed, vertex[0]).key, key_1 = vertex_at(placed, vertex[1]).key,
-                   key_2 = vertex_at(placed, vertex[2]).key;
+    const VertexPosition* const positions = in.position.data();
+    const uint64_t key_0 = vertex_at(positions, vertex[0]).key, key_1 = vertex_at(positions, vertex[1]).key,
+                   key_2 = vertex_at(positions, vertex[2]).key;
     const uint32_t from_2 = uint32_t(key_2 < key_0) & uint32_t(key_2 < key_1);
-    const uint32_t from_1 = uint32_t(key_1 < key_0) & (from_2 ^ 1), turn = (from_1 + 2 * from_2) * 16;
+    const uint32_t from_1 = uint32_t(key_1 < key_0) & (from_2 ^ 1), rotation = (from_1 + 2 * from_2) * 16;
     const uint64_t all = vertex[0] | uint64_t(vertex[1]) << 16 | uint64_t(vertex[2]) << 32;
-    const uint64_t turned = (all >> turn) | (all << (48 - turn));
-    for (int k = 0; k < 3; ++k) vertex[k] = uint16_t(turned >> (16 * k));
+    const uint64_t rotated = (all >> rotation) | (all << (48 - rotation));
+    for (int k = 0; k < 3; ++k) vertex[k] = uint16_t(rotated >> (16 * k));
   }
 };
 

@@ -8,8 +8,8 @@
 
 namespace trueshade {
 
-/// A vertex where interpolation wants it.
-struct alignas(16) PlacedVertex {
+/// A vertex as interpolation reads it.
+struct alignas(16) VertexPosition {
   static constexpr uint32_t kBias = uint32_t(1) << 31;
   /// Window position relative to the tile's first sample, in 1/256 pixel, plus kBias: y above, x below, so that they
   /// compare in canonical order.
@@ -20,7 +20,7 @@ struct alignas(16) PlacedVertex {
   double y() const { return double(int32_t(uint32_t(key >> 32) ^ kBias)); }
 };
 
-/// What is interpolated of a vertex, in the order of kRecordStream (surfaces.h), and what finds no place there.
+/// The attributes of a vertex in the order of kRecordStream (used_vertices-inl.h): the first eight, and the rest.
 struct alignas(32) VertexRecord {
   static constexpr int kValues = 8;
   float value[kValues];
@@ -30,7 +30,7 @@ struct alignas(16) VertexRest {
   float value[kValues];
 };
 
-/// Vertices are named by four times their place, so that the place of what they have is one address.
+/// Vertices are named by four times their index, so that the address of each of their records is one addition away.
 inline constexpr uint32_t kVertexStep = 4;
 template <class T>
 const T& vertex_at(const T* first, size_t vertex) {
@@ -48,52 +48,53 @@ struct alignas(64) VisibleCluster {
   uint32_t first_vertex;           ///< of its vertices in VisibleTriangles, for vertex_at()
 };
 
-/// A triangle that is seen: its place is its cluster's times kTrianglePlaces plus its own in that; its corners are
-/// cluster-local vertices, a byte each, the first lowest.
-inline constexpr uint32_t kTrianglePlaces = 128;
-static_assert(kTrianglePlaces >= kClusterTriangles);
+/// A triangle that is seen: its index is that of its cluster times kTriangleStep plus its own index in the cluster. Its
+/// corners are cluster-local vertices, a byte each, the first lowest.
+inline constexpr uint32_t kTriangleStep = 128;
+static_assert(kTriangleStep >= kClusterTriangles);
 struct SeenTriangle {
-  uint32_t place, corners;
+  uint32_t index, corners;
 };
 
-/// The cluster of a triangle by its place, of which the cluster's own in bytes is a part.
+/// The cluster of a triangle by the triangle's index: its upper bits are the cluster's offset in bytes.
 template <class T>
-T& cluster_at(T* first, uint32_t place) {
-  static_assert(sizeof(T) == kTrianglePlaces);
-  return *reinterpret_cast<T*>(uintptr_t(first) + (place & ~(kTrianglePlaces - 1)));
+T& cluster_at(T* first, uint32_t index) {
+  static_assert(sizeof(T) == kTriangleStep);
+  return *reinterpret_cast<T*>(uintptr_t(first) + (index & ~(kTriangleStep - 1)));
 }
 
-/// Pixels of a block that see one triangle.
-struct SeenRun {
+/// The pixels of a block that see one triangle.
+struct SeenPart {
   uint16_t block, pixels;  ///< a bit a pixel
   SeenTriangle triangle;
 };
 
-/// The triangles that are seen in a tile and the vertices they have: scratch of resolve_surfaces(), kept between tiles.
+/// The triangles that are seen in a tile and their vertices: scratch of resolve_by_blocks(), kept between tiles.
 struct VisibleTriangles {
-  static constexpr uint32_t kNoSlot = ~0u;
-  /// Place of a cluster's first triangle by position in the tile's list, plus 1; 0 where none, kNoSlot: not seen.
-  std::vector<uint32_t> slot_of;
-  std::vector<VisibleCluster> cluster;  ///< the first stands for nothing
+  static constexpr uint32_t kUnseen = ~0u;
+  /// Index of a cluster's first triangle by the cluster's position in the tile's list, plus 1; 0 where there is none.
+  std::vector<uint32_t> first_triangle;
+  std::vector<VisibleCluster> cluster;  ///< the first stands for pixels that see nothing
   uint32_t clusters;
-  std::vector<PlacedVertex> placed;
+  std::vector<VertexPosition> position;
   std::vector<VertexRecord> record;
   std::vector<VertexRest> rest;
 
   uint16_t covered[kMaxTilePixels / kBlockPixels];  ///< of each block, a bit a pixel
-  SeenRun run[kMaxTilePixels];                      ///< of blocks that see few triangles
-  uint32_t runs;
-  static constexpr uint16_t kNoRun = UINT16_MAX;
-  std::vector<uint16_t> first_run;               ///< of a triangle's long runs, by place. All kNoRun between tiles
-  uint16_t next_run[kMaxTilePixels];             ///< of the same triangle, by run
-  uint32_t chain[kMaxTilePixels];                ///< places of the triangles that have long runs
-  uint16_t many[kMaxTilePixels / kBlockPixels];  ///< blocks that see more, none of them careful
-  uint32_t manys;
-  alignas(64) uint32_t place[kMaxTilePixels], corners[kMaxTilePixels];  ///< of the triangles their pixels see
+  SeenPart part[kMaxTilePixels];                    ///< of blocks that see few triangles
+  uint32_t parts;
+  static constexpr uint16_t kNoPart = UINT16_MAX;
+  std::vector<uint16_t>
+      first_part;  ///< of a triangle, by index, where it has several pixels. All kNoPart between tiles
+  uint16_t next_part[kMaxTilePixels];               ///< of the same triangle, by part
+  uint32_t chain[kMaxTilePixels];                   ///< the triangles that have a first part
+  uint16_t crowded[kMaxTilePixels / kBlockPixels];  ///< blocks that see many triangles, none of them clipped
+  uint32_t crowds;
+  alignas(64) uint32_t triangle[kMaxTilePixels], corners[kMaxTilePixels];  ///< of each pixel of a crowded block
 };
 
-/// Vertex of a cluster, for vertex_at(), by the complement of a corner, whose upper bits are ignored: used ones, of
-/// which it is one, lie side by side.
+/// The vertex of a cluster's corner, for vertex_at(), by the complement of the corner, whose upper bits are ignored.
+/// Used vertices lie side by side, and this one is used.
 inline uint32_t vertex_of(const VisibleCluster& cluster, uint32_t complement) {
   static_assert(kClusterVertices == 64);
   return cluster.first_vertex + kVertexStep * uint32_t(std::popcount(cluster.used << (complement & 63))) - kVertexStep;

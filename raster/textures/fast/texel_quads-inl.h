@@ -1,5 +1,5 @@
-// Lookups in textures of four bytes a texel, all lanes at once: two texels side by side are one word of eight bytes.
-// Included once per SIMD target. docs/arithmetic.md section 13.
+// Reads textures of four bytes a texel with all lanes at once: two texels side by side are one word of eight bytes. The
+// bits are those of TexelReader. Included once per SIMD target. docs/arithmetic.md section 13.
 #if defined(TRUESHADE_RASTER_TEXTURES_FAST_TEXEL_QUADS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_TEXTURES_FAST_TEXEL_QUADS_INL_H_
 #undef TRUESHADE_RASTER_TEXTURES_FAST_TEXEL_QUADS_INL_H_
@@ -14,13 +14,15 @@
 #include <cstring>
 
 #include "core/srgb.h"
-#include "raster/textures/texel_positions-inl.h"
+#include "raster/textures/fast/quad_positions-inl.h"
+#include "raster/textures/texel_reader-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of words holds the left texels of a vector of doubles' lanes, and behind them the right ones.
+/// Reads and filters quads. A vector of words holds the left texels of a vector of doubles' lanes, and behind them the
+/// right ones. The one-lane target, which reads no quads, lacks some of the operations: kVectors keeps it from them.
 template <bool kVectors>
 struct TexelQuadsOf {
   using DW = hn::ScalableTag<uint32_t>;
@@ -29,47 +31,66 @@ struct TexelQuadsOf {
   using VF = hn::Vec<DF>;
   static constexpr int kLanes = int(hn::MaxLanes(D64()));
 
-  /// The channels wanted, in f64.
-  static HWY_INLINE void filter(const TextureView& texture, const LookupPlaces& at, uint32_t channels, V64 value[4]) {
+  /// RGBA in f64 of the channels wanted, from the second level too where `blends`.
+  static HWY_INLINE void read(const TextureView& texture, const QuadPositions at[2], bool blends, V64 part,
+                              uint32_t channels, V64 rgba[4]) {
+    const DW d;
     Words row[2][2];
-    fetch_rows(texture, at.of[0], row[0]);
+    fetch(texture, at[0], row[0]);
     Words all = hn::And(row[0][0], row[0][1]);
-    if (at.blends) {
-      fetch_rows(texture, at.of[1], row[1]);
+    if (blends) {
+      fetch(texture, at[1], row[1]);
       all = hn::And(all, hn::And(row[1][0], row[1][1]));
     }
     // Of texels with alpha 1 the filters make 1 up to roundings of f64, and so the float 1.
-    const auto one = hn::Set(DW(), 0xFF000000);
-    const uint32_t mixed = hn::AllTrue(DW(), hn::Eq(hn::And(all, one), one)) ? channels & 7 : channels;
-    value[3] = hn::Set(D64(), 1.0);
-    filter_level(row[0], at.of[0], texture.format, mixed, value);
-    if (!at.blends) return;
+    const Words opaque = hn::Set(d, 0xFF000000);
+    const uint32_t wanted = hn::AllTrue(d, hn::Eq(hn::And(all, opaque), opaque)) ? channels & kRgbBits : channels;
+    rgba[3] = hn::Set(D64(), 1.0);
+    filter(row[0], at[0], texture.format, wanted, rgba);
+    if (!blends) return;
     V64 next[4];
-    filter_level(row[1], at.of[1], texture.format, mixed, next);
+    filter(row[1], at[1], texture.format, wanted, next);
 #pragma GCC unroll 4
     for (int c = 0; c < 4; ++c)
-      if ((mixed >> c & 1) != 0) value[c] = mix(value[c], next[c], at.part);
+      if ((wanted >> c & 1) != 0) rgba[c] = mix(rgba[c], next[c], part);
   }
 
  private:
-  /// The quads of one level, a row each.
-  static HWY_INLINE void fetch_rows(const TextureView& texture, const LevelTexels& at, Words row[2]) {
+  /// The quads of one level, a vector of words a row.
+  static HWY_INLINE void fetch(const TextureView& texture, const QuadPositions& at, Words row[2]) {
     if (HWY_UNLIKELY(!at.together))
       return at.adjoining ? fetch_levels(texture, at, row) : fetch_apart(texture, at, row);
-    const uint8_t* const bytes = texture.level[at.level].bytes;
+    const uint8_t* const bytes = texture.level[at.first].bytes;
     pairs(row, [&](int j, size_t lane) { return bytes + at.offset[j][0][lane]; });
   }
 
-  /// The same of several levels.
-  static HWY_NOINLINE void fetch_levels(const TextureView& texture, const LevelTexels& at, Words row[2]) {
-    pairs(row, [&](int j, size_t lane) { return texture.level[at.level_of[lane]].bytes + at.offset[j][0][lane]; });
+  /// The filtered texels in f64, of the channels wanted.
+  static HWY_INLINE void filter(const Words row[2], const QuadPositions& at, TextureFormat format, uint32_t channels,
+                                V64 value[4]) {
+    if ((channels & kRgbBits) != 0) {
+      VF color[2][3];
+      if (format == TextureFormat::srgb8_a8)
+        linear_colors(row, color);
+      else
+#pragma GCC unroll 2
+        for (int j = 0; j < 2; ++j)
+          color[j][0] = unorm<0>(row[j]), color[j][1] = unorm<1>(row[j]), color[j][2] = unorm<2>(row[j]);
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) value[c] = filtered(color[0][c], color[1][c], at);
+    }
+    if ((channels & kAlphaBit) != 0) value[3] = filtered(unorm<3>(row[0]), unorm<3>(row[1]), at);
   }
 
-  /// The same of texels that lie anywhere.
-  static HWY_NOINLINE void fetch_apart(const TextureView& texture, const LevelTexels& at, Words row[2]) {
+  /// The same where lanes read several levels.
+  static HWY_NOINLINE void fetch_levels(const TextureView& texture, const QuadPositions& at, Words row[2]) {
+    pairs(row, [&](int j, size_t lane) { return texture.level[at.level[lane]].bytes + at.offset[j][0][lane]; });
+  }
+
+  /// The same where a right texel does not lie behind its left one.
+  static HWY_NOINLINE void fetch_apart(const TextureView& texture, const QuadPositions& at, Words row[2]) {
     alignas(64) uint32_t word[2][2 * kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      const uint8_t* const bytes = texture.level[at.level_of[i]].bytes;
+      const uint8_t* const bytes = texture.level[at.level[i]].bytes;
       for (int j = 0; j < 2; ++j)
         for (int k = 0; k < 2; ++k) std::memcpy(&word[j][k * kLanes + i], bytes + at.offset[j][k][i], 4);
     }
@@ -105,27 +126,11 @@ struct TexelQuadsOf {
     }
   }
 
-  static HWY_INLINE void filter_level(const Words row[2], const LevelTexels& at, TextureFormat format,
-                                      uint32_t channels, V64 value[4]) {
-    if ((channels & 7) != 0) {
-      VF color[2][3];
-      if (format == TextureFormat::srgb8_a8)
-        linear_colors(row, color);
-      else
-#pragma GCC unroll 2
-        for (int j = 0; j < 2; ++j)
-          color[j][0] = unorm<0>(row[j]), color[j][1] = unorm<1>(row[j]), color[j][2] = unorm<2>(row[j]);
-#pragma GCC unroll 3
-      for (int c = 0; c < 3; ++c) value[c] = mixed(color[0][c], color[1][c], at);
-    }
-    if ((channels & 8) != 0) value[3] = mixed(unorm<3>(row[0]), unorm<3>(row[1]), at);
-  }
-
-  static HWY_INLINE V64 mixed(VF row, VF other, const LevelTexels& at) {
-    return mix(mixed(row, at.u_weight), mixed(other, at.u_weight), at.v_weight);
+  static HWY_INLINE V64 filtered(VF row, VF next_row, const QuadPositions& at) {
+    return mix(filtered_row(row, at.u_weight), filtered_row(next_row, at.u_weight), at.v_weight);
   }
   template <class V>
-  static HWY_INLINE V64 mixed(V row, V64 weight) {
+  static HWY_INLINE V64 filtered_row(V row, V64 weight) {
     const D64 d;
     const D32 dh;
     return mix(hn::PromoteTo(d, LowerHalf(dh, row)), hn::PromoteTo(d, UpperHalf(dh, row)), weight);
@@ -144,7 +149,7 @@ struct TexelQuadsOf {
     return hn::Add(hn::Mul(k, hn::Set(d, 0x1p-8f)), hn::Mul(k, hn::Set(d, float(1.0 / 65280.0))));
   }
 
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET == HWY_AVX3  // Highway has no lookup in more than one register, so this one uses intrinsics.
   /// Halves of the linear values, 32 codes at a time: red and blue of a row, green of two.
   static HWY_INLINE void linear_colors(const Words row[2], VF color[2][3]) {
     const DW d;
@@ -197,6 +202,29 @@ struct TexelQuadsOf {
 };
 
 using TexelQuads = TexelQuadsOf<(hn::MaxLanes(D64()) > 1)>;
+
+/// Reads quads where a texture has them; otherwise it is a TexelReader.
+class QuadReader : public TexelReader {
+ public:
+  HWY_INLINE void set(const TextureView& texture, const MipChoice& mip, const V64 at[2], M64 valid) {
+    if (!reads_quads(texture)) return TexelReader::set(texture, mip, at, valid);
+    const LevelsRead read(texture, mip, at, valid);
+    of_[0].set(texture, read.level[0], read);
+    part_ = read.part, blends_ = read.blends;
+    if (blends_) of_[1].set(texture, read.level[1], read);
+  }
+
+  HWY_INLINE void read(const TextureView& texture, M64 valid, uint32_t channels, V64 rgba[4]) const {
+    if constexpr (hn::MaxLanes(D64()) > 1)
+      if (reads_quads(texture)) return TexelQuads::read(texture, of_, blends_, part_, channels, rgba);
+    TexelReader::read(texture, valid, channels, rgba);
+  }
+
+ private:
+  QuadPositions of_[2];  // the second where blends_
+  V64 part_;             // the weight of the second
+  bool blends_;
+};
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -26,9 +26,10 @@ HWY_INLINE void count_bits(uint32_t bits, uint32_t* counters) {
   }
 }
 
-/// Counts a triangle's samples. False, and nothing counted, if the triangle is too long.
+/// Counts a triangle's samples. False, and nothing counted, if the triangle is too long or the sink does other things.
 template <class T>
-inline bool count_blocks(const TriangleSetup<T>& s, const TileRect& rect, uint32_t* counts) {
+inline bool count_blocks(const TriangleSetup<T>& s, const TileRect& rect, CountSink<uint32_t>& sink) {
+  if (!sink.fast) return false;
   using Edges = WholeEdges<T>;
   Edges edges;
   if (!edges.set(s)) return false;
@@ -44,11 +45,16 @@ inline bool count_blocks(const TriangleSetup<T>& s, const TileRect& rect, uint32
         uint32_t covered = (whole >> k) & 1 ? 0xFFFFu : edges.covered(px, py);
         if (px < limit[0] || py < limit[1] || px + kBlockSize > limit[2] || py + kBlockSize > limit[3])
           covered &= allowed_pixels(limit, px, py);
-        count_bits(covered, counts + (by * blocks + bx + k) * kBlockPixels);
+        count_bits(covered, sink.counts + (by * blocks + bx + k) * kBlockPixels);
       }
     }
   }
   return true;
+}
+
+template <class T, class Sink>
+HWY_INLINE bool count_blocks(const TriangleSetup<T>&, const TileRect&, Sink&) {
+  return false;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -11,8 +11,10 @@
 
 #include <bit>
 
-#include "raster/visibility/sinks-inl.h"
+#include "raster/triangles/depth_plane-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/depth_test.h"
+#include "raster/visibility/sinks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -88,14 +90,9 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
     corners.at(in, i, z0, z1, z2);
     const V64 size = hn::PromoteTo(d, hn::Load(di, in.area + i));
     const V64 e1 = hn::PromoteTo(d, hn::Load(di, in.e1 + i)), e2 = hn::PromoteTo(d, hn::Load(di, in.e2 + i));
-    const V64 g1 = hn::Div(hn::Sub(z1, z0), size), g2 = hn::Div(hn::Sub(z2, z0), size);
-    const auto rising = hn::Lt(z1, z2);
-    const V64 low = hn::IfThenElse(rising, z1, z2), high = hn::IfThenElse(rising, z2, z1);
-    const V64 z_low = hn::IfThenElse(hn::Lt(z0, low), z0, low), z_high = hn::IfThenElse(hn::Gt(z0, high), z0, high);
-    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e1, g1), hn::Mul(e2, g2)));
-    const V64 in_hull = hn::Min(hn::Max(plane, z_low), z_high);
-    const V64 in_range =
-        hn::Min(hn::Max(in_hull, hn::Set(d, double(sink.range_low))), hn::Set(d, double(sink.range_high)));
+    DepthPlanes plane(z0, z1, z2, size);
+    plane.clamp_to_range(double(sink.range_low), double(sink.range_high));
+    const V64 in_range = plane.at(e1, e2);
     hn::Store(sink.stored(hn::DemoteTo(df, in_range)), df, in.z + i);
   }
 }
@@ -103,15 +100,14 @@ HWY_INLINE void fragment_depths(FragmentList& in, const double* vertex_z, const 
 /// Tests the listed fragments under LESS or LEQUAL and empties the list. `first_id`: that of the cluster's first
 /// triangle. No stored depth is negative, so those that are nearer have smaller bits; ids above or below them (turned
 /// over where the last wins a tie) settle ties: what is least is seen.
-HWY_INLINE void test_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id,
-                                 DepthSink& sink) {
+HWY_INLINE void test_fragments(FragmentList& fragments, const double* vertex_z, uint32_t first_id, DepthSink& sink) {
   sink.fragments += uint64_t(fragments.count);
   fragment_depths(fragments, vertex_z, sink);
   const float* const z = fragments.z;
   const int32_t *const place = fragments.at, *const word = fragments.word;
   float* const depth = sink.tile.depth;
   uint32_t* const seen = sink.tile.id;
-  const uint32_t turned = sink.func == DepthFunc::less ? 0u : ~0u;
+  const uint32_t mask = tie_mask(sink.func);
   uint16_t* const block = fragments.block;
   uint8_t* const touched = fragments.touched;
   size_t blocks = 0;
@@ -119,11 +115,10 @@ HWY_INLINE void test_fragments(FragmentList& fragments, const double* vertex_z, 
   for (int i = 0; i < count; ++i) {  // no branch on what the depth test says: that cannot be predicted
     const size_t at = size_t(place[i]);
     const uint32_t id = first_id + ((uint32_t(word[i]) >> 24) << 1);
-    const uint64_t mine = uint64_t(std::bit_cast<uint32_t>(z[i])) << 32 | (id ^ turned);
-    const uint64_t there = uint64_t(std::bit_cast<uint32_t>(depth[at])) << 32 | (seen[at] ^ turned);
+    const uint64_t mine = nearest_key(z[i], id, mask), there = nearest_key(depth[at], seen[at], mask);
     const uint64_t kept = mine < there ? mine : there;
     depth[at] = std::bit_cast<float>(uint32_t(kept >> 32));
-    seen[at] = uint32_t(kept) ^ turned;
+    seen[at] = uint32_t(kept) ^ mask;
     const size_t in_block = at / kBlockPixels;
     block[blocks] = uint16_t(in_block);
     blocks += touched[in_block] ^ 1u;

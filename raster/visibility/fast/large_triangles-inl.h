@@ -18,11 +18,11 @@
 #include <cmath>
 #include <type_traits>
 
-#include "raster/visibility/sinks-inl.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/visibility/hierarchical_depth-inl.h"
 #include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
+#include "raster/visibility/hierarchical_depth-inl.h"
+#include "raster/visibility/sinks-inl.h"
 #include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -120,12 +120,12 @@ struct NearPlane {
 
   template <class T>
   HWY_INLINE NearPlane(const TriangleSetup<T>& s, const DepthSink& sink) {
-    const double zx = double(s.sx[1]) * sink.g1 + double(s.sx[2]) * sink.g2;
-    const double zy = double(s.sy[1]) * sink.g1 + double(s.sy[2]) * sink.g2;
-    const double z1 = double(s.c[1]) * sink.g1, z2 = double(s.c[2]) * sink.g2;
-    const double least = sink.z0 + (z1 + z2) + 3.0 * (std::min(zx, 0.0) + std::min(zy, 0.0));
+    const double zx = double(s.sx[1]) * sink.plane.g1 + double(s.sx[2]) * sink.plane.g2;
+    const double zy = double(s.sy[1]) * sink.plane.g1 + double(s.sy[2]) * sink.plane.g2;
+    const double z1 = double(s.c[1]) * sink.plane.g1, z2 = double(s.c[2]) * sink.plane.g2;
+    const double least = sink.plane.z0 + (z1 + z2) + 3.0 * (std::min(zx, 0.0) + std::min(zy, 0.0));
     // All its roundings, a few of f32, are less than 2^-20 of its terms' magnitudes.
-    const double terms = std::abs(sink.z0) + std::abs(z1) + std::abs(z2) + 64.0 * (std::abs(zx) + std::abs(zy));
+    const double terms = std::abs(sink.plane.z0) + std::abs(z1) + std::abs(z2) + 64.0 * (std::abs(zx) + std::abs(zy));
     const bool bounded = terms < 0x1p100;
     first = bounded ? float(least - terms * 0x1p-20) : -0x1p100f;
     across = bounded ? float(kBlockSize * zx) : 0.0f;
@@ -150,16 +150,10 @@ struct BlockDepths {
   static constexpr int kLanes = int(hn::MaxLanes(D())), kHalf = int(hn::MaxLanes(D64()));
   EdgeVectors<T> edges;
   V64 beyond[2][kBlockPixels / kHalf];  ///< of E_1 and E_2 from the first pixel of a block; not of wide setups
-  V64 z0, g1, g2, low, high;
+  DepthPlanes planes;
 
-  HWY_INLINE BlockDepths(const TriangleSetup<T>& s, const DepthSink& sink) : edges(s) {
+  HWY_INLINE BlockDepths(const TriangleSetup<T>& s, const DepthSink& sink) : edges(s), planes(sink.plane) {
     const D64 d;
-    z0 = hn::Set(d, sink.z0), g1 = hn::Set(d, sink.g1), g2 = hn::Set(d, sink.g2);
-    // To the hull and then to the range is to the hull's ends in that range.
-    const auto in_range = [&](double z) {
-      return std::min(std::max(z, double(sink.range_low)), double(sink.range_high));
-    };
-    low = hn::Set(d, in_range(sink.z_low)), high = hn::Set(d, in_range(sink.z_high));
     if constexpr (!kWide) {
       for (int i = 0; i < 2; ++i)
         for (int part = 0; part < kBlockPixels / kHalf; ++part) {
@@ -191,8 +185,7 @@ struct BlockDepths {
       else
         e[i] = hn::Add(hn::Set(d, first.e[i]), beyond[i][k / kHalf]);
     }
-    const V64 plane = hn::Add(z0, hn::Add(hn::Mul(e[0], g1), hn::Mul(e[1], g2)));
-    return hn::DemoteTo(D32(), hn::Min(hn::Max(plane, low), high));
+    return hn::DemoteTo(D32(), planes.at(e[0], e[1]));
   }
 
   HWY_INLINE void draw(int px, int py, int block, uint32_t covered, DepthSink& sink) const {
@@ -200,6 +193,7 @@ struct BlockDepths {
     const hn::RebindToUnsigned<D> du;
     sink.fragments += uint64_t(std::popcount(covered));
     bool changed = false;
+    const Tie tie = tie_of(sink.func);
     const First start = first(px, py);
     auto far = hn::Set(d, -std::numeric_limits<float>::infinity());
     for (int k = 0; k < kBlockPixels; k += kLanes) {
@@ -208,9 +202,7 @@ struct BlockDepths {
       const auto z = sink.stored(joined(d, at(start, px, py, k), at(start, px, py, k + kLanes - kHalf)));
       const auto there = hn::Load(d, depth);
       const auto there_id = hn::Load(du, id), my_id = hn::Set(du, sink.id);
-      const auto wins = sink.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
-      const auto pass = hn::And(lane_mask(d, covered >> k),
-                                hn::Or(hn::Lt(z, there), hn::And(hn::Eq(z, there), hn::RebindMask(d, wins))));
+      const auto pass = nearest_winners(tie, lane_mask(d, covered >> k), z, there, my_id, there_id);
       const auto kept = hn::IfThenElse(pass, z, there);
       far = hn::Max(far, kept);
       if (hn::AllFalse(d, pass)) continue;
@@ -232,35 +224,45 @@ inline uint32_t allowed_pixels(const int limit[4], int px, int py) {
   return bits;
 }
 
-/// Draws a triangle into a sink that skips what is hidden and tests no alpha. False, and nothing drawn, if the
-/// triangle is too long.
+/// Draws a triangle's blocks in one row of blocks.
+template <class T>
+HWY_INLINE void cover_row(const WholeEdges<T>& edges, const NearPlane& near, const BlockDepths<T>& depths,
+                          const TileRect& rect, int by, int first, int last, DepthSink& sink) {
+  using Edges = WholeEdges<T>;
+  const int* limit = rect.limit;
+  const int blocks = rect.size / kBlockSize, py = by * kBlockSize;
+  for (int bx = first / Edges::kLanes * Edges::kLanes; bx <= last; bx += Edges::kLanes) {
+    uint32_t touched, whole;
+    edges.classify(bx, by, touched, whole);
+    uint32_t visible = touched & range_bits(first, last, bx, Edges::kLanes);
+    visible &= ~near.hidden(typename Edges::F(), sink, sink.tile.far + by * blocks + bx, bx, by);
+    for (; visible != 0; visible &= visible - 1) {
+      const int k = std::countr_zero(visible), px = (bx + k) * kBlockSize;
+      uint32_t covered = (whole >> k) & 1 ? 0xFFFFu : edges.covered(px, py);
+      if (px < limit[0] || py < limit[1] || px + kBlockSize > limit[2] || py + kBlockSize > limit[3])
+        covered &= allowed_pixels(limit, px, py);
+      if (covered != 0) depths.draw(px, py, by * blocks + bx + k, covered, sink);
+    }
+  }
+}
+
+/// Draws a triangle into a sink that skips what is hidden and tests no alpha. False, and nothing drawn, if the sink
+/// does other things or the triangle is too long.
 template <class T>
 inline bool cover_large(const TriangleSetup<T>& s, const TileRect& rect, DepthSink& sink) {
-  using Edges = WholeEdges<T>;
-  Edges edges;
+  if (!sink.fast || sink.alpha != nullptr) return false;
+  WholeEdges<T> edges;
   if (!edges.set(s)) return false;
   sink.begin(s);
   const NearPlane near(s, sink);
   const BlockDepths<T> depths(s, sink);
-  const int* limit = rect.limit;
-  const int blocks = rect.size / kBlockSize, first = s.x0 / kBlockSize, last = (s.x1 - 1) / kBlockSize;
-  for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by) {
-    const int py = by * kBlockSize;
-    for (int bx = first / Edges::kLanes * Edges::kLanes; bx <= last; bx += Edges::kLanes) {
-      uint32_t touched, whole;
-      edges.classify(bx, by, touched, whole);
-      uint32_t open = touched & range_bits(first, last, bx, Edges::kLanes);
-      open &= ~near.hidden(typename Edges::F(), sink, sink.tile.far + by * blocks + bx, bx, by);
-      for (; open != 0; open &= open - 1) {
-        const int k = std::countr_zero(open), px = (bx + k) * kBlockSize;
-        uint32_t covered = (whole >> k) & 1 ? 0xFFFFu : edges.covered(px, py);
-        if (px < limit[0] || py < limit[1] || px + kBlockSize > limit[2] || py + kBlockSize > limit[3])
-          covered &= allowed_pixels(limit, px, py);
-        if (covered != 0) depths.draw(px, py, by * blocks + bx + k, covered, sink);
-      }
-    }
-  }
+  for (int by = s.y0 / kBlockSize; by * kBlockSize < s.y1; ++by)
+    cover_row(edges, near, depths, rect, by, s.x0 / kBlockSize, (s.x1 - 1) / kBlockSize, sink);
   return true;
+}
+template <class T, class Sink>
+HWY_INLINE bool cover_large(const TriangleSetup<T>&, const TileRect&, Sink&) {
+  return false;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

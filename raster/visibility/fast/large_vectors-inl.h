@@ -17,6 +17,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/triangles/depth_plane-inl.h"
+#include "raster/triangles/edge_rule-inl.h"
+#include "raster/visibility/depth_test-inl.h"
 #include "raster/visibility/fast/large_triangles-inl.h"
 #include "raster/visibility/fast/small_triangles-inl.h"
 
@@ -34,8 +37,7 @@ struct LargeSetups {
   alignas(64) int32_t first[3][kMost], across[3][kMost], up[3][kMost], most[3][kMost];
   alignas(64) double c[2][kMost], sx[2][kMost], sy[2][kMost];  ///< of E_1 and E_2
   alignas(64) double z0[kMost], g1[kMost], g2[kMost], low[kMost], high[kMost];
-  alignas(64) float near[kMost],
-      near_across[kMost], near_up[kMost], nearest[kMost];  ///< NearPlane, DepthSink::nearest
+  alignas(64) float near[kMost], near_across[kMost], near_up[kMost], nearest[kMost];  ///< NearPlane, DepthSink::nearest
   uint32_t drawn, too_long;  ///< a bit a triangle: may cover a sample; may, but is for other paths
 };
 
@@ -64,12 +66,12 @@ HWY_INLINE hn::Mask<DT> order_corners(const LargeDraw& in, VT word, LargeSetups&
   const auto from_1 = comes_first(x[1], y[1], x[0], y[0]);
   for (int k = 0; k < 3; ++k) {
     const int one = (k + 1) % 3, two = (k + 2) % 3;
-    const auto turned = [&](const VT* v) {
+    const auto rotated = [&](const VT* v) {
       return hn::IfThenElse(from_2, v[two], hn::IfThenElse(from_1, v[one], v[k]));
     };
-    hn::Store(turned(at), d, out.vertex[k]);
-    hn::Store(turned(x), d, out.x[k]);
-    hn::Store(turned(y), d, out.y[k]);
+    hn::Store(rotated(at), d, out.vertex[k]);
+    hn::Store(rotated(x), d, out.x[k]);
+    hn::Store(rotated(y), d, out.y[k]);
   }
   const VT round_up = hn::Set(d, 255);
   const int* limit = in.rect.limit;
@@ -85,9 +87,10 @@ HWY_INLINE hn::Mask<DT> order_corners(const LargeDraw& in, VT word, LargeSetups&
 }
 
 /// The near plane of the triangles [i, i + lanes): NearPlane for vectors.
-HWY_INLINE void set_near_planes(V64 z0, const V64 c[3], const V64 sx[3], const V64 sy[3], V64 g1, V64 g2, int i,
+HWY_INLINE void set_near_planes(const DepthPlanes& plane, const V64 c[3], const V64 sx[3], const V64 sy[3], int i,
                                 LargeSetups& out) {
   const D64 d;
+  const V64 z0 = plane.z0, g1 = plane.g1, g2 = plane.g2;
   const D32 df;
   const V64 zx = hn::Add(hn::Mul(sx[1], g1), hn::Mul(sx[2], g2)), zy = hn::Add(hn::Mul(sy[1], g1), hn::Mul(sy[2], g2));
   const V64 z1 = hn::Mul(c[1], g1), z2 = hn::Mul(c[2], g2), zero = hn::Zero(d);
@@ -124,7 +127,7 @@ HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthSink& sink, int i, 
   if (culled(in.state, !in.upper_left)) face = hn::And(face, hn::Lt(area, zero));
   if (culled(in.state, in.upper_left)) face = hn::And(face, hn::Gt(area, zero));
   const V64 sign = hn::And(area, hn::Set(d, -0.0)), size = hn::Abs(area);
-  const V64 g1 = hn::Div(hn::Sub(z[1], z[0]), size), g2 = hn::Div(hn::Sub(z[2], z[0]), size);
+  DepthPlanes plane(z[0], z[1], z[2], size);
 
   V64 c[3], sx[3], sy[3];
   auto fits = hn::Eq(zero, zero);
@@ -132,14 +135,13 @@ HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthSink& sink, int i, 
     const int a = (k + 1) % 3, b = (k + 2) % 3;
     const V64 dx = hn::Sub(x[b], x[a]), dy = hn::Sub(y[b], y[a]);
     c[k] = hn::Xor(hn::Sub(hn::Mul(dy, x[a]), hn::Mul(dx, y[a])), sign);
-    const V64 across = hn::Xor(hn::Neg(dy), sign), up = hn::Xor(dx, sign);
+    const V64 down = hn::Xor(dy, sign), across = hn::Neg(down), up = hn::Xor(dx, sign);
     sx[k] = hn::Mul(across, hn::Set(d, 256.0)), sy[k] = hn::Mul(up, hn::Set(d, 256.0));
-    const auto level = in.upper_left ? hn::Lt(up, zero) : hn::Gt(up, zero);
-    const auto owns = hn::Or(hn::Gt(across, zero), hn::And(hn::Eq(across, zero), level));
+    const auto owns = owned_edges(up, down, in.upper_left);
     const V64 first = hn::Floor(hn::Mul(hn::Sub(c[k], hn::IfThenZeroElse(owns, one)), hn::Set(d, 0x1p-8)));
     const V64 most = hn::Mul(hn::Set(d, 3.0), hn::Add(hn::Max(across, zero), hn::Max(up, zero)));
-    const V64 held = hn::Min(hn::Max(first, hn::Set(d, -double(Whole::kMost))), hn::Set(d, double(Whole::kMost)));
-    hn::Store(hn::DemoteTo(di, hn::Add(held, most)), di, out.first[k] + i);
+    const V64 clamped = hn::Min(hn::Max(first, hn::Set(d, -double(Whole::kMost))), hn::Set(d, double(Whole::kMost)));
+    hn::Store(hn::DemoteTo(di, hn::Add(clamped, most)), di, out.first[k] + i);
     hn::Store(hn::DemoteTo(di, most), di, out.most[k] + i);
     hn::Store(hn::DemoteTo(di, across), di, out.across[k] + i);
     hn::Store(hn::DemoteTo(di, up), di, out.up[k] + i);
@@ -150,19 +152,14 @@ HWY_INLINE void set_up_lanes(const LargeDraw& in, const DepthSink& sink, int i, 
     hn::Store(sx[k + 1], d, out.sx[k] + i);
     hn::Store(sy[k + 1], d, out.sy[k] + i);
   }
-  const auto rising = hn::Lt(z[1], z[2]);
-  const V64 lower = hn::IfThenElse(rising, z[1], z[2]), higher = hn::IfThenElse(rising, z[2], z[1]);
-  const V64 z_low = hn::IfThenElse(hn::Lt(z[0], lower), z[0], lower),
-            z_high = hn::IfThenElse(hn::Gt(z[0], higher), z[0], higher);
-  const V64 range_low = hn::Set(d, double(sink.range_low)), range_high = hn::Set(d, double(sink.range_high));
-  const V64 low = hn::Min(hn::Max(z_low, range_low), range_high);
-  hn::Store(z[0], d, out.z0 + i);
-  hn::Store(g1, d, out.g1 + i);
-  hn::Store(g2, d, out.g2 + i);
-  hn::Store(low, d, out.low + i);
-  hn::Store(hn::Min(hn::Max(z_high, range_low), range_high), d, out.high + i);
-  hn::Store(sink.stored(hn::DemoteTo(df, low)), df, out.nearest + i);
-  set_near_planes(z[0], c, sx, sy, g1, g2, i, out);
+  plane.clamp_to_range(double(sink.range_low), double(sink.range_high));
+  hn::Store(plane.z0, d, out.z0 + i);
+  hn::Store(plane.g1, d, out.g1 + i);
+  hn::Store(plane.g2, d, out.g2 + i);
+  hn::Store(plane.low, d, out.low + i);
+  hn::Store(plane.high, d, out.high + i);
+  hn::Store(sink.stored(hn::DemoteTo(df, plane.low)), df, out.nearest + i);
+  set_near_planes(plane, c, sx, sy, i, out);
   out.drawn |= lane_bits(d, hn::And(face, fits)) << i;
   out.too_long |= lane_bits(d, hn::AndNot(fits, face)) << i;
 }
@@ -241,15 +238,15 @@ class LargeTriangle {
       e[i] = hn::Add(blocks_[i], hn::Set(d, s.first[i][t] + kBlockSize * (bx * s.across[i][t] + by * s.up[i][t])));
     const auto touched = hn::Gt(hn::Or(hn::Or(e[0], e[1]), e[2]), hn::Set(d, -1));
     const auto hidden = hn::Gt(nearest(bx, by, sink), window_of(df, sink.tile.far + place, blocks));
-    uint32_t open = lane_bits(d, touched) & ~lane_bits(df, hidden) & wanted;
-    if (open == 0) return;
+    uint32_t visible = lane_bits(d, touched) & ~lane_bits(df, hidden) & wanted;
+    if (visible == 0) return;
     alignas(64) int32_t edge[3][kLanes];
     alignas(64) double e1[kLanes], e2[kLanes];
     for (int i = 0; i < 3; ++i) hn::Store(e[i], d, edge[i]);
     store_first(0, bx, by, e1);
     store_first(1, bx, by, e2);
-    for (; open != 0; open &= open - 1) {
-      const int k = std::countr_zero(open), column = k % kColumns, row = k / kColumns;
+    for (; visible != 0; visible &= visible - 1) {
+      const int k = std::countr_zero(visible), column = k % kColumns, row = k / kColumns;
       uint32_t allowed = 0xFFFF;
       if (limited) allowed = allowed_pixels(rect.limit, kBlockSize * (bx + column), kBlockSize * (by + row));
       const int32_t first[3] = {edge[0][k], edge[1][k], edge[2][k]};
@@ -279,11 +276,8 @@ class LargeTriangle {
 
   /// Depths of the vector of samples that starts with pixel part * kHalf.
   HWY_INLINE V32 depths(V64 e1, V64 e2, int part) const {
-    const D64 d;
-    const V64 plane =
-        hn::Add(hn::Set(d, s.z0[t]), hn::Add(hn::Mul(hn::Add(e1, beyond_[0][part]), hn::Set(d, s.g1[t])),
-                                             hn::Mul(hn::Add(e2, beyond_[1][part]), hn::Set(d, s.g2[t]))));
-    return hn::DemoteTo(D32(), hn::Min(hn::Max(plane, hn::Set(d, s.low[t])), hn::Set(d, s.high[t])));
+    const DepthPlanes plane(DepthPlane{s.z0[t], s.g1[t], s.g2[t], s.low[t], s.high[t]});
+    return hn::DemoteTo(D32(), plane.at(hn::Add(e1, beyond_[0][part]), hn::Add(e2, beyond_[1][part])));
   }
 
   /// No branch on what is covered or passes: that cannot be predicted.
@@ -294,6 +288,7 @@ class LargeTriangle {
     const hn::RebindToUnsigned<F> du;
     const V64 e1 = hn::Set(D64(), first_e1), e2 = hn::Set(D64(), first_e2);
     const auto my_id = hn::Set(du, sink.id);
+    const Tie tie = tie_of(sink.func);
     VWF far = hn::Set(df, -std::numeric_limits<float>::infinity());
     for (int p = 0; p < kParts; ++p) {
       float* const depth = sink.tile.depth + block * kBlockPixels + p * kLanes;
@@ -308,12 +303,7 @@ class LargeTriangle {
       const VWF z = sink.stored(joined(df, depths(e1, e2, part), depths(e1, e2, part + kLanes / kHalf - 1)));
       const VWF there = hn::Load(df, depth);
       const auto there_id = hn::Load(du, id);
-      auto pass = hn::And(covered, hn::Lt(z, there));
-      const auto tied = hn::And(covered, hn::Eq(z, there));
-      if (HWY_UNLIKELY(!hn::AllFalse(df, tied))) {
-        const auto wins = sink.func == DepthFunc::less ? hn::Lt(my_id, there_id) : hn::Gt(my_id, there_id);
-        pass = hn::Or(pass, hn::And(tied, hn::RebindMask(df, wins)));
-      }
+      const auto pass = nearest_winners(tie, covered, z, there, my_id, there_id);
       const VWF kept = hn::IfThenElse(pass, z, there);
       hn::Store(kept, df, depth);
       hn::Store(hn::IfThenElse(hn::RebindMask(du, pass), my_id, there_id), du, id);
@@ -329,8 +319,8 @@ class LargeTriangle {
 };
 
 /// Draws the listed triangles; returns how many it left, too long for this path, whose numbers are in `left` then.
-inline int draw_large_triangles(const LargeDraw& in, const int32_t* list, int count, uint32_t first_id,
-                                DepthSink& sink, uint8_t* left) {
+inline int draw_large_triangles(const LargeDraw& in, const int32_t* list, int count, uint32_t first_id, DepthSink& sink,
+                                uint8_t* left) {
   const int* limit = in.rect.limit;
   const bool limited = ((limit[0] | limit[1] | limit[2] | limit[3]) & (kBlockSize - 1)) != 0;
   int count_left = 0;

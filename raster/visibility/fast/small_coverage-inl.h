@@ -11,11 +11,12 @@
 
 #include <bit>
 
-#include "raster/visibility/fast/triangle_filter-inl.h"
+#include "raster/triangles/edge_rule-inl.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/visibility/fast/fragment_list-inl.h"
 #include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
+#include "raster/visibility/fast/fragment_list-inl.h"
+#include "raster/visibility/fast/triangle_filter-inl.h"
 #include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -75,10 +76,10 @@ HWY_INLINE VT pair_cross(VT a, VT b) {
   const DT d;
   const hn::RebindToUnsigned<DT> du;
   const VT swapped = hn::Or(hn::ShiftLeft<16>(b), hn::BitCast(d, hn::ShiftRight<16>(hn::BitCast(du, b))));
-  const VT turned = hn::Add(hn::Xor(swapped, hn::Set(d, -0x10000)), hn::Set(d, 0x10000));  // -x above y
+  const VT quarter = hn::Add(hn::Xor(swapped, hn::Set(d, -0x10000)), hn::Set(d, 0x10000));  // -x above y
   VT others = hn::Zero(d);
   const VT some =
-      hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), turned), hn::Zero(d), others);
+      hn::ReorderWidenMulAccumulate(d, hn::BitCast(DP(), a), hn::BitCast(DP(), quarter), hn::Zero(d), others);
   return hn::RearrangeToOddPlusEven(some, others);
 #endif
 }
@@ -91,12 +92,10 @@ struct SmallEdge {
   /// Of an edge function whose edge goes `along` from its first corner to its last.
   HWY_INLINE void set(VT along, VT e, bool upper_left) {
     const DT d;
-    // Owned where dy < 0, and where dy = 0 and dx has the owning sign: then the word is positive and below 2^15.
-    const VT word = upper_left ? hn::Xor(along, hn::Set(d, 1 << 15)) : along;
-    not_owned = hn::IfThenElseZero(hn::Gt(word, hn::Set(d, (1 << 15) - 1)), hn::Set(d, 1));
-    first = hn::Sub(e, not_owned);
     across = hn::ShiftLeft<8>(upper_half(along));
     up = hn::ShiftRight<8>(hn::ShiftLeft<16>(along));
+    not_owned = hn::IfThenZeroElse(owned_edges(up, across, upper_left), hn::Set(d, 1));
+    first = hn::Sub(e, not_owned);
   }
 };
 
@@ -124,10 +123,10 @@ struct OrderedTriangles {
     q1 = hn::IfThenElse(from_2, p0, hn::IfThenElse(from_1, p2, p1));
     q2 = hn::IfThenElse(from_2, p1, hn::IfThenElse(from_1, p0, p2));
     const VT corners = hn::And(named, hn::Set(d, 0xFFFFFF));
-    const VT turned_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
-    const VT turned_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
+    const VT rotated_1 = hn::Or(hn::ShiftRight<8>(corners), hn::ShiftLeft<16>(corners));
+    const VT rotated_2 = hn::Or(hn::ShiftRight<16>(corners), hn::ShiftLeft<8>(corners));
     const VT vertices =
-        hn::And(hn::IfThenElse(from_2, turned_2, hn::IfThenElse(from_1, turned_1, corners)), hn::Set(d, 0xFFFFFF));
+        hn::And(hn::IfThenElse(from_2, rotated_2, hn::IfThenElse(from_1, rotated_1, corners)), hn::Set(d, 0xFFFFFF));
     word = hn::Or(vertices, hn::AndNot(hn::Set(d, 0xFFFFFF), named));
   }
 };
@@ -160,8 +159,8 @@ struct SmallSetups {
     if (drop_positive) drawn = hn::And(drawn, hn::Lt(area, zero));
     if (drop_negative) drawn = hn::And(drawn, hn::Gt(area, zero));
     const VT sample = hn::Add(hn::ShiftLeft<24>(box.row), hn::ShiftLeft<8>(box.column));
-    const auto turned = [sign](VT along) { return pair_difference(hn::Xor(along, sign), sign); };
-    const VT along_0 = turned(pair_difference(q2, q1)), along_1 = turned(from_q2), along_2 = turned(from_q0);
+    const auto oriented = [sign](VT along) { return pair_difference(hn::Xor(along, sign), sign); };
+    const VT along_0 = oriented(pair_difference(q2, q1)), along_1 = oriented(from_q2), along_2 = oriented(from_q0);
     const VT at_1 = pair_cross(along_1, pair_difference(sample, q2)),
              at_2 = pair_cross(along_2, pair_difference(sample, q0));
     e0.set(along_0, hn::Sub(size, hn::Add(at_1, at_2)), in.upper_left);

@@ -10,13 +10,12 @@
 
 #include <hwy/highway.h>
 
+#include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/cluster_work-inl.h"
+#include "raster/visibility/fast/fragment_list-inl.h"
+#include "raster/visibility/fast/small_coverage-inl.h"
 #include "raster/visibility/fast/triangle_filter-inl.h"
 #include "raster/visibility/sinks-inl.h"
-#include "raster/visibility/fast/fragment_list-inl.h"
-#include "raster/visibility/hierarchical_depth-inl.h"
-#include "raster/visibility/fast/small_coverage-inl.h"
-#include "raster/triangles/vertex_stage-inl.h"
-#include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -24,25 +23,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert((64 + 1) * 16 <= kMostFragments);
 
-/// Vertices of a cluster some of which need care.
-struct ClipVertices {
-  alignas(64) float clip[4][kClusterVertices];
-  alignas(64) int32_t beside[kClusterVertices];  ///< a bit for each side of the tile that the vertex lies beyond
-};
-
-/// Scratch of draw_cluster(): on the stack of a tile, not of each of its clusters.
-struct ClusterScratch {
-  WindowVertices vertices;
-  ClipVertices clip;
-  AlphaTest alpha;  ///< of the cluster at work, where its material has one
+/// Scratch of a cluster's small triangles.
+struct SmallWork {
   alignas(64) int32_t packed[kClusterVertices];
-  alignas(64) uint8_t triangle[kMostFiltered];
-  VisibleBlocks open;
   FilteredTriangles found;
   FragmentList fragments;
 };
 
-/// Where fragments go.
+/// Fragments that are tested for depth.
 struct DepthFragments {
   FragmentList& fragments;
   const double* vertex_z;
@@ -54,6 +42,20 @@ struct DepthFragments {
   }
   HWY_INLINE void finish() const {
     if (fragments.count != 0) test_fragments(fragments, vertex_z, first_id, sink);
+  }
+};
+
+/// Fragments that are counted.
+struct CountedFragments {
+  FragmentList& fragments;
+  uint32_t* counts;
+
+  HWY_INLINE void make_room(int count) const {
+    if (fragments.count + count > int(kMostFragments)) finish();
+  }
+  HWY_INLINE void finish() const {
+    for (int i = 0; i < fragments.count; ++i) ++counts[fragments.at[i]];
+    fragments.count = 0;
   }
 };
 
@@ -73,7 +75,7 @@ struct ListedTriangles {
 };
 
 /// Draws the listed triangles of at most kSide x kSide samples; returns how many larger ones it listed in `larger`.
-/// `into`: a DepthFragments, or what else takes fragments.
+/// `into`: DepthFragments or CountedFragments.
 template <int kSide, class Into>
 HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, const Into& into,
                          [[maybe_unused]] int32_t* larger) {
@@ -95,8 +97,8 @@ HWY_INLINE int draw_upto(const SmallDraw& in, const int32_t* list, int count, co
 }
 
 /// Draws the listed triangles of at most 8x8 samples where enough of a vector is, and lists the rest in `larger`:
-/// counter-clockwise ones first, as in a closed mesh they hide the others. Of held corners the sign is a guess, which
-/// will do.
+/// counter-clockwise ones first, as in a closed mesh they hide the others. Of clamped corners the sign is a guess,
+/// which will do: any order draws the same.
 template <class Into>
 HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, const Into& into, int32_t* larger) {
   const DT d;
@@ -124,18 +126,17 @@ HWY_INLINE int draw_upto_8(const SmallDraw& in, const int32_t* list, int count, 
 }
 
 /// Draws those of a cluster's triangles whose box holds few samples; the others that may cover any are left in
-/// `work.found.large`. Its vertices are in `work`, and none needs clipping; `box` is theirs, `work.open` says which blocks
-/// do not hide it. Not under polygon offset.
-inline void draw_small_triangles(const ClusteredMesh& mesh, const Cluster& cluster, const WindowBox& box,
-                                 const GeometryState& state, bool upper_left, const TileRect& rect, uint32_t first_id,
-                                 ClusterScratch& work, DepthSink& sink) {
-  const int32_t middle = rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
+/// `small.found.large`. The cluster's vertices are in `work`, and none needs clipping; `work.visible` says which blocks
+/// do not hide it. `into`: DepthFragments, without polygon offset, or CountedFragments.
+template <class Into>
+inline void draw_small_triangles(const ListedCluster& c, const ClusterWork& work, const Into& into, SmallWork& small) {
+  const WindowBox& box = work.vertices.box;
+  const int32_t middle = c.rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
   const bool any_clamped = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
-  const SmallDraw in{work.packed, any_clamped, state, upper_left, rect, PackedLimits(rect)};
-  const DepthFragments into{work.fragments, work.vertices.z, first_id, sink};
-  FilteredTriangles& found = work.found;
-  pack_corners(work.vertices, cluster.vertices, middle, work.packed);
-  filter_triangles(work.packed, any_clamped, mesh, cluster, in.limit, work.open, found);
+  const SmallDraw in{small.packed, any_clamped, c.in.state, c.in.view.window.upper_left, c.rect, PackedLimits(c.rect)};
+  FilteredTriangles& found = small.found;
+  pack_corners(work.vertices, c.cluster.vertices, middle, small.packed);
+  filter_triangles(small.packed, any_clamped, c.mesh, c.cluster, in.limit, work.visible, found);
   draw_upto<2>(in, found.upto_2, found.count_2, into, nullptr);
   const int larger = draw_upto<4>(in, found.more, found.count_more, into, found.upto_2);
   found.count_large = draw_upto_8(in, found.upto_2, larger, into, found.large);

@@ -17,9 +17,9 @@
 
 #include <bit>
 
-#include "raster/visibility/hierarchical_depth-inl.h"
 #include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
+#include "raster/visibility/hierarchical_depth-inl.h"
 #include "raster/visibility/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,7 +39,7 @@ static_assert(kClusterTriangles + 16 <= kMostFiltered);
 /// A cluster's triangles that have a sample in their box and the tile: corners' vertices and triangle, a byte each.
 struct FilteredTriangles {
   alignas(64) int32_t upto_2[kMostFiltered], more[kMostFiltered];  ///< those of at most 2x2 samples; the others
-  alignas(64) int32_t large[kMostFiltered];                          ///< of the others those of more than 4x4
+  alignas(64) int32_t large[kMostFiltered];                        ///< of the others those of more than 4x4
   int count_2 = 0, count_more = 0, count_large = 0;
 };
 
@@ -183,8 +183,9 @@ class BoxFilter {
 
 /// Lists a cluster's triangles by what their boxes hold: at most 2x2 samples, more; not those that hold none, or lie
 /// behind blocks that are not `open`. No fragment of the cluster is nearer than what these were asked for.
-HWY_INLINE void filter_triangles(const int32_t* packed, bool any_clamped, const ClusteredMesh& mesh, const Cluster& cluster,
-                                const PackedLimits& limit, const VisibleBlocks& open, FilteredTriangles& out) {
+HWY_INLINE void filter_triangles(const int32_t* packed, bool any_clamped, const ClusteredMesh& mesh,
+                                 const Cluster& cluster, const PackedLimits& limit, const VisibleBlocks& open,
+                                 FilteredTriangles& out) {
   const DT d;
   const hn::Rebind<uint8_t, DT> d8;
   const uint8_t* corner[3];

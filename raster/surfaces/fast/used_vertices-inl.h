@@ -1,10 +1,10 @@
 // Transforms the vertices that seen triangles have, and no others. Included once per SIMD target.
 // docs/arithmetic.md sections 2, 4 and 5.
-#if defined(TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_VERTICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_VERTICES_INL_H_
-#undef TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_VERTICES_INL_H_
+#if defined(TRUESHADE_RASTER_SURFACES_FAST_USED_VERTICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_SURFACES_FAST_USED_VERTICES_INL_H_
+#undef TRUESHADE_RASTER_SURFACES_FAST_USED_VERTICES_INL_H_
 #else
-#define TRUESHADE_RASTER_SURFACES_FAST_VISIBLE_VERTICES_INL_H_
+#define TRUESHADE_RASTER_SURFACES_FAST_USED_VERTICES_INL_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -14,13 +14,19 @@
 #include <bit>
 #include <cstring>
 
-#include "raster/triangles/lanes-inl.h"
+#include "raster/surfaces/fast/visible_triangles.h"
 #include "raster/surfaces/surfaces.h"
+#include "raster/surfaces/world_vertices-inl.h"
+#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// Streams in the order in which a vertex's values lie, without uv and with it: wanted ones come first.
+inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
+                                                   {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
 
 /// Attributes that are interpolated beside position and normal.
 struct WantedStreams {
@@ -31,23 +37,6 @@ struct WantedStreams {
   bool rest() const { return count() > VertexRecord::kValues; }
 };
 
-/// World position and unit world normal of object-space ones.
-HWY_INLINE void to_world(const InstanceTransform& t, const VWF position[3], const VWF normal[3], VWF out[6]) {
-  const DWF d;
-  VWF n[3];
-  for (int r = 0; r < 3; ++r) {
-    const float* m = t.world[r];
-    out[r] = hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0]), position[0]), hn::Mul(hn::Set(d, m[1]), position[1])),
-                             hn::Mul(hn::Set(d, m[2]), position[2])),
-                     hn::Set(d, m[3]));
-    const VWF a = hn::Mul(hn::Set(d, t.normal[r][0]), normal[0]), b = hn::Mul(hn::Set(d, t.normal[r][1]), normal[1]);
-    n[r] = hn::Add(hn::Add(a, b), hn::Mul(hn::Set(d, t.normal[r][2]), normal[2]));
-  }
-  const VWF l2 = hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2]));
-  const VWF inverse = hn::IfThenElseZero(hn::Gt(l2, hn::Zero(d)), hn::Div(hn::Set(d, 1.0f), hn::Sqrt(l2)));
-  for (int r = 0; r < 3; ++r) out[3 + r] = hn::Mul(n[r], inverse);
-}
-
 /// Used vertices of clusters of one instance, close together: object-space streams. Clusters show few vertices each, so
 /// several together fill vectors.
 struct UsedVertices {
@@ -55,7 +44,7 @@ struct UsedVertices {
   alignas(64) float stream[kStreams][kEnough + kClusterVertices + 16] = {};
   int count = 0;
   const ClusterDraw* draw = nullptr;  ///< of the first cluster
-  uint32_t first = 0;                 ///< place of the first vertex in VisibleTriangles
+  uint32_t first = 0;                 ///< index of the first vertex in VisibleTriangles
 
   /// Whether a cluster's vertices may join those that are here.
   HWY_INLINE bool takes(const ClusterDraw& other) const {
@@ -113,7 +102,7 @@ struct UsedVertices {
   }
 };
 
-inline void place_used(const TileDraws& in, const TileRect& rect, const UsedVertices& from, PlacedVertex* out) {
+inline void position_used(const TileDraws& in, const TileRect& rect, const UsedVertices& from, VertexPosition* out) {
   const D32 df;
   const D64 d;
   const U32 du;
@@ -122,17 +111,17 @@ inline void place_used(const TileDraws& in, const TileRect& rect, const UsedVert
   const InstanceTransform& instance = in.view.instances[from.draw->instance];
   const float(&m)[4][4] = instance.clip;
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
-  const UnclippedVertices plain(instance, in.view.window, origin);
-  const bool all_plain = from.draw->no_clip;
-  const auto bias = hn::Set(du, PlacedVertex::kBias);
+  const UnclippedVertices unclipped(instance, in.view.window, origin);
+  const bool no_clip = from.draw->no_clip;
+  const auto bias = hn::Set(du, VertexPosition::kBias);
   for (int i = 0; i < from.count; i += int(hn::Lanes(df))) {
     const V32 x = hn::Load(df, from.stream[0] + i), y = hn::Load(df, from.stream[1] + i),
               z = hn::Load(df, from.stream[2] + i);
-    if (all_plain)
-      plain.place(x, y, z, 0, window);
+    if (no_clip)
+      unclipped.place(x, y, z, 0, window);
     else
       project_vertices(affine_row(m[0], x, y, z), affine_row(m[1], x, y, z), affine_row(m[2], x, y, z),
-                     affine_row(m[3], x, y, z), in.view.window, origin, 0, window);
+                       affine_row(m[3], x, y, z), in.view.window, origin, 0, window);
     const auto wx = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.x)), bias);
     const auto wy = hn::Xor(hn::Load(du, reinterpret_cast<const uint32_t*>(window.y)), bias);
     const auto key = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dl, wy)), hn::PromoteTo(dl, wx));
@@ -147,7 +136,7 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, WantedStre
   const int lanes = int(hn::Lanes(d));
   const uint32_t instance = used.draw->instance;
   used.fill_up(in.scene.meshes[in.scene.instances[instance].mesh], wanted);
-  place_used(in, rect, used, work.placed.data() + used.first);
+  position_used(in, rect, used, work.position.data() + used.first);
   alignas(64) float half[2][4 * hn::MaxLanes(DWF())];
   for (int i = 0; i < used.count; i += lanes) {
     VWF s[6], world[6];

@@ -1,0 +1,58 @@
+#include "core/simd/one_target.h"
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "raster/surfaces/fast/mapped_blocks-inl.h"
+#include "raster/surfaces/fast/material_texels-inl.h"
+#include "raster/surfaces/fast/surface_blocks-inl.h"
+#include "raster/surfaces/fast/surface_blocks.h"
+#include "raster/surfaces/fast/visible_triangles-inl.h"
+#include "raster/surfaces/surface_planes-inl.h"
+#include "raster/surfaces/surface_task.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+bool all_smooth(const SurfaceTask& task) {
+  return std::all_of(task.group, task.group + task.groups,
+                     [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
+}
+
+bool resolve_by_blocks(const SurfaceTask& task) {
+  if (!task.in.fast_paths || !all_smooth(task)) return false;
+  const TileDraws& in = task.in;
+  SurfaceTile& out = task.out;
+  VisibleTriangles& seen = task.work.triangles;
+  const std::vector<Mesh>& meshes = in.scene.meshes;
+  const bool colored = std::any_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
+  const bool textured = in.view.maps.textured();
+  const WantedStreams wanted{task.need_uv, colored};
+  find_triangles(in, task.rect, task.visible, seen, out);
+  if (out.covered_pixels == 0) return true;
+  transform_seen(in, task.rect, wanted, seen);
+  StreamGroup group[4];  // without the albedo where it is white
+  int groups = 0;
+  for (const StreamGroup* g = task.group; g != task.group + task.groups; ++g)
+    if (colored || g->first != kAlbedo) group[groups++] = *g;
+  const WantedValues values = wanted_values(group, wanted);
+  BlockInterpolation{in, task.rect, group, groups, values, task.visible, seen, out}.run();
+  if (textured) {
+    for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], task.pixels(), 1.0f);
+    MappedBlocks{in, task.rect, values, task.visible, seen, out}.run();
+  }
+  if (task.planes.position_from_depth) rebuild_positions(task);
+  store_interpolated(task);
+  if (colored || textured) {
+    apply_materials(task);
+    store_materials(task);
+  } else {
+    fill_materials(task);
+  }
+  return true;
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

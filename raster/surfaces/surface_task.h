@@ -1,0 +1,39 @@
+#pragma once
+#include "raster/surfaces/surfaces.h"
+
+namespace trueshade {
+
+/// Planes that are interpolated and stored alike: [first, first + count) of Stream.
+struct StreamGroup {
+  int first, count;
+  PlaneState plane;
+};
+
+/// A tile whose surfaces are resolved: what resolve_surfaces() was given, and the planes that it interpolates.
+struct SurfaceTask {
+  const TileDraws& in;
+  const TileRect& rect;
+  const GBufferState& planes;
+  const LightModel& model;
+  const VisibilityTile& visible;
+  VisibleVertices& work;
+  SurfaceTile& out;
+  bool need_uv;
+  StreamGroup group[4];
+  int groups;
+
+  int pixels() const { return rect.size * rect.size; }
+  int blocks() const { return rect.size / kBlockSize; }  ///< a row
+};
+
+/// Sets the groups: positions unless depth gives them, normals, albedo, and texture coordinates where they are needed.
+inline void set_groups(SurfaceTask& task) {
+  const GBufferState& planes = task.planes;
+  task.groups = 0;
+  if (!planes.position_from_depth) task.group[task.groups++] = {kPosition, 3, planes.position};
+  task.group[task.groups++] = {kNormal, 3, planes.normal};
+  task.group[task.groups++] = {kAlbedo, 4, planes.albedo};
+  if (task.need_uv) task.group[task.groups++] = {kUv, 2, planes.uv};
+}
+
+}  // namespace trueshade
