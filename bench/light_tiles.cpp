@@ -15,7 +15,7 @@
 #include "scenes/pipeline/presets.h"
 #include "shading/blend/blend_pass.h"
 #include "shading/frame.h"
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 
 using namespace trueshade;
 
@@ -29,8 +29,7 @@ struct Surfaces {
   Pipeline pipeline;
   View view;
   LightTable lights;
-  PlainLights plain;
-  LightGroups groups;
+  LightClusters clusters;
   LightMeshes meshes;
   LightOutlines outlines;
   std::vector<TileRect> rect;
@@ -42,8 +41,7 @@ struct Surfaces {
     view = make_view(scene, pipeline);
     lights = make_light_table(scene.lights, pipeline.light_model, scene.camera);
     bound_by_extents(lights, scene.lights, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
-    plain = make_plain_lights(lights, pipeline.light_model);
-    groups = make_light_groups(lights, 1);
+    clusters = make_light_clusters(lights, 1);
     if (blends_lights(pipeline.strategy)) outlines = make_light_outlines(scene.lights, pipeline, meshes, view, 1);
     ClusterBins bins;
     bin_clusters(scene, prepared.clusters(), view, kTile, true, 1, bins);
@@ -62,7 +60,7 @@ struct Surfaces {
     }
   }
 
-  LightDraws draws() const { return draws_of(scene.lights, pipeline, lights, groups, meshes, outlines, view); }
+  LightVolumeDraws draws() const { return light_volume_draws(scene.lights, pipeline, {}, lights, clusters, meshes, outlines, view); }
 };
 
 const Surfaces& surfaces(const std::string& spec, const std::string& preset) {
@@ -76,7 +74,7 @@ void light(benchmark::State& state, const std::string& spec, const std::string& 
   const FpScope fp;
   const SimdScope simd(target);
   const Surfaces& in = surfaces(spec, preset);
-  const LightDraws draws = in.draws();
+  const LightVolumeDraws draws = in.draws();
   const bool blends = blends_lights(in.pipeline.strategy);
   const auto color = std::make_unique<ColorTile>();
   const auto surface = std::make_unique<SurfaceTile>();
@@ -93,8 +91,8 @@ void light(benchmark::State& state, const std::string& spec, const std::string& 
       if (blends)
         blend_tile(draws, *surface, nullptr, in.rect[i], kClear, blend, *color, counts);
       else
-        light_tile(*surface, kTile, in.lights, in.groups, in.pipeline.light_model, kClear,
-                   {true, true, &in.plain, in.pipeline.target}, lists, *color, counts);
+        light_tile(*surface, kTile, in.lights, in.clusters, in.pipeline.light_model, kClear,
+                   {.codes = in.pipeline.target}, lists, *color, counts);
       least[i] = std::min(least[i],
                           std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
     }

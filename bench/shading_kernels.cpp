@@ -23,7 +23,7 @@
 #include "raster/textures/texture.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/blend/blend_pass.h"
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 #include "shading/output/post.h"
 #include "shading/light/power.h"
 #include "shading/output/target.h"
@@ -81,8 +81,7 @@ struct LitTile {
   Pipeline pipeline;
   View view;
   LightTable table;
-  PlainLights plain;
-  LightGroups groups;
+  LightClusters clusters;
   LightMeshes meshes;
   LightOutlines outlines;
   std::unique_ptr<ColorTile> color = std::make_unique<ColorTile>();
@@ -98,18 +97,17 @@ struct LitTile {
     scene.camera.clip_from_world = std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 1};
     view = make_view(scene, pipeline);
     table = make_light_table(lights, pipeline.light_model, scene.camera);
-    plain = make_plain_lights(table, pipeline.light_model);
     if (blends_lights(strategy)) outlines = make_light_outlines(lights, pipeline, meshes, view, 1);
   }
   void draw(bool compiled) {
     constexpr float kClear[4] = {};
-    LightDraws draws = draws_of(lights, pipeline, table, groups, meshes, outlines, view);
+    LightVolumeDraws draws = light_volume_draws(lights, pipeline, {}, table, clusters, meshes, outlines, view);
     draws.compiled = compiled;
     if (blends_lights(pipeline.strategy))
       blend_tile(draws, *surface, nullptr, {0, 0, kTile, {0, 0, kTile, kTile}}, kClear, blend, *color, counts);
     else
-      light_tile(*surface, kTile, table, groups, pipeline.light_model, kClear,
-                 {true, compiled, &plain, pipeline.target}, lists, *color, counts);
+      light_tile(*surface, kTile, table, clusters, pipeline.light_model, kClear,
+                 {.compiled = compiled, .codes = pipeline.target}, lists, *color, counts);
   }
 };
 
@@ -130,7 +128,7 @@ void lists(benchmark::State& state, std::string_view target) {
     l.range = 2.0f;
   }
   make_light_table(tile.lights, tile.pipeline.light_model, tile.scene.camera, 1, tile.table);
-  make_light_groups(tile.table, 1, tile.groups);
+  make_light_clusters(tile.table, 1, tile.clusters);
   per_item(state, kMany, [&] { tile.draw(true); });
 }
 
@@ -172,8 +170,8 @@ void prepare(benchmark::State& state, const std::string& what) {
   per_item(state, kMany, [&] {
     if (what == "table") make_light_table(tile.lights, tile.pipeline.light_model, tile.scene.camera, 1, tile.table);
     if (what == "groups") {
-      tile.groups.made_of = 0;  // of no table that it knows
-      make_light_groups(tile.table, 1, tile.groups);
+      tile.clusters.made_of = 0;  // of no table that it knows
+      make_light_clusters(tile.table, 1, tile.clusters);
     }
     if (what == "outlines")
       benchmark::DoNotOptimize(make_light_outlines(tile.lights, tile.pipeline, tile.meshes, tile.view, 1).edges.data());

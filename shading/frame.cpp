@@ -64,20 +64,6 @@ void check_memory(const FramePlan& plan, const Pipeline& pipeline, std::span<con
         "a smaller size or fewer planes");
 }
 
-LightShortcuts sum_shortcuts(const FramePlan& plan, const FrameTables& tables) {
-  return {plan.execution.light_culling, plan.execution.compiled_models, plan.codes ? &tables.plain : nullptr,
-          plan.target.format};
-}
-
-LightDraws light_draws(const FramePlan& plan, const Pipeline& pipeline, std::span<const Light> lights,
-                       const FrameTables& tables, const View& view) {
-  LightDraws out = draws_of(lights, pipeline, tables.lights, tables.groups, *tables.meshes, tables.outlines, view);
-  out.culling = plan.execution.light_culling;
-  out.compiled = plan.execution.compiled_models;
-  out.settles = plan.execution.settled_sums;
-  return out;
-}
-
 // Adds in tile order, so that the sums do not depend on scheduling.
 void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
   for (const TileCounts& t : tiles) {
@@ -151,8 +137,8 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
                        pipeline,
                        view,
                        tables,
-                       sum_shortcuts(plan, tables),
-                       light_draws(plan, pipeline, scene.lights, tables, view),
+                       light_volume_draws(scene.lights, pipeline, plan.execution, tables.lights, tables.clusters,
+                                          *tables.meshes, tables.outlines, view),
                        LightPlanes(planes, scene, pipeline, *tables.meshes, view),
                        ViewDistance(scene, pipeline),
                        TransparentPass(scene, pipeline, plan.execution),

@@ -35,7 +35,10 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
   plan.clear = drawn_clear(scene.clear, plan.target);
   const bool draws_unlike = draws_unlike_clears(plan.target);
   plan.encodes = plan.blends() || draws_unlike || plan.transparency == TransparencyMode::after_lights;
-  plan.codes = plan.sums() && info(plan.target.format).number_class == NumberClass::unorm && !draws_unlike;
+  // Sums that are stored as they are in fixed point need only have the right codes.
+  const bool codes = info(pipeline.target).number_class == NumberClass::unorm && !draws_unlike;
+  plan.shortcuts = {.culling = execution.light_culling, .compiled = execution.compiled_models};
+  if (codes && execution.settled_sums) plan.shortcuts.codes = pipeline.target;
   for (const std::string& name : planes) plan.planes.push_back(plane_source(name));
   return plan;
 }

@@ -8,6 +8,7 @@
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/blend/blend.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 
@@ -40,7 +41,7 @@ struct FramePlan {
   GBufferState surface_planes;  ///< the planes that lights read surfaces from
   BlendTarget target;
   glm::vec4 clear;                  ///< the colour that a draw stores as what a clear leaves
-  bool codes;                       ///< sums need only have the right codes: they are stored as they are in fixed point
+  LightShortcuts shortcuts;         ///< of the pass that sums
   std::vector<PlaneSource> planes;  ///< of each plane asked for, in order
 
   bool lit() const { return light_pass != LightPass::none; }

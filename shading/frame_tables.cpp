@@ -65,13 +65,9 @@ void make_tables(const FramePlan& plan, const PreparedScene& prepared, const Pip
   rows.finish();
   if (plan.blends()) tables.outline_tasks.finish(execution.threads);
   if (plan.lit() && execution.light_culling)
-    make_light_groups(tables.lights, execution.threads, tables.groups);
+    make_light_clusters(tables.lights, execution.threads, tables.clusters);
   else
-    tables.groups.group.clear(), tables.groups.made_of = 0;
-  if (plan.sums() && execution.settled_sums)
-    make_plain_lights(tables.lights, pipeline.light_model, tables.plain);
-  else
-    tables.plain.light.clear(), tables.plain.window.clear();
+    tables.clusters.cluster.clear(), tables.clusters.made_of = 0;
 }
 
 }  // namespace trueshade

@@ -9,7 +9,6 @@
 #include "scenes/pipeline/light_mesh.h"
 #include "shading/frame.h"
 #include "shading/frame_plan.h"
-#include "shading/light/bounded/bounded_lights.h"
 #include "shading/light/light_table.h"
 #include "shading/light/lists/light_clusters.h"
 
@@ -21,8 +20,7 @@ struct FrameTables {
   std::vector<InstanceTransform> transforms;  ///< memory of View::instances between frames
   ClusterBins bins;
   LightTable lights;
-  LightGroups groups;
-  PlainLights plain;  ///< filled where bounds may prove the codes of sums
+  LightClusters clusters;
   std::optional<LightMeshes> meshes;
   LightOutlines outlines;  ///< filled where lights are blended
   OutlineTasks outline_tasks;

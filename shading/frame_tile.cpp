@@ -9,9 +9,9 @@
 #include "shading/blend/blend_pass.h"
 #include "shading/blend/tied_fragments.h"
 #include "shading/blend/transparent_blend.h"
-#include "shading/light/light_pass.h"
 #include "shading/output/target.h"
 #include "shading/output/texels.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 namespace {
@@ -99,8 +99,8 @@ struct TileStages {
     if (plan.blends()) {
       blend_tile(frame.light_draws, s.surface, tied, rect, clear, s.blend, s.color, counts.light);
     } else {
-      light_tile(s.surface, rect.size, frame.tables.lights, frame.tables.groups, frame.pipeline.light_model, clear,
-                 frame.shortcuts, s.lights, s.color, counts.light);
+      light_tile(s.surface, rect.size, frame.tables.lights, frame.tables.clusters, frame.pipeline.light_model, clear,
+                 plan.shortcuts, s.lights, s.color, counts.light);
       if (plan.encodes) encode_colors(plan.target, rect.size * rect.size, s.color);
     }
     if (plan.transparency == TransparencyMode::after_lights)
@@ -115,8 +115,7 @@ struct TileStages {
     if (plan.blends())
       frame.light_planes.blend(frame.light_draws, s.surface, tied, rect, s.blend, s.extra, frame.out.aovs);
     else
-      frame.light_planes.sum(s.surface, rect, plan.execution.light_culling, plan.execution.compiled_models, s.lights,
-                             s.extra, frame.out.aovs);
+      frame.light_planes.sum(s.surface, rect, plan.shortcuts, s.lights, s.extra, frame.out.aovs);
   }
 
   // Planes but for light.<i>.

@@ -8,9 +8,9 @@
 #include "shading/frame.h"
 #include "shading/frame_plan.h"
 #include "shading/frame_tables.h"
-#include "shading/light/light_pass.h"
 #include "shading/output/light_planes.h"
 #include "shading/output/view_distance.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 
@@ -21,8 +21,7 @@ struct FrameWork {
   const Pipeline& pipeline;
   const View& view;
   const FrameTables& tables;
-  const LightShortcuts shortcuts;  ///< of sums
-  const LightDraws light_draws;    ///< read where the plan blends lights
+  const LightVolumeDraws light_draws;  ///< read where the plan blends lights
   const LightPlanes light_planes;
   const ViewDistance view_distance;
   const TransparentPass transparent;

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Fails where a library holds a fused multiply-add, which rounds once where the page says twice, or an estimate of 1/x or
-# 1/sqrt(x), whose bits differ between CPUs. Estimates may stand in functions named settle_*, whose results are used where
+# 1/sqrt(x), whose bits differ between CPUs. Estimates may stand in functions named *bounded_*, whose results are used where
 # a bound of their error shows that they have the right codes (docs/arithmetic.md section 17). Fails too where a mask of 8
 # or 16 lanes is spilled and read back as 32 bits (core/simd/lane_bits-inl.h), by the last write above in the listing. Usage:
 # instructions.sh OBJDUMP LIBRARY...
@@ -46,7 +46,7 @@ status=0
 for library in "$@"; do
   found=$("$objdump" -d --no-show-raw-insn "$library" | awk '
     /^[0-9a-f]+ <.*>:$/ { name = $2 }
-    $2 ~ /^('"$fused|$estimates"')$/ && !(name ~ /settle_/ && $2 ~ /^('"$bounded"')$/) { print name " " $2 }' | sort | uniq -c | sort -rn)
+    $2 ~ /^('"$fused|$estimates"')$/ && !(name ~ /bounded_/ && $2 ~ /^('"$bounded"')$/) { print name " " $2 }' | sort | uniq -c | sort -rn)
   instructions=$("$objdump" -d --no-show-raw-insn "$library" | wc -l)
   echo "${library##*/}: $instructions lines of disassembly"
   widened=  # a fault of g++; clang reuses places in orders that this way of reading takes for it

@@ -14,6 +14,7 @@
 #include "shading/blend/blend-inl.h"
 #include "shading/blend/blend_pass.h"
 #include "shading/light/light_sum-inl.h"
+#include "shading/light/lists/light_cover-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -21,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using AnyTerms = LightTerms<AnyShape>;
 
-HWY_NOINLINE void blend_out_of_line(const BlendPlan& plan, const VF source[4], VF stored[4]) {
+inline HWY_NOINLINE void blend_out_of_line(const BlendPlan& plan, const VF source[4], VF stored[4]) {
   blend_vectors(plan, source, stored);
 }
 
@@ -49,7 +50,7 @@ inline MF inside_extent(const PixelVector& px, const LightRow& light) {
   return hn::And(px.covered, hn::Lt(dot3(to_light, to_light), hn::Set(d, light.extent2)));
 }
 
-HWY_NOINLINE void term_out_of_line(const AnyTerms& terms, const PixelVector& px, const LightRow& light,
+inline HWY_NOINLINE void term_out_of_line(const AnyTerms& terms, const PixelVector& px, const LightRow& light,
                                    LightTerm& term) {
   term = terms(px, light);
 }
@@ -73,7 +74,7 @@ inline size_t blend_draw(const AnyTerms& terms, const BlendPlan& plan, const Pix
 
 /// All draws of a list.
 inline void draw_every(const AnyTerms& terms, const BlendPlan& plan, const SurfaceTile& surface, const PixelVector& px,
-                       std::span<const ListedLight> list, const VectorPlace& at, int i, ColorTile& tile,
+                       std::span<const ListedLight> list, const VectorInTile& at, int i, ColorTile& tile,
                        LightCounts& counts) {
   const DF d;
   StoredPixels out(tile, i);

@@ -14,8 +14,8 @@ decltype(trueshade::blend_tile) blend_tile_simd;
 namespace trueshade {
 HWY_EXPORT(blend_tile_simd);
 
-void blend_tile(const LightDraws& draws, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
-                const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts) {
+void blend_tile(const LightVolumeDraws& draws, const SurfaceTile& surface, const TiedFragments* tied,
+                const TileRect& rect, const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts) {
   HWY_DYNAMIC_DISPATCH(blend_tile_simd)(draws, surface, tied, rect, clear, work, out, counts);
 }
 }  // namespace trueshade

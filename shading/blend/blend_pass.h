@@ -3,8 +3,8 @@
 
 #include "raster/surfaces/surfaces.h"
 #include "shading/blend/light_volume_draws.h"
-#include "shading/light/light_pass.h"
 #include "shading/blend/tied_fragments.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 
@@ -15,13 +15,12 @@ struct BlendWork {
   TileLights lights, region;       ///< their draws, as many as are drawn at once
   std::vector<ListedLight> block;
   std::vector<uint16_t> counts;
-  PairScratch pairs;
 };
 
 /// Draws all lights over one tile, each blended and rounded to the target's format before the next.
 ///   tied: null where no pixel is shared
 ///   out:  the target's stored form, as blend_pixels() leaves it; pixels without a surface hold `clear`
-void blend_tile(const LightDraws& draws, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
-                const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts);
+void blend_tile(const LightVolumeDraws& draws, const SurfaceTile& surface, const TiedFragments* tied,
+                const TileRect& rect, const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts);
 
 }  // namespace trueshade

@@ -8,7 +8,7 @@ namespace trueshade {
 namespace {
 
 // A light's mesh, triangle by triangle: masks of what it covers once, twice, and so on.
-void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::vector<uint16_t>& counts,
+void list_mesh(const LightVolumeDraws& in, const TileRect& rect, uint32_t light, std::vector<uint16_t>& counts,
                TileLights& out) {
   counts.resize(kMaxTilePixels);
   const LightMesh& mesh = in.meshes[drawn_extent(in.lights[light], in.volumes)];
@@ -27,14 +27,14 @@ void list_mesh(const LightDraws& in, const TileRect& rect, uint32_t light, std::
 
 }  // namespace
 
-LightDraws draws_of(std::span<const Light> lights, const Pipeline& pipeline, const LightTable& table,
-                    const LightGroups& groups, const LightMeshes& meshes, const LightOutlines& outlines,
-                    const View& view) {
+LightVolumeDraws light_volume_draws(std::span<const Light> lights, const Pipeline& pipeline, const Execution& execution,
+                                    const LightTable& table, const LightClusters& clusters, const LightMeshes& meshes,
+                                    const LightOutlines& outlines, const View& view) {
   const bool multipass = pipeline.strategy == Strategy::forward_multipass;
   const BlendTarget target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round};
   return {.lights = lights,
           .table = table,
-          .groups = groups,
+          .clusters = clusters,
           .model = pipeline.light_model,
           .volumes = pipeline.light_volumes,
           .meshes = meshes,
@@ -43,7 +43,10 @@ LightDraws draws_of(std::span<const Light> lights, const Pipeline& pipeline, con
           .blend = multipass ? kAddLight : pipeline.blend,
           .target = target,
           .base = multipass || pipeline.light_volumes.base,
-          .first_base = multipass};
+          .first_base = multipass,
+          .culling = execution.light_culling,
+          .compiled = execution.compiled_models,
+          .bounded_codes = execution.settled_sums};
 }
 
 int start_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,
@@ -63,7 +66,7 @@ LightOutlines outlines_of_draws(std::span<const Light> lights, const Pipeline& p
   return out;
 }
 
-void list_draws(const LightDraws& in, const TileRect& rect, std::span<const uint32_t> lights,
+void list_draws(const LightVolumeDraws& in, const TileRect& rect, std::span<const uint32_t> lights,
                 std::vector<uint16_t>& counts, TileLights& out) {
   for (const uint32_t light : lights) {
     const OutlineKind kind = in.outlines.kind[light];
@@ -91,7 +94,7 @@ void covered_bits(const SurfaceTile& surface, int blocks, uint16_t* bits) {
   }
 }
 
-uint64_t count_lit_geometry(const LightDraws& draws, const SurfaceTile& surface, const TileRect& rect,
+uint64_t count_lit_geometry(const LightVolumeDraws& draws, const SurfaceTile& surface, const TileRect& rect,
                             std::vector<uint16_t>& counts, TileLights& scratch) {
   const int blocks = rect.size / kBlockSize;
   uint16_t covered[kMaxTilePixels / kBlockPixels];

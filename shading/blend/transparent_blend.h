@@ -2,7 +2,7 @@
 #include "core/blend_state.h"
 #include "raster/surfaces/surfaces.h"
 #include "shading/blend/blend.h"
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 

@@ -30,7 +30,7 @@ TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, c
   if (!after_lights()) return;
   lights_ = make_light_table(scene.lights, model_, scene.camera, execution.threads);
   bound_by_extents(lights_, scene.lights, pipeline.light_volumes, false);
-  if (execution.light_culling) groups_ = make_light_groups(lights_, execution.threads);
+  if (execution.light_culling) clusters_ = make_light_clusters(lights_, execution.threads);
 }
 
 TileDraws TransparentPass::opaque_draws(const TileDraws& all, TransparentWork& work) const {
@@ -66,8 +66,9 @@ void TransparentPass::blend_after_lights(const TileDraws& all, const TileRect& r
   LightCounts uncounted;
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
     resolve_surfaces(draws, rect, planes_, model_, work.layer, false, vertices, work.surface);
-    light_tile(work.surface, rect.size, lights_, groups_, model_, kNothing,
-               {execution.light_culling, execution.compiled_models}, lists, work.color, uncounted);
+    light_tile(work.surface, rect.size, lights_, clusters_, model_, kNothing,
+               {.culling = execution.light_culling, .compiled = execution.compiled_models}, lists, work.color,
+               uncounted);
     blend_layer(blend_, target_, work.surface, work.color, rect.size * rect.size, stored);
   }
 }

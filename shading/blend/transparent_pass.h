@@ -6,9 +6,9 @@
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/blend/blend.h"
-#include "shading/light/lists/light_clusters.h"
-#include "shading/light/light_pass.h"
 #include "shading/light/light_table.h"
+#include "shading/light/lists/light_clusters.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 
@@ -51,11 +51,11 @@ class TransparentPass {
   const Scene& scene_;
   TransparencyMode mode_;
   BlendState blend_;
-  GBufferState planes_;  ///< of the fragments: floats
-  LightModel model_;     ///< with the albedo's alpha
-  BlendTarget target_;   ///< or the albedo plane
-  LightTable lights_;    ///< bounded by their analytic extents; of after_lights
-  LightGroups groups_;   ///< none without culling
+  GBufferState planes_;     ///< of the fragments: floats
+  LightModel model_;        ///< with the albedo's alpha
+  BlendTarget target_;      ///< or the albedo plane
+  LightTable lights_;       ///< bounded by their analytic extents; of after_lights
+  LightClusters clusters_;  ///< none without culling
 };
 
 }  // namespace trueshade

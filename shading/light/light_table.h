@@ -15,9 +15,9 @@ namespace trueshade {
 
 /// What a kernel does with a light.
 enum class LightKind : uint8_t {
-  placed,  ///< point, or a spot that the model gives no cone
-  coned,   ///< a spot with a cone
-  other,   ///< ambient, directional
+  point,  ///< point, or a spot that the model gives no cone
+  coned,  ///< a spot with a cone
+  other,  ///< ambient, directional
 };
 
 /// A light as kernels read it, field by field: two cache lines.
@@ -42,9 +42,9 @@ struct alignas(64) LightRow {
 /// A frame's lights in scene order, and the viewer they have in common.
 struct LightTable {
   HugeVector<LightRow> row;
-  std::vector<float> position[3], cut2;  ///< of the rows again, NaN for a light without a place; padded to full vectors
-                                         ///< with lights that reach nothing
-  bool cones = false;                    ///< some light's kind is `coned`
+  std::vector<float> position[3], cut2;  ///< of the rows again, NaN for a light without a position; padded to full
+                                         ///< vectors with lights that reach nothing
+  bool cones = false;  ///< some light's kind is `coned`
   float eye[3], view_axis[3];
   uint64_t version = 0;  ///< another one wherever lights differ, of all tables; 0: empty
 

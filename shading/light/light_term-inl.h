@@ -11,7 +11,7 @@
 #include "raster/surfaces/surfaces.h"
 #include "scenes/pipeline/light_model.h"
 #include "shading/light/falloff-inl.h"
-#include "shading/light/fast/compiled_models.h"
+#include "shading/light/light_shape.h"
 #include "shading/light/light_table.h"
 #include "shading/light/power-inl.h"
 
@@ -54,7 +54,7 @@ struct LightChain {
   LightTerm term;
 };
 
-/// Terms of the lights of a table under one model. Shape: CompiledShape or AnyShape.
+/// Terms of the lights of a table under one model. Shape: AnyShape, or a type like it whose `shape` is a constant.
 template <class Shape>
 struct LightTerms {
   const LightTable& lights;
@@ -100,41 +100,41 @@ struct LightTerms {
       px.v[c] = model.viewer == Viewer::local ? hn::Mul(px.v[c], toward) : hn::Set(d, lights.view_axis[c]);
   }
 
-  /// D, its square and N . D.
-  HWY_INLINE void place(const PixelVector& px, bool directional, LightChain& at) const {
-    place(px, directional, at.light->position, at);
-  }
+  /// D of a light that has a position, its square and N . D.
   template <class Pixels>
-  HWY_INLINE void place(const Pixels& px, bool directional, const float* position, LightChain& at) const {
-    const DF d;
-    for (int c = 0; c < 3; ++c) {
-      const VF place = hn::Set(d, position[c]);
-      at.to_light[c] = directional ? place : hn::Sub(place, px.p[c]);
-    }
+  HWY_INLINE void offset_to_light(const Pixels& px, const float* position, LightChain& at) const {
+    for (int c = 0; c < 3; ++c) at.to_light[c] = hn::Sub(hn::Set(DF(), position[c]), px.p[c]);
     at.nl = dot3(px.n, at.to_light);
     at.d2 = dot3(at.to_light, at.to_light);
   }
+  HWY_INLINE void offset_to_light(const PixelVector& px, LightChain& at) const {
+    offset_to_light(px, at.light->position, at);
+  }
 
-  /// Which of some pixels a placed light adds something to, as far as the distance and N . D tell.
-  HWY_INLINE void reach(MF pixels, bool directional, float cut2, LightChain& at) const {
-    const DF d;
-    const MF in_range = directional ? pixels : hn::And(pixels, hn::Lt(at.d2, hn::Set(d, cut2)));
-    at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(d)));
-    at.term.adds = adds_unlit(form.shape) ? in_range : at.term.lit;
+  /// Which of some pixels a light with a position adds something to, as far as the distance and N . D tell: those
+  /// nearer than the root of cut2.
+  HWY_INLINE void reach(MF pixels, float cut2, LightChain& at) const {
+    reach_in_range(hn::And(pixels, hn::Lt(at.d2, hn::Set(DF(), cut2))), at);
   }
 
   /// The same where it is known already which pixels it adds something to.
-  HWY_INLINE void reach(MF adds, LightChain& at) const {
+  HWY_INLINE void reach_known(MF adds, LightChain& at) const {
     at.term.adds = adds;
     at.term.lit = adds_unlit(form.shape) ? hn::And(adds, hn::Gt(at.nl, hn::Zero(DF()))) : adds;
   }
 
-  /// Falloff and unit length; of a directional light they are 1 already.
-  HWY_INLINE void fall_off(bool directional, LightChain& at) const {
+  /// L of a directional light, which has unit length and no falloff, and the pixels that it adds something to.
+  HWY_INLINE void direction_to_light(const PixelVector& px, LightChain& at) const {
+    for (int c = 0; c < 3; ++c) at.to_light[c] = hn::Set(DF(), at.light->position[c]);
+    at.nl = dot3(px.n, at.to_light);
+    at.strength = hn::Set(DF(), 1.0f);
+    reach_in_range(px.covered, at);
+  }
+
+  /// Falloff; D and N . D become L and N . L.
+  HWY_INLINE void fall_off(LightChain& at) const {
     const DF d;
     const VF one = hn::Set(d, 1.0f);
-    at.strength = one;
-    if (directional) return;
     const VF distance = hn::Sqrt(at.d2), reciprocal = hn::Div(one, distance);
     // Where only lit pixels count none of them is at the light itself.
     const VF inverse = adds_unlit(form.shape) ? hn::IfThenElseZero(hn::Gt(at.d2, hn::Zero(d)), reciprocal) : reciprocal;
@@ -189,7 +189,7 @@ struct LightTerms {
       at.cosine = px.exponents.agree ? rounded_power<-1>(at.cosine, px.exponents.common)
                                      : rounded_power(at.cosine, px.exponents);
     else
-      at.cosine = power_of_model(form, at.cosine);
+      at.cosine = power_of_model(at.cosine);
     if (form.shape.specular_masked && adds_unlit(form.shape)) at.cosine = hn::IfThenElseZero(at.term.lit, at.cosine);
   }
 
@@ -233,10 +233,14 @@ struct LightTerms {
     const bool directional = light.type == LightType::directional;
     LightChain at;
     at.light = &light;
-    place(px, directional, at);
-    reach(px.covered, directional, light.cut2, at);
+    if (directional) {
+      direction_to_light(px, at);
+    } else {
+      offset_to_light(px, at);
+      reach(px.covered, light.cut2, at);
+    }
     if (hn::AllFalse(d, at.term.adds)) return at.term;
-    fall_off(directional, at);
+    if (!directional) fall_off(at);
     narrow_if(at);
     reflect(px, at);
     shine(px, at);
@@ -273,15 +277,21 @@ struct LightTerms {
   }
 
  private:
+  HWY_INLINE void reach_in_range(MF in_range, LightChain& at) const {
+    at.term.lit = hn::And(in_range, hn::Gt(at.nl, hn::Zero(DF())));
+    at.term.adds = adds_unlit(form.shape) ? in_range : at.term.lit;
+  }
+
   HWY_INLINE bool squared(const PixelVector& px) const {
     return has_gloss() ? px.exponents.common.squared : form.shape.squared;
   }
 
-  template <size_t kIndex>
-  HWY_INLINE VF power_of_model(const CompiledShape<kIndex>&, VF x) const {
-    return rounded_power<kCompiledShapes[kIndex].power>(x, exponent);
+  HWY_INLINE VF power_of_model(VF x) const {
+    if constexpr (Shape::compiled)
+      return rounded_power<Shape::shape.power>(x, exponent);
+    else
+      return rounded_power<-1>(x, exponent);
   }
-  HWY_INLINE VF power_of_model(const AnyShape&, VF x) const { return rounded_power<-1>(x, exponent); }
 
   HWY_INLINE LightTerm ambient(const PixelVector& px, const LightRow& light) const {
     const DF d;

@@ -7,8 +7,8 @@
 #include "core/image_rows.h"
 #include "core/threads/parallel_for.h"
 #include "scenes/light_shapes.h"
-#include "shading/output/light_planes.h"
 #include "shading/light/light_table.h"
+#include "shading/output/light_planes.h"
 #include "shading/output/overlay.h"
 
 namespace trueshade {

@@ -42,28 +42,35 @@ LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene
     }
 }
 
-void LightPlanes::sum(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
-                      ColorTile& color, std::span<NamedImage> planes) const {
+void LightPlanes::sum(const SurfaceTile& surface, const TileRect& rect, const LightShortcuts& of_target,
+                      LightLists& work, ColorTile& color, std::span<NamedImage> planes) const {
+  const LightShortcuts shortcuts{.culling = of_target.culling, .compiled = of_target.compiled};
   for (const Plane& plane : planes_) {
     LightCounts uncounted;
-    light_tile(surface, rect.size, plane.table, LightGroups{}, model_, kNothing, {culling, compiled}, work, color,
-               uncounted);
+    light_tile(surface, rect.size, plane.table, LightClusters{}, model_, kNothing, shortcuts, work, color, uncounted);
     store(color, rect, planes[plane.index].image);
   }
 }
 
-void LightPlanes::blend(const LightDraws& frame, const SurfaceTile& surface, const TiedFragments* tied,
+void LightPlanes::blend(const LightVolumeDraws& frame, const SurfaceTile& surface, const TiedFragments* tied,
                         const TileRect& rect, BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const {
-  const LightGroups ungrouped;
+  const LightClusters no_clusters;
   for (const Plane& plane : planes_) {
-    const LightDraws draws{plane.alone,    plane.table,
-                           ungrouped,      frame.model,
-                           frame.volumes,  frame.meshes,
-                           plane.outlines, frame.view,
-                           kAddLight,      {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
-                           false,          false,
-                           frame.culling,  frame.compiled,
-                           frame.settles};
+    const LightVolumeDraws draws{.lights = plane.alone,
+                                 .table = plane.table,
+                                 .clusters = no_clusters,
+                                 .model = frame.model,
+                                 .volumes = frame.volumes,
+                                 .meshes = frame.meshes,
+                                 .outlines = plane.outlines,
+                                 .view = frame.view,
+                                 .blend = kAddLight,
+                                 .target = {Format::rgba32f, NumericProfile::ideal, frame.target.half_round},
+                                 .base = false,
+                                 .first_base = false,
+                                 .culling = frame.culling,
+                                 .compiled = frame.compiled,
+                                 .bounded_codes = frame.bounded_codes};
     // What the first draw leaves is one fragment's, however many share the pixel.
     const bool in_first = frame.first_base && plane.light == 0;
     LightCounts uncounted;

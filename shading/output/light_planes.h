@@ -9,7 +9,7 @@
 #include "raster/visibility/visibility.h"
 #include "scenes/scene.h"
 #include "shading/blend/blend_pass.h"
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 
@@ -25,13 +25,13 @@ class LightPlanes {
   LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
               const LightMeshes& meshes, const View& view);
 
-  /// Draws a tile of each plane for strategies that sum; `planes` are those of the constructor, in order. `work` and
-  /// `color` are scratch.
-  void sum(const SurfaceTile& surface, const TileRect& rect, bool culling, bool compiled, LightLists& work,
+  /// Draws a tile of each plane for strategies that sum; `planes` are those of the constructor, in order. `of_target`:
+  /// the shortcuts of the target, of which those that keep sums as they are hold here. `work` and `color` are scratch.
+  void sum(const SurfaceTile& surface, const TileRect& rect, const LightShortcuts& of_target, LightLists& work,
            ColorTile& color, std::span<NamedImage> planes) const;
 
   /// The same for strategies that blend. `frame`: the draws of all lights; `tied`: as blend_tile() takes it.
-  void blend(const LightDraws& frame, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
+  void blend(const LightVolumeDraws& frame, const SurfaceTile& surface, const TiedFragments* tied, const TileRect& rect,
              BlendWork& work, ColorTile& color, std::span<NamedImage> planes) const;
 
  private:

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/threads/parallel_for.h"
-#include "raster/clusters/clusters.h"
-#include "raster/clusters/cluster_bins.h"
 #include "core/simd/simd_target.h"
+#include "core/threads/parallel_for.h"
+#include "raster/clusters/cluster_bins.h"
+#include "raster/clusters/clusters.h"
 #include "raster/tile.h"
 #include "raster/view.h"
 #include "raster/visibility/visibility.h"

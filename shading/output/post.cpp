@@ -7,8 +7,8 @@
 
 #include "core/half.h"
 #include "core/threads/parallel_for.h"
-#include "shading/output/derived_planes.h"
 #include "shading/light/power.h"
+#include "shading/output/derived_planes.h"
 
 namespace trueshade {
 namespace {

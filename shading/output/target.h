@@ -2,7 +2,7 @@
 #include "core/image.h"
 #include "raster/visibility/visibility.h"
 #include "scenes/pipeline/pipeline.h"
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 
 namespace trueshade {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/image_rows.h"
-#include "core/threads/parallel_for.h"
 #include "core/srgb_codes.h"
+#include "core/threads/parallel_for.h"
 #include "shading/output/derived_planes.h"
 #include "shading/output/overlay.h"
 

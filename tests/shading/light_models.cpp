@@ -181,7 +181,8 @@ TEST_CASE("every preset has the naive loop's bits on every target, by the compil
 
 TEST_CASE("the kernels compiled for a model's shape and the general kernel give one image, culled or not") {
   Random random(60);
-  for (const LightShape& shape : kCompiledShapes) {
+  for (const CompiledModel& row : kCompiledModels) {
+    const LightShape& shape = row.shape;
     Scene scene = mixed_sheets(random);
     for (int light = 0; light < 100; ++light) scene.lights.push_back(random_light(random));
     Pipeline pipeline = loop_pipeline("many-lights");
@@ -196,7 +197,7 @@ TEST_CASE("the kernels compiled for a model's shape and the general kernel give 
     for (const std::string_view simd : simd_targets())
       for (const bool compiled : {true, false})
         for (const bool culling : {true, false}) {
-          INFO("shape " << &shape - kCompiledShapes << ", " << simd << " " << compiled << " " << culling);
+          INFO("shape " << &row - kCompiledModels << ", " << simd << " " << compiled << " " << culling);
           CHECK(render(scene, pipeline, on(simd, compiled, culling)).frame.color.texels == expected.texels);
         }
   }

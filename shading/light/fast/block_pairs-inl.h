@@ -12,8 +12,9 @@
 #include <limits>
 #include <span>
 
-#include "shading/light/lists/light_lists-inl.h"
 #include "shading/light/light_sum-inl.h"
+#include "shading/light/lists/light_cover-inl.h"
+#include "shading/light/lists/light_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -34,11 +35,11 @@ struct BlockBalls {
   VF center[3], half[3];    ///< positions
   VF normal[3], spread[3];  ///< normals; spread: with what the roundings of N . D are worth, a share of each |D|
   VF away;                  ///< the same for what D differs by from that of the centre
-  MF torn;                  ///< across an edge: few pixels may be lit where the block's bounds are
+  MF split;                 ///< across an edge: few pixels may be lit where the block's bounds are
   const RegionCull cull;
 
   BlockBalls(const BlockBoxes& boxes, RegionCull region_cull) : cull(region_cull) {
-    torn = hn::Lt(hn::Zero(DF()), hn::Zero(DF()));
+    split = hn::Lt(hn::Zero(DF()), hn::Zero(DF()));
     enclose(boxes, 0, center, half);
     if (cull.facing) face(boxes);
   }
@@ -88,7 +89,7 @@ struct BlockBalls {
       most = greater_of(weight[c], most);
       farthest = greater_of(spread[c], farthest);
     }
-    torn = hn::Gt(farthest, hn::Set(d, 0.25f));
+    split = hn::Gt(farthest, hn::Set(d, 0.25f));
     away = hn::Add(hn::Mul(most, hn::Set(d, 0x1p-90f)), hn::Set(d, 0x1p-100f));
     for (int c = 0; c < 3; ++c) {
       weight[c] = greater_of(weight[c], hn::Mul(most, hn::Set(d, 0x1p-40f)));
@@ -102,10 +103,10 @@ struct BlockBalls {
 struct PairWords {
   alignas(64) uint32_t word[kRegionBlockCount];
 
-  PairWords(const BlockOrder& order, const uint16_t* open) {
+  PairWords(const BlockOrder& order, const uint16_t* pixels) {
     for (size_t k = 0; k < kRegionBlockCount; ++k) {
       const auto block = uint32_t(order.block[k]);
-      word[k] = block << 16 | open[block];
+      word[k] = block << 16 | pixels[block];
     }
   }
 };
@@ -123,7 +124,7 @@ inline size_t cover_pairs(const TileLights& lights, const ListedLight& listed, c
                           uint32_t* pair, size_t first, size_t count) {
   size_t left = first;
   for (size_t k = first; k < count; ++k) {
-    const VectorPlace at(lights, blocks, r.block(int(pair_block(pair[k])), blocks) * kBlockPixels);
+    const VectorInTile at(lights, blocks, r.block(int(pair_block(pair[k])), blocks) * kBlockPixels);
     const auto pixels = uint32_t(mask_bits(at.covered(listed, pair_pixels(pair[k]))));
     pair[left] = (pair[k] & ~kPairPixels) | pixels;
     left += pixels != 0;
@@ -138,13 +139,22 @@ HWY_INLINE size_t test_pairs(const LightTerms<Shape>& terms, const PixelVector* 
   for (size_t k = 0; k < count; ++k) {
     const ListedLight& light = list[pair_light(pair[k])];
     LightChain at;
-    terms.place(px[pair_block(pair[k])], false, light.position, at);
-    terms.reach(pair_pixels(pair[k]), false, light.cut2, at);
+    terms.offset_to_light(px[pair_block(pair[k])], light.position, at);
+    terms.reach(pair_pixels(pair[k]), light.cut2, at);
     const auto pixels = uint32_t(mask_bits(at.term.adds));
     out[left] = (pair[k] & ~kPairPixels) | pixels;
     left += pixels != 0;
   }
   return left;
+}
+
+/// Pairs of one region at a time, kept for the thread's life.
+struct PairScratch {
+  uint32_t pair[kMostPairs], split[kMostPairs];
+};
+inline PairScratch& pair_scratch() {
+  thread_local PairScratch scratch;
+  return scratch;
 }
 
 /// Lights of a list held against the blocks of a region.
@@ -157,42 +167,45 @@ struct BlockPairs {
   PairScratch& scratch;
 
   BlockPairs(const TileLights& tile_lights, const Region& r, RegionCull cull, const BlockOrder& order, int tile_blocks,
-             const uint16_t* open, PairScratch& pairs)
-      : lights(tile_lights), region(r), blocks(tile_blocks), balls(r.blocks, cull), words(order, open), scratch(pairs) {
-    scratch.pair.resize(kMostPairs), scratch.torn.resize(kMostPairs);
-  }
+             const uint16_t* pixels)
+      : lights(tile_lights),
+        region(r),
+        blocks(tile_blocks),
+        balls(r.blocks, cull),
+        words(order, pixels),
+        scratch(pair_scratch()) {}
 
-  /// Lists the pairs of some lights, all of a kind that has a place, at most kPairedLights, in scratch.pair; returns
-  /// how many. Those of torn blocks come last, with the pixels that the light adds something to.
+  /// Lists the pairs of some lights, all of a kind that has a position, at most kPairedLights, in scratch.pair; returns
+  /// how many. Those of split blocks come last, with the pixels that the light adds something to.
   template <class Shape>
   size_t list(const LightTerms<Shape>& terms, const PixelVector* px, std::span<const ListedLight> list) const {
-    uint32_t *const pair = scratch.pair.data(), *const torn = scratch.torn.data();
-    const MF open = open_blocks();
-    size_t pairs = 0, torn_pairs = 0;
+    uint32_t *const pair = scratch.pair, *const split = scratch.split;
+    const MF some = blocks_with_pixels();
+    size_t pairs = 0, split_pairs = 0;
     for (size_t i = 0; i < list.size(); ++i) {
-      const size_t first = pairs, first_torn = torn_pairs;
-      const MF reached = hn::And(open, balls.reached(list[i]));
-      pairs = append_pairs(words, hn::AndNot(balls.torn, reached), uint32_t(i), pair, pairs);
-      if (!hn::AllFalse(DF(), balls.torn))
-        torn_pairs = append_pairs(words, hn::And(balls.torn, reached), uint32_t(i), torn, torn_pairs);
+      const size_t first = pairs, first_split = split_pairs;
+      const MF reached = hn::And(some, balls.reached(list[i]));
+      pairs = append_pairs(words, hn::AndNot(balls.split, reached), uint32_t(i), pair, pairs);
+      if (!hn::AllFalse(DF(), balls.split))
+        split_pairs = append_pairs(words, hn::And(balls.split, reached), uint32_t(i), split, split_pairs);
       if (HWY_UNLIKELY(list[i].crossing != 0)) {
         pairs = cover_pairs(lights, list[i], region, blocks, pair, first, pairs);
-        torn_pairs = cover_pairs(lights, list[i], region, blocks, torn, first_torn, torn_pairs);
+        split_pairs = cover_pairs(lights, list[i], region, blocks, split, first_split, split_pairs);
       }
     }
-    return test_pairs(terms, px, list.data(), torn, torn_pairs, pair, pairs);
+    return test_pairs(terms, px, list.data(), split, split_pairs, pair, pairs);
   }
 
   /// The same as steps of kMany pairs of one light, the last of each light filled with pairs of no pixels; nothing is
   /// asked of the pixels, which costs what it saves where pairs are cheap.
   template <size_t kMany>
   size_t list_steps(std::span<const ListedLight> list) const {
-    uint32_t* const pair = scratch.pair.data();
-    const MF open = open_blocks();
+    uint32_t* const pair = scratch.pair;
+    const MF some = blocks_with_pixels();
     size_t pairs = 0;
     for (size_t i = 0; i < list.size(); ++i) {
       const size_t first = pairs;
-      pairs = append_pairs(words, hn::And(open, balls.reached(list[i])), uint32_t(i), pair, pairs);
+      pairs = append_pairs(words, hn::And(some, balls.reached(list[i])), uint32_t(i), pair, pairs);
       if (HWY_UNLIKELY(list[i].crossing != 0)) pairs = cover_pairs(lights, list[i], region, blocks, pair, first, pairs);
       const uint32_t last = pair[pairs - (pairs != first)] & ~kPairPixels;
       for (size_t k = 0; k + 1 < kMany; ++k) pair[pairs + k] = last;
@@ -201,14 +214,14 @@ struct BlockPairs {
     return pairs;
   }
 
-  /// The pixels of a light without a place in a block.
-  LightHit hit(const ListedLight& light, size_t block, unsigned open) const {
-    const unsigned pixels = cover_of_block(lights, light, region.block(int(block), blocks), blocks) & open;
+  /// The pixels of a light without a position in a block.
+  LightHit hit(const ListedLight& light, size_t block, unsigned asked) const {
+    const unsigned pixels = cover_of_block(lights, light, region.block(int(block), blocks), blocks) & asked;
     return {light.light, {uint8_t(pixels), uint8_t(pixels >> 8)}};
   }
 
  private:
-  HWY_INLINE MF open_blocks() const {
+  HWY_INLINE MF blocks_with_pixels() const {
     const hn::RebindToUnsigned<DF> du;
     const auto some = hn::And(hn::Load(du, words.word), hn::Set(du, kPairPixels));
     return hn::RebindMask(DF(), hn::Ne(some, hn::Zero(du)));
@@ -216,11 +229,11 @@ struct BlockPairs {
 };
 
 /// Calls run(kind, lights) for lights of a list that follow each other and are of one kind, at most kPairedLights.
-/// Where the shape has no cone those that have one are `placed` too.
+/// Where the shape has no cone those that have one are `point` too.
 template <class Shape, class Run>
 HWY_INLINE void for_each_run(const Shape& shape, std::span<const ListedLight> list, const Run& run) {
   const auto kind_of = [&](const ListedLight& listed) {
-    if (shape.shape.cone == Cone::none) return listed.placed ? LightKind::placed : LightKind::other;
+    if (shape.shape.cone == Cone::none) return listed.has_position ? LightKind::point : LightKind::other;
     return listed.light->kind;
   };
   for (size_t first = 0, end = 0; first < list.size(); first = end) {

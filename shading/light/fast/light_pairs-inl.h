@@ -30,13 +30,13 @@ constexpr bool comes_by_pairs() {
 template <class Sum>
 struct RegionPixels {
   const Region& region;
-  uint16_t open[kRegionBlockCount];  ///< of each block, pixels that lights add to
+  uint16_t pixels[kRegionBlockCount];  ///< of each block, those that lights add to
   PixelVector px[kRegionBlockCount];
   Sum sum[kRegionBlockCount];
 
   explicit RegionPixels(const Region& r) : region(r) {}
   /// Where a block begins in the planes of the tile, `blocks` a row.
-  int place(size_t k, int blocks) const { return region.block(int(k), blocks) * kBlockPixels; }
+  int first_pixel(size_t k, int blocks) const { return region.block(int(k), blocks) * kBlockPixels; }
 };
 
 /// The first half of some pairs, a step of each after the other: as far as the falloff, which waits for square roots
@@ -45,9 +45,9 @@ template <bool kCone, class Shape, size_t... k>
 HWY_INLINE void approach(const LightTerms<Shape>& terms, const PixelVector* px, const ListedLight* list,
                          const uint32_t* pair, std::index_sequence<k...>, LightChain* at) {
   ((at[k].light = list[pair_light(pair[k])].light), ...);
-  (terms.place(px[pair_block(pair[k])], false, at[k]), ...);
-  (terms.reach(pair_pixels(pair[k]), false, at[k].light->cut2, at[k]), ...);
-  (terms.fall_off(false, at[k]), ...);
+  (terms.offset_to_light(px[pair_block(pair[k])], at[k]), ...);
+  (terms.reach(pair_pixels(pair[k]), at[k].light->cut2, at[k]), ...);
+  (terms.fall_off(at[k]), ...);
   if constexpr (kCone) (terms.narrow(at[k]), ...);
 }
 
@@ -84,7 +84,7 @@ uint64_t add_region_lights(const LightTerms<Shape>& terms, std::span<const Liste
   uint64_t computed = 0;
   for_each_run(terms.form, list, [&](LightKind kind, std::span<const ListedLight> run) {
     if (kind != LightKind::other) {
-      uint32_t* const pair = pairs.scratch.pair.data();
+      uint32_t* const pair = pairs.scratch.pair;
       const size_t count = pairs.list(terms, in.px, run);
       computed += kLanes * count;
       if (Shape::shape.cone != Cone::none && kind == LightKind::coned)
@@ -94,11 +94,11 @@ uint64_t add_region_lights(const LightTerms<Shape>& terms, std::span<const Liste
     } else {
       for (size_t block = 0; block < kRegionBlockCount; ++block)
         for (const ListedLight& light : run) {
-          const LightHit hit = pairs.hit(light, block, in.open[block]);
+          const LightHit hit = pairs.hit(light, block, in.pixels[block]);
           if ((hit.adds[0] | hit.adds[1]) != 0) add_one(terms, in.px[block], hit, in.sum[block]);
         }
     }
-    for (Sum& sum : in.sum) sum.settle();
+    for (Sum& sum : in.sum) sum.saturate();
   });
   for (const Sum& sum : in.sum) computed += sum.evaluated * kLanes;
   return computed;

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/simd/store-inl.h"
-#include "shading/light/lists/light_clusters.h"
 #include "shading/light/light_term-inl.h"
+#include "shading/light/lists/light_clusters.h"
 #include "shading/light/lists/regions-inl.h"
 #include "shading/light/lists/tile_lights.h"
 
@@ -60,8 +60,8 @@ HWY_INLINE MF within_reach(const float* const position[3], const float* cut2, si
            inf = hn::Set(d, std::numeric_limits<float>::infinity());
   VF d2 = zero;
   for (int c = 0; c < 3; ++c) {
-    const VF place = hn::LoadU(d, position[c] + i);
-    const VF below = hn::Sub(hn::Set(d, box.low[c]), place), above = hn::Sub(place, hn::Set(d, box.high[c]));
+    const VF at = hn::LoadU(d, position[c] + i);
+    const VF below = hn::Sub(hn::Set(d, box.low[c]), at), above = hn::Sub(at, hn::Set(d, box.high[c]));
     const VF outside = greater_of(below, above);
     const VF gap = hn::IfThenElseZero(hn::Gt(outside, zero), outside);
     d2 = hn::Add(d2, hn::Mul(gap, gap));
@@ -83,8 +83,8 @@ HWY_INLINE MF faced_away(const float* const position[3], size_t i, const Region&
   }
   VF bound = hn::Zero(d), size = hn::Zero(d);
   for (int c = 0; c < 3; ++c) {
-    const VF place = hn::LoadU(d, position[c] + i);
-    const VF least = hn::Sub(place, hn::Set(d, r.place.high[c])), most = hn::Sub(place, hn::Set(d, r.place.low[c]));
+    const VF at = hn::LoadU(d, position[c] + i);
+    const VF least = hn::Sub(at, hn::Set(d, r.position.high[c])), most = hn::Sub(at, hn::Set(d, r.position.low[c]));
     const VF low = hn::Set(d, r.normal.low[c]), high = hn::Set(d, r.normal.high[c]);
     const VF a = greater_of(hn::Mul(low, least), hn::Mul(low, most)),
              b = greater_of(hn::Mul(high, least), hn::Mul(high, most));
@@ -109,7 +109,7 @@ HWY_INLINE void for_each_lane(MF mask, size_t first, size_t count, const Found& 
 }
 
 /// Which of a vector of boxes, from the i-th on, meet `box`.
-HWY_INLINE MF meeting(const GroupBoxes& boxes, size_t i, const Box& box) {
+HWY_INLINE MF meeting(const LightClusterBoxes& boxes, size_t i, const Box& box) {
   const DF d;
   MF meets = hn::Eq(hn::Zero(d), hn::Zero(d));
   for (int c = 0; c < 3; ++c) {
@@ -122,30 +122,30 @@ HWY_INLINE MF meeting(const GroupBoxes& boxes, size_t i, const Box& box) {
 
 /// Calls found(i) for the boxes of [first, end) that meet `box`.
 template <class Found>
-HWY_INLINE void for_each_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box,
+HWY_INLINE void for_each_meeting(const LightClusterBoxes& boxes, size_t first, size_t end, const Box& box,
                                  const Found& found) {
   for (size_t i = first; i < end; i += hn::Lanes(DF())) for_each_lane(meeting(boxes, i, box), i, end, found);
 }
 
 /// Sets the bit of each light, found among many, that may reach the region. Returns how many were asked.
-inline uint64_t reaching_groups(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
-                                std::vector<uint64_t>& bits) {
-  constexpr size_t kGroup = LightGroups::kGroup;
+inline uint64_t reaching_clusters(const LightTable& lights, const LightClusters& clusters, const Region& r,
+                                  RegionCull cull, std::vector<uint64_t>& bits) {
+  constexpr size_t kMembers = LightClusters::kMembers;
   const auto set = [&](uint32_t light) {
-    if (!cull.cone || !dark_over(lights.row[light], r.place.low, r.place.high))
+    if (!cull.cone || !dark_over(lights.row[light], r.position.low, r.position.high))
       bits[light / 64] |= uint64_t(1) << light % 64;
   };
   uint64_t asked = 0;
-  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
-    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
-    for_each_meeting(groups.groups, cluster * kGroup, end, r.place, [&](size_t group) {
-      asked += kGroup;
-      const LightGroup& of = groups.group[group];
+  for_each_meeting(clusters.parents, 0, clusters.parents.count, r.position, [&](size_t parent) {
+    const size_t end = std::min(clusters.boxes.count, (parent + 1) * kMembers);
+    for_each_meeting(clusters.boxes, parent * kMembers, end, r.position, [&](size_t cluster) {
+      asked += kMembers;
+      const LightCluster& of = clusters.cluster[cluster];
       const float* const position[3] = {of.position[0], of.position[1], of.position[2]};
-      for (size_t i = 0; i < kGroup; i += hn::Lanes(DF())) {
-        MF reaches = within_reach(position, of.cut2, i, r.place);
+      for (size_t i = 0; i < kMembers; i += hn::Lanes(DF())) {
+        MF reaches = within_reach(position, of.cut2, i, r.position);
         if (cull.facing && !hn::AllFalse(DF(), reaches)) reaches = hn::AndNot(faced_away(position, i, r), reaches);
-        for_each_lane(reaches, i, kGroup, [&](size_t k) { set(of.light[k]); });
+        for_each_lane(reaches, i, kMembers, [&](size_t k) { set(of.light[k]); });
       }
     });
   });
@@ -154,14 +154,14 @@ inline uint64_t reaching_groups(const LightTable& lights, const LightGroups& gro
 
 /// Lights of the table that may reach the tile, ascending: its box, or, of many lights, any of its regions.
 /// `bits` is scratch, all zero. Returns how many were asked.
-inline uint64_t reaching_lights(const LightTable& lights, const LightGroups& groups, const TileRegions& tile,
+inline uint64_t reaching_lights(const LightTable& lights, const LightClusters& clusters, const TileRegions& tile,
                                 RegionCull cull, std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
   out.clear();
-  if (!groups.empty()) {
+  if (!clusters.empty()) {
     uint64_t asked = 0;
     bits.resize((lights.size() + 63) / 64);
-    for (int k = 0; k < tile.count; ++k) asked += reaching_groups(lights, groups, tile.region[k], cull, bits);
-    for (const uint32_t light : groups.always) bits[light / 64] |= uint64_t(1) << light % 64;
+    for (int k = 0; k < tile.count; ++k) asked += reaching_clusters(lights, clusters, tile.region[k], cull, bits);
+    for (const uint32_t light : clusters.unbounded) bits[light / 64] |= uint64_t(1) << light % 64;
     for (size_t w = 0; w < bits.size(); ++w) {
       for (uint64_t word = bits[w]; word != 0; word &= word - 1)
         out.push_back(uint32_t(64 * w) + uint32_t(std::countr_zero(word)));
@@ -169,7 +169,7 @@ inline uint64_t reaching_lights(const LightTable& lights, const LightGroups& gro
     }
     return asked;
   }
-  const Box& box = tile.place;
+  const Box& box = tile.position;
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.size(); first += hn::Lanes(DF()))
     for_each_lane(within_reach(position, lights.cut2.data(), first, box), first, lights.size(), [&](size_t i) {
@@ -200,13 +200,13 @@ inline void region_lights(const TileLights& lights, const Region& r, int blocks,
   out.clear();
   const auto add = [&](size_t i) {
     ListedLight listed = lights.light[i];
-    if (cull.cone && dark_over(*listed.light, r.place.low, r.place.high)) return;
+    if (cull.cone && dark_over(*listed.light, r.position.low, r.position.high)) return;
     if (listed.crossing == 0 || covers_some(lights, r, blocks, listed)) out.add(listed);
   };
   const float* const position[3] = {lights.position[0].data(), lights.position[1].data(), lights.position[2].data()};
   for (size_t first = 0; first < lights.light.size(); first += hn::Lanes(d)) {
     MF reaches = hn::Eq(hn::Zero(d), hn::Zero(d));
-    if (cull.distance) reaches = within_reach(position, lights.cut2.data(), first, r.place);
+    if (cull.distance) reaches = within_reach(position, lights.cut2.data(), first, r.position);
     if (cull.facing && !hn::AllFalse(d, reaches)) reaches = hn::AndNot(faced_away(position, first, r), reaches);
     for_each_lane(reaches, first, lights.light.size(), add);
   }

@@ -38,8 +38,8 @@ class NearTest {
       largest = std::max(largest, weight[c]);
     }
     for (int c = 0; c < 3; ++c) {
-      const float center = 0.5f * r.place.low[c] + 0.5f * r.place.high[c];
-      const float half = std::max(r.place.high[c] - center, center - r.place.low[c]) * (1.0f + 0x1p-20f);
+      const float center = 0.5f * r.position.low[c] + 0.5f * r.position.high[c];
+      const float half = std::max(r.position.high[c] - center, center - r.position.low[c]) * (1.0f + 0x1p-20f);
       center_[c] = hn::Set(DF(), center), half_[c] = hn::Set(DF(), half);
       if (!facing) continue;
       const float normal = 0.5f * r.normal.low[c] + 0.5f * r.normal.high[c];
@@ -51,8 +51,8 @@ class NearTest {
     most_ = hn::Set(DF(), most * (1.0f + 0x1p-20f) + (largest + 1.0f) * 0x1p-100f);
   }
 
-  /// Those of the lights of a group from the i-th on that may reach the region and are faced.
-  HWY_INLINE MF operator()(const LightGroup& lights, size_t i) const {
+  /// Those of the lights of a cluster from the i-th on that may reach the region and are faced.
+  HWY_INLINE MF operator()(const LightCluster& lights, size_t i) const {
     const DF d;
     const VF less = hn::Set(d, 1.0f - 0x1p-20f);
     VF d2 = hn::Zero(d), along = most_;
@@ -116,15 +116,15 @@ struct LightBits {
   }
 };
 
-/// Appends the lights of a vector, from the i-th of a group on, that `near` has.
-HWY_INLINE void append_lights(const LightGroup& group, size_t i, MF near, LightStreams& out) {
+/// Appends the lights of a vector, from the i-th of a cluster on, that `near` has.
+HWY_INLINE void append_lights(const LightCluster& cluster, size_t i, MF near, LightStreams& out) {
   const DF d;
   const DU du;
   const auto bits = uint32_t(mask_bits(near));
   const FrontLanes<DF> front(d, bits);
-  for (int c = 0; c < 3; ++c) hn::StoreU(front(hn::Load(d, group.position[c] + i)), d, out.position[c] + out.count);
-  hn::StoreU(front(hn::Load(d, group.cut2 + i)), d, out.cut2 + out.count);
-  const auto light = hn::BitCast(d, hn::Load(du, group.light + i));
+  for (int c = 0; c < 3; ++c) hn::StoreU(front(hn::Load(d, cluster.position[c] + i)), d, out.position[c] + out.count);
+  hn::StoreU(front(hn::Load(d, cluster.cut2 + i)), d, out.cut2 + out.count);
+  const auto light = hn::BitCast(d, hn::Load(du, cluster.light + i));
   hn::StoreU(hn::BitCast(du, front(light)), du, out.light + out.count);
   out.count += size_t(std::popcount(bits));
 }
@@ -135,13 +135,14 @@ inline void drop_dark(const LightTable& lights, const Region& r, LightStreams& n
   for (size_t i = 0; i < near.count; ++i) {
     for (int c = 0; c < 3; ++c) near.position[c][left] = near.position[c][i];
     near.cut2[left] = near.cut2[i], near.light[left] = near.light[i];
-    left += dark_over(lights.row[near.light[left]], r.place.low, r.place.high) ? 0u : 1u;
+    left += dark_over(lights.row[near.light[left]], r.position.low, r.position.high) ? 0u : 1u;
   }
   near.count = left;
 }
 
 /// Lists the boxes of [first, end) that meet `box`; room for a vector more.
-HWY_INLINE size_t list_meeting(const GroupBoxes& boxes, size_t first, size_t end, const Box& box, uint32_t* out) {
+HWY_INLINE size_t list_meeting(const LightClusterBoxes& boxes, size_t first, size_t end, const Box& box,
+                               uint32_t* out) {
   const DU du;
   size_t count = 0;
   auto number = hn::Add(hn::Iota(du, 0u), hn::Set(du, uint32_t(first)));
@@ -155,44 +156,44 @@ HWY_INLINE size_t list_meeting(const GroupBoxes& boxes, size_t first, size_t end
   return count;
 }
 
-/// Lists the groups with lights that may reach a region.
-inline std::span<const uint32_t> list_groups(const LightGroups& groups, const Region& r, FoundLights& found) {
-  constexpr size_t kGroup = LightGroups::kGroup;
-  if (found.group.size() < groups.groups.count + kLanes) found.group.resize(groups.groups.count + kLanes);
-  uint32_t* const out = found.group.data();
+/// Lists the clusters with lights that may reach a region.
+inline std::span<const uint32_t> list_clusters(const LightClusters& clusters, const Region& r, FoundLights& found) {
+  constexpr size_t kMembers = LightClusters::kMembers;
+  if (found.cluster.size() < clusters.boxes.count + kLanes) found.cluster.resize(clusters.boxes.count + kLanes);
+  uint32_t* const out = found.cluster.data();
   size_t count = 0;
-  for_each_meeting(groups.clusters, 0, groups.clusters.count, r.place, [&](size_t cluster) {
-    const size_t end = std::min(groups.groups.count, (cluster + 1) * kGroup);
-    count += list_meeting(groups.groups, cluster * kGroup, end, r.place, out + count);
+  for_each_meeting(clusters.parents, 0, clusters.parents.count, r.position, [&](size_t parent) {
+    const size_t end = std::min(clusters.boxes.count, (parent + 1) * kMembers);
+    count += list_meeting(clusters.boxes, parent * kMembers, end, r.position, out + count);
   });
   return {out, count};
 }
 
 /// The lights, of many, that end somewhere and may reach a region, in any order. Returns how many were asked.
-inline uint64_t find_near_lights(const LightTable& lights, const LightGroups& groups, const Region& r, RegionCull cull,
-                                 FoundLights& found) {
-  constexpr size_t kGroup = LightGroups::kGroup, kAhead = 4;
+inline uint64_t find_near_lights(const LightTable& lights, const LightClusters& clusters, const Region& r,
+                                 RegionCull cull, FoundLights& found) {
+  constexpr size_t kMembers = LightClusters::kMembers, kAhead = 4;
   const NearTest test(r, cull.facing);
-  const LightGroup* const all = groups.group.data();
-  const std::span<const uint32_t> of = list_groups(groups, r, found);
-  const uint32_t* const group = of.data();
+  const LightCluster* const all = clusters.cluster.data();
+  const std::span<const uint32_t> of = list_clusters(clusters, r, found);
+  const uint32_t* const cluster = of.data();
   LightStreams near;
-  found.memory.make_room(near, of.size() * kGroup);
+  found.memory.make_room(near, of.size() * kMembers);
   for (size_t k = 0; k < of.size(); ++k) {
-    const auto* const ahead = reinterpret_cast<const char*>(all + group[std::min(k + kAhead, of.size() - 1)]);
-    for (size_t line = 0; line < sizeof(LightGroup); line += 64) hwy::Prefetch(ahead + line);
-    for (size_t i = 0; i < kGroup; i += kLanes) append_lights(all[group[k]], i, test(all[group[k]], i), near);
+    const auto* const ahead = reinterpret_cast<const char*>(all + cluster[std::min(k + kAhead, of.size() - 1)]);
+    for (size_t line = 0; line < sizeof(LightCluster); line += 64) hwy::Prefetch(ahead + line);
+    for (size_t i = 0; i < kMembers; i += kLanes) append_lights(all[cluster[k]], i, test(all[cluster[k]], i), near);
   }
   if (cull.cone) drop_dark(lights, r, near);
   for (size_t i = 0; i < kLanes; ++i) near.cut2[near.count + i] = 0.0f;
   found.near = near;
-  return of.size() * kGroup;
+  return of.size() * kMembers;
 }
 
-/// Puts lights at their places of a list that has room for them.
-class PlacedLights {
+/// Puts lights at their indices of a list that has room for them.
+class OrderedLights {
  public:
-  PlacedLights(TileLights& out, size_t count) {
+  OrderedLights(TileLights& out, size_t count) {
     out.clear();
     out.light.resize(count);
     if (out.cut2.size() < count + 16) {
@@ -202,8 +203,8 @@ class PlacedLights {
     for (int c = 0; c < 3; ++c) position_[c] = out.position[c].data();
     light_ = out.light.data(), cut2_ = out.cut2.data();
   }
-  HWY_INLINE void put(size_t at, const LightRow* row, float x, float y, float z, float cut2, bool placed) const {
-    light_[at] = {row, {x, y, z}, cut2, 0, 0, placed};
+  HWY_INLINE void put(size_t at, const LightRow* row, float x, float y, float z, float cut2, bool has_position) const {
+    light_[at] = {row, {x, y, z}, cut2, 0, 0, has_position};
     position_[0][at] = x, position_[1][at] = y, position_[2][at] = z;
     cut2_[at] = cut2;
   }
@@ -214,20 +215,20 @@ class PlacedLights {
 };
 
 /// The lights, of many, that may reach a region, in scene order. Returns how many were asked.
-inline uint64_t find_region_lights(const LightTable& lights, const LightGroups& groups, const Region& r,
+inline uint64_t find_region_lights(const LightTable& lights, const LightClusters& clusters, const Region& r,
                                    RegionCull cull, FoundLights& found, TileLights& out) {
-  const uint64_t asked = find_near_lights(lights, groups, r, cull, found);
+  const uint64_t asked = find_near_lights(lights, clusters, r, cull, found);
   const LightStreams& near = found.near;
   LightBits bits(found, lights.size());
   for (size_t i = 0; i < near.count; ++i) bits.insert(near.light[i]);
-  for (const uint32_t light : groups.always) bits.insert(light);
-  const PlacedLights list(out, bits.number());
+  for (const uint32_t light : clusters.unbounded) bits.insert(light);
+  const OrderedLights list(out, bits.number());
   const LightRow* const row = lights.row.data();
   for (size_t i = 0; i < near.count; ++i)
     list.put(bits.number_of(near.light[i]), row + near.light[i], near.position[0][i], near.position[1][i],
              near.position[2][i], near.cut2[i], true);
-  for (const uint32_t light : groups.always) {
-    const float x = lights.position[0][light];  // not a number: without a place
+  for (const uint32_t light : clusters.unbounded) {
+    const float x = lights.position[0][light];  // not a number: without a position
     list.put(bits.number_of(light), row + light, x, lights.position[1][light], lights.position[2][light],
              lights.cut2[light], x == x);
   }

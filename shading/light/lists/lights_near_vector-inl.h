@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "shading/light/light_sum-inl.h"
+#include "shading/light/light_term-inl.h"
 #include "shading/light/lists/lights_near_region-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,13 +34,13 @@ struct Middle {
   }
 };
 
-/// Lists those of a region's lights that may reach one of some boxes: places in `near`.
+/// Lists those of a region's lights that may reach one of some boxes: indices into `near`.
 template <size_t kBoxes>
 HWY_INLINE size_t list_near(const LightStreams& near, const Middle (&boxes)[kBoxes], uint32_t* at) {
   const DF d;
   const DU du;
   size_t count = 0;
-  auto place = hn::Iota(du, 0u);
+  auto index = hn::Iota(du, 0u);
   for (size_t i = 0; i < near.count; i += kLanes) {
     const VF cut2 = hn::Load(d, near.cut2 + i);
     VF least = hn::Set(d, std::numeric_limits<float>::infinity());  // of squared distances
@@ -57,9 +57,9 @@ HWY_INLINE size_t list_near(const LightStreams& near, const Middle (&boxes)[kBox
     // Some ten roundings, those of the kernel's own square among them.
     const MF far = hn::Ge(hn::Mul(least, hn::Set(d, 1.0f - 0x1p-19f)), cut2);
     const auto bits = uint32_t(mask_bits(hn::Not(far)));
-    hn::StoreU(FrontLanes<DU>(du, bits)(place), du, at + count);
+    hn::StoreU(FrontLanes<DU>(du, bits)(index), du, at + count);
     count += size_t(std::popcount(bits));
-    place = hn::Add(place, hn::Set(du, uint32_t(kLanes)));
+    index = hn::Add(index, hn::Set(du, uint32_t(kLanes)));
   }
   return count;
 }
@@ -111,26 +111,26 @@ struct HitVector {
   HitVector(FoundLights& found, size_t k) : hits{found.hit[k].data(), found.pixels[k].data()} {}
 };
 
-/// Finds the hits of lights at some places of `near` and of those that end nowhere.
+/// Finds the hits of lights at some indices of `near` and of those that end nowhere.
 template <class Shape>
 HWY_INLINE void find_hits(const LightTerms<Shape>& terms, const PixelVector& px, const LightStreams& near,
-                          std::span<const uint32_t> at, std::span<const uint32_t> always, HitList& out) {
+                          std::span<const uint32_t> at, std::span<const uint32_t> unbounded, HitList& out) {
   HitList hits{out.light, out.pixels};
   const LightRow* const row = terms.lights.row.data();
   for (const uint32_t k : at) {
     hwy::Prefetch(row + near.light[k]);
     const float position[3] = {near.position[0][k], near.position[1][k], near.position[2][k]};
     LightChain chain;
-    terms.place(px, false, position, chain);
-    terms.reach(px.covered, false, near.cut2[k], chain);
+    terms.offset_to_light(px, position, chain);
+    terms.reach(px.covered, near.cut2[k], chain);
     hits.add(near.light[k], chain.term.adds);
   }
-  for (const uint32_t light : always) {
+  for (const uint32_t light : unbounded) {
     LightChain chain;
     chain.term.adds = px.covered;
     if (row[light].kind != LightKind::other) {
-      terms.place(px, false, row[light].position, chain);
-      terms.reach(px.covered, false, row[light].cut2, chain);
+      terms.offset_to_light(px, row[light].position, chain);
+      terms.reach(px.covered, row[light].cut2, chain);
     }
     hits.add(light, chain.term.adds);
   }
@@ -139,7 +139,7 @@ HWY_INLINE void find_hits(const LightTerms<Shape>& terms, const PixelVector& px,
 
 constexpr size_t kRankedHits = 64;  // at most put into order by comparing each with each
 
-/// Places of hits in scene order.
+/// Indices of hits in scene order.
 HWY_INLINE void order_hits(const HitList& hits, size_t lights, FoundLights& found) {
   const DI di;
   uint32_t* const order = found.order.data();
@@ -163,26 +163,9 @@ HWY_INLINE void order_hits(const HitList& hits, size_t lights, FoundLights& foun
   for (size_t i = 0; i < hits.count; ++i) order[rank[i]] = uint32_t(i);
 }
 
-/// Adds its hits to a vector of pixels.
-template <class Shape, class Sum>
-HWY_INLINE void add_hits(const LightTerms<Shape>& terms, const PixelVector& px, const HitList& hits, FoundLights& found,
-                         Sum& sum) {
-  order_hits(hits, terms.lights.size(), found);
-  const LightRow* const row = terms.lights.row.data();
-  for (size_t first = 0; first < hits.count; first += kMostHits) {
-    const size_t count = std::min(hits.count - first, kMostHits);
-    LightHit hit[kMostHits];
-    for (size_t i = 0; i < count; ++i) {
-      const uint32_t k = found.order[first + i], pixels = hits.pixels[k];
-      hit[i] = {row + hits.light[k], {uint8_t(pixels), uint8_t(pixels >> 8)}};
-    }
-    add_listed_hits(terms, px, hit, count, sum);
-  }
-}
-
 /// Room for what the lights of a region may become.
-inline void make_room(const LightGroups& groups, FoundLights& found) {
-  const size_t most = found.near.count + groups.always.size() + 2 * kLanes;
+inline void make_room(const LightClusters& clusters, FoundLights& found) {
+  const size_t most = found.near.count + clusters.unbounded.size() + 2 * kLanes;
   if (found.at.size() >= most) return;
   for (auto* of : {&found.at, &found.hit[0], &found.hit[1], &found.pixels[0], &found.pixels[1], &found.order})
     of->resize(2 * most);

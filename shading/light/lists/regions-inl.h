@@ -36,7 +36,7 @@ constexpr size_t kRegionBlockCount = size_t(kRegionBlocks) * kRegionBlocks;
 struct BlockBoxes {
   alignas(64) float low[6][kRegionBlockCount], high[6][kRegionBlockCount];  ///< position, normal; without NaN
 
-  Box place(size_t k) const { return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}}; }
+  Box position(size_t k) const { return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}}; }
 };
 
 /// A region of a tile: its first block, how many blocks it has each way, and what its surfaces are within: the very
@@ -44,7 +44,7 @@ struct BlockBoxes {
 struct Region {
   int bx, by, wide, tall;
   int pixels;  ///< with a surface
-  Box place, normal;
+  Box position, normal;
   uint16_t covered[kRegionBlockCount];  ///< of each block, row by row, its pixels with a surface, bit by bit
   BlockBoxes blocks;
 
@@ -60,7 +60,7 @@ struct TileRegions {
   Region region[kMostRegions];
   int count = 0;
   int pixels;
-  Box place;
+  Box position;
 };
 
 HWY_INLINE MF covered_lanes(const SurfaceTile& s, int i) {
@@ -155,7 +155,7 @@ HWY_INLINE Bounds bounds_across(const Leaf& leaf, size_t first) {
   }
 }
 
-/// Which of a region's blocks, row by row, is at each place of BlockBoxes.
+/// Which of a region's blocks, row by row, is at each index of BlockBoxes.
 struct BlockOrder {
   alignas(64) float block[kRegionBlockCount];
 
@@ -244,13 +244,13 @@ inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region&
     else
       bound_plane(PlaneBounds{s.plane[plane], r, blocks}, r, row, low, high);
   };
-  for (int c = 0; c < 3; ++c) bound(kPosition + c, c, r.place.low[c], r.place.high[c]);
+  for (int c = 0; c < 3; ++c) bound(kPosition + c, c, r.position.low[c], r.position.high[c]);
   for (int c = 0; c < 3 && normals; ++c) bound(kNormal + c, 3 + c, r.normal.low[c], r.normal.high[c]);
 }
 
 inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileRegions& out) {
   out.count = out.pixels = 0;
-  out.place = kNoBox;
+  out.position = kNoBox;
   for (int by = 0; by < blocks; by += kRegionBlocks)
     for (int bx = 0; bx < blocks; bx += kRegionBlocks) {
       Region& r = out.region[out.count];
@@ -260,8 +260,8 @@ inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileReg
       if (r.pixels == 0) continue;
       out.pixels += r.pixels;
       for (int c = 0; c < 3; ++c) {
-        out.place.low[c] = std::min(out.place.low[c], r.place.low[c]);
-        out.place.high[c] = std::max(out.place.high[c], r.place.high[c]);
+        out.position.low[c] = std::min(out.position.low[c], r.position.low[c]);
+        out.position.high[c] = std::max(out.position.high[c], r.position.high[c]);
       }
       ++out.count;
     }

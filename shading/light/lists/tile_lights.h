@@ -14,7 +14,7 @@ struct ListedLight {
   float position[3], cut2;  ///< the row's
   uint32_t first;           ///< of its edges or masks in the TileLights
   int16_t crossing;         ///< edges that its cover is inside of; 0: all pixels; kMasked: a mask a block
-  bool placed;              ///< its kind is not `other`
+  bool has_position;        ///< its kind is not `other`
   static constexpr int16_t kMasked = -1;
 };
 static_assert(sizeof(ListedLight) == 32 && kMostOutlineCorners < 32768);
@@ -32,7 +32,7 @@ struct TileLights {
     edges.clear();
     masks.clear();
   }
-  /// A light of the table. One without a place reaches everything: no comparison with its NaN drops it.
+  /// A light of the table. One without a position reaches everything: no comparison with its NaN drops it.
   void add(const LightTable& table, uint32_t i, uint32_t first = 0, int16_t crossing = 0) {
     const float x = table.position[0][i];
     add({&table.row[i], {x, table.position[1][i], table.position[2][i]}, table.cut2[i], first, crossing, x == x});
@@ -47,16 +47,6 @@ struct TileLights {
     for (int c = 0; c < 3; ++c) position[c][i] = listed.position[c];
     cut2[i] = listed.cut2;
   }
-};
-
-/// Words for pairs of a light and a vector, one region at a time.
-struct PairScratch {
-  std::vector<uint32_t> pair, torn;
-};
-
-/// Numbers of lights and of vectors of pixels, by steps, one region at a time.
-struct StepScratch {
-  std::vector<int32_t> light, vector;
 };
 
 /// Of a tile's block, `blocks` of them a row: pixels that the light's geometry covers, bit by bit.

@@ -1,4 +1,4 @@
-// Sums whose codes are settled by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
+// Sums whose codes are proved by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -45,7 +45,7 @@ void trouble(Random& random, Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights counted") {
+TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights counted") {
   Random random(434);
   uint64_t fewer = 0, frames = 0;
   for (int i = 0; i < 48; ++i) {
@@ -62,11 +62,11 @@ TEST_CASE("Codes that bounds settle are those of the sums, and so are the lights
     const Frame sums = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
-      const Frame settled = render_frame(prepared, p, {.simd = simd}, kCounts);
-      CHECK(image_hash(settled.color) == image_hash(sums.color));
-      CHECK(image_hash(settled.aovs[0].image) == image_hash(sums.aovs[0].image));
-      CHECK(settled.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
-      fewer += settled.stats.evaluated_pixel_lights < sums.stats.evaluated_pixel_lights;
+      const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCounts);
+      CHECK(image_hash(bounded.color) == image_hash(sums.color));
+      CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
+      CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
+      fewer += bounded.stats.evaluated_pixel_lights < sums.stats.evaluated_pixel_lights;
       ++frames;
     }
   }
@@ -101,12 +101,12 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
     const Frame sums = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
-      const Frame settled = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCounts);
-      CHECK(image_hash(settled.color) == image_hash(sums.color));
-      CHECK(image_hash(settled.aovs[0].image) == image_hash(sums.aovs[0].image));
-      CHECK(settled.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
+      const Frame bounded = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCounts);
+      CHECK(image_hash(bounded.color) == image_hash(sums.color));
+      CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
+      CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
       const Frame added = render_frame(prepared, p, {.simd = simd, .settled_sums = false}, kCounts);
-      otherwise += settled.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
+      otherwise += bounded.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
       ++frames;
     }
   }

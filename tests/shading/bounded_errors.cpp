@@ -1,4 +1,4 @@
-// How far the estimates of settled codes are from the terms, as shares of what the proofs of docs/arithmetic.md
+// How far the estimates of bounded codes are from the terms, as shares of what the proofs of docs/arithmetic.md
 // sections 17 and 18 allow: from the CPU's 1 / sqrt, and from any at the ends of the range that is promised of it.
 // Inputs are climbed to what is worst near them, since roundings seldom agree by chance.
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
-#include "tests/shading/settled_lanes.h"
+#include "tests/shading/bounded_lanes.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -22,8 +22,8 @@ namespace {
 constexpr RootSource kRoots[] = {RootSource::cpu, RootSource::low, RootSource::right, RootSource::high};
 
 bool lacks_kernels() {
-  if (!settles_lanes()) WARN("SKIPPED: no kernel of settled codes on this CPU");
-  return !settles_lanes();
+  if (!bounds_codes()) WARN("SKIPPED: no kernel of bounded codes on this CPU");
+  return !bounds_codes();
 }
 
 glm::dvec3 any_direction(Random& random) {
@@ -40,7 +40,7 @@ glm::dvec3 tilted(Random& random, const glm::dvec3& from, double angle_rad) {
   return std::cos(angle_rad) * from + std::sin(angle_rad) / std::sqrt(dot(side, side)) * side;
 }
 
-void set(SettledPixels& pixels, int lane, int first, const glm::dvec3& v) {
+void set(BoundedPixels& pixels, int lane, int first, const glm::dvec3& v) {
   for (int c = 0; c < 3; ++c) pixels.number[first + c][lane] = float(v[c]);
 }
 
@@ -67,7 +67,7 @@ struct Hunt {
     return out;
   }
 
-  void make_pixel(Random& random, const Light& light, SettledPixels& out, int lane) const {
+  void make_pixel(Random& random, const Light& light, BoundedPixels& out, int lane) const {
     const double reach = phong ? between(random, 0.5, 50) : double(light.range) * std::pow(between(random, 0, 0.99), 3);
     glm::dvec3 toward = any_direction(random);
     if (cone) {
@@ -86,22 +86,22 @@ struct Hunt {
 /// The largest shares seen.
 struct Worst {
   double share = 0.0, window = 0.0, edge = 0.0;
-  long settled = 0, wrong = 0;
-  void see(const SettledErrors& errors) {
-    for (int i = 0; i < kSettledPixels; ++i) {
+  long proved = 0, wrong = 0;
+  void see(const BoundedErrors& errors) {
+    for (int i = 0; i < kBoundedPixels; ++i) {
       if (!(errors.share[i] <= share)) share = errors.share[i];  // a NaN stays
       if (!(errors.window[i] <= window)) window = errors.window[i];
     }
     if (!(errors.edge <= edge)) edge = errors.edge;
-    settled += errors.settled, wrong += errors.wrong;
+    proved += errors.proved, wrong += errors.wrong;
   }
 };
 
 LightModel model_of(bool phong) { return preset_pipeline(phong ? "redsdk" : "light-volumes")->light_model; }
 
 // One number of each pixel is another, a little or by a few units in the last place.
-void stray(Random& random, SettledPixels& pixels) {
-  for (int lane = 0; lane < kSettledPixels; ++lane) {
+void stray(Random& random, BoundedPixels& pixels) {
+  for (int lane = 0; lane < kBoundedPixels; ++lane) {
     const uint64_t bits = random();
     float& x = pixels.number[bits % 12][lane];
     if ((bits >> 8 & 1) != 0)
@@ -120,8 +120,8 @@ struct CodeErrors {
 
   CodeErrors(const Hunt& hunt, RootSource of) : model(model_of(hunt.phong)), phong(hunt.phong), root(of) {}
   std::vector<Light> lights(Random& random, const Hunt& hunt) const { return {hunt.light(random)}; }
-  void operator()(const LightTable& table, const SettledPixels& pixels, SettledErrors& errors) const {
-    settled_errors(table, model, phong, root, pixels, errors);
+  void operator()(const LightTable& table, const BoundedPixels& pixels, BoundedErrors& errors) const {
+    bounded_errors(table, model, phong, root, pixels, errors);
   }
 };
 
@@ -141,8 +141,8 @@ struct SumErrors {
     }
     return out;
   }
-  void operator()(const LightTable& table, const SettledPixels& pixels, SettledErrors& errors) const {
-    window_errors(table, make_plain_lights(table, model), model, root, pixels, errors);
+  void operator()(const LightTable& table, const BoundedPixels& pixels, BoundedErrors& errors) const {
+    window_errors(table, make_bounded_lights(table, model), model, root, pixels, errors);
   }
 };
 
@@ -152,18 +152,18 @@ Worst climb(Random& random, const Hunt& hunt, const Measure& measure, int starts
   for (int start = 0; start < starts; ++start) {
     const std::vector<Light> lights = measure.lights(random, hunt);
     const LightTable table = make_light_table(lights, measure.model, Camera());
-    SettledPixels best;
-    for (int lane = 0; lane < kSettledPixels; ++lane) hunt.make_pixel(random, lights[0], best, lane);
-    SettledErrors best_errors;
+    BoundedPixels best;
+    for (int lane = 0; lane < kBoundedPixels; ++lane) hunt.make_pixel(random, lights[0], best, lane);
+    BoundedErrors best_errors;
     measure(table, best, best_errors);
     worst.see(best_errors);
     for (int step = 0; step < steps; ++step) {
-      SettledPixels next = best;
-      SettledErrors errors;
+      BoundedPixels next = best;
+      BoundedErrors errors;
       stray(random, next);
       measure(table, next, errors);
       worst.see(errors);
-      for (int lane = 0; lane < kSettledPixels; ++lane) {
+      for (int lane = 0; lane < kBoundedPixels; ++lane) {
         if (errors.share[lane] < best_errors.share[lane]) continue;
         best_errors.share[lane] = errors.share[lane];
         for (int k = 0; k < 12; ++k) best.number[k][lane] = next.number[k][lane];
@@ -192,7 +192,7 @@ constexpr double kFoundAtLeast = 0.15, kNeededAtLeast = 0.4;
 
 }  // namespace
 
-TEST_CASE("Estimates of settled codes are as near to the terms as their proofs say, whatever the CPU's 1 / sqrt") {
+TEST_CASE("Estimates of bounded codes are as near to the terms as their proofs say, whatever the CPU's 1 / sqrt") {
   if (lacks_kernels()) return;
   Random random(817);
   for (const Hunt& hunt : kHunts)
@@ -205,11 +205,11 @@ TEST_CASE("Estimates of settled codes are as near to the terms as their proofs s
       CHECK(worst.edge < 1.0);
       CHECK(worst.share > kFoundAtLeast);
       CHECK(worst.wrong == 0);
-      CHECK(worst.settled > 0);
+      CHECK(worst.proved > 0);
     }
 }
 
-TEST_CASE("Estimates of settled sums are as near to the sums as their proof says, whatever the CPU's 1 / sqrt",
+TEST_CASE("Estimates of bounded sums are as near to the sums as their proof says, whatever the CPU's 1 / sqrt",
           "[slow]") {
   constexpr Hunt kSums[] = {
       {"No highlight", false, 0.5, 0.5, {0.9, 3}, false},
@@ -220,7 +220,7 @@ TEST_CASE("Estimates of settled sums are as near to the sums as their proof says
   Random random(819);
   for (const std::string_view simd : simd_targets()) {
     const SimdScope scope(simd);
-    if (!settles_windows()) continue;
+    if (!bounds_windows()) continue;
     for (const Hunt& hunt : kSums)
       for (const size_t count : {size_t{1}, size_t{12}})
         for (const RootSource root : kRoots) {
@@ -232,16 +232,16 @@ TEST_CASE("Estimates of settled sums are as near to the sums as their proof says
           CHECK(worst.window < 1.0);
           CHECK(worst.window > 0.5);
           CHECK(worst.wrong == 0);
-          CHECK(worst.settled > 0);
+          CHECK(worst.proved > 0);
         }
   }
 }
 
-TEST_CASE("Settled sums have the codes of the sums at the ends of the floats") {
+TEST_CASE("Bounded sums have the codes of the sums at the ends of the floats") {
   const LightModel model = preset_pipeline("many-lights")->light_model;
   Random random(820);
   const auto size = [&] { return std::ldexp(between(random, 1, 2), int(random() % 300) - 160); };
-  long settled = 0;
+  long proved = 0;
   for (int i = 0; i < 10000; ++i) {
     const Hunt hunt = {"", false, 0.5, 1.6, {0, 3}, false};
     std::vector<Light> lights;
@@ -253,9 +253,9 @@ TEST_CASE("Settled sums have the codes of the sums at the ends of the floats") {
       lights.push_back(light);
     }
     const LightTable table = make_light_table(lights, model, Camera());
-    const PlainLights plain = make_plain_lights(table, model);
-    SettledPixels pixels;
-    for (int lane = 0; lane < kSettledPixels; ++lane) {
+    const BoundedLights bounded = make_bounded_lights(table, model);
+    BoundedPixels pixels;
+    for (int lane = 0; lane < kBoundedPixels; ++lane) {
       hunt.make_pixel(random, lights[0], pixels, lane);
       const glm::dvec3 across = any_direction(random);
       if (random() % 4 == 0) set(pixels, lane, 0, glm::dvec3(lights[0].position) + across * double(size()));
@@ -268,24 +268,24 @@ TEST_CASE("Settled sums have the codes of the sums at the ends of the floats") {
     }
     for (const std::string_view simd : simd_targets()) {
       const SimdScope scope(simd);
-      if (!settles_windows()) continue;
+      if (!bounds_windows()) continue;
       for (const RootSource root : kRoots) {
-        SettledErrors errors;
-        window_errors(table, plain, model, root, pixels, errors);
+        BoundedErrors errors;
+        window_errors(table, bounded, model, root, pixels, errors);
         Worst worst;
         worst.see(errors);
         INFO(simd << ", vector " << i << ", root " << int(root));
         REQUIRE(worst.share < 1.0);
         REQUIRE(worst.window < 1.0);
         REQUIRE(worst.wrong == 0);
-        settled += worst.settled;
+        proved += worst.proved;
       }
     }
   }
-  if (settles_windows()) CHECK(settled > 100000);
+  if (bounds_windows()) CHECK(proved > 100000);
 }
 
-TEST_CASE("Settled codes stay those of the terms at the ends of the floats") {
+TEST_CASE("Bounded codes stay those of the terms at the ends of the floats") {
   if (lacks_kernels()) return;
   Random random(818);
   const auto size = [&] { return std::ldexp(between(random, 1, 2), int(random() % 300) - 160); };
@@ -301,8 +301,8 @@ TEST_CASE("Settled codes stay those of the terms at the ends of the floats") {
     if (random() % 8 == 0) light.penumbra_rad = between(random, 0, 0.001);
     if (light.cone_rad + light.penumbra_rad > 3.1416f) light.cone_rad = 3.1416f - light.penumbra_rad;  // as validated
     const LightTable table = make_light_table({&light, 1}, model, Camera());
-    SettledPixels pixels;
-    for (int lane = 0; lane < kSettledPixels; ++lane) {
+    BoundedPixels pixels;
+    for (int lane = 0; lane < kBoundedPixels; ++lane) {
       hunt.make_pixel(random, light, pixels, lane);
       const glm::dvec3 toward = any_direction(random) * double(size());
       const glm::dvec3 across = tilted(random, toward / std::sqrt(dot(toward, toward)), 1.5707963);
@@ -317,8 +317,8 @@ TEST_CASE("Settled codes stay those of the terms at the ends of the floats") {
       if (random() % 32 == 0) pixels.number[random() % 12][lane] = -0.0f;
     }
     for (const RootSource root : kRoots) {
-      SettledErrors errors;
-      settled_errors(table, model, hunt.phong, root, pixels, errors);
+      BoundedErrors errors;
+      bounded_errors(table, model, hunt.phong, root, pixels, errors);
       Worst worst;
       worst.see(errors);
       INFO(hunt.name << ", vector " << i << ", root " << int(root));

@@ -1,7 +1,7 @@
-#include "shading/light/light_pass.h"
+#include "shading/sum/light_pass.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shading/light/light_pass.cpp"
+#define HWY_TARGET_INCLUDE "shading/sum/light_pass.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -14,11 +14,11 @@ decltype(trueshade::light_tile) light_tile_simd;
 namespace trueshade {
 HWY_EXPORT(light_tile_simd);
 
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightClusters& clusters,
                 const LightModel& model, const float clear[4], const LightShortcuts& shortcuts, LightLists& work,
                 ColorTile& out, LightCounts& counts) {
   HWY_DYNAMIC_DISPATCH(light_tile_simd)
-  (surface, tile, lights, groups, model, clear, shortcuts, work, out, counts);
+  (surface, tile, lights, clusters, model, clear, shortcuts, work, out, counts);
 }
 }  // namespace trueshade
 #endif  // HWY_ONCE

@@ -1,48 +1,42 @@
 // Codes of sums of Blinn-Phong terms under lights with a linear window, from estimates of the terms and a bound of what
-// their sum may be off by; pixels that the bound leaves open are summed as docs/arithmetic.md section 8 says. The proof
-// is section 19. Included once per SIMD target.
-#if defined(TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_BLINN_SUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
-#undef TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
+// their sum may be off by; pixels that the bound leaves undecided are summed as docs/arithmetic.md section 8 says. The
+// proof is section 19. Included once per SIMD target.
+#if defined(TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_BLINN_SUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
+#undef TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
 #else
-#define TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
+#define TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_BLINN_SUM_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
-#include "shading/light/bounded/bounded_lights.h"
-#include "shading/light/bounded/bounded_codes-inl.h"
+#include "shading/light/bounded/estimates-inl.h"
+#include "shading/light/lists/light_lists-inl.h"
+#include "shading/sum/bounded/bounded_lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whether the CPU's estimate of 1 / sqrt is as near as section 19 asks: 1.5 * 2^-12 as a share of it. That of targets
-/// that emulate vectors is not.
-constexpr bool kEstimatesRoots = HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
-
-/// Whether sums of lights of this shape are settled here.
-template <class Shape>
-constexpr bool settles_window() {
-  if constexpr (Shape::compiled && kEstimatesRoots) return is_window(Shape::shape);
-  return false;
-}
-
-/// Lights of the vectors of a region, as places in PlainLights::window: some of one vector a step, so that a region is
-/// one loop and no branch depends on how many lights a vector has.
+/// Lights of the vectors of a region, as indices into BoundedLights::window: some of one vector a step, so that a
+/// region is one loop and no branch depends on how many lights a vector has.
 struct WindowSteps {
   static constexpr size_t kTogether = kLanes == kBlockPixels ? 4 : 2;
   static constexpr size_t kMostLights = 256, kVectors = kRegionBlockCount * kBlockPixels / kLanes;
   int32_t *light, *vector;       ///< kTogether a step; of each step
   size_t count = 0, listed = 0;  ///< steps; lights in them
 
-  explicit WindowSteps(StepScratch& scratch) {
+  WindowSteps() {
     constexpr size_t kMost = kVectors * (kMostLights + kTogether) + 2 * kBlockPixels;
-    if (scratch.light.size() < kMost) scratch.light.resize(kMost), scratch.vector.resize(kMost);
-    light = scratch.light.data(), vector = scratch.vector.data();
+    struct Scratch {
+      int32_t light[kMost], vector[kMost];
+    };
+    thread_local const std::unique_ptr<Scratch> scratch = std::make_unique<Scratch>();
+    light = scratch->light, vector = scratch->vector;
   }
 
   /// Where the next lights go; room for a vector more.
@@ -64,7 +58,7 @@ struct RegionWindows {
   HWY_ALIGN int32_t light[kMost + kBlockPixels], reached[kMost + kBlockPixels];
   const LightRow* other[kMost];
   size_t count = 0, others = 0;
-  const uint32_t none;  ///< the place of the light that lights nothing
+  const uint32_t none;  ///< the index of the light that lights nothing
 
   explicit RegionWindows(uint32_t nothing) : none(nothing) {}
 
@@ -88,16 +82,15 @@ struct RegionWindows {
     out.end(vector, listed, none);
   }
   /// The same of those that light one of the pixels.
-  template <class Shape>
-  HWY_INLINE void list(const LightTerms<Shape>& terms, const PixelVector& px, const WindowLight* lights, size_t vector,
-                       WindowSteps& out) const {
+  HWY_INLINE void list(const LightTerms<WindowBlinn>& terms, const PixelVector& px, const WindowLight* lights,
+                       size_t vector, WindowSteps& out) const {
     int32_t* const to = out.next();
     size_t listed = 0;
     for (size_t i = 0; i < count; ++i) {
       LightChain at;
       const WindowLight& of = lights[light[i]];
-      terms.place(px, false, of.position, at);
-      terms.reach(px.covered, false, of.cut2, at);
+      terms.offset_to_light(px, of.position, at);
+      terms.reach(px.covered, of.cut2, at);
       to[listed] = light[i];
       listed += hn::AllFalse(DF(), at.term.adds) ? 0u : 1u;
     }
@@ -106,32 +99,32 @@ struct RegionWindows {
 };
 
 /// Whether a region's surfaces are no farther away than section 19 has them.
-inline bool plain_region(const Region& r) {
+inline bool region_in_proof_range(const Region& r) {
   bool near = true;
-  for (int c = 0; c < 3; ++c) near = near && r.place.low[c] >= -0x1p30f && r.place.high[c] <= 0x1p30f;
+  for (int c = 0; c < 3; ++c) near = near && r.position.low[c] >= -0x1p30f && r.position.high[c] <= 0x1p30f;
   return near;
 }
 
-/// Pixels whose numbers are in the ranges of section 19. Those that are none light nothing, or settle nothing.
+/// Pixels whose numbers are in the ranges of section 19. Those that are none light nothing, or prove nothing.
 HWY_INLINE MF window_pixels(const PixelVector& px, VF view2) {
   const DF d;
   const VF zero = hn::Zero(d);
   const VF most = hn::Max(hn::Max(px.albedo[0], px.albedo[1]), px.albedo[2]),
            least = hn::Min(hn::Min(px.albedo[0], px.albedo[1]), px.albedo[2]);
-  MF plain = less_within(px.covered, view2, hn::Set(d, 1.0f + 0x1p-10f));
-  plain = less_within(plain, dot3(px.n, px.n), hn::Set(d, 1.0f + 0x1p-20f));
-  plain = hn::And(plain, hn::And(hn::Ge(least, zero), hn::Le(most, hn::Set(d, kMostPlainAlbedo))));
+  MF holds = less_within(px.covered, view2, hn::Set(d, 1.0f + 0x1p-10f));
+  holds = less_within(holds, dot3(px.n, px.n), hn::Set(d, 1.0f + 0x1p-20f));
+  holds = hn::And(holds, hn::And(hn::Ge(least, zero), hn::Le(most, hn::Set(d, kMostProvenAlbedo))));
   for (int c = 0; c < 3; ++c)
-    plain = hn::AndNot(hn::And(hn::Lt(hn::Abs(px.p[c]), hn::Set(d, 0x1p-40f)), hn::Ne(px.p[c], zero)), plain);
-  return plain;
+    holds = hn::AndNot(hn::And(hn::Lt(hn::Abs(px.p[c]), hn::Set(d, 0x1p-40f)), hn::Ne(px.p[c], zero)), holds);
+  return holds;
 }
 
 /// Sums of a vector of pixels over estimates of their terms.
-template <class Shape, class Root = EstimatedRoot>
+template <class Root = EstimatedRoot>
 struct WindowSum {
   VF p[3], n[3];               ///< of the pixels
   VF view4[3], half4, along2;  ///< 4 V, 4 (1 + V . V), 2 N . V
-  MF covered, plain;
+  MF covered, in_range;
   VF diffuse[3], shine[3];  ///< twice N . L, and powers: times falloffs and colours
   VF facing, least4;        ///< sum of twice N . L; the least 4 H . H
   hn::Vec<DI> lights;       ///< that light each pixel: exact
@@ -148,17 +141,17 @@ struct WindowSum {
     }
     half4 = hn::Mul(four, hn::Add(hn::Set(d, 1.0f), view2));
     along2 = hn::Add(along, along);
-    plain = window_pixels(px, view2);
+    in_range = window_pixels(px, view2);
     facing = hn::Zero(d), least4 = hn::Set(d, 16.0f);
     lights = hn::Zero(DI());
   }
 
   /// The lights of a step.
-  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* all, const int32_t* step) {
+  HWY_INLINE void add(const LightTerms<WindowBlinn>& terms, const WindowLight* all, const int32_t* step) {
     add(terms, all, step, std::make_index_sequence<WindowSteps::kTogether>());
   }
 
-  /// What is stored where it is settled; base: the sum of other lights, which came first. `px`: the same pixels.
+  /// What is stored where it is proved; base: the sum of other lights, which came first. `px`: the same pixels.
   HWY_INLINE VF value(const PixelVector& px, VF base, int c) const {
     const VF half = hn::Mul(px.albedo[c], hn::Set(DF(), 0.5f));
     return hn::Add(base, hn::Add(hn::Mul(half, diffuse[c]), hn::Mul(px.specular[c], shine[c])));
@@ -179,12 +172,12 @@ struct WindowSum {
   }
 
   /// Pixels whose codes of 8 bits are those of `value` for certain.
-  HWY_INLINE MF settled(const PixelVector& px, const VF value[3], float most, size_t others) const {
+  HWY_INLINE MF proved(const PixelVector& px, const VF value[3], float most, size_t others) const {
     const DF d;
     const VF one = hn::Set(d, 1.0f), largest = hn::Set(d, 255.0f);
     VF off[3];
     bound(px, value, most, others, off);
-    MF all = less_within(plain, hn::Set(d, 4.0f * kLeastHalf2), least4);
+    MF all = less_within(in_range, hn::Set(d, 4.0f * kLeastHalf2), least4);
     for (int c = 0; c < 3; ++c) {
       const VF x = hn::Mul(hn::Min(value[c], one), largest);
       const VF away = hn::Add(hn::Abs(hn::Sub(x, hn::Round(x))), hn::Mul(off[c], largest));
@@ -200,16 +193,16 @@ struct WindowSum {
 
   // Some lights, a step of each after the other.
   template <size_t... k>
-  HWY_INLINE void add(const LightTerms<Shape>& terms, const WindowLight* all, const int32_t* step,
+  HWY_INLINE void add(const LightTerms<WindowBlinn>& terms, const WindowLight* all, const int32_t* step,
                       std::index_sequence<k...>) {
     Step at[WindowSteps::kTogether];
     ((at[k].light = all + step[k]), ...);
-    (terms.place(*this, false, at[k].light->position, at[k].chain), ...);
+    (terms.offset_to_light(*this, at[k].light->position, at[k].chain), ...);
     (estimate(at[k]), ...);
     (refine(at[k]), ...);
     (reflect(at[k]), ...);
     (fall_off(at[k]), ...);
-    ((at[k].power = integer_power<Shape::shape.power>(at[k].power)), ...);
+    ((at[k].power = integer_power<WindowBlinn::shape.power>(at[k].power)), ...);
     sum(at);
   }
 

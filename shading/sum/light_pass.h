@@ -1,14 +1,13 @@
 #pragma once
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/format.h"
 #include "raster/surfaces/surfaces.h"
 #include "scenes/pipeline/light_model.h"
-#include "shading/light/lists/light_clusters.h"
 #include "shading/light/light_table.h"
-#include "shading/light/bounded/bounded_lights.h"
+#include "shading/light/lists/light_clusters.h"
 #include "shading/light/lists/tile_lights.h"
 
 namespace trueshade {
@@ -33,25 +32,18 @@ struct LightLists {
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
   std::vector<ListedLight> block;
-  PairScratch pairs;
-  StepScratch steps;
-  PlainLists plain;
-  PixelGroups groups;
-  std::vector<uint16_t> open;           ///< pixels whose sums bounds have not settled
-  std::unique_ptr<SurfaceTile> packed;  ///< their surfaces, side by side
 };
 
 /// What a light pass may spare itself. None of it changes a bit of what is stored.
 struct LightShortcuts {
-  bool culling = true;   ///< leave out lights that are proved to add nothing, by tile, by 16x16 region and by vector
-  bool compiled = true;  ///< use the kernel compiled for the model's shape, where there is one (shading/light/fast/compiled_models.h)
-  const PlainLights* plain = nullptr;  ///< of the table: sums need only have the right codes in
-  Format stored = Format::rgba8;       ///< this fixed-point format. Null: they are wanted as they are
+  bool culling = true;          ///< leave out lights that are proved to add nothing, by tile, by region and by vector
+  bool compiled = true;         ///< use the kernel compiled for the model's shape, where there is one
+  std::optional<Format> codes = std::nullopt;  ///< sums need only have the right codes in this format of fixed point
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha
-/// included. Pixels that are not covered get `clear`. `groups`: of the table's lights.
-void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightGroups& groups,
+/// included. Pixels that are not covered get `clear`. `clusters`: of the table's lights.
+void light_tile(const SurfaceTile& surface, int tile, const LightTable& lights, const LightClusters& clusters,
                 const LightModel& model, const float clear[4], const LightShortcuts& shortcuts, LightLists& work,
                 ColorTile& out, LightCounts& counts);
 

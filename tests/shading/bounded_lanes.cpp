@@ -1,27 +1,26 @@
-#include "tests/shading/settled_lanes.h"
+#include "tests/shading/bounded_lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/shading/settled_lanes.cpp"
+#define HWY_TARGET_INCLUDE "tests/shading/bounded_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "core/simd/store-inl.h"
+#include "shading/blend/bounded/bounded_phong-inl.h"
 #include "shading/light/light_sum-inl.h"
-#include "shading/light/bounded/bounded_blinn_sum-inl.h"
-#include "shading/light/bounded/bounded_phong-inl.h"
+#include "shading/sum/bounded/bounded_blinn_sum-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using testing::kSettledPixels, testing::RootSource, testing::SettledErrors, testing::SettledPixels;
+using testing::kBoundedPixels, testing::RootSource, testing::BoundedErrors, testing::BoundedPixels;
 
-constexpr bool kSettles = kLanes == size_t(kSettledPixels);
+constexpr bool kBoundsCodes = kLanes == size_t(kBoundedPixels);
 
-bool settles_lanes() { return kSettles; }
+bool bounds_codes() { return kBoundsCodes; }
 
 /// An estimate at an end of the range that is promised, or in its middle.
 template <int kEnd, int kOff = 4>  // in units of 2^-16
@@ -33,21 +32,10 @@ struct RootAt {
   }
 };
 
-// 0 where the target settles none.
-template <bool kPhong, size_t kIndex = 0>
-constexpr size_t settled_shape() {
-  if constexpr (kIndex == std::size(kCompiledShapes))
-    return 0;
-  else if constexpr (kPhong ? settles_phong<CompiledShape<kIndex>>() : settles_codes<CompiledShape<kIndex>>())
-    return kIndex;
-  else
-    return settled_shape<kPhong, kIndex + 1>();
-}
-
 struct Estimates {
-  alignas(64) float x[3][kSettledPixels], code255[3][kSettledPixels];
-  double allowed[3][kSettledPixels];  ///< units of 2^-14 of a code; 0 where nothing is estimated
-  double proven[kSettledPixels];      ///< the proof's bound for colour 1, in u
+  alignas(64) float x[3][kBoundedPixels], code255[3][kBoundedPixels];
+  double allowed[3][kBoundedPixels];  ///< units of 2^-14 of a code; 0 where nothing is estimated
+  double proven[kBoundedPixels];      ///< the proof's bound for colour 1, in u
 };
 
 // Section 17: 9.1 f + 6.1 d / range of the estimate, 8 f + 2 d / range of the term: most where f is 1.
@@ -55,7 +43,7 @@ constexpr double kProvenLambert = 17.1;
 constexpr double kProvenLength = 1.001;  // of N and V, whose squares may be 1 + 2^-10, and what is of second order
 
 // Section 18, of one pixel, before what is there for slack.
-inline double proven_phong(const SettledPixels& in, int i, const LightRow& row) {
+inline double proven_phong(const BoundedPixels& in, int i, const LightRow& row) {
   double d2 = 0, nd = 0, nv = 0, dv = 0, da = 0;
   for (int c = 0; c < 3; ++c) {
     const double d = row.position[c] - in.number[c][i], n = in.number[3 + c][i], v = in.number[6 + c][i];
@@ -69,11 +57,11 @@ inline double proven_phong(const SettledPixels& in, int i, const LightRow& row) 
   return g * sum + all * (6.0 * g + 6.0 * (t - t * t) * (13.1 * row.slope + 4.0));
 }
 
-inline void compare(const LightRow& row, const Estimates& of, SettledErrors& out) {
-  for (int i = 0; i < kSettledPixels; ++i) {
+inline void compare(const LightRow& row, const Estimates& of, BoundedErrors& out) {
+  for (int i = 0; i < kBoundedPixels; ++i) {
     out.share[i] = out.window[i] = 0.0;
     for (int c = 0; c < 3; ++c) {
-      if (of.allowed[c][i] == 0.0 || !std::isfinite(of.x[c][i])) continue;  // the latter must be left open
+      if (of.allowed[c][i] == 0.0 || !std::isfinite(of.x[c][i])) continue;  // the latter must be left undecided
       const double units = std::fabs(double(of.x[c][i]) * 256.0 - double(of.code255[c][i])) * 0x1p14;
       const double proven = of.proven[i] * double(row.color[c]) * 255.0 * 0x1p-10 * kProvenLength + 0x1p-20;
       if (!(units / proven <= out.share[i])) out.share[i] = units / proven;
@@ -82,11 +70,11 @@ inline void compare(const LightRow& row, const Estimates& of, SettledErrors& out
   }
 }
 
-// What is not open must have counted as the term does, at most white, or not at all where that adds nothing.
-inline void check_codes(const LightTerm& term, const SettledCodes& codes, MF asked, MF open, SettledErrors& out) {
+// What is not undecided must have counted as the term does, at most white, or not at all where that adds nothing.
+inline void check_codes(const LightTerm& term, const BoundedCodes& codes, MF asked, MF undecided, BoundedErrors& out) {
   const DF d;
   const DI di;
-  const MF closed = hn::AndNot(open, asked);
+  const MF closed = hn::AndNot(undecided, asked);
   MF wrong = hn::Lt(hn::Zero(d), hn::Zero(d));
   for (int c = 0; c < 3; ++c) {
     const VF code = hn::Round(hn::Mul(hn::IfThenElseZero(term.adds, term.color[c]), hn::Set(d, 255.0f)));
@@ -95,10 +83,10 @@ inline void check_codes(const LightTerm& term, const SettledCodes& codes, MF ask
   const auto lights = hn::IfThenElseZero(hn::RebindMask(di, term.lit), hn::Set(di, 1));
   wrong = hn::Or(wrong, hn::RebindMask(d, hn::Ne(lights, codes.lit)));
   out.wrong = int(hn::CountTrue(d, hn::And(closed, wrong)));
-  out.settled = int(hn::CountTrue(d, hn::And(closed, term.adds)));
+  out.proved = int(hn::CountTrue(d, hn::And(closed, term.adds)));
 }
 
-HWY_INLINE PixelVector loaded(const SettledPixels& in) {
+HWY_INLINE PixelVector loaded(const BoundedPixels& in) {
   const DF d;
   PixelVector px;
   px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
@@ -120,92 +108,92 @@ HWY_INLINE LightTerm term_of(const Terms& terms, const PixelVector& px, Estimate
 }
 
 template <class Root>
-void lambert_errors(const LightTable& table, const LightModel& model, const SettledPixels& in, SettledErrors& out) {
-  using Shape = CompiledShape<settled_shape<false>()>;
+void lambert_errors(const LightTable& table, const LightModel& model, const BoundedPixels& in, BoundedErrors& out) {
+  using Shape = WindowLambert;
   const DF d;
   const LightTerms<Shape> terms(table, model, Shape());
   const PixelVector px = loaded(in);
-  const MF plain = plain_surfaces(px);
-  SettledLight light;
+  const MF asked = surfaces_in_proof_range(px);
+  BoundedLight light;
   const LightRow& row = table.row[0];
   light.set({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
-  const SettledLanes lanes(light);
-  SettledPairs<1, Root> pairs;
-  pairs.px[0] = &px, pairs.open[0] = plain;
+  const BoundedLightLanes lanes(light);
+  LambertPairs<1, Root> pairs;
+  pairs.px[0] = &px, pairs.undecided[0] = asked;
   Estimates of;
-  typename SettledPairs<1, Root>::Weights weights;
+  typename LambertPairs<1, Root>::Weights weights;
   pairs.weigh(lanes, weights);
   const LightTerm term = term_of(terms, px, of);
-  const uint64_t lit = mask_bits(pairs.open[0]);
+  const uint64_t lit = mask_bits(pairs.undecided[0]);
   for (int c = 0; c < 3; ++c) {
     hn::Store(pairs.estimate(lanes, 0, c, weights.weight[0]), d, of.x[c]);
     const int window = light.bias[c] - (1 << 30) - (1 << (kBelowCode - 1));
-    for (int i = 0; i < kSettledPixels; ++i)
+    for (int i = 0; i < kBoundedPixels; ++i)
       of.allowed[c][i] = (lit >> i & 1) != 0 && light.clear[c] != 0 ? window - 0.5 : 0.0;
   }
-  std::fill_n(of.proven, kSettledPixels, kProvenLambert);
+  std::fill_n(of.proven, kBoundedPixels, kProvenLambert);
   compare(row, of, out);
   out.edge = 0.0;
-  SettledCodes codes, *const to[1] = {&codes};
+  BoundedCodes codes, *const to[1] = {&codes};
   codes.clear();
-  pairs.open[0] = plain;
+  pairs.undecided[0] = asked;
   pairs.weigh(lanes, weights);
-  pairs.settle(lanes, weights, to);
-  codes.settle(true);
-  check_codes(term, codes, plain, pairs.open[0], out);
+  pairs.decide(lanes, weights, to);
+  codes.saturate(CountedLights::all);
+  check_codes(term, codes, asked, pairs.undecided[0], out);
 }
 
 template <class Root, bool kCone>
-void phong_errors(const LightTable& table, const LightModel& model, const SettledPixels& in, SettledErrors& out) {
-  using Shape = CompiledShape<settled_shape<true>()>;
+void phong_errors(const LightTable& table, const LightModel& model, const BoundedPixels& in, BoundedErrors& out) {
+  using Shape = SpotPhong;
   using Pairs = PhongPairs<1, kCone, Root>;
   const DF d;
   const LightTerms<Shape> terms(table, model, Shape());
   const PixelVector px = loaded(in);
-  const MF plain = hn::And(plain_surfaces(px), plain_views(px));
+  const MF asked = hn::And(surfaces_in_proof_range(px), views_in_proof_range(px));
   const VF facing2 = twice_facing(px);
   const LightRow& row = table.row[0];
-  SettledSpot light;
+  BoundedSpot light;
   light.set({&row, {row.position[0], row.position[1], row.position[2]}, row.cut2, 0, 0, true});
   const SpotLanes lanes(light);
   Pairs pairs;
-  pairs.px[0] = &px, pairs.facing2[0] = &facing2, pairs.open[0] = plain;
+  pairs.px[0] = &px, pairs.facing2[0] = &facing2, pairs.undecided[0] = asked;
   Estimates of;
   typename Pairs::Weights weights;
   pairs.weigh(lanes, weights);
   const LightTerm term = term_of(terms, px, of);
-  alignas(64) int32_t near[kSettledPixels];
+  alignas(64) int32_t near[kBoundedPixels];
   hn::Store(hn::ConvertTo(DI(), weights.bound[0]), DI(), near);
-  const uint64_t settled = mask_bits(weights.settled[0]);
+  const uint64_t estimated = mask_bits(weights.estimated[0]);
   for (int c = 0; c < 3; ++c) {
     hn::Store(pairs.estimate(lanes, 0, c, weights.weight[0]), d, of.x[c]);
-    for (int i = 0; i < kSettledPixels; ++i)
-      of.allowed[c][i] = (settled >> i & 1) != 0 && near[i] < 1 << (kBelowCode - 1) ? near[i] + 0.5 : 0.0;
+    for (int i = 0; i < kBoundedPixels; ++i)
+      of.allowed[c][i] = (estimated >> i & 1) != 0 && near[i] < 1 << (kBelowCode - 1) ? near[i] + 0.5 : 0.0;
   }
-  for (int i = 0; i < kSettledPixels; ++i) of.proven[i] = proven_phong(in, i, row);
+  for (int i = 0; i < kBoundedPixels; ++i) of.proven[i] = proven_phong(in, i, row);
   compare(row, of, out);
   out.edge = kCone ? (13.1 * row.slope + 4.0) * kProvenLength * 0x1p-24 / light.away : 0.0;
-  SettledCodes codes, *const to[1] = {&codes};
+  BoundedCodes codes, *const to[1] = {&codes};
   codes.clear();
-  pairs.open[0] = plain;
+  pairs.undecided[0] = asked;
   pairs.weigh(lanes, weights);
-  pairs.settle(lanes, weights, to);
-  codes.settle(false);
-  check_codes(term, codes, plain, pairs.open[0], out);
+  pairs.decide(lanes, weights, to);
+  codes.saturate(CountedLights::separately);
+  check_codes(term, codes, asked, pairs.undecided[0], out);
 }
 
 template <class Root>
-void errors_from(const LightTable& table, const LightModel& model, bool phong, const SettledPixels& in,
-                 SettledErrors& out) {
-  if constexpr (kSettles) {
+void errors_from(const LightTable& table, const LightModel& model, bool phong, const BoundedPixels& in,
+                 BoundedErrors& out) {
+  if constexpr (kBoundsCodes) {
     if (!phong) return lambert_errors<Root>(table, model, in, out);
     if (table.row[0].kind == LightKind::coned) return phong_errors<Root, true>(table, model, in, out);
     phong_errors<Root, false>(table, model, in, out);
   }
 }
 
-void settled_errors_of(const LightTable& table, const LightModel& model, bool phong, RootSource root,
-                       const SettledPixels& in, SettledErrors& out) {
+void bounded_errors_of(const LightTable& table, const LightModel& model, bool phong, RootSource root,
+                       const BoundedPixels& in, BoundedErrors& out) {
   switch (root) {
     case RootSource::cpu:
       return errors_from<EstimatedRoot>(table, model, phong, in, out);
@@ -219,7 +207,7 @@ void settled_errors_of(const LightTable& table, const LightModel& model, bool ph
 }
 
 // Section 19: of one pixel and channel, as a share of u.
-inline double proven_window(const SettledPixels& in, int i, int channel, const LightTable& table,
+inline double proven_window(const BoundedPixels& in, int i, int channel, const LightTable& table,
                             const LightModel& model, double sum) {
   constexpr double kRoot = 6.4;
   const double albedo = in.number[9 + channel][i], ks = model.specular_color[channel];
@@ -245,42 +233,40 @@ inline double proven_window(const SettledPixels& in, int i, int channel, const L
 }
 
 template <class Root>
-void window_errors_from(const LightTable& table, const PlainLights& plain, const LightModel& model,
-                        const SettledPixels& in, SettledErrors& out) {
-  using Shape = CompiledShape<0>;
-  if constexpr (settles_window<Shape>()) {
+void window_errors_from(const LightTable& table, const BoundedLights& bounded, const LightModel& model,
+                        const BoundedPixels& in, BoundedErrors& out) {
+  if constexpr (kEstimatesRoots) {
     const DF d;
-    const LightTerms<Shape> terms(table, model, Shape());
-    StepScratch scratch;
-    WindowSteps steps(scratch);
+    const LightTerms<WindowBlinn> terms(table, model, WindowBlinn());
+    WindowSteps steps;
     for (size_t k = 0; k < table.size(); ++k) steps.light[k] = int32_t(k);
     steps.end(0, table.size(), uint32_t(table.size()));
-    for (int i = 0; i < kSettledPixels; i += int(kLanes)) {
+    for (int i = 0; i < kBoundedPixels; i += int(kLanes)) {
       PixelVector px;
       px.covered = hn::Eq(hn::Zero(d), hn::Zero(d));
       for (int c = 0; c < 3; ++c) {
         px.p[c] = hn::Load(d, in.number[c] + i), px.n[c] = hn::Load(d, in.number[3 + c] + i);
         px.v[c] = hn::Load(d, in.number[6 + c] + i), px.albedo[c] = hn::Load(d, in.number[9 + c] + i);
         px.specular[c] = hn::Set(d, model.specular_color[c]);
-        px.covered = hn::And(px.covered, hn::Le(hn::Abs(px.p[c]), hn::Set(d, 0x1p30f)));  // plain_region()
+        px.covered = hn::And(px.covered, hn::Le(hn::Abs(px.p[c]), hn::Set(d, 0x1p30f)));  // region_in_proof_range()
       }
       LightSum sum;
       for (const LightRow& row : table.row) add_term(terms, px, terms(px, row), sum);
-      WindowSum<Shape, Root> estimate;
+      WindowSum<Root> estimate;
       estimate.begin(px);
       for (size_t k = 0; k < steps.count; ++k)
-        estimate.add(terms, plain.window.data(), steps.light + k * WindowSteps::kTogether);
+        estimate.add(terms, bounded.window.data(), steps.light + k * WindowSteps::kTogether);
       VF value[3], bound[3];
       for (int c = 0; c < 3; ++c) value[c] = estimate.value(px, hn::Zero(d), c);
-      estimate.bound(px, value, plain.most_color, 0, bound);
-      const MF settled = estimate.settled(px, value, plain.most_color, 0);
-      const uint64_t bits = mask_bits(settled);
+      estimate.bound(px, value, bounded.most_color, 0, bound);
+      const MF proved = estimate.proved(px, value, bounded.most_color, 0);
+      const uint64_t bits = mask_bits(proved);
       MF wrong = hn::RebindMask(d, hn::Ne(estimate.lights, sum.lights));
       wrong = hn::And(wrong, px.covered);
       HWY_ALIGN float off[kLanes], allowed[kLanes], right[kLanes];
       for (int c = 0; c < 3; ++c) {
         const MF other = hn::Ne(unorm8_code(value[c]), unorm8_code(sum.color[c]));
-        wrong = hn::Or(wrong, hn::And(settled, other));
+        wrong = hn::Or(wrong, hn::And(proved, other));
         hn::Store(hn::Abs(hn::Sub(value[c], sum.color[c])), d, off);
         hn::Store(bound[c], d, allowed);
         hn::Store(sum.color[c], d, right);
@@ -294,25 +280,25 @@ void window_errors_from(const LightTable& table, const PlainLights& plain, const
           out.window[pixel] = std::max(out.window[pixel], proven / (double(allowed[k]) + 0x1p-58));
         }
       }
-      out.settled += int(hn::CountTrue(d, settled));
+      out.proved += int(hn::CountTrue(d, proved));
       out.wrong += int(hn::CountTrue(d, wrong));
     }
   }
 }
 
-bool settles_windows() { return settles_window<CompiledShape<0>>(); }
+bool bounds_windows() { return kEstimatesRoots; }
 
-void window_errors_of(const LightTable& table, const PlainLights& plain, const LightModel& model, RootSource root,
-                      const SettledPixels& in, SettledErrors& out) {
+void window_errors_of(const LightTable& table, const BoundedLights& bounded, const LightModel& model, RootSource root,
+                      const BoundedPixels& in, BoundedErrors& out) {
   switch (root) {
     case RootSource::cpu:
-      return window_errors_from<EstimatedRoot>(table, plain, model, in, out);
+      return window_errors_from<EstimatedRoot>(table, bounded, model, in, out);
     case RootSource::low:
-      return window_errors_from<RootAt<-1, 24>>(table, plain, model, in, out);
+      return window_errors_from<RootAt<-1, 24>>(table, bounded, model, in, out);
     case RootSource::right:
-      return window_errors_from<RootAt<0, 24>>(table, plain, model, in, out);
+      return window_errors_from<RootAt<0, 24>>(table, bounded, model, in, out);
     case RootSource::high:
-      return window_errors_from<RootAt<1, 24>>(table, plain, model, in, out);
+      return window_errors_from<RootAt<1, 24>>(table, bounded, model, in, out);
   }
 }
 
@@ -321,27 +307,27 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace trueshade {
-HWY_EXPORT(settles_windows);
+HWY_EXPORT(bounds_windows);
 HWY_EXPORT(window_errors_of);
-HWY_EXPORT(settles_lanes);
-HWY_EXPORT(settled_errors_of);
+HWY_EXPORT(bounds_codes);
+HWY_EXPORT(bounded_errors_of);
 
 namespace testing {
 
-bool settles_lanes() { return HWY_DYNAMIC_DISPATCH(trueshade::settles_lanes)(); }
+bool bounds_codes() { return HWY_DYNAMIC_DISPATCH(bounds_codes)(); }
 
-bool settles_windows() { return HWY_DYNAMIC_DISPATCH(trueshade::settles_windows)(); }
+bool bounds_windows() { return HWY_DYNAMIC_DISPATCH(bounds_windows)(); }
 
-void window_errors(const LightTable& lights, const PlainLights& plain, const LightModel& model, RootSource root,
-                   const SettledPixels& pixels, SettledErrors& errors) {
+void window_errors(const LightTable& lights, const BoundedLights& bounded, const LightModel& model, RootSource root,
+                   const BoundedPixels& pixels, BoundedErrors& errors) {
   errors = {};
-  if (plain.window.empty()) return;
-  HWY_DYNAMIC_DISPATCH(window_errors_of)(lights, plain, model, root, pixels, errors);
+  if (bounded.window.empty()) return;
+  HWY_DYNAMIC_DISPATCH(window_errors_of)(lights, bounded, model, root, pixels, errors);
 }
 
-void settled_errors(const LightTable& lights, const LightModel& model, bool phong, RootSource root,
-                    const SettledPixels& pixels, SettledErrors& errors) {
-  HWY_DYNAMIC_DISPATCH(settled_errors_of)(lights, model, phong, root, pixels, errors);
+void bounded_errors(const LightTable& lights, const LightModel& model, bool phong, RootSource root,
+                    const BoundedPixels& pixels, BoundedErrors& errors) {
+  HWY_DYNAMIC_DISPATCH(bounded_errors_of)(lights, model, phong, root, pixels, errors);
 }
 
 }  // namespace testing

@@ -1,4 +1,4 @@
-// Codes of single lights' terms that bounds settle (docs/arithmetic.md section 17) against the terms themselves.
+// Codes of single lights' terms that bounds prove (docs/arithmetic.md section 17) against the terms themselves.
 #include <algorithm>
 #include <cmath>
 
@@ -26,10 +26,10 @@ void check_ways(const Scene& scene, const Pipeline& p) {
   const Frame terms = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
   for (const std::string_view simd : simd_targets()) {
     INFO(simd);
-    const Frame settled = render_frame(prepared, p, {.simd = simd}, kCounts);
-    CHECK(image_hash(settled.color) == image_hash(terms.color));
-    CHECK(image_hash(settled.aovs[0].image) == image_hash(terms.aovs[0].image));
-    CHECK(settled.stats.lit_pixel_lights == terms.stats.lit_pixel_lights);
+    const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCounts);
+    CHECK(image_hash(bounded.color) == image_hash(terms.color));
+    CHECK(image_hash(bounded.aovs[0].image) == image_hash(terms.aovs[0].image));
+    CHECK(bounded.stats.lit_pixel_lights == terms.stats.lit_pixel_lights);
   }
 }
 
@@ -107,7 +107,7 @@ Light phong_light(Random& random) {
 
 }  // namespace
 
-TEST_CASE("Codes of lights that bounds settle are those of their terms, and so are the lights counted") {
+TEST_CASE("Codes of lights that bounds prove are those of their terms, and so are the lights counted") {
   Random random(811);
   for (int i = 0; i < 32; ++i) {
     INFO("scene " << i);

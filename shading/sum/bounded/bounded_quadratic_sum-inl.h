@@ -2,11 +2,11 @@
 // error; where all of an interval has one code that is the code (Ziv, Fast evaluation of elementary mathematical
 // functions with correctly rounded last bit, 1991). The proof is docs/arithmetic.md section 16. Included once per SIMD
 // target.
-#if defined(TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_SUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_SUM_INL_H_
-#undef TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_SUM_INL_H_
+#if defined(TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_
+#undef TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_
 #else
-#define TRUESHADE_SHADING_LIGHT_BOUNDED_BOUNDED_SUM_INL_H_
+#define TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "core/simd/store-inl.h"
-#include "shading/light/lists/light_lists-inl.h"
 #include "shading/light/light_term-inl.h"
-#include "shading/light/bounded/bounded_lights.h"
+#include "shading/light/lists/light_lists-inl.h"
+#include "shading/sum/bounded/bounded_lights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -89,11 +89,11 @@ inline void group_pixels(const SurfaceTile& s, const TileRegions& regions, int b
 
 /// What the surfaces of a region have in common: where they are, their N and V.
 struct RegionBalls {
-  Ball place, normal;
+  Ball position, normal;
   float viewer[3], viewer_radius;
 
-  RegionBalls(const Box& place_box, const Box& normal_box, const LightTable& lights, const LightModel& model)
-      : place(place_box), normal(normal_box) {
+  RegionBalls(const Box& position_box, const Box& normal_box, const LightTable& lights, const LightModel& model)
+      : position(position_box), normal(normal_box) {
     if (model.renormalize) {  // unit vectors differ by at most twice the distance over the length of either
       const float length = std::sqrt((normal.center[0] * normal.center[0] + normal.center[1] * normal.center[1]) +
                                      normal.center[2] * normal.center[2]);
@@ -102,11 +102,11 @@ struct RegionBalls {
       normal.farthest = 1.0f + 0x1p-18f;
     }
     float toward[3], length2 = 0.0f;
-    for (int c = 0; c < 3; ++c) toward[c] = lights.eye[c] - place.center[c], length2 += toward[c] * toward[c];
+    for (int c = 0; c < 3; ++c) toward[c] = lights.eye[c] - position.center[c], length2 += toward[c] * toward[c];
     const float length = std::sqrt(length2);
     const bool local = model.viewer == Viewer::local;
     for (int c = 0; c < 3; ++c) viewer[c] = local ? toward[c] / length : lights.view_axis[c];
-    const float share = place.radius / length;
+    const float share = position.radius / length;
     viewer_radius = local ? share < 0.25f ? 1.02f * share : 2.0f * share : 0.0f;
   }
 };
@@ -120,27 +120,27 @@ inline void list_bits(std::span<const uint64_t> words, size_t count, std::vector
 }
 
 /// Sorts the lights of a region into lists. A light's specular term is left out where it adds at most `least`.
-template <class Shape>
-void sort_lights(const LightTable& table, const PlainLights& plain, const LightModel& model, const Shape&,
-                 const RegionBalls& at, float least, PlainLists& out) {
+inline void sort_lights(const LightTable& table, const BoundedLights& bounded, const LightModel& model,
+                        const RegionBalls& at, float least, LightsByGloss& out) {
+  using Shape = QuadraticBlinn;
   const DF d;
   constexpr float kSlack = 0x1p-14f;  // more than the roundings of what is bounded and of the bounds
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   const float most_specular =
       std::max({model.specular_color[0], model.specular_color[1], model.specular_color[2]}) * (1.0f + 0x1p-8f);
   const float size = at.normal.farthest;
-  const size_t words = (plain.light.size() + 63) / 64;
+  const size_t words = (bounded.quadratic.size() + 63) / 64;
   out.matte_bits.assign(words, 0);
   out.shiny_bits.assign(words, 0);
   VF left_out = zero;
-  for (size_t i = 0; i < plain.light.size(); i += hn::Lanes(d)) {
+  for (size_t i = 0; i < bounded.quadratic.size(); i += hn::Lanes(d)) {
     VF to_light[3], length2 = zero, facing = zero, half2 = zero;
     for (int c = 0; c < 3; ++c) {
-      to_light[c] = hn::Sub(hn::LoadU(d, table.position[c].data() + i), hn::Set(d, at.place.center[c]));
+      to_light[c] = hn::Sub(hn::LoadU(d, table.position[c].data() + i), hn::Set(d, at.position.center[c]));
       length2 = hn::Add(length2, hn::Mul(to_light[c], to_light[c]));
     }
     const VF length = hn::Sqrt(length2), inverse = hn::Div(one, length);
-    VF spread = hn::Mul(inverse, hn::Set(d, at.place.radius));  // of L about the centre's
+    VF spread = hn::Mul(inverse, hn::Set(d, at.position.radius));  // of L about the centre's
     spread =
         hn::IfThenElse(hn::Lt(spread, hn::Set(d, 0.25f)), hn::Mul(spread, hn::Set(d, 1.02f)), hn::Add(spread, spread));
     float toward_viewer = 0.0f;
@@ -159,11 +159,11 @@ void sort_lights(const LightTable& table, const PlainLights& plain, const LightM
     const VF cosine = hn::Add(hn::IfThenElseZero(hn::Gt(most_toward, zero), hn::Div(most_toward, least_half)),
                               hn::Set(d, 64 * kSlack * size));
     const VF power = integer_power<2 * Shape::shape.power>(cosine);
-    const VF gap = hn::Mul(hn::Sub(length, hn::Set(d, at.place.radius)), hn::Set(d, 1.0f - 0x1p-18f));
+    const VF gap = hn::Mul(hn::Sub(length, hn::Set(d, at.position.radius)), hn::Set(d, 1.0f - 0x1p-18f));
     const VF distance = hn::IfThenElseZero(hn::Gt(gap, zero), gap);
-    const VF weaker = hn::Add(one, hn::Mul(distance, hn::Add(hn::LoadU(d, plain.k1.data() + i),
-                                                             hn::Mul(distance, hn::LoadU(d, plain.k2.data() + i)))));
-    const VF strongest = hn::Mul(hn::LoadU(d, plain.strongest.data() + i), hn::Set(d, most_specular));
+    const VF weaker = hn::Add(one, hn::Mul(distance, hn::Add(hn::LoadU(d, bounded.k1.data() + i),
+                                                             hn::Mul(distance, hn::LoadU(d, bounded.k2.data() + i)))));
+    const VF strongest = hn::Mul(hn::LoadU(d, bounded.strongest.data() + i), hn::Set(d, most_specular));
     const VF most_shine = hn::Div(hn::Mul(strongest, power), weaker);
     // False where a side is no number.
     const MF away = hn::Lt(most_facing, zero);
@@ -174,8 +174,8 @@ void sort_lights(const LightTable& table, const PlainLights& plain, const LightM
     out.shiny_bits[i / 64] |= mask_bits(hn::Not(hn::Or(unseen, dull))) << i % 64;
   }
   alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
-  list_bits(out.matte_bits, plain.light.size(), out.matte);
-  list_bits(out.shiny_bits, plain.light.size(), out.shiny);
+  list_bits(out.matte_bits, bounded.quadratic.size(), out.matte);
+  list_bits(out.shiny_bits, bounded.quadratic.size(), out.shiny);
   hn::Store(left_out, d, lane);
   out.left_out = 0.0f;
   for (size_t k = 0; k < hn::Lanes(d); ++k) out.left_out += lane[k];
@@ -183,20 +183,22 @@ void sort_lights(const LightTable& table, const PlainLights& plain, const LightM
 }
 
 /// Sums of a vector of pixels before the surface's colours multiply them.
-struct PlainSum {
+struct QuadraticSum {
   VF diffuse[3], shine[3];
   hn::Vec<DI> lights;  ///< that light each pixel: exact
 
-  PlainSum() : lights(hn::Zero(DI())) {
+  QuadraticSum() : lights(hn::Zero(DI())) {
     for (int c = 0; c < 3; ++c) diffuse[c] = shine[c] = hn::Zero(DF());
   }
 };
 
 /// kMany lights, a step of each after the other.
-template <size_t kMany, bool kShines, class Shape>
-HWY_INLINE void add_plain(const PixelVector& px, const PlainLight* lights, const uint32_t* index, PlainSum& sum) {
+template <size_t kMany, bool kShines>
+HWY_INLINE void add_quadratic(const PixelVector& px, const QuadraticLight* lights, const uint32_t* index,
+                              QuadraticSum& sum) {
   const DF d;
   const DI di;
+  using Shape = QuadraticBlinn;
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   VF to_light[kMany][3], nl[kMany], d2[kMany], weaker[kMany], distance[kMany], weight[kMany], shine[kMany];
   MF lit[kMany];
@@ -245,17 +247,17 @@ HWY_INLINE void add_plain(const PixelVector& px, const PlainLight* lights, const
 }
 
 /// The lights of a list, part by part, so that the parts' roundings do not add up.
-template <bool kShines, class Shape>
-HWY_NOINLINE void add_plain_list(const PixelVector& px, const PlainLights& plain, std::span<const uint32_t> list,
-                                 PlainSum& total) {
+template <bool kShines>
+HWY_NOINLINE void add_quadratic_lights(const PixelVector& px, const BoundedLights& bounded,
+                                       std::span<const uint32_t> list, QuadraticSum& total) {
   constexpr size_t kTogether = 4;
-  const PlainLight* const lights = plain.light.data();
-  for (size_t from = 0; from < list.size(); from += kPlainPart) {
-    const size_t end = std::min(list.size(), from + kPlainPart);
-    PlainSum part;
+  const QuadraticLight* const lights = bounded.quadratic.data();
+  for (size_t from = 0; from < list.size(); from += kSumPart) {
+    const size_t end = std::min(list.size(), from + kSumPart);
+    QuadraticSum part;
     size_t i = from;
-    for (; i + kTogether <= end; i += kTogether) add_plain<kTogether, kShines, Shape>(px, lights, &list[i], part);
-    for (; i < end; ++i) add_plain<1, kShines, Shape>(px, lights, &list[i], part);
+    for (; i + kTogether <= end; i += kTogether) add_quadratic<kTogether, kShines>(px, lights, &list[i], part);
+    for (; i < end; ++i) add_quadratic<1, kShines>(px, lights, &list[i], part);
     for (int c = 0; c < 3; ++c) {
       total.diffuse[c] = hn::Add(total.diffuse[c], part.diffuse[c]);
       if constexpr (kShines) total.shine[c] = hn::Add(total.shine[c], part.shine[c]);
@@ -265,35 +267,35 @@ HWY_NOINLINE void add_plain_list(const PixelVector& px, const PlainLights& plain
 }
 
 /// Pixels whose numbers are in the ranges of section 16.
-HWY_INLINE MF plain_pixels(const PixelVector& px) {
+HWY_INLINE MF pixels_in_proof_range(const PixelVector& px) {
   const DF d;
   const VF zero = hn::Zero(d);
-  MF plain = px.covered;
+  MF holds = px.covered;
   for (int c = 0; c < 3; ++c) {
-    const VF place = hn::Abs(px.p[c]);
-    const MF sized = hn::And(hn::Ge(place, hn::Set(d, 0x1p-40f)), hn::Le(place, hn::Set(d, 0x1p30f)));
-    plain = hn::And(plain, hn::Or(sized, hn::Eq(place, zero)));
-    plain = hn::And(plain, hn::Le(hn::Abs(px.n[c]), hn::Set(d, kMostPlainNormal)));
-    plain = hn::And(plain, hn::And(hn::Ge(px.albedo[c], zero), hn::Le(px.albedo[c], hn::Set(d, kMostPlainAlbedo))));
+    const VF size = hn::Abs(px.p[c]);
+    const MF sized = hn::And(hn::Ge(size, hn::Set(d, 0x1p-40f)), hn::Le(size, hn::Set(d, 0x1p30f)));
+    holds = hn::And(holds, hn::Or(sized, hn::Eq(size, zero)));
+    holds = hn::And(holds, hn::Le(hn::Abs(px.n[c]), hn::Set(d, kMostProvenNormal)));
+    holds = hn::And(holds, hn::And(hn::Ge(px.albedo[c], zero), hn::Le(px.albedo[c], hn::Set(d, kMostProvenAlbedo))));
   }
-  return plain;
+  return holds;
 }
 
 /// Values of the pixels that have the right codes in the pixels returned, and mean nothing elsewhere.
-HWY_INLINE MF settled_colors(const PixelVector& px, const PlainSum& sum, float relative, float left_out, Format format,
-                             VF color[3]) {
+HWY_INLINE MF bounded_colors(const PixelVector& px, const QuadraticSum& sum, float relative, float left_out,
+                             Format format, VF color[3]) {
   const DF d;
   constexpr float kAbsolute = 0x1p-60f;  // covers what underflows
-  MF settled = plain_pixels(px);
+  MF proved = pixels_in_proof_range(px);
   for (int c = 0; c < 3; ++c) {
     const VF value = hn::Add(hn::Mul(sum.diffuse[c], px.albedo[c]), hn::Mul(sum.shine[c], px.specular[c]));
     const VF low = hn::Sub(hn::Mul(value, hn::Set(d, 1.0f - relative)), hn::Set(d, kAbsolute));
     const VF high = hn::Mul(hn::Add(value, hn::Set(d, left_out + kAbsolute)), hn::Set(d, 1.0f + relative));
     const MF same = hn::Eq(encoded(low, format, c, HalfRound::nearest), encoded(high, format, c, HalfRound::nearest));
-    settled = hn::And(settled, hn::And(same, hn::Lt(low, high)));  // which no NaN is
+    proved = hn::And(proved, hn::And(same, hn::Lt(low, high)));  // which no NaN is
     color[c] = low;
   }
-  return settled;
+  return proved;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
