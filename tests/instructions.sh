@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fails where a library holds a fused multiply-add, which rounds once where the page says twice, or an estimate of 1/x or
 # 1/sqrt(x), whose bits differ between CPUs. Estimates may stand in functions named *bounded_*, whose results are used where
-# a bound of their error shows that they have the right codes (docs/arithmetic.md section 17). Fails too where a mask of 8
+# a bound of their error shows that they have the right codes (docs/proofs.md section 17). Fails too where a mask of 8
 # or 16 lanes is spilled and read back as 32 bits (core/simd/lane_bits-inl.h), by the last write above in the listing. Usage:
 # instructions.sh OBJDUMP LIBRARY...
 set -euo pipefail

@@ -28,7 +28,7 @@ struct LightVolumeDraws {
   bool first_base;            ///< and with light 0, which is in that draw: forward-multipass
   bool culling = true;        ///< leave out lights that are proved to add nothing; never changes a bit
   bool compiled = true;       ///< use kernels compiled for the model's shape; never changes a bit
-  bool bounded_codes = true;  ///< prove codes by bounds (docs/arithmetic.md section 17); never changes a bit
+  bool bounded_codes = true;  ///< prove codes by bounds (docs/proofs.md section 17); never changes a bit
 };
 
 /// The draws under a pipeline that blends lights. `execution` says what may be left out.

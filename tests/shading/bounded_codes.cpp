@@ -1,4 +1,4 @@
-// Codes of single lights' terms that bounds prove (docs/arithmetic.md section 17) against the terms themselves.
+// Codes of single lights' terms that bounds prove (docs/proofs.md section 17) against the terms themselves.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// How far the estimates of bounded codes are from the terms, as shares of what the proofs of docs/arithmetic.md
+// How far the estimates of bounded codes are from the terms, as shares of what the proofs of docs/proofs.md
 // sections 17 and 18 allow: from the CPU's 1 / sqrt, and from any at the ends of the range that is promised of it.
 // Inputs are climbed to what is worst near them, since roundings seldom agree by chance.
 #include <algorithm>

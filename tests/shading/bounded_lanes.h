@@ -17,7 +17,7 @@ struct BoundedPixels {
   alignas(64) float number[12][kBoundedPixels];
 };
 
-/// What the kernels of bounded codes (docs/arithmetic.md sections 17, 18) make of one light, in units of 2^-14 of a
+/// What the kernels of bounded codes (docs/proofs.md sections 17, 18) make of one light, in units of 2^-14 of a
 /// code; 0 where nothing is estimated.
 struct BoundedErrors {
   double share[kBoundedPixels];   ///< the largest |estimate - 255 T| of the channels, as a share of the proof's bound

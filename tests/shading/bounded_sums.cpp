@@ -1,4 +1,4 @@
-// Sums whose codes are proved by bounds (docs/arithmetic.md sections 16 and 19) against the sums themselves.
+// Sums whose codes are proved by bounds (docs/proofs.md sections 16 and 19) against the sums themselves.
 #include <algorithm>
 #include <glm/geometric.hpp>
 

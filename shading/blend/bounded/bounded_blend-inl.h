@@ -15,7 +15,7 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Adds the codes of the lights in t.work.region to a region, by estimates with a bound of their error
-/// (docs/arithmetic.md sections 17 and 18). False, with nothing done, where no section bounds the model, where the
+/// (docs/proofs.md sections 17 and 18). False, with nothing done, where no section bounds the model, where the
 /// target does not add codes of 8 bits, and where surfaces are out of the range of the proof.
 bool add_bounded_codes(const TileBlend& t, const Region& r);
 

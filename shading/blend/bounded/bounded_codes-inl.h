@@ -1,6 +1,6 @@
 // Codes of one light's term in fixed point, from estimates of 1 / sqrt with a bound of the error: a code that no value
 // within the bound changes is the term's own (Ziv, Fast evaluation of elementary mathematical functions with correctly
-// rounded last bit, 1991); the other pixels of a pair are left to the term itself. The proof is docs/arithmetic.md
+// rounded last bit, 1991); the other pixels of a pair are left to the term itself. The proof is docs/proofs.md
 // section 17; it asks 2^-14 of the estimate, whose bits differ between CPUs. Included once per SIMD target.
 #if defined(TRUESHADE_SHADING_BLEND_BOUNDED_BOUNDED_CODES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_SHADING_BLEND_BOUNDED_BOUNDED_CODES_INL_H_

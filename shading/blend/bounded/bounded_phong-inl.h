@@ -1,4 +1,4 @@
-// Codes of Phong terms under spot lights, proved as those of bounded_codes-inl.h are: docs/arithmetic.md section 18.
+// Codes of Phong terms under spot lights, proved as those of bounded_codes-inl.h are: docs/proofs.md section 18.
 // The power is of floats; the bound follows the highlight and the edge of the cone, lane by lane. Included once per
 // SIMD target.
 #if defined(TRUESHADE_SHADING_BLEND_BOUNDED_BOUNDED_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -23,7 +23,7 @@ struct alignas(32) WindowLight {
 };
 
 /// The lights of a table as sums by bounds read them, in scene order. `quadratic` is empty where the model or a light
-/// is not of the kind that docs/arithmetic.md section 16 bounds, `window` where section 19 does not.
+/// is not of the kind that docs/proofs.md section 16 bounds, `window` where section 19 does not.
 struct BoundedLights {
   std::vector<QuadraticLight> quadratic;
   std::vector<float> k1, k2,

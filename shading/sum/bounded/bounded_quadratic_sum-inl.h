@@ -1,6 +1,6 @@
 // Sums of many lights that are only wanted as codes of a fixed-point target: computed more cheaply, with a bound of the
 // error; where all of an interval has one code that is the code (Ziv, Fast evaluation of elementary mathematical
-// functions with correctly rounded last bit, 1991). The proof is docs/arithmetic.md section 16. Included once per SIMD
+// functions with correctly rounded last bit, 1991). The proof is docs/proofs.md section 16. Included once per SIMD
 // target.
 #if defined(TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_SHADING_SUM_BOUNDED_BOUNDED_QUADRATIC_SUM_INL_H_

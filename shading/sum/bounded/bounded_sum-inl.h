@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 
-/// light_tile() for sums of which only codes are wanted, by estimates with a bound of their error (docs/arithmetic.md
+/// light_tile() for sums of which only codes are wanted, by estimates with a bound of their error (docs/proofs.md
 /// sections 16 and 19). Pixels that the bound leaves undecided are summed as section 8 says. False, with nothing done,
 /// where no section bounds the model and the lights.
 bool sum_tile_by_bounds(const TileWork& in);
