@@ -67,6 +67,12 @@ std::string table(const std::vector<StatLine>& lines) {
   return html + "</table>\n";
 }
 
+/// What the codes of a page's picture are: those of the target, or made of its floats.
+std::string about_codes(const Image& color) {
+  if (info(color.format).number_class == NumberClass::unorm) return "as stored in the target";
+  return "sRGB-encoded from " + std::string(info(color.format).name) + " and clamped to [0, 1]";
+}
+
 }  // namespace
 
 std::span<const std::string_view> report_planes() { return kPlanes; }
@@ -74,7 +80,7 @@ std::span<const std::string_view> report_planes() { return kPlanes; }
 std::string report_page(const RenderedFrame& result) {
   const std::vector<StatLine> lines = stat_lines(result);
   return page_head(result.scene.spec) + heading(result, lines) +
-         figure(result.frame.color, "Image", "as stored in the target") + pictures(result) + table(lines) +
+         figure(result.frame.color, "Image", about_codes(result.frame.color)) + pictures(result) + table(lines) +
          "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
          escaped(pipeline_json(result.pipeline)) + "</pre></details>\n" + std::string(kPageEnd);
 }

@@ -151,7 +151,7 @@ std::string validation_page(const Validation& v) {
   std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v);
   if (v.capture.color.width > 0)
     html += figure(v.capture.color, "Image",
-                   "as the driver stored it, <code>sha256:" + image_hash(v.capture.color) + "</code>");
+                   "as captured, <code>sha256:" + image_hash(v.capture.color) + "</code>");
   for (size_t i = 0; i < v.verdict.stages.size(); ++i) html += stage_part(v.verdict.stages[i], v.verdict.aggregates[i]);
   return html + inference_part(v.verdict) +
          "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +

@@ -127,6 +127,11 @@ bool is_other_description(const IgnoredField& field, const Pipeline& pipeline) {
          (field.field == "attenuation" && (reads_range(falloff) || falloff == Falloff::none));
 }
 
+/// Whether Trueshade made the lights: of a built-in scene, or about a geometry file alone.
+bool has_lights_of_ours(std::string_view spec) {
+  return spec.starts_with("builtin:") || spec.ends_with(".ply") || spec.ends_with(".ply.gz");
+}
+
 }  // namespace
 
 std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pipeline) {
@@ -134,7 +139,7 @@ std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pip
   std::vector<IgnoredField> ignored;
   if (pipeline.view != ImageView::lit) return ignored;
   append_ignored<Light>("light", kLightFields, scene.lights, pipeline, ignored);
-  if (scene.spec.starts_with("builtin:"))
+  if (has_lights_of_ours(scene.spec))
     std::erase_if(ignored, [&](const IgnoredField& field) { return is_other_description(field, pipeline); });
   append_ignored<Material>("material", kMaterialFields, scene.materials, pipeline, ignored);
   append_maps_without_uv(scene, ignored);

@@ -17,8 +17,8 @@ struct IgnoredField {
 };
 
 /// Every such field once, lights before materials. A field is stated where its value is not the one that an absent key
-/// has. The lights of built-in scenes state `range` and `attenuation` for one and the same falloff, so that each
-/// preset finds the one that it reads: of these lights neither counts while the other is read.
+/// has. The lights of built-in scenes, and those about a geometry file alone, state `range` and `attenuation` for one
+/// and the same falloff, so that each preset finds the one that it reads: neither counts while the other is read.
 /// A pipeline whose view is not `lit` states what it shows by itself: then nothing is ignored.
 std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pipeline);
 

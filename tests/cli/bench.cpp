@@ -95,7 +95,7 @@ TEST_CASE("bench times OpenGL under presets that draw lights as geometry, and sa
     CHECK(bench.out.find("fastest peer of all: gl " + (*fastest)["strategy"].get<std::string>()) != std::string::npos);
     CHECK(blended == 2);
     CHECK(same >= 1);
-    CHECK(json["scenes"][0]["peers"].size() == 6);
+    CHECK(json["scenes"][0]["peers"].size() == 7);
   }
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("bench's report shows peers, tiles' costs on more cores, and how frame
   REQUIRE(bench.exit_code == 0);
   const std::string page = contents(folder.path("b.html"));
   const auto scaling = nlohmann::json::parse(contents(folder.path("b.json")))["scaling"];
-  REQUIRE(scaling.size() == 6);
+  REQUIRE(scaling.size() == 4);
   for (const auto& curve : scaling) {
     CAPTURE(curve["title"].get<std::string>());
     CHECK(page.find("<b>" + curve["title"].get<std::string>() + "</b>\n<svg") != std::string::npos);
@@ -152,9 +152,11 @@ TEST_CASE("bench's report shows peers, tiles' costs on more cores, and how frame
       CHECK(page.find('>' + point["label"].get<std::string>() + "</text>") != std::string::npos);
     }
   }
-  CHECK(scaling[1]["title"] == "Lights at constant overlap, city");
-  CHECK(scaling[1]["points"].back()["label"] == "1000000");
-  CHECK(scaling[3]["points"].size() == 4);
+  CHECK(scaling[0]["title"] == "Lights, builtin:cornell");
+  CHECK(scaling[0]["points"].back()["label"] == "1000000");
+  CHECK(scaling[1]["title"] == "Pixels, builtin:cornell");
+  CHECK(scaling[1]["points"].size() == 4);
+  CHECK(page.find("ms a frame</text>") != std::string::npos);
   CHECK(page.find("trueshade tile=8</text>") != std::string::npos);
   CHECK(page.find("scheduled on more cores") != std::string::npos);
   CHECK(page.find("64 cores</text>") != std::string::npos);

@@ -256,7 +256,7 @@ TEST_CASE("files of every size are read back whole, noise and flat colour alike"
     }
 }
 
-TEST_CASE("metadata of any length and script comes back; names that a format cannot hold are refused") {
+TEST_CASE("metadata of any length and script comes back, and names that a format cannot hold are refused") {
   const ScratchFolder folder;
   const Image image = codes_image(Format::rgba8);
   const Metadata metadata = {{"trueshade:a_name_of_more_than_31_letters", "b\xc3\xa4r \"x\"\n{}"},
@@ -343,7 +343,7 @@ double mean_of(const ScratchFolder& folder, std::vector<std::string> options, co
   return sum / 255.0 / double(codes.size() / 4 * 3);
 }
 
-TEST_CASE("--encode makes fixed-point and float targets of one scene equally bright") {
+TEST_CASE("The option --encode makes fixed-point and float targets of one scene equally bright") {
   const ScratchFolder folder;
   const auto mean = [&](const char* target, const char* encoding) {
     return mean_of(folder, {"--target", target, "--encode", encoding},

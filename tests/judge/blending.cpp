@@ -130,7 +130,7 @@ TEST_CASE("A light too many or too few in light.count is found, by the light and
           CAPTURE(name_of(strategy), int(extent), off, name, changed);
           const StageVerdict v = judge_blending(scene, judged, of_8_bits(name), wrong, steps_of(scene, pipeline));
           CHECK(100 * v.count(PixelClass::violation) >= 90 * changed);  // some lights may or may not face or be drawn
-          CHECK(v.worst.front().plane == "light.count.R");
+          CHECK(v.worst.front().plane == "light.count");
           CHECK(100 * judge_lighting(scene, judged, of_8_bits(name), wrong).count(PixelClass::violation) >=
                 90 * changed);
         }
