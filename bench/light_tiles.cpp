@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/fp_env.h"
-#include "raster/clusters/cluster_bins.h"
 #include "core/simd/simd_target.h"
+#include "raster/clusters/cluster_bins.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/blend/blend_pass.h"
 #include "shading/frame.h"
@@ -55,12 +55,14 @@ struct Surfaces {
       const TileDraws draws{prepared.clusters(), scene, view, pipeline.geometry, bins.draws, bins.tile_list(i)};
       RasterCounts counts;
       draw_visibility(draws, rect.back(), true, *visible, counts);
-      resolve_surfaces(draws, rect.back(), surface_planes(pipeline), pipeline.light_model, *visible, false, vertices,
-                       *tile.back());
+      resolve_surfaces(draws, rect.back(), surface_planes(pipeline), pipeline.light_model, *visible, UvPlanes::omitted,
+                       vertices, *tile.back());
     }
   }
 
-  LightVolumeDraws draws() const { return light_volume_draws(scene.lights, pipeline, {}, lights, clusters, meshes, outlines, view); }
+  LightVolumeDraws draws() const {
+    return light_volume_draws(scene.lights, pipeline, {}, lights, clusters, meshes, outlines, view);
+  }
 };
 
 const Surfaces& surfaces(const std::string& spec, const std::string& preset) {

@@ -106,7 +106,7 @@ struct OneTile {
   void draw(bool fast) { draw_visibility(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, true, *visible, counts); }
   void resolve(bool fast) {
     resolve_surfaces(draws(fast), {0, 0, kSize, {0, 0, kSize, kSize}}, pipeline.gbuffer, pipeline.light_model, *visible,
-                     view.maps.textured(), *work, *surface);
+                     UvPlanes::omitted, *work, *surface);
   }
 };
 

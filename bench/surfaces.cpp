@@ -14,8 +14,8 @@
 #include <string>
 
 #include "core/fp_env.h"
-#include "raster/clusters/cluster_bins.h"
 #include "core/simd/simd_target.h"
+#include "raster/clusters/cluster_bins.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
@@ -91,7 +91,8 @@ void geometry(benchmark::State& state, const std::string& spec, const std::strin
       RasterCounts counts;
       visibility.add(i, [&] { draw_visibility(in.draws(i), in.rect[i], true, *visible, counts); });
       surfaces.add(i, [&] {
-        resolve_surfaces(in.draws(i), in.rect[i], planes, in.pipeline.light_model, *visible, false, *work, *surface);
+        resolve_surfaces(in.draws(i), in.rect[i], planes, in.pipeline.light_model, *visible, UvPlanes::omitted, *work,
+                         *surface);
       });
       pixels += surface->covered_pixels;
     }

@@ -140,7 +140,8 @@ void layers(benchmark::State& state, Glass what, std::string_view target) {
   const TransparentPass pass(t.scene, t.pipeline, execution);
   const TileDraws all = t.all(), opaque = pass.opaque_draws(all, *t.work);
   draw_visibility(opaque, t.rect, true, *t.visible, t.counts);
-  resolve_surfaces(opaque, t.rect, surface_planes(t.pipeline), t.pipeline.light_model, *t.visible, false, *t.vertices,
+  resolve_surfaces(opaque, t.rect, surface_planes(t.pipeline), t.pipeline.light_model, *t.visible, UvPlanes::omitted,
+                   *t.vertices,
                    *t.surface);
   encode_colors({t.pipeline.target}, GlassTile::kTile * GlassTile::kTile, *t.color);
   per_item(state, double(GlassTile::kLayers) * GlassTile::kTile * GlassTile::kTile, [&] {

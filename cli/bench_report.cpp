@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "cli/bench.h"
 #include "cli/page.h"
 #include "cli/svg_chart.h"
@@ -7,7 +9,7 @@ namespace trueshade {
 namespace {
 
 std::string card(const std::string& title, const std::string& chart) {
-  return "<figure style=\"padding: 14px\"><b>" + escaped(title) + "</b>\n" + chart + "</figure>\n";
+  return "<figure class=chart><b>" + escaped(title) + "</b>\n" + chart + "</figure>\n";
 }
 
 std::string about(const SceneTime& s) {
@@ -44,21 +46,21 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
   html += row("image", "sha256:" + s.hash) +
           row("median, least", formatted(s.timing.median(), "%.3f ms, ") + formatted(s.timing.least(), "%.3f ms"));
   html += row("spread of the middle half", formatted(100 * s.timing.spread(), "%.1f %%"));
-  html += row("visibility, surfaces, light, store: core time",
-              formatted(f.core_ms.visibility, "%.3f ms, ") + formatted(f.core_ms.surfaces, "%.3f ms, ") +
-                  formatted(f.core_ms.light, "%.3f ms, ") + formatted(f.core_ms.store, "%.3f ms"));
+  const StageTimes& core = f.core_ms;
+  for (const auto& [stage, ms] : {std::pair("visibility", core.visibility), std::pair("surfaces", core.surfaces),
+                                  std::pair("light", core.light), std::pair("store", core.store)})
+    html += row(stage + std::string(", core time"), formatted(ms, "%.3f ms"));
   html += row("modelled floor",
               formatted(floor, "%.3f ms, ") + formatted(100 * floor / s.timing.median(), "%.0f %% of the time"));
   html += row("light, of a core", formatted(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
   html += row("rate", rate_text(s));
-  html += row("triangles submitted, set up", std::to_string(f.triangles) + ", " + std::to_string(f.triangles_tested));
-  html += row("fragments, pixels covered", std::to_string(f.fragments) + ", " + std::to_string(f.covered_pixels));
-  html += row("lights tested", std::to_string(f.lights_tested));
-  html += row("pixel-lights left by tiles, computed, lit", std::to_string(f.tile_pixel_lights) + ", " +
-                                                               std::to_string(f.evaluated_pixel_lights) + ", " +
-                                                               std::to_string(f.lit_pixel_lights));
-  html +=
-      row("bytes stored, of clusters drawn", std::to_string(s.bytes.stored) + ", " + std::to_string(s.bytes.clusters));
+  for (const auto& [what, count] :
+       {std::pair("triangles submitted", f.triangles), std::pair("triangles set up", f.triangles_tested),
+        std::pair("fragments", f.fragments), std::pair("pixels covered", f.covered_pixels),
+        std::pair("lights tested", f.lights_tested), std::pair("pixel-lights left by tiles", f.tile_pixel_lights),
+        std::pair("pixel-lights computed", f.evaluated_pixel_lights), std::pair("pixel-lights lit", f.lit_pixel_lights),
+        std::pair("bytes stored", s.bytes.stored), std::pair("bytes of clusters drawn", s.bytes.clusters)})
+    html += row(what, grouped(std::to_string(count)));
   html += row("most memory", formatted(s.peak_mib, "%.0f MiB"));
   for (const std::string& about : s.peers_about) html += row("peer", about);
   return html + "</table></details>\n";
@@ -69,9 +71,9 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
 std::string bench_page(const BenchResult& bench) {
   std::string html =
       page_head("Benchmark") + "<h1>Benchmark</h1>\n<p class=quiet>" + escaped(bench_heading(bench)) + "</p>\n";
-  html += "<h2>Time a frame, all drawn in turn in one run; median</h2>\n<div class=pictures>\n";
+  html += "<h2>Time a frame, all drawn in turn in one run; median</h2>\n<div class=charts>\n";
   for (const SceneTime& s : bench.scenes) html += against_peers(s);
-  html += "</div>\n<h2>Scaling</h2>\n<div class=pictures>\n";
+  html += "</div>\n<h2>Scaling</h2>\n<div class=charts>\n";
   for (const ScalingCurve& curve : bench.scaling) {
     std::vector<ChartPoint> points;
     std::vector<Bar> bars;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "cli/json_text.h"
 #include "scenes/pipeline/presets.h"
@@ -21,12 +23,14 @@ bool reads(const Pipeline& pipeline, const Scene& scene, const IgnoredField& fie
                       [&](const IgnoredField& other) { return other.of == field.of && other.field == field.field; });
 }
 
-/// ` (presets without this note: A B)`, or nothing where every preset has it.
+/// ` (presets without this note: A B)`, or nothing where every preset has it; also what a pipeline file can state
+/// instead.
 std::string presets_without_note(const Scene& scene, const IgnoredField& field) {
   std::string names;
   for (const Preset& preset : presets())
     if (reads(preset.pipeline, scene, field)) names += ' ' + std::string(preset.name);
-  return names.empty() ? "" : " (presets without this note:" + names + ")";
+  const char* const value = field.field == "cone_deg" ? "; or light_model.cone smooth_penumbra in a pipeline file" : "";
+  return names.empty() ? "" : " (presets without this note:" + names + value + ")";
 }
 
 std::string line_of(const Scene& scene, const IgnoredField& field) {
@@ -42,10 +46,61 @@ std::string reflectance_line(uint64_t materials) {
 }
 
 /// Lights of the kinds that have boxes, and whose range ends.
+bool has_box(const Light& light) {
+  return (light.type == LightType::point || light.type == LightType::spot) && std::isfinite(light.range);
+}
+
 uint64_t boxed_lights(const Scene& scene) {
-  return uint64_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return (light.type == LightType::point || light.type == LightType::spot) && std::isfinite(light.range);
+  return uint64_t(std::count_if(scene.lights.begin(), scene.lights.end(), has_box));
+}
+
+/// Lights whose boxes hold the eye: it sees only their back faces, which the views of boxes do not draw.
+uint64_t boxes_about_the_eye(const Scene& scene) {
+  return uint64_t(std::count_if(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+    const glm::vec3 off = glm::abs(scene.camera.eye - light.position);
+    return has_box(light) && std::max(std::max(off.x, off.y), off.z) < light.range;
   }));
+}
+
+std::string eye_in_boxes_line(const Scene& scene) {
+  const uint64_t about = boxes_about_the_eye(scene);
+  if (about == 0) return {};
+  return counted(about, "box is", "boxes are") +
+         " not shown: The eye is inside, and only faces that look at the eye are drawn";
+}
+
+/// Whether the mesh of a light in deferred-volumes holds the eye. Tests the light's extent, which the mesh nearly
+/// fills.
+bool volume_holds_eye(const Light& light, const LightVolumes& volumes, const glm::vec3& eye) {
+  const LightExtent extent = light.type == LightType::spot ? volumes.spot : volumes.point;
+  if (!has_box(light)) return false;
+  const glm::vec3 from = eye - light.position;
+  const float along = glm::dot(from, light.direction), distance = glm::length(from);
+  switch (extent) {
+    case LightExtent::box:
+      return std::max(std::max(std::fabs(from.x), std::fabs(from.y)), std::fabs(from.z)) < light.range;
+    case LightExtent::sphere:
+      return distance < light.range;
+    case LightExtent::cone:
+      return along > 0.0f && along < light.range &&
+             along > distance * std::cos(std::min(light.cone_rad + light.penumbra_rad, 1.57f));
+    default:
+      return false;
+  }
+}
+
+std::string lost_volumes_line(const Scene& scene, const Pipeline& pipeline) {
+  if (pipeline.view != ImageView::lit || pipeline.strategy != Strategy::deferred_volumes ||
+      pipeline.light_volumes.cull_face != CullFace::back)
+    return {};
+  const auto lost = std::count_if(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+    return volume_holds_eye(light, pipeline.light_volumes, scene.camera.eye);
+  });
+  if (lost == 0) return {};
+  return counted(uint64_t(lost), "light is", "lights are") +
+         " not drawn: The eye is inside the volume of each, and light_volumes.cull_face back leaves out the faces that "
+         "it "
+         "sees from there (light_volumes.cull_face front draws every light)";
 }
 
 std::string boxes_line(const Scene& scene, ImageView view) {
@@ -67,32 +122,16 @@ std::string uv_line(const Scene& scene) {
 }  // namespace
 
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
-  Notes notes{ignored_fields(scene, pipeline), {}};
+  Notes notes{ignored_fields(scene, pipeline), scene.notes};
   for (const IgnoredField& field : notes.ignored) notes.lines.push_back(line_of(scene, field));
   if (const uint64_t materials = implausible_reflectances(scene); materials > 0)
     notes.lines.push_back(reflectance_line(materials));
-  std::string of_view;
-  if (shows_boxes(pipeline.view)) of_view = boxes_line(scene, pipeline.view);
-  if (pipeline.view == ImageView::uv) of_view = uv_line(scene);
-  if (!of_view.empty()) notes.lines.push_back(of_view);
+  const bool boxes = shows_boxes(pipeline.view);
+  for (std::string line :
+       {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
+        pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline)})
+    if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
-}
-
-std::string hidden_picture_note(const Pipeline& pipeline, const Image& picture) {
-  constexpr int kHiddenPercent = 90;
-  if (pipeline.view != ImageView::light_boxes) return {};
-  const size_t pixels = size_t(picture.width) * size_t(picture.height);
-  size_t black = 0, empty = 0;
-  for (size_t i = 0; i < pixels; ++i) {
-    const uint8_t* texel = &picture.texels[4 * i];
-    black += texel[0] == 0 && texel[1] == 0 && texel[2] == 0 ? 1 : 0;
-    empty += std::equal(texel, texel + 3, kEmptyColor) ? 1 : 0;
-  }
-  const size_t percent = 100 * black / std::max<size_t>(pixels - empty, 1);
-  if (percent < kHiddenPercent) return {};
-  return "The view light-boxes is black on " + std::to_string(percent) +
-         " % of what is drawn: Boxes are black solids, and the boxes of these lights cover what is behind them "
-         "(--view light-edges shows their edges alone)";
 }
 
 void say_notes(const std::vector<std::string>& lines) {

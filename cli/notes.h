@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
 #include "scenes/pipeline/ignored_fields.h"
 
 namespace trueshade {
@@ -15,9 +14,6 @@ struct Notes {
 
 /// Notes that scene and pipeline call for before anything is drawn.
 Notes notes_of(const Scene& scene, const Pipeline& pipeline);
-
-/// Says so where the boxes of the view light-boxes hide nearly all of what is drawn. Empty otherwise.
-std::string hidden_picture_note(const Pipeline& pipeline, const Image& picture);
 
 /// Writes lines to standard error, each as `trueshade: note: ...`.
 void say_notes(const std::vector<std::string>& lines);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "cli/frame_name.h"
 #include "cli/option_values.h"
 #include "cli/unknown_option.h"
 #include "cli/version.h"
@@ -22,6 +23,22 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
   if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
 }
 
+/// Files of several frames, or of several outputs in one frame, have names of their own.
+void check_frame_names(const std::vector<std::string>& outputs, FrameRange frames) {
+  std::vector<std::string> names;
+  for (int frame = frames.first; frame <= frames.last; ++frame)
+    for (const std::string& path : outputs) names.push_back(frame_name(path, frame));
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end())
+    throw usage("-o", "two frames or two outputs would be written to '" + *twice + "'",
+                "give each -o a name of its own, with %04d or #### once");
+}
+
+void check_scene(const std::string& scene) {
+  if (scene.empty()) throw usage("SCENE", "its name is empty", "name a scene file or builtin:NAME");
+}
+
 void check_outputs(const RenderOptions& options) {
   check_named_once("-o", options.outputs);
   bool exr = false, png = false;
@@ -34,8 +51,11 @@ void check_outputs(const RenderOptions& options) {
   if (!options.aovs.empty() && !exr && !options.json)
     throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
   if (options.encode && !png)
-    throw usage("--encode", "it says how a PNG stores the picture, and an EXR holds the target's values",
-                "add -o FILE.png");
+    throw usage("--encode",
+                "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
+                "report shows them as screens take them",
+                "add -o FILE.png, or leave out --encode");
+  if (options.frames) check_frame_names(options.outputs, *options.frames);
 }
 
 /// Option values as text, read by us so that every error is of one form.
@@ -44,49 +64,72 @@ struct RenderTexts {
   bool no_light_culling = false;
 };
 
+/// Adds an option of one value, which help calls `value_name`. Values are taken as text.
+template <typename Text>
+CLI::Option* add_value(CLI::App* command, const char* names, const char* value_name, Text& text,
+                       const std::string& help) {
+  const auto take = [&text](const CLI::results_t& given) {
+    text = given.back();
+    return true;
+  };
+  return command->add_option(names, CLI::callback_t(take), help)->type_name(value_name);
+}
+
+/// The same for an option that may be repeated.
+CLI::Option* add_values(CLI::App* command, const char* names, const char* value_name, std::vector<std::string>& texts,
+                        const std::string& help) {
+  const auto take = [&texts](const CLI::results_t& given) {
+    texts = given;
+    return true;
+  };
+  return command->add_option(names, CLI::callback_t(take), help)
+      ->type_name(value_name)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_switch(CLI::App* command, const char* names, bool& on, const char* help) {
+  command->add_flag_callback(names, [&on] { on = true; }, help);
+}
+
 /// The options of PipelineOptions but for the target.
 void add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
-  command->add_option("SCENE", options.scene, "Scene file (.json, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+  std::string names;
+  for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  add_value(command, "SCENE", "FILE", options.scene,
+            "Scene file (.json, .gltf, .glb, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
       ->required();
-  command->add_option(
-      "--preset", options.preset, "Row of numbers the pipeline starts from: " + [] {
-        std::string names;
-        for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
-        return names;
-      }());
-  command->add_option("--pipeline", options.pipeline_file,
-                      "JSON file of values that replace the preset's and the scene's");
-  command->add_option("--size", size, "Image size in pixels, WIDTHxHEIGHT");
+  add_value(command, "--preset", "NAME", options.preset, "Row of numbers the pipeline starts from: " + names);
+  add_value(command, "--pipeline", "FILE", options.pipeline_file,
+            "JSON file of values that replace the preset's and the scene's");
+  add_value(command, "--size", "WxH", size, "Image size in pixels, WIDTHxHEIGHT");
 }
 
 CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
   CLI::App* render = app.add_subcommand("render", "Draw a scene");
   add_pipeline_options(render, options, texts.size);
-  render
-      ->add_option("-o,--output", options.outputs, "File to write: .png, .exr, or .html for a report; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  render->add_option("--time", texts.time, "Time of the scene's timeline, seconds");
-  render->add_option(
-      "--frames", texts.frames,
+  add_values(render, "-o,--output", "FILE", options.outputs,
+             "File to write: .png, .exr, or .html for a report; may be repeated");
+  add_value(render, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_value(render, "--frames", "FIRST-LAST", texts.frames,
       "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
-  render->add_option("--target", texts.target, "Format the image is stored in: " + joined(target_names()));
-  render->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  render->add_option("--profile", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
-  render->add_option("--aov", texts.aov, "Planes for the EXR, with commas: " + plane_names());
-  render->add_option("--encode", texts.encode,
+  add_value(render, "--target", "FORMAT", texts.target, "Format the image is stored in: " + joined(target_names()));
+  add_value(render, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(render, "--profile", "NAME", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
+  add_value(render, "--aov", "PLANES", texts.aov, "Planes for the EXR, with commas: " + plane_names());
+  add_value(render, "--encode", "CODES", texts.encode,
                      "Codes of a PNG. srgb: values taken as linear light and sRGB-encoded; raw: values as they are, "
                      "tagged gAMA 1.0; without it fixed-point targets as they are, floats sRGB-encoded");
-  render->add_option("--view", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
-  render->add_option("--threads", texts.threads, "Threads, 0 for one a core; never changes a pixel");
-  render->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
-  render->add_option("--tile", texts.tile,
+  add_value(render, "--view", "NAME", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
+  add_value(render, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core; never changes a pixel");
+  add_value(render, "--simd", "NAME", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
+  add_value(render, "--tile", "PIXELS", texts.tile,
                      "Tile side: 8, 16, 32, 48 or 64; without it by size and threads; never changes a pixel");
-  render->add_flag("--no-light-culling", texts.no_light_culling,
+  add_switch(render, "--no-light-culling", texts.no_light_culling,
                    "Try every light on every pixel; never changes a pixel");
-  render->add_flag("--hash", options.hash, "Print the hash of the image's stored bytes");
-  render->add_flag("--stats", options.stats, "Print counts and times");
-  render->add_flag("--json", options.json, "Print all of it as one JSON document");
+  add_switch(render, "--hash", options.hash, "Print the hash of the image's stored bytes");
+  add_switch(render, "--stats", options.stats, "Print counts and times");
+  add_switch(render, "--json", options.json, "Print all of it as one JSON document");
+  add_switch(render, "-q,--quiet", options.quiet, "Say neither notes nor which files were written");
   return render;
 }
 
@@ -106,6 +149,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   options.execution.light_culling = !texts.no_light_culling;
   options.execution.count_as_gl = options.stats || options.json;
   check_preset(options.preset);
+  check_scene(options.scene);
   check_simd("--simd", options.simd);
   validate(execution_of(options));
   check_outputs(options);
@@ -116,11 +160,11 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 
 CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::string>& strategy) {
   CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
-  glsl->add_option("--preset", options.preset, "Row of numbers, as for render")->required();
-  glsl->add_option("--pipeline", options.pipeline_file, "Pipeline in JSON, over the preset");
-  glsl->add_option("--strategy", strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  glsl->add_flag("--maps", options.maps, "Materials with colour, specular and normal maps and alpha masks");
-  glsl->add_option("-o,--output", options.folder, "Folder for the files; made if it is not there")->required();
+  add_value(glsl, "--preset", "NAME", options.preset, "Row of numbers, as for render")->required();
+  add_value(glsl, "--pipeline", "FILE", options.pipeline_file, "Pipeline in JSON, over the preset");
+  add_value(glsl, "--strategy", "NAME", strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_switch(glsl, "--maps", options.maps, "Materials with colour, specular and normal maps and alpha masks");
+  add_value(glsl, "-o,--output", "FOLDER", options.folder, "Folder for the files; made if it is not there")->required();
   return glsl;
 }
 
@@ -138,26 +182,22 @@ struct ValidationTexts {
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
   add_pipeline_options(command, options, texts.size);
-  command->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  command->add_option("--time", texts.time, "Time of the scene's timeline, seconds");
-  command->add_option("--driver", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
-  command->add_option(
-      "--gbuffer", options.gbuffer_file,
+  add_value(command, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_value(command, "--driver", "NAME", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
+  add_value(command, "--gbuffer", "FILE", options.gbuffer_file,
       "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
-  command->add_option("--image", options.image_file,
+  add_value(command, "--image", "FILE", options.image_file,
                       "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
-  command->add_option(
-      "--profile", options.held_to,
+  add_value(command, "--profile", "NAME", options.held_to,
       "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::profile_names()));
-  command->add_option(
-      "--subpixel-bits", texts.subpixel_bits,
+  add_value(command, "--subpixel-bits", "COUNT", texts.subpixel_bits,
       "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
-  command->add_option("--save", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
-  command->add_flag(
-      "--quick", options.quick,
+  add_values(command, "--save", "FILE", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
+  add_switch(command, "--quick", options.quick,
       "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
-  command->add_flag("--json", options.json, "Print all of it as one JSON document");
-  command->add_option("-o,--output", options.report, "Report to write, .html");
+  add_switch(command, "--json", options.json, "Print all of it as one JSON document");
+  add_value(command, "-o,--output", "FILE", options.report, "Report to write, .html");
   command->footer(
       "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
       "others as for trueshade.");
@@ -199,19 +239,21 @@ struct BenchTexts {
 CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   CLI::App* bench = app.add_subcommand(
       "bench", "Time frames, in turn with others that draw the same: up to 15 of each, within some 2.5 s a contender");
-  bench->add_option("SCENE", options.scenes, "Scenes as for render; without any builtin:city, rabbits, sphere and red");
-  bench->add_option("--preset", options.preset, "Row of numbers, as for render");
-  bench->add_option("--pipeline", options.pipeline_file, "JSON file of values, as for render");
-  bench->add_option("--size", texts.size, "Image size in pixels, WIDTHxHEIGHT");
-  bench->add_option("--strategy", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  bench->add_option("--threads", texts.threads, "Threads, 0 for one a core");
-  bench->add_option("--simd", options.simd, "best, scalar, sse4, avx2 or avx512");
-  bench->add_option("--against", texts.against,
+  add_values(bench, "SCENE", "FILE", options.scenes,
+             "Scenes as for render; without any builtin:city, rabbits, sphere and red")
+      ->expected(-1);
+  add_value(bench, "--preset", "NAME", options.preset, "Row of numbers, as for render");
+  add_value(bench, "--pipeline", "FILE", options.pipeline_file, "JSON file of values, as for render");
+  add_value(bench, "--size", "WxH", texts.size, "Image size in pixels, WIDTHxHEIGHT");
+  add_value(bench, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(bench, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core");
+  add_value(bench, "--simd", "NAME", options.simd, "best, scalar, sse4, avx2 or avx512");
+  add_value(bench, "--against", "PEERS", texts.against,
                     "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
                     "and ours otherwise: "
                     "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
-  bench->add_option("--json", options.json_file, "JSON document to write; - prints it instead of the text");
-  bench->add_option("-o,--output", options.report, "Report to write, .html; also times how frames scale");
+  add_value(bench, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
+  add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   return bench;
 }
 
@@ -273,7 +315,8 @@ Execution execution_of(const RenderOptions& options) {
 }
 
 Command command_from_arguments(int count, const char* const* arguments) {
-  CLI::App app("Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.", "trueshade");
+  CLI::App app("Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.\n"
+               "`trueshade help COMMAND` names the options of a command.", "trueshade");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
   app.footer(
@@ -291,15 +334,21 @@ Command command_from_arguments(int count, const char* const* arguments) {
   BenchTexts bench_texts;
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
-  info_command->add_option("FILE", info.file, "Scene (as for render), or image (.png, .exr)")->required();
+  add_value(info_command, "FILE", "NAME", info.file, "Scene (as for render), or image (.png, .exr)")->required();
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
-  list_command->add_flag("--json", list.json, "As one JSON document");
+  add_switch(list_command, "--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
-  if (count > 1) check_first_argument(app, arguments[1]);
+  std::vector<std::string> words(arguments + 1, arguments + std::max(count, 1));
+  if (!words.empty() && words[0] == "help") {  // `help COMMAND` is `COMMAND --help`
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  if (!words.empty()) check_first_argument(app, words[0]);
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
-    app.parse(count, arguments);
+    app.parse(words);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     return PrintText{chosen.empty() ? app.help() : chosen[0]->help("trueshade")};

@@ -40,6 +40,7 @@ struct RenderOptions : PipelineOptions {
   std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
+  bool quiet = false;  ///< neither notes nor the names of files written
 };
 
 /// Execution of the options; borrows options.simd.

@@ -25,9 +25,15 @@ code, pre { font: 13px/1.5 ui-monospace, "Cascadia Mono", Menlo, Consolas, monos
 .fact span { color: var(--quiet); font-size: 13px; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden; }
 figure img { display: block; width: 100%; height: auto; background: #000; }  /* transparent pixels stand on black */
+img.small { image-rendering: pixelated; }  /* magnified to the page's width: a pixel stays a square */
 figcaption { padding: 10px 14px; font-size: 13px; color: var(--quiet); }
 figcaption b { color: var(--text); font-weight: 600; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(540px, 100%), 1fr)); gap: 16px; }
+.chart { padding: 14px 18px; }
+.chart svg { display: block; max-width: 720px; }
+.verdict { font-size: 19px; font-weight: 600; }
+.chart b { display: block; margin-bottom: 10px; font-weight: 600; }
 .ramp { display: flex; align-items: center; gap: 10px; margin-top: 8px; }
 .ramp i { flex: 1; height: 10px; border-radius: 5px; }
 table { border-collapse: collapse; width: 100%; max-width: 640px; }
@@ -93,7 +99,9 @@ std::string grouped(const std::string& number) {
 }
 
 std::string figure(const Image& image, const std::string& name, const std::string& about) {
-  return "<figure><img alt=\"" + escaped(name) + "\" src=\"data:image/png;base64," + base64(encode_png(image, {})) +
+  constexpr int kSmall = 600;  // pixels; a column of pictures is about as wide
+  const std::string kind = image.width < kSmall ? "<figure><img class=small alt=" : "<figure><img alt=";
+  return kind + "\"" + escaped(name) + "\" src=\"data:image/png;base64," + base64(encode_png(image, {})) +
          "\"><figcaption><b>" + escaped(name) + "</b> " + about + "</figcaption></figure>\n";
 }
 

@@ -29,7 +29,7 @@ void check_pipeline(const PipelineOptions& options) {
 }
 
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
-  Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : presets().front().pipeline;
+  Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : default_pipeline(scene);
   if (!scene.pipeline_text.empty())
     pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
   if (options.pipeline_file)

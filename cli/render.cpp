@@ -9,6 +9,7 @@
 #include "cli/frame_text.h"
 #include "cli/notes.h"
 #include "cli/picture_encoding.h"
+#include "cli/picture_notes.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
@@ -22,7 +23,7 @@ namespace trueshade {
 namespace {
 
 constexpr int kRepeats = 9;
-constexpr double kRepeatBudgetMs = 1000.0;
+constexpr double kRepeatBudgetMs = 300.0;
 
 bool is_report(const std::string& path) { return path.ends_with(".html"); }
 
@@ -83,7 +84,7 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
     } else {
       write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
-    say_written(path, about_file(path, result, asked_for), standard_output_of(options));
+    if (!options.quiet) say_written(path, about_file(path, result, asked_for), standard_output_of(options));
   }
 }
 
@@ -99,8 +100,8 @@ RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const P
 std::string render_one(const RenderOptions& options, const std::vector<std::string>& paths,
                        const PreparedScene& prepared, RenderedFrame& result) {
   draw(options, prepared, result);
-  const std::string hidden = hidden_picture_note(result.pipeline, result.frame.color);
-  if (!hidden.empty()) result.notes.lines.push_back(hidden);
+  for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame))
+    result.notes.lines.push_back(std::move(note));
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
   write_outputs(options, paths, result);
@@ -113,18 +114,19 @@ std::string render_one(const RenderOptions& options, const std::vector<std::stri
 /// Frame after frame from one scene whose meshes are loaded and clustered once. A note is said once, with the first
 /// frame that calls for it.
 void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& pipeline) {
-  const PreparedScene prepared(scene);
+  PreparedScene prepared(scene);
   std::string documents;
   std::set<std::string> said;
   for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
     const double time = double(frame) / scene.timeline.fps;
     set_time(scene, time);
+    prepared.update();
     std::vector<std::string> paths;
     for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
     RenderedFrame result = frame_at(options, scene, pipeline, time);
     const std::string document = render_one(options, paths, prepared, result);
     for (const std::string& line : result.notes.lines)
-      if (said.insert(line).second) say_notes({line});
+      if (said.insert(line).second && !options.quiet) say_notes({line});
     if (options.json) documents += (documents.empty() ? "" : ",") + document.substr(0, document.size() - 1);
   }
   if (options.json) print("{\"frames\":[" + documents + "]}\n");
@@ -141,7 +143,7 @@ void render(const RenderOptions& options) {
   set_time(scene, options.time);
   RenderedFrame result = frame_at(options, scene, pipeline, options.time);
   const std::string document = render_one(options, options.outputs, PreparedScene(scene), result);
-  say_notes(result.notes.lines);
+  if (!options.quiet) say_notes(result.notes.lines);
   print(document);
 }
 

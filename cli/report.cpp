@@ -67,7 +67,7 @@ std::string table(const std::vector<StatLine>& lines) {
   return html + "</table>\n";
 }
 
-/// What the codes of a page's picture are: those of the target, or made of its floats.
+/// Says whether a page's picture shows the codes of the target, or codes made of the target's floats.
 std::string about_codes(const Image& color) {
   if (info(color.format).number_class == NumberClass::unorm) return "as stored in the target";
   return "sRGB-encoded from " + std::string(info(color.format).name) + " and clamped to [0, 1]";

@@ -10,14 +10,15 @@
 namespace trueshade {
 namespace {
 
-constexpr int kWidth = 640, kLabelWidth = 190, kTextWidth = 150, kBarHeight = 22;
+constexpr int kWidth = 640, kBarHeight = 24;
+constexpr double kFontSize = 13, kLetterWidth = 7.2;  // the width of a wide font, so that no text is cut off
 constexpr int kPlotHeight = 230, kLeft = 56, kRight = 56, kTop = 26, kBottom = 44;
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor,
                     const char* color = "var(--text)") {
   char start[160];
-  std::snprintf(start, sizeof start, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"12\">", x,
-                y, anchor, color);
+  std::snprintf(start, sizeof start, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"%g\">", x, y,
+                anchor, color, kFontSize);
   return start + escaped(text) + "</text>\n";
 }
 
@@ -25,6 +26,28 @@ std::string open_svg(int width, int height) {
   return "<svg viewBox=\"0 0 " + std::to_string(width) + ' ' + std::to_string(height) +
          "\" role=\"img\" width=\"100%\">\n";
 }
+
+double width_of(const std::string& text) { return kLetterWidth * double(text.size()); }
+
+/// Texts of a chart, each written where it covers none that is written already.
+class Labels {
+ public:
+  void add(double x, double y, const std::string& text, const char* color) {
+    const Box box{x - width_of(text) / 2 - 3, x + width_of(text) / 2 + 3, y};
+    for (const Box& other : written_)
+      if (box.left < other.right && other.left < box.right && std::fabs(box.y - other.y) < kFontSize) return;
+    written_.push_back(box);
+    svg_ += text_at(x, y, text, "middle", color);
+  }
+  const std::string& svg() const { return svg_; }
+
+ private:
+  struct Box {
+    double left, right, y;
+  };
+  std::vector<Box> written_;
+  std::string svg_;
+};
 
 std::string short_number(double value) {
   char text[32];
@@ -64,17 +87,23 @@ std::vector<double> ticks_of(const Axis& axis) {
 }  // namespace
 
 std::string bar_chart(std::span<const Bar> bars) {
-  double most = 0.0;
-  for (const Bar& bar : bars) most = std::max(most, bar.value);
-  std::string svg = open_svg(kWidth, kBarHeight * int(bars.size()) + 4);
+  double most = 0.0, labels = 0.0, texts = 0.0;
+  for (const Bar& bar : bars) {
+    most = std::max(most, bar.value);
+    labels = std::max(labels, width_of(bar.label)), texts = std::max(texts, width_of(bar.text));
+  }
+  const double left = labels + 10, room = std::max(kWidth - left - texts - 10, kWidth * 0.1);
+  const double width = std::max(double(kWidth), left + room + texts + 10);
+  std::string svg = open_svg(int(width), kBarHeight * int(bars.size()) + 4);
   for (size_t i = 0; i < bars.size(); ++i) {
-    const double y = kBarHeight * double(i) + 4, room = kWidth - kLabelWidth - kTextWidth;
+    const double y = kBarHeight * double(i) + 4;
     const double length = most > 0 ? std::max(1.0, bars[i].value / most * room) : 1.0;
     char rect[200];
-    std::snprintf(rect, sizeof rect, "<rect x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\" fill=\"%s\"/>\n",
-                  kLabelWidth, y, length, kBarHeight - 6, bars[i].accented ? "var(--accent)" : "#56677f");
-    svg += rect + text_at(kLabelWidth - 8, y + 12, bars[i].label, "end") +
-           text_at(kLabelWidth + length + 6, y + 12, bars[i].text, "start", "var(--quiet)");
+    std::snprintf(rect, sizeof rect,
+                  "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\" fill=\"%s\"/>\n", left, y, length,
+                  kBarHeight - 6, bars[i].accented ? "var(--accent)" : "#56677f");
+    svg += rect + text_at(left - 8, y + 13, bars[i].label, "end") +
+           text_at(left + length + 6, y + 13, bars[i].text, "start", "var(--quiet)");
   }
   return svg + "</svg>\n";
 }
@@ -88,14 +117,16 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
   }
   const double room_x = kWidth - kLeft - kRight, room_y = kPlotHeight - kTop - kBottom;
   std::string svg = open_svg(kWidth, kPlotHeight), path, marks;
+  Labels labels;
   for (const ChartPoint& p : points) {
     const double px = kLeft + x.at(p.x) * room_x, py = kTop + (1 - y.at(p.y)) * room_y;
     char mark[160];
     std::snprintf(mark, sizeof mark, "%s%.1f %.1f", path.empty() ? "M" : " L", px, py);
     path += mark;
     std::snprintf(mark, sizeof mark, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"var(--accent)\"/>\n", px, py);
-    marks += mark + text_at(px, py - 8, short_number(p.y) + " ms", "middle", "var(--quiet)") +
-             text_at(px, kPlotHeight - kBottom + 18, p.label, "middle");
+    marks += mark;
+    labels.add(px, kPlotHeight - kBottom + 18, p.label, "var(--text)");
+    labels.add(px, py - 8, short_number(p.y) + " ms", "var(--quiet)");
   }
   char frame[200];
   std::snprintf(frame, sizeof frame, "<path d=\"M%d %d V%d H%d\" fill=\"none\" stroke=\"var(--line)\"/>\n", kLeft,
@@ -111,7 +142,7 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
     svg += line + text_at(kLeft - 6, py + 4, label, "end", "var(--quiet)");
   }
   svg += text_at(4, kTop / 2, "ms a frame", "start", "var(--quiet)");
-  svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks;
+  svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks + labels.svg();
   return svg + text_at(kLeft + room_x / 2, kPlotHeight - 8, axis, "middle", "var(--quiet)") + "</svg>\n";
 }
 

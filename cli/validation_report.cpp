@@ -107,13 +107,21 @@ std::string worst_table(const StageVerdict& s) {
   return html + "</table>\n";
 }
 
+/// What was captured, and beside it how each pixel of each stage was judged.
+std::string pictures(const Validation& v) {
+  std::string html = "<div class=pictures>";
+  if (v.capture.color.width > 0)
+    html += figure(v.capture.color, "Image", "as captured, <code>sha256:" + image_hash(v.capture.color) + "</code>");
+  for (const StageVerdict& s : v.verdict.stages)
+    html += figure(class_map(s), "Classes of stage " + s.stage, "a colour each; violations enlarged");
+  return html + "</div>\n";
+}
+
 std::string stage_part(const StageVerdict& s, const std::vector<AggregateTest>& tests) {
-  return "<h2>Stage " + escaped(s.stage) + "</h2>\n<div class=pictures>" +
-         figure(class_map(s), "Classes", "a colour each; violations enlarged") + "<div>" + counts_table(s) +
-         "<p class=quiet>" + std::to_string(s.explained()) +
-         " pixels show another surface or branch than the nominal one; " + number(s.predicted_other, "%.1f") +
-         " predicted, " + std::to_string(s.ambiguous) + " possible.</p></div></div>\n" + aggregates_table(tests) +
-         worst_table(s);
+  return "<h2>Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) + "<p class=quiet>" +
+         std::to_string(s.explained()) + " pixels show another surface or branch than the nominal one; " +
+         number(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible.</p>\n" +
+         aggregates_table(tests) + worst_table(s);
 }
 
 std::string inference_part(const oracle::Verdict& v) {
@@ -131,7 +139,8 @@ std::string inference_part(const oracle::Verdict& v) {
 
 std::string heading(const Validation& v) {
   const std::string size = std::to_string(v.pipeline.width) + " \xc3\x97 " + std::to_string(v.pipeline.height);
-  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=quiet>" + escaped(v.verdict.driver) +
+  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=\"verdict" + (passes(v) ? "" : " bad") + "\">Verdict: " +
+                     escaped(conclusion(v)) + ".</p>\n<p class=quiet>" + escaped(v.verdict.driver) +
                      "<br>preset " + escaped(v.pipeline.preset) + ", " + size + " pixels, " +
                      std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion + "<br>held to " +
                      escaped(profile_line(v.profile)) + "</p>\n";
@@ -142,16 +151,14 @@ std::string heading(const Validation& v) {
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage);
   for (const DriverFrame::Pass& pass : v.passes) html += fact(number(pass.ms, "%.1f") + " ms", pass.name);
   html += fact(number(v.judge_ms / 1000, "%.1f") + " s", "judging");
-  return html + "</div>\n<p" + (passes(v) ? "" : " class=bad") + ">Verdict: " + escaped(conclusion(v)) + ".</p>\n";
+  return html + "</div>\n";
 }
 
 }  // namespace
 
 std::string validation_page(const Validation& v) {
   std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v);
-  if (v.capture.color.width > 0)
-    html += figure(v.capture.color, "Image",
-                   "as captured, <code>sha256:" + image_hash(v.capture.color) + "</code>");
+  html += pictures(v);
   for (size_t i = 0; i < v.verdict.stages.size(); ++i) html += stage_part(v.verdict.stages[i], v.verdict.aggregates[i]);
   return html + inference_part(v.verdict) +
          "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +

@@ -15,7 +15,7 @@ using oracle::PixelClass;
 using oracle::StageVerdict;
 using oracle::WorstPixel;
 
-std::string row(const std::string& name, const std::string& value) {
+std::string verdict_row(const std::string& name, const std::string& value) {
   return name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + value + '\n';
 }
 
@@ -124,21 +124,22 @@ double exact_share(const StageVerdict& stage) {
 }
 
 std::string validation_text(const Validation& v) {
-  std::string lines = row("scene", v.verdict.scene);
-  lines += row("pipeline", v.pipeline.preset + ", " + std::to_string(v.pipeline.width) + 'x' +
-                               std::to_string(v.pipeline.height) + ", " + std::string(info(v.pipeline.target).name));
-  lines += row("driver", v.verdict.driver) + row("profile", profile_line(v.profile));
-  for (const std::string& note : v.notes) lines += row("note", note);
+  std::string lines = verdict_row("scene", v.verdict.scene);
+  lines +=
+      verdict_row("pipeline", v.pipeline.preset + ", " + std::to_string(v.pipeline.width) + 'x' +
+                                  std::to_string(v.pipeline.height) + ", " + std::string(info(v.pipeline.target).name));
+  lines += verdict_row("driver", v.verdict.driver) + verdict_row("profile", profile_line(v.profile));
+  for (const std::string& note : v.notes) lines += verdict_row("note", note);
   std::string times;
   for (const DriverFrame::Pass& pass : v.passes) times += pass.name + ' ' + real(pass.ms, "%.1f") + " ms, ";
   if (v.timed_frames > 1) times += "(median of " + std::to_string(v.timed_frames) + " frames) ";
-  lines += row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
-  if (v.repeat_changes) lines += row("invariance", invariance_line(v));
+  lines += verdict_row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
+  if (v.repeat_changes) lines += verdict_row("invariance", invariance_line(v));
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
     lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
   lines += '\n';
-  if (v.verdict.inferred) lines += row("tightest", tightest_line(*v.verdict.inferred));
-  return lines + row("verdict", conclusion(v));
+  if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
+  return lines + verdict_row("verdict", conclusion(v));
 }
 
 std::string validation_json(const Validation& v) {

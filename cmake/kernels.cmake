@@ -7,7 +7,17 @@ set(highway_avx2 HWY_AVX2)
 set(highway_sse4 HWY_SSE4)
 set(highway_scalar HWY_STATIC_TARGET)  # Highway's own baseline of the architecture
 
-set(trueshade_kernel_targets ${TRUESHADE_SIMD})
+set(trueshade_kernel_targets "")
+foreach(target avx512 avx2 sse4 scalar)  # best first
+  if(target IN_LIST TRUESHADE_SIMD)
+    list(APPEND trueshade_kernel_targets ${target})
+  endif()
+endforeach()
+foreach(target IN LISTS TRUESHADE_SIMD)
+  if(NOT target MATCHES "^(avx512|avx2|sse4|scalar|native)$")
+    message(FATAL_ERROR "TRUESHADE_SIMD names ${target} (one or more of avx512;avx2;sse4;scalar, or native)")
+  endif()
+endforeach()
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(trueshade_kernel_targets scalar)
 elseif(TRUESHADE_SIMD STREQUAL "native")
@@ -24,43 +34,27 @@ elseif(TRUESHADE_SIMD STREQUAL "native")
   endif()
 endif()
 
-# What Highway is told where functions of several targets are chosen from: which targets exist, and which of them is the one
-# that every machine of this build runs.
-set(disabled HWY_SSSE3)  # its Round loses the sign of -0
-foreach(target avx512 avx2 sse4)
-  if(NOT target IN_LIST trueshade_kernel_targets)
-    string(APPEND disabled "|${highway_${target}}")
-  endif()
+# What core/simd/dispatch.h chooses from.
+set(cases "")
+foreach(target IN LISTS trueshade_kernel_targets)
+  string(APPEND cases " X(${target})")
 endforeach()
-if(NOT "scalar" IN_LIST trueshade_kernel_targets)
-  string(APPEND disabled "|HWY_SCALAR|HWY_EMU128")
-  list(GET trueshade_kernel_targets -1 lowest)
-  set(trueshade_target_macros "HWY_BASELINE_TARGETS=${highway_${lowest}}")
-endif()
-list(APPEND trueshade_target_macros "HWY_DISABLED_TARGETS=(${disabled})")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/core/simd/built_targets.h CONTENT
+"// Made by cmake/kernels.cmake: the SIMD targets of this build, best first.
+#define TRUESHADE_BUILT_TARGETS(X)@cases@
+" @ONLY)
 
-# trueshade_kernels(NAME SOURCES LINKS): adds kernels to library NAME, each compiled once per SIMD target. The macro
-# TRUESHADE_KERNEL_TARGET tells core/simd/one_target.h which.
+# trueshade_kernels(NAME SOURCES LINKS): adds kernels to library NAME, each compiled once per SIMD target. Two macros tell
+# core/simd/one_target.h which: Highway's word for the target, and ours.
 function(trueshade_kernels name sources links)
   foreach(target IN LISTS trueshade_kernel_targets)
     set(objects trueshade_${name}_${target})
     add_library(${objects} OBJECT ${sources})
-    target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
     target_link_libraries(${objects} PRIVATE trueshade_flags trueshade_private_flags ${links})
-    target_compile_definitions(${objects} PRIVATE TRUESHADE_KERNEL_TARGET=${highway_${target}} HWY_DISABLED_TARGETS=HWY_SSSE3)
+    target_compile_definitions(${objects} PRIVATE TRUESHADE_KERNEL_TARGET=${highway_${target}}
+                               TRUESHADE_SIMD_TARGET=${target} HWY_DISABLED_TARGETS=HWY_SSSE3)
     target_compile_options(${objects} PRIVATE ${trueshade_kernel_options})
     target_sources(trueshade_${name} PRIVATE $<TARGET_OBJECTS:${objects}>)
-  endforeach()
-endfunction()
-
-# trueshade_dispatch_sources(SOURCES...): tells those that include Highway which targets exist. The macro is set on these
-# files alone, so that a change of TRUESHADE_SIMD compiles few files again.
-function(trueshade_dispatch_sources)
-  foreach(source IN LISTS ARGN)
-    get_filename_component(path ${source} ABSOLUTE)
-    file(STRINGS ${path} highway REGEX "include <hwy/" LIMIT_COUNT 1)
-    if(highway)
-      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "${trueshade_target_macros}")
-    endif()
   endforeach()
 endfunction()

@@ -1,7 +1,17 @@
+# How many source files are compiled at a time; 1 compiles each alone, which shows a header that lacks an include.
+set(TRUESHADE_BATCH 8 CACHE STRING "Source files of a library compiled as one")
+function(trueshade_compile_in_batches target)
+  if(TRUESHADE_BATCH GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${TRUESHADE_BATCH})
+  endif()
+endfunction()
+
 # trueshade_library(NAME FOLDERS|SOURCES... LINKS... PRIVATE_LINKS...): a static library with exactly these links. It holds
-# every .cpp file of the folders; a file named *_kernel.cpp is compiled once per SIMD target (cmake/kernels.cmake).
+# every .cpp file of the folders; a file named *_kernel.cpp is compiled once per SIMD target (cmake/kernels.cmake). The other
+# files are compiled a batch at a time (TRUESHADE_BATCH), so that a header is read once for all of them. So names in
+# unnamed namespaces must be unique within a library, unless the library is ONE_BY_ONE.
 function(trueshade_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;SOURCES;LINKS;PRIVATE_LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ONE_BY_ONE" "" "FOLDERS;SOURCES;LINKS;PRIVATE_LINKS")
   foreach(folder IN LISTS arg_FOLDERS)
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
     list(APPEND arg_SOURCES ${found})
@@ -9,16 +19,19 @@ function(trueshade_library name)
   set(kernels ${arg_SOURCES})
   list(FILTER kernels INCLUDE REGEX "_kernel\\.cpp$")
   list(FILTER arg_SOURCES EXCLUDE REGEX "_kernel\\.cpp$")
-  trueshade_dispatch_sources(${arg_SOURCES})
   add_library(trueshade_${name} STATIC ${arg_SOURCES})
   add_library(trueshade::${name} ALIAS trueshade_${name})
   set_target_properties(trueshade_${name} PROPERTIES EXPORT_NAME ${name})
+  if(NOT arg_ONE_BY_ONE)
+    trueshade_compile_in_batches(trueshade_${name})
+  endif()
   target_include_directories(trueshade_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/trueshade>)
   target_link_libraries(
     trueshade_${name}
     PUBLIC trueshade_flags ${arg_LINKS}
     PRIVATE $<BUILD_INTERFACE:trueshade_private_flags> ${arg_PRIVATE_LINKS})
+  target_include_directories(trueshade_${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
   if(kernels)
     trueshade_kernels(${name} "${kernels}" "${arg_LINKS}")
   endif()

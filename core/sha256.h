@@ -9,6 +9,11 @@ namespace trueshade {
 /// SHA-256 (FIPS 180-4), fed in pieces.
 class Sha256 {
  public:
+  Sha256() = default;
+  /// Without the processor's instructions for it; the same digits.
+  enum class Blocks : uint8_t { best, plain };
+  explicit Sha256(Blocks blocks) : plain_(blocks == Blocks::plain) {}
+
   void update(const void* data, size_t bytes);
   std::string hex();  ///< 64 lower-case digits; call once, last
 
@@ -18,6 +23,7 @@ class Sha256 {
                                  0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<uint8_t, 64> pending_{};
   uint64_t bytes_ = 0;
+  bool plain_ = false;
 };
 
 }  // namespace trueshade

@@ -70,7 +70,7 @@ float llvmpipe_linear_of_srgb(int code) {
   return std::fma(odd, x, even);
 }
 
-float unit(float x) { return x >= 1.0f ? 1.0f : x > 0.0f ? x : 0.0f; }
+float clamped_unit(float x) { return x >= 1.0f ? 1.0f : x > 0.0f ? x : 0.0f; }
 
 /// The float next to x, toward zero or nearest, of those with `fraction` bits of fraction and the exponents of a half:
 /// the multiple of its unit in the last place. Below 10 bits it has no sign and never rounds to infinity.
@@ -221,9 +221,9 @@ Rgba blended_values(const BlendState& state, NumericProfile profile, Format form
                     const Rgba& stored) {
   Operands<float> in{source, stored, state.constant, 1.0f};
   for (size_t c = 0; unorm_bits(format, 0) > 0 && c < 4; ++c) {
-    in.source[c] = unit(source[c]);
+    in.source[c] = clamped_unit(source[c]);
     in.destination[c] = stored[c] / float((1 << unorm_bits(format, c)) - 1);
-    in.constant[c] = unit(state.constant[c]);
+    in.constant[c] = clamped_unit(state.constant[c]);
     if (profile != NumericProfile::ideal) in.destination[c] = stored[c] * (1.0f / 255.0f);  // sRGB, the only one here
     if (is_srgb(format, c))
       in.destination[c] =

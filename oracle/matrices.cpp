@@ -14,13 +14,6 @@ template <typename Number>
 std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vector unit(const Vector& v) {
-  const Real length = std::sqrt(dot(v, v));
-  if (length == 0) return v;
-  return {v[0] / length, v[1] / length, v[2] / length};
-}
-Vector vector_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
-
 Real& at(std::array<Real, 16>& m, size_t row, size_t column) { return m[4 * column + row]; }
 
 /// RN32 of the inverse transpose of the linear part: every rounding is part of the definition.
@@ -43,6 +36,8 @@ Matrix4 projection_of(const Camera& camera, const GeometryState& state, int widt
   Matrix4 result{};
   if (camera.clip_from_world) {
     for (size_t i = 0; i < 16; ++i) result[i] = double((*camera.clip_from_world)[i]);
+    if (camera.matrix_has_gl_range && state.clip_depth == ClipDepth::zero_to_one)
+      for (size_t c = 0; c < 4; ++c) result[4 * c + 2] = (result[4 * c + 2] + result[4 * c + 3]) / 2;
     return result;
   }
   const Vector eye = vector_of(camera.eye);

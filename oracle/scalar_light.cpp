@@ -9,13 +9,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-Vector unit(const Vector& v) {
-  const Real length = std::sqrt(dot(v, v));
-  if (length == 0) return v;
-  return {v[0] / length, v[1] / length, v[2] / length};
-}
-Vector vector_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
-
 Real falloff_at(const Light& light, Falloff falloff, Real d) {
   const Real range = light.range, k0 = light.attenuation.x, k1 = light.attenuation.y, k2 = light.attenuation.z;
   switch (falloff) {
@@ -70,7 +63,7 @@ Real specular_of(const LightModel& model, Real shininess, const Vector& n, const
   Real cosine = 0;
   if (model.specular == Specular::phong) {
     const Real twice = 2 * std::clamp(n_l, Real(0), Real(1));
-    cosine = std::clamp(dot({twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]}, v), Real(0), Real(1));
+    cosine = std::clamp(dot(Vector{twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]}, v), Real(0), Real(1));
   } else {
     cosine = std::max(Real(0), dot(n, unit({l[0] + v[0], l[1] + v[1], l[2] + v[2]})));
     if (model.renormalize) cosine = std::min(cosine, Real(1));

@@ -61,13 +61,14 @@ Real quantized(Real weight, int bits) {
   return bits == 0 ? weight : std::nearbyint(std::ldexp(weight, bits)) / std::ldexp(Real(1), bits);
 }
 
-Rgba mixed(const Rgba& a, const Rgba& b, Real weight) {
-  Rgba out;
+TexelValue mixed(const TexelValue& a, const TexelValue& b, Real weight) {
+  TexelValue out;
   for (size_t c = 0; c < 4; ++c) out[c] = (1 - weight) * a[c] + weight * b[c];
   return out;
 }
 
-Rgba at_level(const Texture& texture, const Sampler& sampler, size_t level, Filter filter, Real u, Real v, int bits) {
+TexelValue at_level(const Texture& texture, const Sampler& sampler, size_t level, Filter filter, Real u, Real v,
+                    int bits) {
   const TextureLevel& l = texture.levels[level];
   if (filter == Filter::nearest)
     return wrapped_texel(texture, sampler, level, texel_index(u, l.width), texel_index(v, l.height));
@@ -80,14 +81,14 @@ Rgba at_level(const Texture& texture, const Sampler& sampler, size_t level, Filt
 
 }  // namespace
 
-Rgba wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j) {
+TexelValue wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j) {
   const TextureLevel& l = texture.levels[level];
   const long long x = wrap(sampler.wrap[0], i, l.width), y = wrap(sampler.wrap[1], j, l.height);
   if (x < 0 || y < 0 || x >= l.width || y >= l.height)
     return {sampler.border.x, sampler.border.y, sampler.border.z, sampler.border.w};
   const size_t at = size_t(y) * size_t(l.width) + size_t(x);
   const uint8_t* bytes = l.bytes.data();
-  Rgba out;
+  TexelValue out;
   for (size_t c = 0; c < 4; ++c) {
     const size_t k = 4 * at + c;
     switch (texture.format) {
@@ -125,8 +126,8 @@ LodRange legal_lod(const Texture& texture, const TexturePlace& p) {
   return {std::log2(std::max(u, v)), 0.5L + std::log2(u + v)};
 }
 
-Rgba filtered(const Texture& texture, const Sampler& s, long double u, long double v, long double lod,
-              int weight_bits) {
+TexelValue filtered(const Texture& texture, const Sampler& s, long double u, long double v, long double lod,
+                    int weight_bits) {
   const Real last = Real(texture.levels.size() - 1);
   const Filter filter = lod > 0 ? s.min_filter : s.mag_filter;
   if (!(lod > 0) || s.mip_filter == MipFilter::none) return at_level(texture, s, 0, filter, u, v, weight_bits);

@@ -7,10 +7,10 @@
 
 namespace trueshade::oracle {
 
-using Rgba = std::array<long double, 4>;
+using TexelValue = std::array<long double, 4>;
 
 /// A texel by its index before wrapping: the float nearest to what is stored, or the border colour.
-Rgba wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j);
+TexelValue wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j);
 
 /// The texel whose index a texture coordinate gives, real arithmetic: floor(coordinate * side).
 long long texel_index(long double coordinate, int side);
@@ -33,7 +33,7 @@ LodRange legal_lod(const Texture& texture, const TexturePlace& place);
 
 /// The filter's result at a level of detail. `weight_bits`: the fractional bits of the weights of texels and levels,
 /// rounded to nearest even; 0: exact (docs/gl_rules.md section 5, d3d-class has 8).
-Rgba filtered(const Texture& texture, const Sampler& sampler, long double u, long double v, long double lod,
-              int weight_bits = 0);
+TexelValue filtered(const Texture& texture, const Sampler& sampler, long double u, long double v, long double lod,
+                    int weight_bits = 0);
 
 }  // namespace trueshade::oracle

@@ -86,7 +86,7 @@ SurfaceColor surface_color(const Scene& scene, const GBufferState& planes, const
   const double u_off = value_at(t, kUv, planes.uv.interpolation, x, y).ulp,
                v_off = value_at(t, kUv + 1, planes.uv.interpolation, x, y).ulp;
   out.certain = certain_lookup(texture, s, p, u_off, v_off);
-  const Rgba texel = filtered(texture, s, p.u, p.v, level_of_detail(texture, s, p));
+  const TexelValue texel = filtered(texture, s, p.u, p.v, level_of_detail(texture, s, p));
   for (size_t c = 0; c < 4; ++c) out.value[c] *= texel[c];
   return out;
 }

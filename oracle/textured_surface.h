@@ -13,7 +13,7 @@ TexturePlace texture_place(const DrawnTriangle& triangle, Interpolation interpol
 
 /// Vertex colour times texel times base colour.
 struct SurfaceColor {
-  Rgba value;
+  TexelValue value;
   bool certain = true;  ///< false where a lookup is so close to another texel, level or filter that rounding decides
 };
 SurfaceColor surface_color(const Scene& scene, const GBufferState& planes, const DrawnTriangle& triangle, int x, int y);

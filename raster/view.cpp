@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/threads/parallel_for.h"
-#include "raster/triangles/triangle_setup.h"
 #include "scenes/camera.h"
 
 namespace trueshade {
@@ -88,8 +87,7 @@ Viewport whole_or_set(const Viewport& v, int width, int height) {
 // The picture fills the viewport, so its shape is the viewport's.
 Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
   const Viewport v = whole_or_set(pipeline.geometry.viewport, pipeline.width, pipeline.height);
-  return clip_from_world(scene.camera, double(v.width) / double(v.height),
-                         pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
+  return clip_from_world(scene.camera, double(v.width) / double(v.height), clip_range(pipeline.geometry));
 }
 
 }  // namespace
@@ -102,28 +100,6 @@ DepthRule depth_rule(const GeometryState& state, NumericProfile profile) {
   rule.largest_code = float(info(state.depth_format).largest_code(0));
   rule.unit = (profile == NumericProfile::ideal ? 1.0 : 2.0) / double(rule.largest_code);
   return rule;
-}
-
-// Cauchy-Binet: of the 3x4 matrix of rows x, y, w each minor of three columns, signs alternating.
-ObjectEye object_eye(const InstanceTransform& instance) {
-  const float(*const m)[4] = instance.clip;
-  ObjectEye out{};
-  for (int left_out = 0; left_out < 4; ++left_out) {
-    const int a = left_out == 0 ? 1 : 0, b = left_out <= 1 ? 2 : 1, c = left_out <= 2 ? 3 : 2;
-    double minor = 0.0, magnitude = 0.0;
-    const auto add = [&](int x, int y, int w, double sign) {
-      const double product = (double(m[0][x]) * double(m[1][y])) * double(m[3][w]);
-      minor += sign * product, magnitude += std::abs(product);
-    };
-    add(a, b, c, 1.0), add(b, c, a, 1.0), add(c, a, b, 1.0);
-    add(a, c, b, -1.0), add(b, a, c, -1.0), add(c, b, a, -1.0);
-    const auto value = float(left_out == 1 ? -minor : minor), slack = float(magnitude * 0x1p-45 + 0x1p-110);
-    if (left_out == 3)
-      out.weight = value, out.weight_slack = slack;
-    else
-      out.center[left_out] = value, out.center_slack += slack;
-  }
-  return out;
 }
 
 WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile) {
@@ -152,7 +128,6 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   out.depth_low = std::min(state.depth_near, state.depth_far) + 0.0f;
   out.depth_high = std::max(state.depth_near, state.depth_far) + 0.0f;
   out.depth_clamp = state.depth_clamp;
-  out.dropped = int(culled(state, true)) - int(culled(state, false));
   out.depth = depth_rule(state, profile);
   if (out.depth.offsets() && !state.depth_clamp) out.depth_low = 0.0f, out.depth_high = 1.0f;  // GL 4.6 core, 14.6.5
   const auto clamped = [](int64_t value, int size) { return int(std::clamp<int64_t>(value, 0, size)); };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raster/textures/texture.h"
+#include "scenes/camera.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
@@ -26,6 +27,10 @@ struct DepthRule {
 /// Units are codes of a fixed-point format, or two of them as llvmpipe counts (docs/gl_rules.md section 2).
 DepthRule depth_rule(const GeometryState& state, NumericProfile profile);
 
+inline ClipRange clip_range(const GeometryState& state) {
+  return state.clip_depth == ClipDepth::zero_to_one ? ClipRange::zero_to_one : ClipRange::negative_one_to_one;
+}
+
 /// From clip space to window space, in the constants of docs/arithmetic.md sections 3 to 5.
 struct WindowTransform {
   int64_t scale[2];             ///< 128 W, 128 H (negative for upper_left): x_fx = RNE(scale * x / w) + offset
@@ -39,8 +44,6 @@ struct WindowTransform {
   bool float_snap = false;  ///< llvmpipe's: x_px = fma(x * (1 / w), half_size, center), x_fx = RNE((x_px - 0.5) * 256)
   float half_size[2], center[2];  ///< pixels
   DepthRule depth;
-  int dropped =
-      0;  ///< sign of the doubled areas, in normalized device coordinates, that face culling drops; 0: not one
 };
 
 /// One instance as the vertex stage wants it (f32, row-major).
@@ -49,15 +52,6 @@ struct InstanceTransform {
   float world[3][4];   ///< world from object
   float normal[3][3];  ///< world normal from object
 };
-
-/// Where an instance is seen from: rows x, y and w of its clip matrix at corners p0, p1, p2 have the determinant
-/// n . (center + weight p0), n = (p1 - p0) x (p2 - p0). It is w0 w1 w2 times the doubled area that is seen. Center over
-/// -weight is the eye in object space; parallel rays have weight 0.
-struct ObjectEye {
-  float center[3], weight;
-  float center_slack, weight_slack;  ///< most by which center (sum of |.|) and weight are off, beside 2^-24 of them
-};
-ObjectEye object_eye(const InstanceTransform& instance);
 
 /// Everything of a frame that the geometry pass reads, made once a frame.
 struct View {

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/fp_env.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -43,17 +44,23 @@ void take_apart(std::array<std::vector<float>, N>& streams, const std::vector<ui
 
 }  // namespace
 
+void set_flat_normals(Mesh& mesh) {
+  const FpScope fp;
+  for (size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const glm::dvec3 normal = unit_of_area(area_normal(mesh, t));
+    for (size_t corner = 3 * t; corner < 3 * t + 3; ++corner) set_normal(mesh, mesh.indices[corner], normal);
+  }
+}
+
 void add_normals(Mesh& mesh, MissingNormals kind) {
   if (kind == MissingNormals::flat) {
     take_apart(mesh.position, mesh.indices);
     take_apart(mesh.uv, mesh.indices);
+    take_apart(mesh.uv1, mesh.indices);
     take_apart(mesh.color, mesh.indices);
     for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = uint32_t(i);
     for (auto& stream : mesh.normal) stream.assign(mesh.indices.size(), 0.0f);
-    for (size_t t = 0; t < mesh.triangle_count(); ++t) {
-      const glm::dvec3 normal = unit_of_area(area_normal(mesh, t));
-      for (size_t corner = 3 * t; corner < 3 * t + 3; ++corner) set_normal(mesh, corner, normal);
-    }
+    set_flat_normals(mesh);
     return;
   }
   std::vector<glm::dvec3> sum(mesh.vertex_count(), glm::dvec3(0.0));

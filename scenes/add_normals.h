@@ -11,6 +11,9 @@ enum class MissingNormals : uint8_t {
   smooth,  ///< One normal a vertex: the unit vector along the sum of the cross products of the triangles around it.
 };
 
+/// Writes the normals of a mesh no two triangles of which share a vertex: each corner gets its triangle's.
+void set_flat_normals(Mesh& mesh);
+
 /// Gives a mesh without normals normals. A triangle without an area gives a zero normal.
 void add_normals(Mesh& mesh, MissingNormals kind);
 

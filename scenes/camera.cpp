@@ -1,6 +1,7 @@
 #include "scenes/camera.h"
 
 #include "core/fp_env.h"
+#include "scenes/hierarchy.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -8,7 +9,8 @@ namespace {
 
 double& at(Matrix4& m, int row, int column) { return m[size_t(4 * column + row)]; }
 
-Matrix4 clip_from_view(const Camera& camera, double aspect, bool zero_to_one) {
+Matrix4 clip_from_view(const Camera& camera, double aspect, ClipRange range) {
+  const bool zero_to_one = range == ClipRange::zero_to_one;
   Matrix4 m{};
   if (camera.fov_x_rad) {
     const double g = 1.0 / tangent(double(*camera.fov_x_rad) / 2.0);
@@ -26,7 +28,19 @@ Matrix4 clip_from_view(const Camera& camera, double aspect, bool zero_to_one) {
   return m;
 }
 
+}  // namespace
+
+Matrix4 product(const Matrix4& a, const Matrix4& b) {
+  const FpScope fp;
+  Matrix4 m{};
+  for (size_t c = 0; c < 4; ++c)
+    for (size_t r = 0; r < 4; ++r)
+      m[4 * c + r] = ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
+  return m;
+}
+
 Matrix4 view_from_world(const Camera& camera) {
+  const FpScope fp;
   const glm::dvec3 eye(camera.eye), target(camera.target), up(camera.up);
   const glm::dvec3 forward = unit(target - eye);
   const glm::dvec3 side = unit(cross(forward, up));
@@ -40,22 +54,13 @@ Matrix4 view_from_world(const Camera& camera) {
   return m;
 }
 
-}  // namespace
-
-Matrix4 product(const Matrix4& a, const Matrix4& b) {
+Matrix4 clip_from_world(const Camera& camera, double aspect, ClipRange range) {
   const FpScope fp;
-  Matrix4 m{};
-  for (size_t c = 0; c < 4; ++c)
-    for (size_t r = 0; r < 4; ++r)
-      m[4 * c + r] = ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
-  return m;
-}
-
-Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one) {
-  const FpScope fp;
-  if (!camera.clip_from_world) return product(clip_from_view(camera, aspect, zero_to_one), view_from_world(camera));
+  if (!camera.clip_from_world) return product(clip_from_view(camera, aspect, range), view_from_world(camera));
   Matrix4 m{};
   for (size_t i = 0; i < 16; ++i) m[i] = double((*camera.clip_from_world)[i]);
+  if (camera.matrix_has_gl_range && range == ClipRange::zero_to_one)
+    for (int c = 0; c < 4; ++c) at(m, 2, c) = (at(m, 2, c) + at(m, 3, c)) / 2.0;
   return m;
 }
 

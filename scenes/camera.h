@@ -17,11 +17,17 @@ struct Camera {
   std::optional<float> fov_x_rad;                        ///< full horizontal angle, in (0, pi); replaces fov_y_rad
   float near = 0.1f, far = 1000.0f;                      ///< 0 < near < far
   std::optional<std::array<float, 16>> clip_from_world;  ///< column-major; replaces all but `eye`
+  /// Whether clip_from_world has z in [-w, w] for every pipeline, so that ClipRange::zero_to_one reads (z + w) / 2: a
+  /// matrix of ours. The range of an engine's matrix is the engine's.
+  bool matrix_has_gl_range = false;
 };
 
-/// Clip space (-w <= x, y, z <= w) from world space, in the operations of docs/arithmetic.md; `aspect` = width /
-/// height. `zero_to_one`: 0 <= z <= w instead. A matrix handed over by an engine is taken as it is.
-Matrix4 clip_from_world(const Camera& camera, double aspect, bool zero_to_one = false);
+/// Range of z in clip space: -w <= z <= w, or 0 <= z <= w.
+enum class ClipRange : uint8_t { negative_one_to_one, zero_to_one };
+
+/// Clip space (-w <= x, y <= w) from world space, in the operations of docs/arithmetic.md; `aspect` = width / height. A
+/// matrix handed over by an engine is taken as it is, a matrix of ours with the z of the range.
+Matrix4 clip_from_world(const Camera& camera, double aspect, ClipRange range = ClipRange::negative_one_to_one);
 
 /// The view's z axis in the world, from the scene to the viewer, of unit length: minus the row of w, or where that has
 /// no direction (an orthographic matrix) minus the row of z. OpenGL's viewer at infinity, (0, 0, 1) in eye space.

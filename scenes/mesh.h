@@ -14,8 +14,10 @@ struct Mesh {
   std::array<std::vector<float>, 3> position;
   std::array<std::vector<float>, 3> normal;
   std::array<std::vector<float>, 2> uv;     ///< optional; 0 where absent
+  std::array<std::vector<float>, 2> uv1{};  ///< optional second set, see TextureSlot::uv_set; 0 where absent
   std::array<std::vector<float>, 4> color;  ///< optional RGBA, linear; 1 where absent
   std::vector<uint32_t> indices;            ///< 3 a triangle, in submission order; front faces counter-clockwise
+  uint32_t pose = 0;                        ///< counts how often set_time() has moved the vertices
 
   size_t vertex_count() const { return position[0].size(); }
   size_t triangle_count() const { return indices.size() / 3; }

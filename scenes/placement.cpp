@@ -1,18 +1,23 @@
 #include "scenes/placement.h"
 
 #include "core/fp_env.h"
+#include "scenes/hierarchy.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 
-glm::mat4x3 world_from_object(const Placement& placement) {
+glm::dmat4x3 matrix_of(const Placement& placement) {
   const FpScope fp;
   const glm::dvec4& q = placement.rotation;
   const glm::dvec3 x(1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + q.z * q.w), 2.0 * (q.x * q.z - q.y * q.w));
   const glm::dvec3 y(2.0 * (q.x * q.y - q.z * q.w), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z + q.x * q.w));
   const glm::dvec3 z(2.0 * (q.x * q.z + q.y * q.w), 2.0 * (q.y * q.z - q.x * q.w), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
-  return glm::mat4x3(glm::vec3(x * placement.scale.x), glm::vec3(y * placement.scale.y),
-                     glm::vec3(z * placement.scale.z), glm::vec3(placement.position));
+  return glm::dmat4x3(x * placement.scale.x, y * placement.scale.y, z * placement.scale.z, placement.position);
+}
+
+glm::mat4x3 world_from_object(const Placement& placement) {
+  const FpScope fp;
+  return glm::mat4x3(matrix_of(placement));
 }
 
 Placement copied(const Placement& placement, const Placement& copy) {

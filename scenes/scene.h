@@ -32,10 +32,21 @@ struct Material {
   float normal_scale = 1.0f;        ///< of the map's x and y
   float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
   bool transparent = false;         ///< drawn as Pipeline::transparency says, its alpha the source's when blended
+  // Kept and hashed; no stage reads them yet (scenes/pipeline/ignored_fields.cpp).
+  TextureSlot metallic_roughness_map{};  ///< G times the roughness, B times metallic
+  TextureSlot emission_map{};            ///< RGB times the emission
+  TextureSlot occlusion_map{};           ///< R: the share of ambient light that arrives
+  float occlusion_strength = 1.0f;       ///< in [0, 1]: ambient light is multiplied by 1 + strength (R - 1)
+  bool unlit = false;                    ///< shows its colour as it is; no light changes it (KHR_materials_unlit)
+  bool double_sided = false;             ///< its back faces are never culled, and lit with their normals turned round
 
   /// Whether alpha_cutoff is above 0, by bits: a caller's flush-to-zero would take a denormal for 0.
   bool masked() const { return std::bit_cast<int32_t>(alpha_cutoff) > 0; }
+  /// Whether a map that kernels read is used, and whether any map is.
   bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }
+  bool has_maps() const {
+    return textured() || metallic_roughness_map.used() || emission_map.used() || occlusion_map.used();
+  }
 };
 
 /// glTF's roughness as a Blinn-Phong exponent: 2 / max(roughness, 0.04)^4 - 2 to the nearest integer from 1 to 8192.
@@ -63,6 +74,12 @@ struct Scene {
 
   Timeline timeline;  ///< what set_time() moves
 
+  /// Lights are in candela and lux, and materials of glTF's model: without a preset the pipeline is that of
+  /// default_pipeline() in scenes/pipeline/presets.h.
+  bool photometric = false;
+  bool lights_of_ours = false;       ///< the file has no lights: a ring of ours stands in
+  std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
+
   uint64_t triangle_count() const;  ///< over all instances
 };
 
@@ -72,7 +89,11 @@ struct SceneLimits {
   uint64_t instances = uint64_t(16) << 20;
   uint64_t file_bytes = uint64_t(1) << 30;
   uint64_t json_bytes = uint64_t(256) << 20;
-  uint64_t texture_bytes = uint64_t(4) << 30;  ///< of all pictures, decoded
+  uint64_t texture_bytes = uint64_t(4) << 30;   ///< of all pictures, decoded
+  uint64_t buffer_bytes = uint64_t(4) << 30;    ///< of all buffers of a glTF file, and of what is unpacked from them
+  uint64_t geometry_bytes = uint64_t(4) << 30;  ///< of all vertices and indices read from a glTF file
+  uint64_t nodes = 1000000;
+  uint64_t node_depth = 1024;  ///< of nodes inside each other
 };
 
 /// Texels of an image file's content: rgba8 as the codes are, rgba16f or rgba32f. Made by who links an image library;
@@ -87,15 +108,17 @@ void validate(const Scene& scene, const SceneLimits& limits = {});
 /// Largest |x|, |y|, |z| of a mesh's vertices.
 glm::dvec3 reach_of(const Mesh& mesh);
 
-/// Moves instances, lights, camera and colours to a time in seconds, |time| <= 1e6; meshes stay. The same bits whatever
-/// the time was before. Error(usage) for a time out of range, Error(bad_input) where what moves leaves its range.
+/// Moves instances, lights, camera and colours to a time in seconds, |time| <= 1e6, and poses the meshes that deform
+/// (Timeline::posed); other meshes stay. The same bits whatever the time was before. Error(usage) for a time out of
+/// range, Error(bad_input) where what moves leaves its range.
 inline constexpr double kLatestTime = 1e6;
 void set_time(Scene& scene, double time);
 
 /// validate() of what set_time() moves. Throws Error(bad_input) with the time.
 void validate_moving(const Scene& scene, double time);
 
-/// Reads `builtin:NAME[,key=value...]` or a scene file (.json) or a geometry file (.ply, .ply.gz), and validates it.
+/// Reads `builtin:NAME[,key=value...]`, a scene file (.json), a glTF file (.gltf, .glb) or a geometry file (.ply,
+/// .ply.gz), and validates it. A glTF file without a camera or without lights gets them as a geometry file does.
 /// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of
 /// lights. Without `decode` a scene that names an image file is refused.
 /// Errors: bad_input with file and place; limit; io for a file that cannot be read.

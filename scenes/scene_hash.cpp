@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 
@@ -46,13 +47,33 @@ class SceneHasher {
 
   void add(const Texture& texture) {
     count(texture.levels.size());
+    const bool codes = bytes_per_texel(texture.format) == 4;
+    std::vector<std::array<float, 4>> of_code;
+    if (codes) of_code = values_of_codes(texture.format);
     for (size_t k = 0; k < texture.levels.size(); ++k) {
       const int width = texture.levels[k].width, height = texture.levels[k].height;
       count(size_t(width));
       count(size_t(height));
-      for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) add(texel_value(texture, k, x, y));
+      std::vector<float> row(4 * size_t(width));
+      for (int y = 0; y < height; ++y) {
+        const uint8_t* at = texture.levels[k].bytes.data() + 4 * size_t(y) * size_t(width);
+        for (int x = 0; codes && x < 4 * width; ++x) row[size_t(x)] = of_code[at[x]][size_t(x % 4)];
+        for (int x = 0; !codes && x < width; ++x) {
+          const std::array<float, 4> texel = texel_value(texture, k, x, y);
+          std::copy(texel.begin(), texel.end(), row.begin() + 4 * ptrdiff_t(x));
+        }
+        add(row);
+      }
     }
+  }
+
+  /// texel_value() of each code of 8 bits, in every channel.
+  static std::vector<std::array<float, 4>> values_of_codes(TextureFormat format) {
+    std::vector<std::array<float, 4>> values;
+    Texture all{"", format, {{256, 1, {}}}};
+    for (int code = 0; code < 256; ++code) all.levels[0].bytes.insert(all.levels[0].bytes.end(), 4, uint8_t(code));
+    for (int code = 0; code < 256; ++code) values.push_back(texel_value(all, 0, code, 0));
+    return values;
   }
 
   void add(const TextureSlot& slot) {
@@ -108,6 +129,39 @@ class SceneHasher {
     add(material.roughness);
   }
 
+  /// What materials and meshes of the second layout did not have.
+  void add_newer(uint64_t place, const Material& material) {
+    if (!material.metallic_roughness_map.used() && !material.emission_map.used() && !material.occlusion_map.used() &&
+        material.occlusion_strength == 1.0f && !material.unlit && !material.double_sided)
+      return;
+    add(place);
+    add(material.metallic_roughness_map);
+    add(material.emission_map);
+    add(material.occlusion_map);
+    add(material.occlusion_strength);
+    count(material.unlit);
+    count(material.double_sided);
+  }
+
+  void add_placed_maps(uint64_t place, const Material& material) {
+    const TextureSlot* maps[] = {&material.color_map,    &material.specular_map,
+                                 &material.normal_map,   &material.metallic_roughness_map,
+                                 &material.emission_map, &material.occlusion_map};
+    for (size_t i = 0; i < std::size(maps); ++i) {
+      const UvTransform& t = maps[i]->transform;
+      if (!maps[i]->used() || (maps[i]->uv_set == 0 && t == UvTransform())) continue;
+      add(place + i);
+      count(maps[i]->uv_set);
+      for (const float x : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation_rad}) add(x);
+    }
+  }
+
+  void add_second_uv(uint64_t place, const Mesh& mesh) {
+    if (mesh.uv1[0].empty()) return;
+    add(place);
+    for (const auto& stream : mesh.uv1) add(stream);
+  }
+
   void add_transparent(uint64_t place, const Material& material) {
     if (material.transparent) add(place);
   }
@@ -120,7 +174,7 @@ class SceneHasher {
     add(camera.fov_x_rad.value_or(camera.fov_y_rad));
     add(camera.near);
     add(camera.far);
-    count(camera.clip_from_world.has_value());
+    count(!camera.clip_from_world ? 0 : camera.matrix_has_gl_range ? 2 : 1);
     if (camera.clip_from_world) add(*camera.clip_from_world);
   }
 
@@ -154,8 +208,15 @@ std::string scene_hash(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_if_set(kMaterials + i, scene.materials[i]);
   for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
   for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_transparent(kTransparent + i, scene.materials[i]);
+  constexpr uint64_t kNewer = kLights | uint64_t(1) << 61, kPlacedMaps = kMaterials | uint64_t(1) << 60,
+                     kSecondUv = kTransparent | uint64_t(1) << 60;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    hasher.add_newer(kNewer + i, scene.materials[i]);
+    hasher.add_placed_maps(kPlacedMaps + 8 * i, scene.materials[i]);
+  }
+  for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_second_uv(kSecondUv + i, scene.meshes[i]);
   const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
-                                  [](const Material& m) { return m.textured() || m.masked(); });
+                                  [](const Material& m) { return m.has_maps() || m.masked(); });
   if (plain) return hasher.hex();
   hasher.add(uint64_t(3) << 61);  // no count, and none of the above
   hasher.count(scene.textures.size());

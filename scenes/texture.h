@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <string>
 #include <string_view>
@@ -57,10 +58,22 @@ struct Sampler {
   bool operator==(const Sampler&) const = default;
 };
 
+/// Where a lookup reads: uv' = offset + R(rotation_rad) (scale * uv), R(a) (u, v) = (u cos a + v sin a, v cos a - u sin
+/// a) (KHR_texture_transform; it turns counter-clockwise as v runs down the picture).
+struct UvTransform {
+  glm::vec2 offset{0.0f}, scale{1.0f};  ///< each within kLargestUvTransform
+  float rotation_rad = 0.0f;            ///< within 1e5
+  bool operator==(const UvTransform&) const = default;
+};
+inline constexpr float kLargestUvTransform = 1e6f;
+
 /// A texture as a material uses it.
 struct TextureSlot {
   int32_t texture = -1;  ///< index into Scene::textures; below 0: none
   Sampler sampler;
+  // Kept and hashed; no stage reads them yet (scenes/pipeline/ignored_fields.cpp).
+  uint8_t uv_set = 0;  ///< of the mesh: 0 is Mesh::uv, 1 is Mesh::uv1
+  UvTransform transform{};
   bool used() const { return texture >= 0; }
 };
 

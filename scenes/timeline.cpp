@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "scenes/hierarchy.h"
 #include "scenes/scene.h"
 #include "scenes/trig.h"
 
@@ -25,13 +26,16 @@ double time_in_run(const Track& track, double time) {
   return track.start + std::clamp(into, 0.0, length);
 }
 
+Place place_among(std::span<const double> times, Between between, double t) {
+  const auto after = std::upper_bound(times.begin(), times.end(), t);
+  if (after == times.begin()) return {0, 0.0};
+  const size_t step = size_t(after - times.begin()) - 1;
+  if (after == times.end() || between == Between::step) return {step, 0.0};
+  return {step, (t - times[step]) / (*after - times[step])};
+}
+
 Place place_at(const Track& track, double time) {
-  const double t = time_in_run(track, time);
-  const auto after = std::upper_bound(track.times.begin(), track.times.end(), t);
-  if (after == track.times.begin()) return {0, 0.0};
-  const size_t step = size_t(after - track.times.begin()) - 1;
-  if (after == track.times.end() || track.between == Between::step) return {step, 0.0};
-  return {step, (t - track.times[step]) / (*after - track.times[step])};
+  return place_among(track.times, track.between, time_in_run(track, time));
 }
 
 /// a + (b - a) * part, and exactly a where nothing lies between.
@@ -41,12 +45,29 @@ glm::dvec4 mixed(const glm::dvec4& a, const glm::dvec4& b, double part) {
   return out;
 }
 
-Placement placement_at(const ObjectMotion& motion, double time) {
-  Placement p = motion.rest;
-  if (motion.position) p.position = glm::dvec3(value_at(*motion.position, time));
-  if (motion.rotation) p.rotation = rotation_at(*motion.rotation, time);
-  if (motion.scale) p.scale = glm::dvec3(value_at(*motion.scale, time));
-  return p;
+/// Weights of a Hermite spline between two steps `seconds` apart: of the values, and of the slopes.
+struct Hermite {
+  double first, leaving, second, arriving;
+};
+
+Hermite hermite(double s, double seconds) {
+  const double s2 = s * s, s3 = s2 * s;
+  return {(2.0 * s3 - 3.0 * s2) + 1.0, seconds * ((s3 - 2.0 * s2) + s), 3.0 * s2 - 2.0 * s3, seconds * (s3 - s2)};
+}
+
+double splined(const Hermite& h, double first, double leaving, double second, double arriving) {
+  return ((first * h.first + leaving * h.leaving) + second * h.second) + arriving * h.arriving;
+}
+
+/// Of unit quaternions: along the arc between them, at even speed.
+glm::dvec4 along_arc(const glm::dvec4& a, const glm::dvec4& b, double part) {
+  constexpr double kShort = 1e-6;  // below, the chord is the arc to 1e-12 of it
+  const double cosine = ((a.x * b.x + a.y * b.y) + a.z * b.z) + a.w * b.w;
+  const glm::dvec4 off = b - a * cosine;
+  const double sine_of_all = std::sqrt(((off.x * off.x + off.y * off.y) + off.z * off.z) + off.w * off.w);
+  if (sine_of_all < kShort) return unit(mixed(a, b, part));
+  const double angle = angle_of(sine_of_all, cosine);
+  return unit(a * sine((1.0 - part) * angle) + b * sine(part * angle));
 }
 
 }  // namespace
@@ -55,7 +76,27 @@ glm::dvec4 value_at(const Track& track, double time) {
   const FpScope fp;
   const Place at = place_at(track, time);
   if (at.part == 0.0) return track.values[at.step];
-  return mixed(track.values[at.step], track.values[at.step + 1], at.part);
+  if (track.between != Between::cubic) return mixed(track.values[at.step], track.values[at.step + 1], at.part);
+  const Hermite h = hermite(at.part, track.times[at.step + 1] - track.times[at.step]);
+  glm::dvec4 out(0.0);
+  for (int k = 0; k < 4; ++k)
+    out[k] = splined(h, track.values[at.step][k], track.leaving[at.step][k], track.values[at.step + 1][k],
+                     track.arriving[at.step + 1][k]);
+  return out;
+}
+
+std::vector<double> weights_at(const WeightTrack& track, double time) {
+  const FpScope fp;
+  const Place at = place_among(track.times, track.between, time);
+  const size_t first = at.step * track.count, second = first + track.count;
+  std::vector<double> weights(track.values.begin() + ptrdiff_t(first), track.values.begin() + ptrdiff_t(second));
+  if (at.part == 0.0) return weights;
+  const Hermite h = hermite(at.part, track.times[at.step + 1] - track.times[at.step]);
+  for (size_t i = 0; i < weights.size(); ++i)
+    weights[i] = track.between == Between::cubic ? splined(h, weights[i], track.leaving[first + i],
+                                                           track.values[second + i], track.arriving[second + i])
+                                                 : weights[i] + (track.values[second + i] - weights[i]) * at.part;
+  return weights;
 }
 
 glm::dvec3 direction_at(const Track& track, double time) {
@@ -69,9 +110,20 @@ glm::dvec4 rotation_at(const Track& track, double time) {
   const FpScope fp;
   const Place at = place_at(track, time);
   if (at.part == 0.0) return track.values[at.step];
+  if (track.between == Between::cubic) return unit(value_at(track, time));
   const glm::dvec4 &a = track.values[at.step], &b = track.values[at.step + 1];
   const double cosine = ((a.x * b.x + a.y * b.y) + a.z * b.z) + a.w * b.w;
-  return unit(mixed(a, cosine < 0.0 ? -b : b, at.part));
+  const glm::dvec4 nearer = cosine < 0.0 ? -b : b;
+  return track.between == Between::slerp ? along_arc(a, nearer, at.part) : unit(mixed(a, nearer, at.part));
+}
+
+Placement placement_at(const ObjectMotion& motion, double time) {
+  const FpScope fp;
+  Placement p = motion.rest;
+  if (motion.position) p.position = glm::dvec3(value_at(*motion.position, time));
+  if (motion.rotation) p.rotation = rotation_at(*motion.rotation, time);
+  if (motion.scale) p.scale = glm::dvec3(value_at(*motion.scale, time));
+  return p;
 }
 
 glm::vec3 position_at(const Orbit& orbit, double time) {
@@ -147,6 +199,7 @@ void set_time(Scene& scene, double time) {
   if (!(std::fabs(time) <= kLatestTime))
     throw Error(ErrorKind::usage, "time", "it is no number of seconds within 1e6", "say 1.5");
   const Timeline& timeline = scene.timeline;
+  move_hierarchy(scene, time);
   for (const MovingInstance& moving : timeline.instances) {
     const Placement placement = copied(placement_at(timeline.motions[moving.motion], time), moving.copy);
     scene.instances[moving.instance].world_from_object = world_from_object(placement);

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -10,20 +12,26 @@
 // What of a scene moves, and how. Values of a time are a pure function of it: frames may be drawn in any order.
 namespace trueshade {
 
-enum class Between : uint8_t { linear, step };  ///< `step`: a value holds until the next step
+enum class Between : uint8_t {
+  linear,
+  step,   ///< a value holds until the next step
+  cubic,  ///< Hermite spline through the steps, by the slopes there
+  slerp,  ///< of unit quaternions: at even speed along the shorter arc
+};
 
 /// The steps of one value. Before the first step it is the first one's value, after the last the last one's.
 struct Track {
   std::vector<double> times;       ///< seconds, strictly ascending; at least one
   std::vector<glm::dvec4> values;  ///< one a step; components that the value does not have are 0
   Between between = Between::linear;
-  bool repeats = false;           ///< from `start` to `end` again and again, before `start` too
-  double start = 0.0, end = 0.0;  ///< seconds; read where `repeats`, start < end
+  bool repeats = false;                           ///< from `start` to `end` again and again, before `start` too
+  double start = 0.0, end = 0.0;                  ///< seconds; read where `repeats`, start < end
+  std::vector<glm::dvec4> arriving{}, leaving{};  ///< of `cubic`: slopes per second before and after each step
 };
 
 glm::dvec4 value_at(const Track& track, double time);      ///< a + (b - a) * part, a component at a time
 glm::dvec3 direction_at(const Track& track, double time);  ///< of unit vectors: unit(value_at)
-glm::dvec4 rotation_at(const Track& track, double time);   ///< of unit quaternions: unit(value_at), the shorter way
+glm::dvec4 rotation_at(const Track& track, double time);   ///< of unit quaternions: slerp, else unit(value_at)
 
 /// How one or more objects move. What has no track keeps its value in `rest`.
 struct ObjectMotion {
@@ -36,6 +44,65 @@ struct MovingInstance {
   uint32_t instance, motion;  ///< indices into Scene::instances and Timeline::motions
   Placement copy;             ///< its own place in a grid of such objects, see copied()
   glm::dvec3 reach;           ///< largest |x|, |y|, |z| of the mesh's vertices
+};
+
+/// A node of a hierarchy (glTF 2.0, 3.5).
+struct SceneNode {
+  int32_t parent = -1;                 ///< index into Timeline::nodes, below the node's own; -1: the world
+  glm::dmat4x3 parent_from_node{1.0};  ///< where no motion says otherwise
+};
+
+struct NodeMotion {
+  uint32_t node;
+  ObjectMotion motion;  ///< gives parent_from_node
+};
+
+/// What hangs on a node. An instance of a posed mesh with a skin hangs on none: its vertices are in world space.
+struct NodeInstance {
+  uint32_t instance, node;
+  glm::dmat4x3 node_from_object{1.0};
+  glm::dvec3 reach;  ///< largest |x|, |y|, |z| of the mesh's vertices; of a posed mesh not read
+};
+struct NodeLight {
+  uint32_t light, node;  ///< the light stands at the node's origin and shines along its -z axis
+};
+struct NodeCamera {
+  uint32_t node;                                         ///< the camera looks along its -z axis, y up
+  std::optional<std::array<double, 16>> clip_from_view;  ///< of a camera without a field of view, column-major
+};
+
+struct Skin {
+  std::vector<uint32_t> joints;               ///< nodes
+  std::vector<glm::dmat4x3> joint_from_mesh;  ///< inverse bind matrices, one a joint
+};
+
+/// Vertices before they are posed. Streams of a target are optional, one delta a vertex.
+struct MorphTarget {
+  std::array<std::vector<float>, 3> position, normal;
+};
+struct RestShape {
+  std::array<std::vector<float>, 3> position, normal;
+  bool flat_normals = false;         ///< normals are those of the posed triangles, which share no vertices
+  std::vector<MorphTarget> targets;  ///< position + sum of weight * delta, in this order
+  uint32_t influences = 0;           ///< joints a vertex; 0: no skin
+  std::vector<uint16_t> joints;      ///< `influences` a vertex, into Skin::joints
+  std::vector<float> weights;        ///< as many
+};
+
+/// Steps of the weights of morph targets, `count` values a step.
+struct WeightTrack {
+  uint32_t count = 0;
+  std::vector<double> times;                      ///< as Track's
+  std::vector<double> values, arriving, leaving;  ///< slopes where `cubic`
+  Between between = Between::linear;
+};
+
+/// A mesh whose vertices set_time() writes.
+struct PosedMesh {
+  uint32_t mesh, shape;               ///< indices into Scene::meshes and Timeline::shapes
+  std::optional<uint32_t> skin;       ///< into Timeline::skins
+  std::vector<double> weights;        ///< of the shape's targets
+  std::optional<WeightTrack> motion;  ///< of the weights
 };
 
 struct MaterialMotion {
@@ -88,8 +155,19 @@ struct Timeline {
   std::vector<Orbit> orbits;
   std::vector<CameraMotion> camera;
 
+  // A hierarchy; set before what is above moves.
+  std::vector<SceneNode> nodes;  ///< parents before their children
+  std::vector<NodeMotion> node_motions;
+  std::vector<NodeInstance> node_instances;
+  std::vector<NodeLight> node_lights;
+  std::optional<NodeCamera> node_camera;
+  std::vector<Skin> skins;
+  std::vector<RestShape> shapes;
+  std::vector<PosedMesh> posed;
+
   bool empty() const {
-    return instances.empty() && materials.empty() && lights.empty() && orbits.empty() && camera.empty();
+    return instances.empty() && materials.empty() && lights.empty() && orbits.empty() && camera.empty() &&
+           nodes.empty() && posed.empty();
   }
 };
 

@@ -11,7 +11,7 @@
 namespace trueshade {
 namespace {
 
-constexpr float kLargest = 1e18f;  // squares of lengths stay finite in float32
+constexpr float kMostReach = 1e18f;  // squares of lengths stay finite in float32
 
 /// One part of a scene being checked. Its name, such as `builtin:city: light 3`, is made only for an error: there may
 /// be millions of parts.
@@ -44,13 +44,14 @@ void check_mesh(const Mesh& mesh, const Part& part) {
     for (const std::vector<float>& stream : streams) {
       if (optional && streams[0].empty() && stream.empty()) continue;
       if (stream.size() != count) part.fail(std::string(name) + " streams differ in length", "one value a vertex");
-      if (!all_within(stream, kLargest))
+      if (!all_within(stream, kMostReach))
         part.fail(std::string(name) + " has a value that is not finite or over 1e18", "finite numbers");
     }
   };
   check(mesh.position, false, "position");
   check(mesh.normal, false, "normal");
   check(mesh.uv, true, "uv");
+  check(mesh.uv1, true, "uv1");
   check(mesh.color, true, "color");
   part.require(mesh.indices.size() % 3 == 0, "the number of indices is no multiple of 3", "3 a triangle");
   for (const uint32_t index : mesh.indices)
@@ -79,7 +80,7 @@ float check_texture(const Texture& texture, const Part& part) {
       for (int x = 0; x < level.width; ++x) {
         const std::array<float, 4> texel = texel_value(texture, k, x, y);
         for (size_t c = 0; c < 4; ++c) {
-          part.require(texel[c] >= 0.0f && texel[c] <= (c == 3 ? 1.0f : kLargest), "a texel is out of range",
+          part.require(texel[c] >= 0.0f && texel[c] <= (c == 3 ? 1.0f : kMostReach), "a texel is out of range",
                        "RGB in [0, 1e18], alpha in [0, 1]");
           if (c < 3) largest = std::max(largest, texel[c]);
         }
@@ -89,7 +90,7 @@ float check_texture(const Texture& texture, const Part& part) {
 }
 
 bool is_color(const glm::vec4& color) {
-  return within(glm::vec3(color), 0.0f, kLargest) && color.w >= 0.0f && color.w <= 1.0f;
+  return within(glm::vec3(color), 0.0f, kMostReach) && color.w >= 0.0f && color.w <= 1.0f;
 }
 
 void check_map(const TextureSlot& slot, std::span<const float> largest, float factor, const Part& part) {
@@ -100,20 +101,28 @@ void check_map(const TextureSlot& slot, std::span<const float> largest, float fa
                    s.lod_min <= s.lod_max,
                "a level of detail is out of range", "a bias in [-16, 16], -1000 <= lod_min <= lod_max <= 1000");
   part.require(is_color(s.border), "the border colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
+  part.require(slot.uv_set <= 1, "a set of texture coordinates is out of range", "0 or 1");
+  const UvTransform& t = slot.transform;
+  for (const float x : {t.offset.x, t.offset.y, t.scale.x, t.scale.y})
+    part.require(std::fabs(x) <= kLargestUvTransform, "a transform of texture coordinates is out of range",
+                 "offset and scale within 1e6");
+  part.require(std::fabs(t.rotation_rad) <= 1e5f, "a turn of texture coordinates is out of range",
+               "within 1e5 radians");
   const float most = std::max({largest[size_t(slot.texture)], s.border.x, s.border.y, s.border.z});
-  part.require(double(factor) * double(most) <= double(kLargest), "colour times texture is over 1e18",
+  part.require(double(factor) * double(most) <= double(kMostReach), "colour times texture is over 1e18",
                "a smaller colour, or smaller texels");
 }
 
 void check_material(const Material& material, std::span<const float> largest, const Part& part) {
   const glm::vec4& base = material.base_color;
   part.require(is_color(base), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
-  part.require(within(material.specular_color, 0.0f, kLargest), "the specular colour is out of range",
+  part.require(within(material.specular_color, 0.0f, kMostReach), "the specular colour is out of range",
                "each channel in [0, 1e18]");
   part.require(material.shininess >= 0.0f && material.shininess <= 8192.0f &&
                    material.shininess == std::nearbyint(material.shininess),
                "the shininess is out of range", "an integer from 0 to 8192");
-  part.require(within(material.emission, 0.0f, kLargest), "the emission is out of range", "each channel in [0, 1e18]");
+  part.require(within(material.emission, 0.0f, kMostReach), "the emission is out of range",
+               "each channel in [0, 1e18]");
   part.require(material.metallic >= 0.0f && material.metallic <= 1.0f, "metallic is out of range", "in [0, 1]");
   part.require(material.roughness >= 0.0f && material.roughness <= 1.0f, "roughness is out of range", "in [0, 1]");
   const glm::vec3& specular = material.specular_color;
@@ -122,6 +131,12 @@ void check_material(const Material& material, std::span<const float> largest, co
   check_map(material.normal_map, largest, 1.0f, part);
   part.require(material.normal_scale >= -1000.0f && material.normal_scale <= 1000.0f,
                "the normal map's scale is out of range", "in [-1000, 1000]");
+  check_map(material.metallic_roughness_map, largest, 1.0f, part);
+  const glm::vec3& emission = material.emission;
+  check_map(material.emission_map, largest, std::max({emission.x, emission.y, emission.z}), part);
+  check_map(material.occlusion_map, largest, 1.0f, part);
+  part.require(material.occlusion_strength >= 0.0f && material.occlusion_strength <= 1.0f,
+               "the occlusion map's strength is out of range", "in [0, 1]");
   part.require(material.alpha_cutoff >= 0.0f && material.alpha_cutoff <= 1.0f, "the alpha cutoff is out of range",
                "in [0, 1]");
 }
@@ -132,18 +147,18 @@ bool is_unit(const glm::vec3& v) {
 }
 
 void check_light(const Light& light, const Part& part) {
-  part.require(within(light.color, 0.0f, kLargest), "the colour is negative, over 1e18 or no number",
+  part.require(within(light.color, 0.0f, kMostReach), "the colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
   if (light.type == LightType::ambient) return;
-  part.require(within(light.ambient, 0.0f, kLargest), "the ambient colour is negative, over 1e18 or no number",
+  part.require(within(light.ambient, 0.0f, kMostReach), "the ambient colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
   if (light.type != LightType::point)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (light.type == LightType::directional) return;
-  part.require(within(light.position, -kLargest, kLargest), "the position is not finite or over 1e18",
+  part.require(within(light.position, -kMostReach, kMostReach), "the position is not finite or over 1e18",
                "finite numbers");
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");
-  part.require(within(light.attenuation, 0.0f, kLargest), "the attenuation is negative, over 1e18 or no number",
+  part.require(within(light.attenuation, 0.0f, kMostReach), "the attenuation is negative, over 1e18 or no number",
                "each in [0, 1e18]");
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
@@ -153,7 +168,7 @@ void check_light(const Light& light, const Part& part) {
 }
 
 void check_camera(const Camera& camera, const Part& part) {
-  part.require(within(camera.eye, -kLargest, kLargest), "the eye is not finite or over 1e18", "finite numbers");
+  part.require(within(camera.eye, -kMostReach, kMostReach), "the eye is not finite or over 1e18", "finite numbers");
   if (camera.clip_from_world) {
     part.require(all_within(*camera.clip_from_world, 3e38f), "clip_from_world has a number that is not finite",
                  "16 finite numbers");
@@ -161,9 +176,9 @@ void check_camera(const Camera& camera, const Part& part) {
   }
   const float fov = camera.fov_x_rad.value_or(camera.fov_y_rad);
   part.require(fov > 0.0f && fov < 3.1415926f, "the field of view is out of range", "in (0, pi)");
-  part.require(camera.near > 0.0f && camera.far > camera.near && camera.far <= kLargest,
+  part.require(camera.near > 0.0f && camera.far > camera.near && camera.far <= kMostReach,
                "near and far are out of order", "0 < near < far <= 1e18");
-  part.require(within(camera.target, -kLargest, kLargest) && within(camera.up, -kLargest, kLargest),
+  part.require(within(camera.target, -kMostReach, kMostReach) && within(camera.up, -kMostReach, kMostReach),
                "target or up is not finite or over 1e18", "finite numbers");
   const glm::dvec3 f(camera.target - camera.eye), up(camera.up);
   const glm::dvec3 side(f.y * up.z - f.z * up.y, f.z * up.x - f.x * up.z, f.x * up.y - f.y * up.x);
@@ -184,13 +199,13 @@ void check_world_reach(const Instance& instance, const glm::dvec3& reach, const 
   for (int row = 0; row < 3; ++row) {
     double far = std::abs(double(m[3][row]));
     for (int c = 0; c < 3; ++c) far += std::abs(double(m[c][row])) * reach[c];
-    part.require(far <= double(kLargest), "the transform takes vertices beyond 1e18", "a smaller scale");
+    part.require(far <= double(kMostReach), "the transform takes vertices beyond 1e18", "a smaller scale");
   }
 }
 
 void check_transform(const Instance& instance, const Part& part) {
   for (int column = 0; column < 4; ++column)
-    part.require(within(instance.world_from_object[column], -kLargest, kLargest),
+    part.require(within(instance.world_from_object[column], -kMostReach, kMostReach),
                  "the transform is not finite or over 1e18", "finite numbers");
 }
 
@@ -241,12 +256,20 @@ void validate_moving(const Scene& scene, double time) {
     check_transform(scene.instances[moving.instance], part("instance", moving.instance));
     check_world_reach(scene.instances[moving.instance], moving.reach, part("instance", moving.instance));
   }
+  std::vector<std::optional<glm::dvec3>> posed_reaches(scene.meshes.size());  // a mesh may have millions of instances
+  for (const PosedMesh& posed : timeline.posed) posed_reaches[posed.mesh] = reach_of(scene.meshes[posed.mesh]);
+  for (const NodeInstance& hung : timeline.node_instances) {
+    const Instance& instance = scene.instances[hung.instance];
+    check_transform(instance, part("instance", hung.instance));
+    check_world_reach(instance, posed_reaches[instance.mesh].value_or(hung.reach), part("instance", hung.instance));
+  }
+  for (const NodeLight& hung : timeline.node_lights) check_light(scene.lights[hung.light], part("light", hung.light));
   for (const MaterialMotion& motion : timeline.materials)
     check_material(scene.materials[motion.material], {}, part("material", motion.material));
   for (const LightMotion& motion : timeline.lights)
     check_light(scene.lights[motion.light], part("light", motion.light));
   for (const Orbit& orbit : timeline.orbits) check_light(scene.lights[orbit.light], part("light", orbit.light));
-  if (!timeline.camera.empty()) check_camera(scene.camera, Part{spec, "camera", {}});
+  if (!timeline.camera.empty() || timeline.node_camera) check_camera(scene.camera, Part{spec, "camera", {}});
 }
 
 }  // namespace trueshade

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/simd/simd_target.h"
+#include "core/threads/clock.h"
 #include "core/threads/parallel_for.h"
 #include "raster/clusters/clusters.h"
 #include "raster/view.h"
@@ -24,11 +24,6 @@
 
 namespace trueshade {
 namespace {
-
-double now_ms() {
-  using namespace std::chrono;
-  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
 
 // Tiles in the order they are started: dearest first, so that no thread is left alone with a dear one at the end.
 std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution) {
@@ -108,6 +103,7 @@ void draw_tiles(const FrameWork& frame, const Progress& progress) {
 PreparedScene::PreparedScene(const Scene& scene)
     : scene_(&scene), clusters_(std::make_unique<ClusteredScene>(cluster_scene(scene))) {}
 PreparedScene::~PreparedScene() = default;
+void PreparedScene::update() { cluster_posed_meshes(*scene_, *clusters_); }
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
 int tile_for(int width, int height, int threads) {

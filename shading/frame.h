@@ -82,12 +82,16 @@ struct Frame {
 struct ClusteredScene;
 
 /// Scene with its meshes split into clusters, built once; frames of any pipeline are drawn from it.
-/// Borrows the scene, which must outlive it with its meshes unchanged; set_time() may move it between frames.
+/// Borrows the scene, which must outlive it with its meshes unchanged. set_time() may move it between frames; update()
+/// follows where a mesh deforms.
 class PreparedScene {
  public:
   explicit PreparedScene(const Scene& scene);
   ~PreparedScene();
   PreparedScene(PreparedScene&&) noexcept;
+
+  /// Splits those meshes again that set_time() has posed since. Frames drawn without it show the pose before.
+  void update();
 
   const Scene& scene() const { return *scene_; }
   const ClusteredScene& clusters() const { return *clusters_; }

@@ -28,7 +28,8 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
   plan.light_pass = lit ? of_strategy : LightPass::none;
   plan.transparency = draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none;
   plan.tied_fragments = pipeline.strategy == Strategy::forward_multipass;
-  plan.uv = std::find(planes.begin(), planes.end(), "uv") != planes.end();
+  const bool shows_uv = std::find(planes.begin(), planes.end(), "uv") != planes.end();
+  plan.uv_planes = shows_uv ? UvPlanes::filled : UvPlanes::omitted;
   plan.light_geometry = plan.blends() && execution.count_as_gl;
   plan.surface_planes = surface_planes(pipeline);
   plan.target = {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round};

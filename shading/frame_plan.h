@@ -35,7 +35,7 @@ struct FramePlan {
   LightPass light_pass;           ///< none, or what the strategy does
   TransparencyMode transparency;  ///< `none` too where the scene has no transparent surface
   bool tied_fragments;  ///< every light but the first draws all fragments at the stored depth: forward-multipass
-  bool uv;              ///< surfaces keep texture coordinates for a plane
+  UvPlanes uv_planes;   ///< filled where plane `uv` is asked for
   bool encodes;         ///< a tile is brought to the target's stored form before it is written
   bool light_geometry;  ///< pixels under light geometry are counted, as GlCounts::light_pixels
   GBufferState surface_planes;  ///< the planes that lights read surfaces from

@@ -1,9 +1,9 @@
 #include "shading/frame_tile.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
+#include "core/threads/clock.h"
 #include "raster/surfaces/surfaces.h"
 #include "raster/visibility/overdraw.h"
 #include "shading/blend/blend_pass.h"
@@ -15,11 +15,6 @@
 
 namespace trueshade {
 namespace {
-
-double now_ms() {
-  using namespace std::chrono;
-  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
 
 // Scratch of one thread: about 0.8 MB, kept for the thread's life so that no frame allocates it.
 struct TileScratch {
@@ -36,14 +31,6 @@ struct TileScratch {
 TileScratch& thread_scratch() {
   thread_local std::unique_ptr<TileScratch> scratch = std::make_unique<TileScratch>();
   return *scratch;
-}
-
-TileRect tile_rect(const FrameWork& frame, int tile) {
-  const int size = frame.plan.execution.tile, wide = frame.tables.bins.tiles_x;
-  const int x = tile % wide * size, y = tile / wide * size;
-  const WindowTransform& t = frame.view.window;
-  const auto in_tile = [size](int v) { return std::clamp(v, 0, size); };
-  return {x, y, size, {in_tile(t.x0 - x), in_tile(t.y0 - y), in_tile(t.x1 - x), in_tile(t.y1 - y)}};
 }
 
 /// The stages of one tile, in the order in which draw_tile() runs them.
@@ -63,7 +50,7 @@ struct TileStages {
         plan(of_frame.plan),
         s(scratch),
         counts(tile_counts),
-        rect(tile_rect(of_frame, tile)),
+        rect(tile_rect(of_frame.view.window, of_frame.plan.execution.tile, of_frame.tables.bins.tiles_x, tile)),
         all{frame.prepared.clusters(),   frame.prepared.scene(),  frame.view,
             frame.pipeline.geometry,     frame.tables.bins.draws, frame.tables.bins.tile_list(tile),
             plan.execution.fast_geometry},
@@ -81,9 +68,9 @@ struct TileStages {
   void find_surfaces() {
     const LightModel& model = frame.pipeline.light_model;
     const bool culling = plan.execution.geometry_culling;
-    resolve_surfaces(draws, rect, plan.surface_planes, model, s.visible, plan.uv, s.vertices, s.surface);
+    resolve_surfaces(draws, rect, plan.surface_planes, model, s.visible, plan.uv_planes, s.vertices, s.surface);
     if (plan.tied_fragments &&
-        resolve_tied(draws, rect, plan.surface_planes, model, plan.uv, culling, s.visible, s.vertices, s.tied))
+        resolve_tied(draws, rect, plan.surface_planes, model, plan.uv_planes, culling, s.visible, s.vertices, s.tied))
       tied = &s.tied;
     counts.covered += uint64_t(s.surface.covered_pixels);
     if (glass == nullptr) return;

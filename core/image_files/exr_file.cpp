@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <memory>
 #include <string_view>
 
 #include "core/error.h"
@@ -113,17 +114,49 @@ std::vector<uint8_t> file_header(const std::string& where, const Image& color, s
   return header.finish();
 }
 
+/// Memory whose pages cost nothing until they are written.
+struct Buffer {
+  std::unique_ptr<uint8_t[]> bytes;
+  size_t size = 0;
+
+  explicit Buffer(size_t count) : bytes(std::make_unique_for_overwrite<uint8_t[]>(count)), size(count) {}
+  std::span<uint8_t> first(size_t count) const { return {bytes.get(), count}; }
+};
+
 /// ZIP's preparation: bytes at even places before those at odd ones, then each as its difference from the byte before.
-void spread_bytes(std::span<const uint8_t> block, std::span<uint8_t> halves, std::span<uint8_t> differences) {
-  const size_t half = block.size() / 2;  // a sample has an even number of bytes
-  uint8_t *const even = halves.data(), *const odd = even + half;
-  for (size_t i = 0; i < half; ++i) {
-    even[i] = block[2 * i];
-    odd[i] = block[2 * i + 1];
+/// The two halves of a block grow at once.
+class Differences {
+ public:
+  explicit Differences(size_t bytes) : bytes_(bytes), half_(bytes / 2) {}  // a sample has an even number of bytes
+
+  void add(std::span<const uint8_t> samples) {
+    add_half(samples, 0, bytes_.bytes.get() + filled_, last_[0]);
+    add_half(samples, 1, bytes_.bytes.get() + half_ + filled_, last_[1]);
+    filled_ += samples.size() / 2;
   }
-  differences[0] = even[0];
-  for (size_t i = 1; i < block.size(); ++i) differences[i] = uint8_t(even[i] - even[i - 1] + 128);
-}
+  /// All of the block, once it is added.
+  std::span<const uint8_t> finish() {
+    bytes_.bytes[half_] = uint8_t(bytes_.bytes[half_] - last_[0]);  // it stands behind the last even byte
+    bytes_.bytes[0] = uint8_t(bytes_.bytes[0] - kBias);             // and the first of all behind none
+    return bytes_.first(2 * half_);
+  }
+  void restart(size_t bytes) { half_ = bytes / 2, filled_ = 0, last_[0] = last_[1] = 0; }
+
+ private:
+  static constexpr uint8_t kBias = 128;
+
+  static void add_half(std::span<const uint8_t> samples, size_t parity, uint8_t* out, uint8_t& last) {
+    const uint8_t* const from = samples.data() + parity;
+    const size_t count = samples.size() / 2;
+    out[0] = uint8_t(from[0] - last + kBias);
+    for (size_t i = 1; i < count; ++i) out[i] = uint8_t(from[2 * i] - from[2 * i - 2] + kBias);
+    last = from[2 * count - 2];
+  }
+
+  Buffer bytes_;
+  size_t half_, filled_ = 0;
+  uint8_t last_[2] = {0, 0};
+};
 
 /// Makes the compressed blocks of a file, one at a time, in memory of its own.
 class BlockWriter {
@@ -131,31 +164,49 @@ class BlockWriter {
   BlockWriter(std::span<const ExrChannel> channels, int height)
       : rows_(channels),
         height_(height),
-        block_(rows_.row_bytes() * size_t(std::min(height, kRowsOfBlock))),
-        halves_(block_.size),
-        differences_(block_.size),
-        stream_(block_.size) {}
+        samples_(rows_.row_bytes()),
+        differences_(rows_.row_bytes() * size_t(std::min(height, kRowsOfBlock))) {}
 
   /// A block with the first of its rows and its size before it. It is stored as it is where compression does not help.
   std::vector<uint8_t> block(int index) {
     const int first = index * kRowsOfBlock, end = std::min(first + kRowsOfBlock, height_);
     const size_t bytes = rows_.row_bytes() * size_t(end - first);
-    for (int y = first; y < end; ++y) rows_.pack(y, block_.bytes.get() + rows_.row_bytes() * size_t(y - first));
-    spread_bytes(block_.first(bytes), halves_.first(bytes), differences_.first(bytes));
-    const size_t compressed = deflater_.compress(differences_.first(bytes), stream_.first(bytes - 1));
-    const std::span<const uint8_t> data = compressed > 0 ? stream_.first(compressed) : block_.first(bytes);
-    std::vector<uint8_t> piece;
-    piece.reserve(8 + data.size());
-    for (const auto word : {uint32_t(first), uint32_t(data.size())})
-      for (const int shift : {0, 8, 16, 24}) piece.push_back(uint8_t(word >> shift));
-    piece.insert(piece.end(), data.begin(), data.end());
+    differences_.restart(bytes);
+    for_samples(first, end, [this](std::span<const uint8_t> samples) { differences_.add(samples); });
+    const std::span<const uint8_t> block = differences_.finish();
+    std::vector<uint8_t> piece(kBlockHeader + kZlibHeader.size());
+    std::copy(kZlibHeader.begin(), kZlibHeader.end(), piece.begin() + kBlockHeader);
+    deflater_.append(block, Deflater::Part::last, piece);
+    const std::array<uint8_t, 4> trailer = zlib_trailer(adler_of(block));
+    piece.insert(piece.end(), trailer.begin(), trailer.end());
+    if (piece.size() - kBlockHeader >= bytes) {
+      piece.resize(kBlockHeader);
+      for_samples(first, end, [&piece](auto samples) { piece.insert(piece.end(), samples.begin(), samples.end()); });
+    }
+    uint8_t* out = piece.data();
+    for (const auto word : {uint32_t(first), uint32_t(piece.size() - kBlockHeader)})
+      for (const int shift : {0, 8, 16, 24}) *out++ = uint8_t(word >> shift);
     return piece;
   }
 
  private:
+  static constexpr size_t kBlockHeader = 8;
+
+  /// The samples of rows, in the order in which a block has them.
+  template <typename Take>
+  void for_samples(int first, int end, Take take) {
+    for (int y = first; y < end; ++y)
+      for (const ExrChannel& channel : rows_.channels()) {
+        const std::span<uint8_t> samples = samples_.first(rows_.channel_bytes(channel));
+        rows_.pack(channel, y, samples.data());
+        take(std::span<const uint8_t>(samples));
+      }
+  }
+
   ExrRows rows_;
   int height_;
-  Buffer block_, halves_, differences_, stream_;
+  Buffer samples_;  ///< of a channel in a row
+  Differences differences_;
   Deflater deflater_;
 };
 
@@ -172,8 +223,9 @@ std::vector<uint8_t> offset_table(size_t header_bytes, std::span<const std::vect
 
 }  // namespace
 
-std::vector<std::vector<uint8_t>> exr_file(const std::string& where, const Image& color, std::span<const NamedImage> aovs,
-                    const Metadata& metadata, const ImageFileOptions& options) {
+std::vector<std::vector<uint8_t>> exr_file(const std::string& where, const Image& color,
+                                           std::span<const NamedImage> aovs, const Metadata& metadata,
+                                           const ImageFileOptions& options) {
   if (color.width < 1 || color.height < 1)
     throw Error(ErrorKind::usage, where, "an EXR has pixels", "write another image");
   const std::vector<ExrChannel> channels = exr_channels(where, color, aovs);

@@ -56,24 +56,17 @@ const float* ExrRows::values(const Image& image, int y) {
   return values_.data();
 }
 
-void ExrRows::pack(int y, uint8_t* out) {
-  for (const ExrChannel& source : channels_) {
-    const Image& image = *source.image;
-    const FormatInfo layout = info(image.format);
-    const auto channels = size_t(layout.channels), channel = size_t(source.channel), count = size_t(image.width);
-    if (layout.number_class == NumberClass::unorm) {
-      pick<float>(reinterpret_cast<const uint8_t*>(values(image, y) + channel), channels, count, out);
-    } else if (layout.bytes_per_channel == 4) {
-      pick<uint32_t>(image.texel(0, y) + channel * 4, channels, count, out);
-    } else if (layout.bytes_per_channel == 2) {
-      pick<uint16_t>(image.texel(0, y) + channel * 2, channels, count, out);
-    } else {
-      for (size_t x = 0; x < count; ++x) {
-        const auto half = uint16_t(image.code(int(x), y, source.channel) << (15 - layout.bits[channel]));
-        std::memcpy(out + 2 * x, &half, sizeof half);
-      }
-    }
-    out += bytes_of(source.type) * count;
+void ExrRows::pack(const ExrChannel& source, int y, uint8_t* out) {
+  const Image& image = *source.image;
+  const FormatInfo layout = info(image.format);
+  const auto channels = size_t(layout.channels), channel = size_t(source.channel), count = size_t(image.width);
+  if (layout.number_class == NumberClass::unorm)
+    return pick<float>(reinterpret_cast<const uint8_t*>(values(image, y) + channel), channels, count, out);
+  if (layout.bytes_per_channel == 4) return pick<uint32_t>(image.texel(0, y) + channel * 4, channels, count, out);
+  if (layout.bytes_per_channel == 2) return pick<uint16_t>(image.texel(0, y) + channel * 2, channels, count, out);
+  for (size_t x = 0; x < count; ++x) {
+    const auto half = uint16_t(image.code(int(x), y, source.channel) << (15 - layout.bits[channel]));
+    std::memcpy(out + 2 * x, &half, sizeof half);
   }
 }
 

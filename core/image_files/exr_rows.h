@@ -26,15 +26,21 @@ struct ExrChannel {
 /// than the colour.
 std::vector<ExrChannel> exr_channels(const std::string& where, const Image& color, std::span<const NamedImage> aovs);
 
-/// Packs rows of several images into scan lines. One thread at a time.
+/// Packs rows of several images as scan lines hold them: all pixels of the first channel, then all of the next.
+/// One thread at a time.
 class ExrRows {
  public:
   explicit ExrRows(std::span<const ExrChannel> channels);
 
   size_t row_bytes() const { return row_bytes_; }
 
-  /// A scan line: all pixels of the first channel, then all of the next.
-  void pack(int y, uint8_t* out);
+  std::span<const ExrChannel> channels() const { return channels_; }
+  size_t channel_bytes(const ExrChannel& channel) const {
+    return bytes_of(channel.type) * size_t(channel.image->width);
+  }
+
+  /// The samples of one channel in a row. Channels of an image are best asked for in turn.
+  void pack(const ExrChannel& channel, int y, uint8_t* out);
 
  private:
   std::span<const ExrChannel> channels_;

@@ -10,7 +10,7 @@ Error refused(const std::string& where, const std::string& reason) {
   return {ErrorKind::bad_input, where, reason, "write the file again"};
 }
 
-constexpr uint8_t kStart = 0xD8, kEnd = 0xD9, kScan = 0xDA;
+constexpr uint8_t kStart = 0xD8, kJpegEnd = 0xD9, kScan = 0xDA;
 
 /// Markers without a length behind them.
 bool stands_alone(uint8_t marker) { return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7) || marker == kStart; }
@@ -43,7 +43,7 @@ JpegSize jpeg_size(const std::string& where, std::span<const uint8_t> bytes) {
     }
     const uint8_t marker = bytes[at + 1];
     at += 2;
-    if (marker == kEnd) {
+    if (marker == kJpegEnd) {
       if (size.width < 1 || size.height < 1 || !in_scan) throw refused(where, "it has no picture");
       return size;
     }

@@ -15,8 +15,6 @@
 namespace trueshade {
 namespace {
 
-constexpr int kRowsOfBand = 64;
-constexpr size_t kMostChunk = size_t(1) << 30;  // a chunk has fewer than 2^31 bytes
 constexpr uint8_t kUp = 2;                      // the filter that subtracts the byte above
 
 void append_word(std::vector<uint8_t>& bytes, uint32_t word) {
@@ -69,29 +67,68 @@ void append_metadata(std::vector<uint8_t>& file, const std::string& where, std::
   append_chunk(file, plain ? "tEXt" : "iTXt", data);
 }
 
-/// All rows, each behind the byte that names the filter.
-Buffer filtered_rows(int height, const PngCodes& codes, int threads) {
+/// Rows that are compressed together. They depend on the image alone, so that every number of threads gives one file.
+int rows_of_band(size_t row_bytes) {
+  constexpr size_t kLeastRows = 64, kLeastBytes = size_t(1) << 18;
+  return int(std::max(kLeastRows, kLeastBytes / row_bytes));
+}
+
+/// Some rows of the picture as an IDAT chunk: a part of the compressed stream.
+struct Band {
+  std::vector<uint8_t> chunk;
+  uint32_t checksum;  ///< of the rows before they are compressed
+  uint64_t bytes;     ///< of these
+};
+
+/// Rows [first, end), each behind the byte that names the filter.
+std::vector<uint8_t> filtered_rows(const PngCodes& codes, int first, int end) {
   const size_t row_bytes = codes.row_bytes();
-  Buffer rows((row_bytes + 1) * size_t(height));
-  const auto filter_band = [&](int band) {
-    const int first = band * kRowsOfBand, end = std::min(first + kRowsOfBand, height);
-    std::vector<uint8_t> above(row_bytes), row(row_bytes);
-    if (first > 0) codes.row(first - 1, above.data());
-    for (int y = first; y < end; ++y, above.swap(row)) {
-      codes.row(y, row.data());
-      uint8_t* const out = rows.bytes.get() + size_t(y) * (row_bytes + 1);
-      out[0] = kUp;
-      for (size_t i = 0; i < row_bytes; ++i) out[1 + i] = uint8_t(row[i] - above[i]);
-    }
-  };
-  parallel_for((height + kRowsOfBand - 1) / kRowsOfBand, threads, filter_band);
+  std::vector<uint8_t> above(row_bytes), row(row_bytes), rows((row_bytes + 1) * size_t(end - first));
+  if (first > 0) codes.row(first - 1, above.data());
+  uint8_t* out = rows.data();
+  for (int y = first; y < end; ++y, above.swap(row)) {
+    codes.row(y, row.data());
+    *out++ = kUp;
+    const uint8_t *const these = row.data(), *const those = above.data();
+    for (size_t i = 0; i < row_bytes; ++i) out[i] = uint8_t(these[i] - those[i]);
+    out += row_bytes;
+  }
   return rows;
+}
+
+Band band_of(const PngCodes& codes, int first, int end, Deflater::Part part) {
+  const std::vector<uint8_t> rows = filtered_rows(codes, first, end);
+  std::vector<uint8_t> stream;
+  if (first == 0) stream.assign(kZlibHeader.begin(), kZlibHeader.end());
+  Deflater().append(rows, part, stream);
+  Band band{{}, adler_of(rows), rows.size()};
+  band.chunk.reserve(stream.size() + 12);
+  append_chunk(band.chunk, "IDAT", stream);
+  return band;
+}
+
+/// The picture's IDAT chunks. The last has the checksum of the stream alone, which is known when all others are made.
+std::vector<std::vector<uint8_t>> picture_chunks(int height, const PngCodes& codes, int threads) {
+  const int rows = rows_of_band(codes.row_bytes()), count = (height + rows - 1) / rows;
+  std::vector<Band> bands(static_cast<size_t>(count));
+  parallel_for(count, threads, [&](int i) {
+    const int end = std::min((i + 1) * rows, height);
+    bands[size_t(i)] = band_of(codes, i * rows, end, i + 1 == count ? Deflater::Part::last : Deflater::Part::inner);
+  });
+  uint32_t checksum = kAdlerOfNothing;
+  std::vector<std::vector<uint8_t>> chunks;
+  for (Band& band : bands) {
+    checksum = adler_of_both(checksum, band.checksum, band.bytes);
+    chunks.push_back(std::move(band.chunk));
+  }
+  append_chunk(chunks.emplace_back(), "IDAT", zlib_trailer(checksum));
+  return chunks;
 }
 
 }  // namespace
 
-std::vector<uint8_t> png_file(const std::string& where, const Image& image, const Metadata& metadata,
-                              const ImageFileOptions& options) {
+std::vector<std::vector<uint8_t>> png_file(const std::string& where, const Image& image, const Metadata& metadata,
+                                           const ImageFileOptions& options) {
   if (image.width < 1 || image.height < 1 || info(image.format).number_class == NumberClass::integer)
     throw Error(ErrorKind::usage, where, "a PNG holds neither an image without pixels nor integers",
                 "write another image");
@@ -102,14 +139,10 @@ std::vector<uint8_t> png_file(const std::string& where, const Image& image, cons
   append_metadata(file, where, "Software", "trueshade");
   for (const auto& [key, text] : metadata) append_metadata(file, where, key, text);
 
-  const Buffer rows = filtered_rows(image.height, codes, options.threads);
-  const Buffer stream(Deflater::most(rows.size));
-  const size_t size = Deflater().compress(rows.first(rows.size), stream.first(stream.size));
-  file.reserve(file.size() + size + 64);
-  for (size_t at = 0; at < size; at += kMostChunk)
-    append_chunk(file, "IDAT", stream.first(size).subspan(at, std::min(kMostChunk, size - at)));
-  append_chunk(file, "IEND", {});
-  return file;
+  std::vector<std::vector<uint8_t>> pieces = picture_chunks(image.height, codes, options.threads);
+  pieces.insert(pieces.begin(), std::move(file));
+  append_chunk(pieces.back(), "IEND", {});
+  return pieces;
 }
 
 }  // namespace trueshade

@@ -11,17 +11,11 @@
 namespace trueshade {
 namespace {
 
-constexpr size_t kSignatureBytes = 8, kChunkOverhead = 12;  // a chunk: length, type, data, CRC
-
-uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
-  return uint32_t(bytes[at]) << 24 | uint32_t(bytes[at + 1]) << 16 | uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
-}
-
 std::string text_of(std::span<const uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
 
 void read_size_and_channels(std::span<const uint8_t> data, ImageFileInfo& header) {
-  header.width = int(word_at(data, 0));
-  header.height = int(word_at(data, 4));
+  header.width = int(png_word_at(data, 0));
+  header.height = int(png_word_at(data, 4));
   const std::string depth = " uint" + std::to_string(int(data[8]));
   std::string_view names;
   switch (data[9]) {
@@ -74,15 +68,15 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
   };
   ImageFileInfo header;
   uint32_t gamma = 0;
-  for (size_t at = kSignatureBytes;;) {
-    if (bytes.size() - std::min(at, bytes.size()) < kChunkOverhead) throw refuse(at, "the PNG ends before its IEND");
-    const size_t length = word_at(bytes, at);
+  for (size_t at = kPngSignatureBytes;;) {
+    if (bytes.size() - std::min(at, bytes.size()) < kPngChunkOverhead) throw refuse(at, "the PNG ends before its IEND");
+    const size_t length = png_word_at(bytes, at);
     const std::string type = text_of(bytes.subspan(at + 4, 4));
-    if (length > bytes.size() - at - kChunkOverhead) throw refuse(at, "a PNG chunk is longer than the file");
+    if (length > bytes.size() - at - kPngChunkOverhead) throw refuse(at, "a PNG chunk is longer than the file");
     const std::span<const uint8_t> data = bytes.subspan(at + 8, length);
-    if ((at == kSignatureBytes) != (type == "IHDR")) throw refuse(at, "a PNG begins with one IHDR");
+    if ((at == kPngSignatureBytes) != (type == "IHDR")) throw refuse(at, "a PNG begins with one IHDR");
     if (type == "IHDR") {
-      if (length != 13 || word_at(data, 0) - 1 > 0x7ffffffeu || word_at(data, 4) - 1 > 0x7ffffffeu)
+      if (length != 13 || png_word_at(data, 0) - 1 > 0x7ffffffeu || png_word_at(data, 4) - 1 > 0x7ffffffeu)
         throw refuse(at, "the IHDR has not 13 bytes or a side out of range");
       read_size_and_channels(data, header);
     } else if (type == "tEXt") {
@@ -94,12 +88,12 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
     } else if (type == "sRGB") {
       header.metadata.emplace_back("oiio:ColorSpace", "sRGB");
     } else if (type == "gAMA" && length == 4) {
-      gamma = word_at(data, 0);
+      gamma = png_word_at(data, 0);
     } else if (type == "IEND") {
       add_gamma(gamma, header);
       return header;
     }
-    at += length + kChunkOverhead;
+    at += length + kPngChunkOverhead;
   }
 }
 

@@ -11,16 +11,12 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/image_files/png_header.h"
 
 namespace trueshade {
 namespace {
 
-constexpr size_t kSignatureBytes = 8, kChunkOverhead = 12;  // a chunk: length, type, data, CRC
 constexpr size_t kPiece = 65536;
-
-uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
-  return uint32_t(bytes[at]) << 24 | uint32_t(bytes[at + 1]) << 16 | uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
-}
 
 Error refused(const std::string& where, const char* reason, const char* remedy = "write the file again") {
   return {ErrorKind::bad_input, where, reason, remedy};
@@ -154,16 +150,16 @@ struct Contents {
 Contents contents_of(const std::string& where, std::span<const uint8_t> bytes, PngDepths depths) {
   std::unique_ptr<Inflater> texels;
   Contents png;
-  for (size_t at = kSignatureBytes; at + kChunkOverhead <= bytes.size();) {
-    const size_t length = word_at(bytes, at);
+  for (size_t at = kPngSignatureBytes; at + kPngChunkOverhead <= bytes.size();) {
+    const size_t length = png_word_at(bytes, at);
     const std::span<const uint8_t> type = bytes.subspan(at + 4, 4), data = bytes.subspan(at + 8, length);
-    if (crc32(0, type.data(), uInt(4 + length)) != word_at(bytes, at + 8 + length))
+    if (crc32(0, type.data(), uInt(4 + length)) != png_word_at(bytes, at + 8 + length))
       throw refused(where, "a checksum of it is wrong");
     const std::string name(type.begin(), type.end());
     if (name == "IHDR") {
       check_kind(where, data, depths);
       png.kind = data[9], png.code_bytes = data[8] / 8;
-      png.width = int(word_at(data, 0)), png.height = int(word_at(data, 4));
+      png.width = int(png_word_at(data, 0)), png.height = int(png_word_at(data, 4));
       texels = std::make_unique<Inflater>(where, (png.row_bytes() + 1) * size_t(png.height));
     } else if (name == "PLTE" && png.kind == kPalette) {
       png.palette.set_colors(where, data);
@@ -175,7 +171,7 @@ Contents contents_of(const std::string& where, std::span<const uint8_t> bytes, P
     } else if (name == "IEND") {
       break;
     }
-    at += length + kChunkOverhead;
+    at += length + kPngChunkOverhead;
   }
   png.rows = texels->finish();
   return png;

@@ -9,19 +9,22 @@ namespace trueshade {
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
                  const Metadata& metadata, const ImageFileOptions& options) {
   const FpScope ieee;
-  if (path.ends_with(".png")) {
-    write_file(path, png_file(path, color, metadata, options));
-  } else if (path.ends_with(".exr")) {
-    const std::vector<std::vector<uint8_t>> pieces = exr_file(path, color, aovs, metadata, options);
-    write_file(path, FilePieces(pieces.begin(), pieces.end()));
-  } else {
+  std::vector<std::vector<uint8_t>> pieces;
+  if (path.ends_with(".png"))
+    pieces = png_file(path, color, metadata, options);
+  else if (path.ends_with(".exr"))
+    pieces = exr_file(path, color, aovs, metadata, options);
+  else
     throw Error(ErrorKind::usage, path, "no image format has this ending", "end the name in .png or .exr");
-  }
+  write_file(path, FilePieces(pieces.begin(), pieces.end()));
 }
 
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, const ImageFileOptions& options) {
   const FpScope ieee;
-  return png_file("PNG", color, metadata, options);
+  std::vector<uint8_t> file;
+  for (const std::vector<uint8_t>& piece : png_file("PNG", color, metadata, options))
+    file.insert(file.end(), piece.begin(), piece.end());
+  return file;
 }
 
 }  // namespace trueshade

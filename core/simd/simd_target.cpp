@@ -1,62 +1,91 @@
 #include "core/simd/simd_target.h"
 
-#include <hwy/highway.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/simd/dispatch.h"
 
 namespace trueshade {
 namespace {
 
 struct Target {
   std::string_view name;
-  int64_t bits;
+  SimdTarget is;
+  int64_t bits;  // Highway's; 0: every machine runs it
 };
 
 // g++ compiles Highway's one-lane target as `scalar`, clang its 128-bit emulation: the same operations either way.
-constexpr Target kTargets[] = {
-    {"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}, {"scalar", HWY_SCALAR | HWY_EMU128}};
+constexpr Target kTargets[] = {{"avx512", SimdTarget::avx512, HWY_AVX3},
+                               {"avx2", SimdTarget::avx2, HWY_AVX2},
+                               {"sse4", SimdTarget::sse4, HWY_SSE4},
+                               {"scalar", SimdTarget::scalar, 0}};
 
-int64_t runnable() {
-  static const int64_t targets = [] {  // before any SimdScope narrows what Highway reports
-    int64_t bits = 0;
-    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) bits |= target;
-    if (bits == 0)
-      throw Error(ErrorKind::usage, "simd", "this build has no kernels for this machine's CPU", "build with TRUESHADE_SIMD=native");
-    return bits;
+bool built(SimdTarget target) {
+#define TRUESHADE_IS(name) || target == SimdTarget::name
+  return false TRUESHADE_BUILT_TARGETS(TRUESHADE_IS);
+#undef TRUESHADE_IS
+}
+
+// Targets that this build has and this machine runs, best first; asked of the CPU once: CPUID leaves a virtual machine.
+const std::vector<Target>& runnable() {
+  static const std::vector<Target> targets = [] {
+    const int64_t supported = hwy::SupportedTargets();
+    std::vector<Target> found;
+    for (const Target& target : kTargets)
+      if (built(target.is) && (supported & target.bits) == target.bits) found.push_back(target);
+    if (found.empty())
+      throw Error(ErrorKind::usage, "simd", "this build has no kernels for this machine's CPU",
+                  "build with TRUESHADE_SIMD=native");
+    return found;
   }();
   return targets;
 }
 
-}  // namespace
-
-std::vector<std::string_view> simd_targets() {
-  std::vector<std::string_view> names;
-  for (const Target& target : kTargets)
-    if (runnable() & target.bits) names.push_back(target.name);
-  return names;
+std::atomic<SimdTarget>& target_in_use() {
+  static std::atomic<SimdTarget> target = runnable().front().is;
+  return target;
 }
 
-SimdScope::SimdScope(std::string_view name) : chosen_(name != "best") {
-  if (!chosen_) return;
-  const auto names = simd_targets();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const auto& n : names) known += (known.empty() ? "" : ", ") + std::string(n);
-    throw Error(ErrorKind::usage, "simd", "this machine does not run " + std::string(name), "one of best, " + known);
-  }
-  for (const Target& target : kTargets)
-    if (target.name == name) hwy::SetSupportedTargetsForTest(target.bits);
+// Highway's own choice follows, for tests that call functions of several targets by HWY_DYNAMIC_DISPATCH.
+void choose(SimdTarget chosen) {
+  target_in_use() = chosen;
+  const auto of_machine = [chosen](const Target& target) { return target.is == chosen; };
+  const Target& target = *std::find_if(runnable().begin(), runnable().end(), of_machine);
+  const bool best = target.is == runnable().front().is;
+  hwy::SetSupportedTargetsForTest(best ? 0 : target.bits == 0 ? HWY_SCALAR | HWY_EMU128 : target.bits);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
+}  // namespace
+
+SimdTarget simd_target() { return target_in_use(); }
+
+std::vector<std::string_view> simd_targets() {
+  std::vector<std::string_view> names;
+  for (const Target& target : runnable()) names.push_back(target.name);
+  return names;
+}
+
+SimdScope::SimdScope(std::string_view name) {
+  if (name == "best") return;
+  const auto found =
+      std::find_if(runnable().begin(), runnable().end(), [&](const Target& target) { return target.name == name; });
+  if (found == runnable().end()) {
+    std::string known;
+    for (const Target& target : runnable()) known += ", " + std::string(target.name);
+    throw Error(ErrorKind::usage, "simd", "this machine does not run " + std::string(name), "one of best" + known);
+  }
+  before_ = simd_target();
+  choose(found->is);
+}
+
 SimdScope::~SimdScope() {
-  if (!chosen_) return;
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(runnable());  // not asked of the CPU again: CPUID leaves a virtual machine
+  if (before_) choose(*before_);
 }
 
 }  // namespace trueshade

@@ -1,8 +1,12 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace trueshade {
+
+enum class SimdTarget : uint8_t;
 
 /// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
 std::vector<std::string_view> simd_targets();
@@ -18,7 +22,7 @@ class SimdScope {
   SimdScope& operator=(const SimdScope&) = delete;
 
  private:
-  bool chosen_;
+  std::optional<SimdTarget> before_;  // set where the scope chose another target
 };
 
 }  // namespace trueshade

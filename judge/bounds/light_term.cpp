@@ -11,7 +11,7 @@ Bounded3 exactly(const glm::vec3& v) {
   return {Bounded{double(v.x), 0}, Bounded{double(v.y), 0}, Bounded{double(v.z), 0}};
 }
 
-Bounded3 difference(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
+Bounded3 vector_difference(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
   return {difference(a, x[0], y[0]), difference(a, x[1], y[1]), difference(a, x[2], y[2])};
 }
 
@@ -54,7 +54,7 @@ LightSum::LightSum(const ShadedSurface& s, const Scene& scene, const LightModel&
   undefined_ = !exact && model.renormalize && is_zero(s.normal);
   normal_ = model.renormalize ? unit(a, s.normal) : s.normal;
   if (model.renormalize && is_zero(s.normal)) normal_ = {};
-  const Bounded3 to_eye = difference(a, exactly(scene.camera.eye), s.position);
+  const Bounded3 to_eye = vector_difference(a, exactly(scene.camera.eye), s.position);
   view_ = unit(a, to_eye);
   view_undefined_ = model.viewer == Viewer::local && is_zero(to_eye);
   if (view_undefined_) view_ = {};
@@ -76,7 +76,7 @@ LightTerm LightSum::operator()(const Light& light) const {
   if (light.type == LightType::directional) {
     to_light = exactly(-light.direction);
   } else {
-    const Bounded3 offset = difference(a_, exactly(light.position), surface_.position);
+    const Bounded3 offset = vector_difference(a_, exactly(light.position), surface_.position);
     if (far_away(offset, light)) {
       t.in_range = t.maybe_in_range = false;
       return t;

@@ -9,18 +9,18 @@ namespace trueshade::oracle {
 
 namespace {
 
-struct Span {
+struct EdgeSpan {
   double low, high;
 };
-Span times(const Span& a, const Span& b) {
+EdgeSpan times(const EdgeSpan& a, const EdgeSpan& b) {
   const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
   return {std::min({p[0], p[1], p[2], p[3]}), std::max({p[0], p[1], p[2], p[3]})};
 }
 
 /// E of the edge a -> b about the sample, as an interval.
-Span edge_span(const WindowVertex& a, const WindowVertex& b, double x, double y) {
-  const Span ax{a.low[0] - x, a.high[0] - x}, ay{a.low[1] - y, a.high[1] - y};
-  const Span bx{b.low[0] - x, b.high[0] - x}, by{b.low[1] - y, b.high[1] - y};
+EdgeSpan edge_span(const WindowVertex& a, const WindowVertex& b, double x, double y) {
+  const EdgeSpan ax{a.low[0] - x, a.high[0] - x}, ay{a.low[1] - y, a.high[1] - y};
+  const EdgeSpan bx{b.low[0] - x, b.high[0] - x}, by{b.low[1] - y, b.high[1] - y};
   const bool points = ax.low == ax.high && ay.low == ay.high && bx.low == bx.high && by.low == by.high;
   const double largest = std::max({std::fabs(ax.low), std::fabs(ay.low), std::fabs(bx.low), std::fabs(by.low)});
   if (points && largest >= 0x1p17) {  // 2^25 subpixels: the products need more than a double
@@ -28,7 +28,7 @@ Span edge_span(const WindowVertex& a, const WindowVertex& b, double x, double y)
     const Int128 e = fixed(ax.low) * fixed(by.low) - fixed(ay.low) * fixed(bx.low);
     return {double(e), double(e)};  // only its sign is read
   }
-  const Span p = times(ax, by), q = times(ay, bx);
+  const EdgeSpan p = times(ax, by), q = times(ay, bx);
   if (points) return {p.low - q.low, p.low - q.low};  // 26 bits each: exact
   const double slack =
       0x1p-50 * (std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
@@ -52,7 +52,7 @@ Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin orig
   bool any_inside[2] = {true, true};  // for either sign, where the facing is not known
   for (size_t i = 0; i < 3; ++i) {
     const WindowVertex &a = piece.v[(i + 1) % 3], &b = piece.v[(i + 2) % 3];
-    Span e = edge_span(a, b, x, y);
+    EdgeSpan e = edge_span(a, b, x, y);
     if (!piece.facing_known) {
       if (e.high < 0) any_inside[0] = false;
       if (e.low > 0) any_inside[1] = false;
@@ -319,7 +319,7 @@ bool Projector::face(Piece& piece) const {
     p.low[k] -= c.high[k], p.high[k] -= c.low[k];
     q.low[k] -= c.high[k], q.high[k] -= c.low[k];
   }
-  const Span e = edge_span(p, q, 0, 0);
+  const EdgeSpan e = edge_span(p, q, 0, 0);
   const bool turned = pipeline_.geometry.clip_origin == ClipOrigin::upper_left;
   if (e.low == 0 && e.high == 0) return false;
   piece.facing_known = e.low > 0 || e.high < 0;

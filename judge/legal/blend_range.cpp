@@ -14,19 +14,19 @@ struct Span {
   double low = 0, high = 0;
 };
 
-constexpr Span kAnything{-HUGE_VAL, HUGE_VAL};
+constexpr Span kAnySpan{-HUGE_VAL, HUGE_VAL};
 
 Span span_of(const Range& r) { return {r.low, r.high}; }
 Span point(double v) { return {v, v}; }
 Span clamped(const Span& s) { return {std::clamp(s.low, 0.0, 1.0), std::clamp(s.high, 0.0, 1.0)}; }
 Span either(const Span& a, const Span& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 bool finite(const Span& s) { return std::isfinite(s.low) && std::isfinite(s.high); }
-Span checked(const Span& s) { return s.low <= s.high ? s : kAnything; }  // not a number: nothing is known
+Span checked(const Span& s) { return s.low <= s.high ? s : kAnySpan; }  // not a number: nothing is known
 
 Span plus(const Span& a, const Span& b) { return checked({a.low + b.low, a.high + b.high}); }
 Span minus(const Span& a, const Span& b) { return checked({a.low - b.high, a.high - b.low}); }
 Span times(const Span& a, const Span& b) {
-  if (!finite(a) || !finite(b)) return kAnything;
+  if (!finite(a) || !finite(b)) return kAnySpan;
   const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
   return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
 }
@@ -137,7 +137,7 @@ class ValueBlend {
 
   Span product(const Span& x, BlendFactor f, size_t k) const {
     if (f == BlendFactor::one) return x;
-    if (f == BlendFactor::zero) return finite(x) || profile_.blend == BlendRule::float_once ? point(0) : kAnything;
+    if (f == BlendFactor::zero) return finite(x) || profile_.blend == BlendRule::float_once ? point(0) : kAnySpan;
     return rounded(times(x, factor(f, k)), int(k));
   }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGuardBand = 0x1p15;  // pixels
 constexpr size_t kMostPatterns = 12;   // edges in doubt whose sides are all tried
-constexpr double kSmallestW = 0x1p-100;
+constexpr double kNearestW = 0x1p-100;
 
 using Triple = std::array<double, 3>;
 
@@ -46,6 +46,8 @@ Pipeline pipeline_of(const Pipeline& pipeline) {
   return p;
 }
 
+}  // namespace
+
 /// A triangle that reaches behind the eye, by its lines.
 struct Endless {
   std::array<Triple, 3> line{};   ///< of edge i, from corner i+1 to i+2; inside where positive
@@ -72,8 +74,6 @@ struct Endless {
     return result;
   }
 };
-
-}  // namespace
 
 struct LightOutline::Shape {
   uint32_t triangle = 0;
@@ -119,7 +119,7 @@ LightOutline::LightOutline(const Scene& scene, const Pipeline& pipeline, const P
   std::vector<Piece> pieces;
   for (uint32_t t = 0; t < mesh.triangles(); ++t) {
     bool behind = false;
-    for (const auto& clip : projector_->clip_of(0, t)) behind = behind || !(double(clip[3]) > kSmallestW);
+    for (const auto& clip : projector_->clip_of(0, t)) behind = behind || !(double(clip[3]) > kNearestW);
     if (behind && depth_clamp && !profile.exact_vertices) {
       add_endless(t);
       continue;

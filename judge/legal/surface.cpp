@@ -11,7 +11,7 @@ double float_spacing(double magnitude) {
   return double(std::nextafter(m, std::numeric_limits<float>::infinity())) - double(m);
 }
 
-constexpr Range kAnything{0, -HUGE_VAL, HUGE_VAL};
+constexpr Range kAnyValue{0, -HUGE_VAL, HUGE_VAL};
 
 /// The code of depth 1, 0 for floats.
 double fixed_point_codes(const GeometryState& state) {
@@ -158,7 +158,7 @@ Range SurfacePoint::depth() const {
 Range SurfacePoint::depth_offset(const GeometryState& state, double largest) const {
   const double factor = double(state.polygon_offset_factor), units = double(state.polygon_offset_units);
   if (factor == 0 && units == 0) return {};
-  if (!bounded_) return kAnything;
+  if (!bounded_) return kAnyValue;
   double gx = 0, gy = 0, spread = 0, reach = 0;
   for (size_t i = 0; i < 3; ++i) {
     gx += dx_[i] * piece_.v[i].z;
@@ -171,7 +171,7 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   if (!profile_.exact_planes) {
     // Moving the ends of a plane's edges by 2 reach moves its slope by share = |inverse| 4 reach of what it becomes.
     const double share = 4 * reach * (span_x_ + span_y_) / std::fabs(area_);
-    if (!(share < 1)) return kAnything;
+    if (!(share < 1)) return kAnyValue;
     const double v = profile_.arithmetic.roundoff, det = 3 * condition_ * v + profile_.arithmetic.divide + v;
     double errors = 0;  // of the vertices' depths
     for (const WindowVertex& p : piece_.v) errors = std::max(errors, p.z_error);
@@ -205,7 +205,7 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
-  if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnything;
+  if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnyValue;
   if (!bounded_)
     return of_tiny(
         value, error,
@@ -225,7 +225,7 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
       carried += std::fabs(lambda_[k][i]) * u * error[i];
       if (smooth) u_moves += std::fabs(lambda_[k][i]) * piece_.v[i].u_error;
     }
-    if (!(d - u_moves > 0)) return kAnything;
+    if (!(d - u_moves > 0)) return kAnyValue;
     const double at = value[0] + n / d;
     double moved = carried;
     if (smooth)
@@ -243,7 +243,7 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
   std::array<double, 3> n{}, u{};
   for (size_t i = 0; i < 3; ++i) u[i] = piece_.v[i].u, n[i] = value[i] * u[i];
   const double d_error = plane_error(u);
-  if (!(least_divisor - d_error > 0)) return kAnything;
+  if (!(least_divisor - d_error > 0)) return kAnyValue;
   const double v = profile_.arithmetic.roundoff;
   double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) +
                 (profile_.arithmetic.divide + 2 * v) * largest;

@@ -58,8 +58,8 @@ struct TexelSource {
   bool encoded = false;
   double codes = 0;
 
-  Rgba at(size_t level, long long i, long long j) const {
-    Rgba t = wrapped_texel(texture, sampler, level, i, j);
+  TexelValue at(size_t level, long long i, long long j) const {
+    TexelValue t = wrapped_texel(texture, sampler, level, i, j);
     if (texture.format != TextureFormat::srgb8_a8) return t;
     const SrgbTable& table = srgb_table();
     const auto& decoded = rules.mesa_decode ? table.mesa : table.value;
@@ -76,7 +76,7 @@ struct TexelSource {
   }
 };
 
-void include(Ranges& r, const Rgba& texel) {
+void include(Ranges& r, const TexelValue& texel) {
   for (size_t c = 0; c < 4; ++c)
     r[c].low = std::min(r[c].low, double(texel[c])), r[c].high = std::max(r[c].high, double(texel[c]));
 }
@@ -137,15 +137,15 @@ Ranges level_range(const TexelSource& texels, size_t level, Filter filter, const
         continue;
       }
       // Bilinear in a cell: the extremes are at the corners of what the box has of it.
-      const Rgba t00 = texels.at(level, i, j), t10 = texels.at(level, i + 1, j);
-      const Rgba t01 = texels.at(level, i, j + 1), t11 = texels.at(level, i + 1, j + 1);
+      const TexelValue t00 = texels.at(level, i, j), t10 = texels.at(level, i + 1, j);
+      const TexelValue t01 = texels.at(level, i, j + 1), t11 = texels.at(level, i + 1, j + 1);
       const long double a[2] = {std::clamp<long double>(x.low - shift - i, 0, 1),
                                 std::clamp<long double>(x.high - shift - i, 0, 1)};
       const long double b[2] = {std::clamp<long double>(y.low - shift - j, 0, 1),
                                 std::clamp<long double>(y.high - shift - j, 0, 1)};
       for (const long double wa : a)
         for (const long double wb : b) {
-          Rgba value;
+          TexelValue value;
           for (size_t c = 0; c < 4; ++c)
             value[c] = (1 - wb) * ((1 - wa) * t00[c] + wa * t10[c]) + wb * ((1 - wa) * t01[c] + wa * t11[c]);
           include(r, value);
@@ -296,7 +296,7 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
     }
     include(r, late);
   }
-  const Rgba nominal = filtered(texture, s, at.nominal.u, at.nominal.v, level_of_detail(texture, s, at.nominal));
+  const TexelValue nominal = filtered(texture, s, at.nominal.u, at.nominal.v, level_of_detail(texture, s, at.nominal));
   for (size_t c = 0; c < 4; ++c) {
     const double largest = std::max(std::fabs(r[c].low), std::fabs(r[c].high));
     const double more = rules.relative * largest + (texture.format == TextureFormat::rgba8 ? off : 0);

@@ -40,12 +40,7 @@ void append_piece(const Scene& scene, const ClusteredScene& clusters, const View
     const uint64_t until = std::min(end, row[at + 1]);
     const auto first = uint32_t(from - row[at]), last = uint32_t(until - row[at]);
     const InstanceTransform& transform = view.instances[instance];
-    run[runs++] = {&clusters.meshes[scene.instances[instance].mesh],
-                   &transform,
-                   instance,
-                   first,
-                   last,
-                   culling && t.dropped != 0 ? object_eye(transform) : ObjectEye{}};
+    run[runs++] = {&clusters.meshes[scene.instances[instance].mesh], &transform, instance, first, last};
     from = until;
     if (culling && (runs == kRuns || from == end)) append_seen({run, std::exchange(runs, 0)}, t, out);
     if (culling) continue;

@@ -14,12 +14,10 @@ struct ClusterRun {
   const ClusteredMesh* mesh;
   const InstanceTransform* transform;
   uint32_t instance, first, last;
-  ObjectEye eye;  ///< read where the window drops faces
 };
 
 /// Appends those clusters of the runs that may be seen, with the pixels they may touch, in the runs' order.
-/// Conservative: bounds are wider than any rounding of the vertex stage, and a cluster all of whose triangles are
-/// turned away is left out only where neither roundings nor the snap to 1/256 pixel can turn one of them.
+/// Conservative: bounds are wider than any rounding of the vertex stage.
 void append_seen(std::span<const ClusterRun> runs, const WindowTransform& window, std::vector<ClusterDraw>& out);
 
 /// Whether a box of an instance, one of `boxes`, may be seen.

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/fp_env.h"
-#include "raster/clusters/cone_maker.h"
 
 namespace trueshade {
 namespace {
@@ -16,6 +15,7 @@ class Builder {
  public:
   explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
     out_.surface_lines = mesh.has_color() ? 7 : 3;
+    out_.pose = mesh.pose;
     const size_t triangles = mesh.triangle_count();
     for (auto& stream : out_.corner) stream.reserve(triangles + kCornerSlack);
     const size_t vertices = mesh.vertex_count() + mesh.vertex_count() / 2;  // some are in several clusters
@@ -35,11 +35,9 @@ class Builder {
     }
     finish();
     for (size_t c = 0; c < 3; ++c) add_box(c, least_[c], greatest_[c]);
-    add_cone(NormalCone{}, out_.cones);
     for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
     for (auto* ends : {&out_.boxes.center, &out_.boxes.half_size})
       for (auto& stream : *ends) stream.resize(stream.size() + kBoxSlack);
-    for (size_t i = 0; i < kBoxSlack; ++i) add_cone(NormalCone{}, out_.cones);
     return std::move(out_);
   }
 
@@ -102,7 +100,6 @@ class Builder {
       for (size_t c = 0; c < 3; ++c) add_line(mesh_.normal[c], i);
       for (size_t c = 0; c < 4 && mesh_.has_color(); ++c) add_line(mesh_.color[c], i);
     }
-    add_cone(normal_cone(out_, current_, out_.clusters.size()), out_.cones);
     out_.clusters.push_back(current_);
   }
 
@@ -126,6 +123,12 @@ ClusteredScene cluster_scene(const Scene& scene) {
   ClusteredScene out;
   for (const Mesh& mesh : scene.meshes) out.meshes.push_back(cluster_mesh(mesh));
   return out;
+}
+
+void cluster_posed_meshes(const Scene& scene, ClusteredScene& clusters) {
+  const FpScope fp;
+  for (size_t i = 0; i < scene.meshes.size(); ++i)
+    if (clusters.meshes[i].pose != scene.meshes[i].pose) clusters.meshes[i] = cluster_mesh(scene.meshes[i]);
 }
 
 }  // namespace trueshade

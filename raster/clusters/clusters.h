@@ -26,15 +26,6 @@ struct ClusterBoxes {
   std::array<std::vector<float>, 3> center, half_size;  ///< half sizes rounded up
 };
 
-/// What the triangles of a cluster have in common as a view sees their sides, object space, a lane each; vectors may
-/// read on past the last. Triangles that two corners at one place leave without area do not count.
-struct ClusterCones {
-  std::array<std::vector<float>, 3> axis;  ///< about unit length
-  std::vector<float> cosine, sine;         ///< of the greatest angle between it and a normal; below and above it
-  std::vector<float> off_center;           ///< at least as far as any triangle's plane is from the box's centre
-  std::vector<float> inradius;             ///< at most any triangle's; 0 where nothing is known
-};
-
 /// One number of 16 vertices.
 struct alignas(64) VertexLine {
   float value[16];
@@ -43,7 +34,6 @@ struct alignas(64) VertexLine {
 struct ClusteredMesh {
   std::vector<Cluster> clusters;
   ClusterBoxes boxes;                         ///< of each cluster, then of the mesh
-  ClusterCones cones;                         ///< of each cluster; of the mesh nothing is known
   std::array<HugeVector<float>, 3> position;  ///< object space, a cluster's vertices side by side
   /// Of each 16 vertices `surface_lines` lines side by side: normal x, y, z in object space and, where the mesh has
   /// colours, r, g, b, a. What is read of a cluster lies in one place, not at one place of seven streams.
@@ -51,6 +41,7 @@ struct ClusteredMesh {
   int surface_lines;
   HugeVector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
   std::array<HugeVector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
+  uint32_t pose = 0;                          ///< Mesh::pose of the vertices
 };
 
 /// Where the lines of the 16 vertices from `vertex` on begin.
@@ -64,5 +55,8 @@ struct ClusteredScene {
 
 ClusteredMesh cluster_mesh(const Mesh& mesh);
 ClusteredScene cluster_scene(const Scene& scene);
+
+/// Clusters those meshes again that set_time() has posed since.
+void cluster_posed_meshes(const Scene& scene, ClusteredScene& clusters);
 
 }  // namespace trueshade

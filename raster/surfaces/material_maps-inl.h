@@ -46,13 +46,13 @@ class MapTexels {
     find(maps.color ? *maps.color : maps.specular ? *maps.specular : *maps.normal);
   }
 
-  HWY_INLINE void read(const TextureView& texture, uint32_t channels, V32 rgba[kVectors][4]) {
+  HWY_NOINLINE void read(const TextureView& texture, uint32_t channels, V32 rgba[kVectors][4]) {
     if (&texture != found_ && !same_texels_) find(texture);
     for (int h = 0; h < kVectors; ++h) read_texture(texture, reader_[h], mine_[h], rgba[h], channels);
   }
 
  private:
-  HWY_INLINE void find(const TextureView& texture) {
+  HWY_NOINLINE void find(const TextureView& texture) {
     MipChoice mip[kVectors];
     choose_mips<kVectors>(texture, at_, mip);
     for (int h = 0; h < kVectors; ++h) reader_[h].set(texture, mip[h], at_[h].uv, mine_[h]);

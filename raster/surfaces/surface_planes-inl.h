@@ -55,13 +55,13 @@ struct MaterialValues {
   bool specular_map;  // its texel is in the specular plane already
 };
 
-inline MaterialValues material_values(const Material& m, const LightModel& model, bool specular_map) {
+inline MaterialValues material_values(const Material& m, const LightModel& model) {
   const bool metals = maps_metals(model);
   const float shininess = metals ? shininess_of_roughness(m.roughness) : m.shininess;
   return {{m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess},
           {m.emission.r, m.emission.g, m.emission.b},
           metals ? m.metallic : 0.0f,
-          specular_map};
+          false};
 }
 
 /// Applies a material to one pixel (docs/arithmetic.md section 7). `albedo` comes multiplied by the base colour and is
@@ -102,8 +102,8 @@ inline std::vector<MaterialValues> all_material_values(const SurfaceTask& task) 
   const SceneMaps& maps = task.in.view.maps;
   const std::vector<Material>& materials = task.in.scene.materials;
   for (size_t m = 0; m < materials.size(); ++m) {
-    const bool map = maps.textured() && maps.material[m].specular.has_value();
-    values.push_back(material_values(materials[m], task.model, map));
+    values.push_back(material_values(materials[m], task.model));
+    values.back().specular_map = maps.textured() && maps.material[m].specular.has_value();
   }
   return values;
 }

@@ -18,7 +18,7 @@ struct SurfaceTask {
   const VisibilityTile& visible;
   VisibleVertices& work;
   SurfaceTile& out;
-  bool need_uv;
+  bool reads_uv;  ///< texture coordinates are interpolated, for maps or for their planes
   StreamGroup group[4];
   int groups;
 
@@ -33,7 +33,7 @@ inline void set_groups(SurfaceTask& task) {
   if (!planes.position_from_depth) task.group[task.groups++] = {kPosition, 3, planes.position};
   task.group[task.groups++] = {kNormal, 3, planes.normal};
   task.group[task.groups++] = {kAlbedo, 4, planes.albedo};
-  if (task.need_uv) task.group[task.groups++] = {kUv, 2, planes.uv};
+  if (task.reads_uv) task.group[task.groups++] = {kUv, 2, planes.uv};
 }
 
 }  // namespace trueshade

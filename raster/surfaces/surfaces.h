@@ -14,6 +14,9 @@ enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams 
 /// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess, emission.
 enum MaterialPlane : int { kSpecular = kStreams, kEmission = kStreams + 4, kPlanes = kStreams + 7 };
 
+/// Whether the uv planes of a tile are filled where no map reads texture coordinates.
+enum class UvPlanes : uint8_t { omitted, filled };
+
 /// The G-buffer of one tile, in tile_index() order: values as they read back from the stored formats.
 struct SurfaceTile {
   alignas(64) int32_t covered[kMaxTilePixels];  ///< -1 with a surface, 0 without; the others mean nothing there
@@ -43,9 +46,8 @@ struct VisibleVertices {
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'
-/// formats. `model`: which planes the material fills. `need_uv`: fill the uv planes. `work` is scratch, kept between
-/// tiles to save allocation.
+/// formats. `model`: which planes the material fills. `work` is scratch, kept between tiles to save allocation.
 void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
-                      const VisibilityTile& visible, bool need_uv, VisibleVertices& work, SurfaceTile& out);
+                      const VisibilityTile& visible, UvPlanes uv, VisibleVertices& work, SurfaceTile& out);
 
 }  // namespace trueshade

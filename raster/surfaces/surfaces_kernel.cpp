@@ -86,9 +86,10 @@ void interpolate_clipped(const SurfaceTask& task) {
 }
 
 void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBufferState& planes,
-                           const LightModel& model, const VisibilityTile& visible, bool need_uv, VisibleVertices& work,
+                           const LightModel& model, const VisibilityTile& visible, UvPlanes uv, VisibleVertices& work,
                            SurfaceTile& out) {
-  SurfaceTask task{in, rect, planes, model, visible, work, out, need_uv || in.view.maps.textured(), {}, 0};
+  const bool reads_uv = uv == UvPlanes::filled || in.view.maps.textured();
+  SurfaceTask task{in, rect, planes, model, visible, work, out, reads_uv, {}, 0};
   set_groups(task);
   if (resolve_by_blocks(task)) return;  // fast path
   find_corners(task);
@@ -103,3 +104,7 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(resolve_surfaces, HWY_NAMESPACE::resolve_surfaces_simd);
+}  // namespace trueshade

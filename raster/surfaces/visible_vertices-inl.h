@@ -28,8 +28,9 @@ inline void copy_stream(const std::vector<float>& from, const uint32_t* vertex, 
 }
 
 /// Copies a cluster's object-space attributes to `at` and on.
-inline void copy_attributes(const Mesh& mesh, const ClusteredMesh& clusters, const Cluster& cluster, bool need_uv,
-                            size_t at, VisibleVertices& work) {
+inline void copy_attributes(const SurfaceTask& task, const Mesh& mesh, const ClusteredMesh& clusters,
+                            const Cluster& cluster, size_t at) {
+  VisibleVertices& work = task.work;
   const uint32_t* vertex = &clusters.vertex[cluster.first_vertex];
   const int count = cluster.vertices;
   for (size_t c = 0; c < 3; ++c) {
@@ -37,7 +38,7 @@ inline void copy_attributes(const Mesh& mesh, const ClusteredMesh& clusters, con
     copy_stream(mesh.normal[c], vertex, count, 0.0f, &work.stream[size_t(kNormal) + c][at]);
   }
   for (size_t c = 0; c < 4; ++c) copy_stream(mesh.color[c], vertex, count, 1.0f, &work.stream[size_t(kAlbedo) + c][at]);
-  for (size_t c = 0; c < 2 && need_uv; ++c)
+  for (size_t c = 0; c < 2 && task.reads_uv; ++c)
     copy_stream(mesh.uv[c], vertex, count, 0.0f, &work.stream[size_t(kUv) + c][at]);
 }
 
@@ -62,7 +63,7 @@ inline void fill_slot(const SurfaceTask& task, uint32_t position, int32_t slot) 
   std::copy_n(window.x, cluster.vertices, &work.x[at]);
   std::copy_n(window.y, cluster.vertices, &work.y[at]);
   std::copy_n(window.u, cluster.vertices, &work.u[at]);
-  copy_attributes(in.scene.meshes[instance.mesh], clusters, cluster, task.need_uv, at, work);
+  copy_attributes(task, in.scene.meshes[instance.mesh], clusters, cluster, at);
   const D32 d;
   for (size_t i = at; i < at + cluster.vertices; i += hn::Lanes(d)) {
     V32 object[6], world[6];

@@ -1,24 +1,13 @@
 #include "raster/textures/texture.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raster/textures/texture.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <bit>
 
-// Compiled once per SIMD target from texture_kernel.cpp.
-namespace trueshade::HWY_NAMESPACE {
-decltype(trueshade::look_up) look_up_simd;
-}  // namespace trueshade::HWY_NAMESPACE
+#include "core/simd/dispatch.h"
 
-#if HWY_ONCE
 namespace trueshade {
-HWY_EXPORT(look_up_simd);
-
 void look_up(const TextureView& texture, std::span<const TexturePoint> points, std::span<std::array<float, 4>> out) {
-  HWY_DYNAMIC_DISPATCH(look_up_simd)(texture, points, out);
+  kernel<look_up>()(texture, points, out);
 }
 
 TextureView view_of(const Texture& texture, const Sampler& sampler) {
@@ -61,4 +50,3 @@ SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
   return maps;
 }
 }  // namespace trueshade
-#endif  // HWY_ONCE

@@ -40,3 +40,7 @@ void look_up_simd(const TextureView& texture, std::span<const TexturePoint> poin
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(look_up, HWY_NAMESPACE::look_up_simd);
+}  // namespace trueshade

@@ -26,7 +26,7 @@ void draw_clusters(const TileDraws& in, const TileRect& rect, bool culling, Visi
       draw_cluster(in, rect, ListedDraw(in.draws[in.list[i]], i, rect, in.view.window), work, sink, counts);
   } else {
     for_each_visible(in, rect, out, !sink.rule.may_come_nearer(),
-                  [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, sink, counts); });
+                     [&](const ListedDraw& listed) { draw_cluster(in, rect, listed, work, sink, counts); });
   }
   counts.fragments += sink.fragments;
 }
@@ -58,8 +58,8 @@ void keep_shared(const VisibilityTile& visible, std::vector<DepthFragment>& frag
   fragments.resize(kept);
 }
 
-void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc func, bool culling,
-                            VisibilityTile& visible, std::vector<DepthFragment>& out) {
+void list_passing(const TileDraws& in, const TileRect& rect, DepthFunc func, bool culling, VisibilityTile& visible,
+                  std::vector<DepthFragment>& out) {
   out.clear();
   const WindowTransform& t = in.view.window;
   const bool cull = culling && (func == DepthFunc::less || func == DepthFunc::lequal || func == DepthFunc::equal);
@@ -73,9 +73,14 @@ void passing_fragments_simd(const TileDraws& in, const TileRect& rect, DepthFunc
   });
 }
 
+void passing_fragments_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
+                            std::vector<DepthFragment>& out) {
+  list_passing(in, rect, in.state.depth_func, culling, visible, out);
+}
+
 void fragments_at_equal_depth_simd(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
                                    std::vector<DepthFragment>& out) {
-  passing_fragments_simd(in, rect, DepthFunc::equal, culling, visible, out);
+  list_passing(in, rect, DepthFunc::equal, culling, visible, out);
   keep_shared(visible, out);
 }
 
@@ -94,3 +99,11 @@ void clip_corners_simd(const TileDraws& in, uint32_t position, uint32_t triangle
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(draw_visibility, HWY_NAMESPACE::draw_visibility_simd);
+TRUESHADE_KERNEL(draw_visibility_upon, HWY_NAMESPACE::draw_visibility_upon_simd);
+TRUESHADE_KERNEL(passing_fragments, HWY_NAMESPACE::passing_fragments_simd);
+TRUESHADE_KERNEL(fragments_at_equal_depth, HWY_NAMESPACE::fragments_at_equal_depth_simd);
+TRUESHADE_KERNEL(clip_corners, HWY_NAMESPACE::clip_corners_simd);
+}  // namespace trueshade

@@ -8,7 +8,7 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kLights = 64, kObjects = 26;
+constexpr uint32_t kCircleLights = 64, kCircleObjects = 26;
 
 glm::dvec3 knot_point(double t) {  // the (2, 3) torus knot, t in turns
   const double a = 2.0 * kPi * t;
@@ -56,7 +56,7 @@ Scene circle(const Parameters& parameters) {
   scene.meshes = {plane_mesh(28), knot_mesh(), sphere_mesh(14)};
   scene.instances.push_back({0, 0, placed({0.0, 0.0, 0.0}, {18.0, 1.0, 18.0})});
   scene.instances.push_back({1, 1, placed({0.0, 1.0, 0.0}, glm::dvec3(1.15))});
-  const uint32_t balls = parameters.objects_or(kObjects) - 1;
+  const uint32_t balls = parameters.objects_or(kCircleObjects) - 1;
   for (uint32_t i = 1; i < balls; ++i) {
     const double angle = 2.0 * kPi * i / (balls - 1);
     const double radius = 0.22 + 0.10 * double(i % 3);
@@ -64,8 +64,8 @@ Scene circle(const Parameters& parameters) {
   }
 
   Pcg32 random(parameters.seed, 6);
-  const uint32_t lights = parameters.lights_or(kLights);
-  const double reach = parameters.reach(kLights);
+  const uint32_t lights = parameters.lights_or(kCircleLights);
+  const double reach = parameters.reach(kCircleLights);
   for (uint32_t i = 0; i < lights; ++i) {  // the circle turns
     const double turn = double(i) / lights;
     const double noise = random.real();

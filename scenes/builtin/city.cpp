@@ -12,7 +12,7 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kObjects = 2490, kLights = 757;
+constexpr uint32_t kCityObjects = 2490, kCityLights = 757;
 constexpr int kLot = 10, kStreet = 10, kPitch = 2 * kLot + kStreet;
 
 struct Lot {
@@ -131,7 +131,7 @@ Scene city(const Parameters& parameters) {
   scene.meshes.push_back(cube_mesh());
 
   Pcg32 random(parameters.seed, 1), drift(parameters.seed, 21);
-  const uint32_t objects = parameters.objects_or(kObjects);
+  const uint32_t objects = parameters.objects_or(kCityObjects);
   const std::vector<Lot> lots = lots_from_centre(objects);
   const double city_radius = 15.0 + 6.4 * std::sqrt(double(objects));  // near 1.6 cubes a building
   scene.instances.push_back({0, 0, placed({0.0, -1.0, 0.0}, {2.2 * city_radius, 2.0, 2.2 * city_radius})});
@@ -142,8 +142,8 @@ Scene city(const Parameters& parameters) {
                    [](const Building& a, const Building& b) { return curve_position(a) < curve_position(b); });
   if (buildings.empty()) buildings.push_back({glm::dvec3(0.0), city_radius, city_radius});
 
-  const uint32_t lights = parameters.lights_or(kLights);
-  const double reach = parameters.reach(kLights);
+  const uint32_t lights = parameters.lights_or(kCityLights);
+  const double reach = parameters.reach(kCityLights);
   for (uint32_t i = 0; i < lights; ++i) {
     const Building& building = buildings[size_t(even_point(i).x * double(buildings.size()))];
     if (i % 8 < 3)

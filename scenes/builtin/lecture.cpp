@@ -2,8 +2,8 @@
 
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/shapes.h"
 #include "scenes/builtin/texture_pattern.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // After the lecture on forward and deferred lighting: a textured room, things on plinths, and spot lights under the
@@ -11,11 +11,11 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kLights = 15, kSweeping = 64;         // a little ambient light, and spots
+constexpr uint32_t kLectureLights = 15, kSweeping = 64;  // a little ambient light, and spots
 constexpr double kWide = 6.0, kDeep = 4.5, kHigh = 5.0;  // half the width, half the depth, the height
 
-enum MeshId : uint32_t { kFloor, kWall, kCube, kSphere, kKnot, kRabbit };
-enum MaterialId : uint32_t { kTiles, kBricks, kCeiling, kPlinth, kClay, kBronze, kFur };
+enum RoomMesh : uint32_t { kRoomFloor, kRoomWall, kBlock, kSphere, kKnot, kRabbit };
+enum RoomMaterial : uint32_t { kTiles, kBricks, kCeiling, kPlinth, kClay, kBronze, kFur };
 
 /// A unit square as plane_mesh(), its texture repeated u and v times.
 Mesh textured_plane(double u, double v) {
@@ -51,7 +51,7 @@ void add_surfaces(Scene& scene, uint64_t seed) {
 }
 
 /// A side of the room: the plane mesh turned so that its normal becomes `up` and its x axis `side`.
-void add_side(Scene& scene, MeshId mesh, MaterialId material, const glm::vec3& centre, const glm::vec3& side,
+void add_side(Scene& scene, RoomMesh mesh, RoomMaterial material, const glm::vec3& centre, const glm::vec3& side,
               const glm::vec3& up, const glm::vec3& front) {
   scene.instances.push_back({mesh, material, glm::mat4x3(side, up, front, centre)});
 }
@@ -59,20 +59,20 @@ void add_side(Scene& scene, MeshId mesh, MaterialId material, const glm::vec3& c
 void add_room(Scene& scene) {
   const float w = float(2.0 * kWide), d = float(2.0 * kDeep), h = float(kHigh);
   const glm::vec3 x(1.0f, 0.0f, 0.0f), y(0.0f, 1.0f, 0.0f), z(0.0f, 0.0f, 1.0f), middle(0.0f, 0.5f * h, 0.0f);
-  add_side(scene, kFloor, kTiles, glm::vec3(0.0f), w * x, y, d * z);
-  add_side(scene, kWall, kCeiling, h * y, w * x, -y, -d * z);
-  add_side(scene, kWall, kBricks, middle - 0.5f * d * z, w * x, z, -h * y);
-  add_side(scene, kWall, kBricks, middle - 0.5f * w * x, -d * z, x, -h * y);
-  add_side(scene, kWall, kBricks, middle + 0.5f * w * x, d * z, -x, -h * y);
+  add_side(scene, kRoomFloor, kTiles, glm::vec3(0.0f), w * x, y, d * z);
+  add_side(scene, kRoomWall, kCeiling, h * y, w * x, -y, -d * z);
+  add_side(scene, kRoomWall, kBricks, middle - 0.5f * d * z, w * x, z, -h * y);
+  add_side(scene, kRoomWall, kBricks, middle - 0.5f * w * x, -d * z, x, -h * y);
+  add_side(scene, kRoomWall, kBricks, middle + 0.5f * w * x, d * z, -x, -h * y);
 }
 
 void add_things(Scene& scene) {
   const double x[] = {-3.0, 0.0, 3.0}, z[] = {-1.2, -2.0, -1.2};
-  for (int i = 0; i < 3; ++i) scene.instances.push_back({kCube, kPlinth, placed({x[i], 0.4, z[i]}, {1.3, 0.8, 1.3})});
+  for (int i = 0; i < 3; ++i) scene.instances.push_back({kBlock, kPlinth, placed({x[i], 0.4, z[i]}, {1.3, 0.8, 1.3})});
   scene.instances.push_back({kRabbit, kFur, placed({x[0], 0.8, z[0]}, glm::dvec3(1.5), 0.5)});
   scene.instances.push_back({kKnot, kBronze, placed({x[1], 1.65, z[1]}, glm::dvec3(0.75))});
   scene.instances.push_back({kSphere, kClay, placed({x[2], 1.5, z[2]}, glm::dvec3(0.7))});
-  scene.instances.push_back({kCube, kClay, placed({-1.7, 0.35, 1.2}, glm::dvec3(0.7), 0.5)});
+  scene.instances.push_back({kBlock, kClay, placed({-1.7, 0.35, 1.2}, glm::dvec3(0.7), 0.5)});
   scene.instances.push_back({kSphere, kBronze, placed({1.6, 0.45, 1.0}, glm::dvec3(0.45))});
 }
 
@@ -112,8 +112,8 @@ Scene lecture(const Parameters& parameters) {
   add_room(scene);
   add_things(scene);
   Pcg32 random(parameters.seed, 8), drift(parameters.seed, 28);
-  const uint32_t lights = parameters.lights_or(kLights);
-  const double reach = parameters.reach(kLights);
+  const uint32_t lights = parameters.lights_or(kLectureLights);
+  const double reach = parameters.reach(kLectureLights);
   const glm::dvec3 things[] = {{-3.0, 1.4, -1.2}, {0.0, 1.6, -2.0}, {3.0, 1.4, -1.2}};
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {

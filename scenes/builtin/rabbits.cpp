@@ -2,8 +2,8 @@
 
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
-#include "scenes/shapes.h"
 #include "scenes/builtin/surface_net.h"
+#include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 // A hill of rabbits. One rabbit is the surface of a field: rounded parts, joined smoothly, of which we mesh the zero
@@ -11,7 +11,7 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kLights = 100, kObjects = 125;
+constexpr uint32_t kRabbitsLights = 100, kRabbitsObjects = 125;
 constexpr size_t kRabbitTriangles = 40000;
 
 double length(const glm::dvec3& v) { return std::sqrt(dot(v, v)); }
@@ -110,7 +110,7 @@ Scene rabbits(const Parameters& parameters) {
                      {"clay", {0.66f, 0.42f, 0.32f, 1.0f}}};
   scene.meshes = {rabbit_mesh()};
   Pcg32 random(parameters.seed, 2);
-  const uint32_t objects = parameters.objects_or(kObjects);
+  const uint32_t objects = parameters.objects_or(kRabbitsObjects);
   // Seeds of a sunflower: evenly spread over a disc however many they are; the hill rises towards the middle.
   const double spacing = 0.45, radius = spacing * std::sqrt(double(objects)), top = 0.42 * radius;
   const auto on_hill = [&](double distance, double angle) {
@@ -124,8 +124,8 @@ Scene rabbits(const Parameters& parameters) {
     const uint32_t material = random.below(4);
     scene.instances.push_back({0, material, placed(at, glm::dvec3(random.between(0.92, 1.15)), outward)});
   }
-  const uint32_t lights = parameters.lights_or(kLights);
-  const double reach = parameters.reach(kLights);
+  const uint32_t lights = parameters.lights_or(kRabbitsLights);
+  const double reach = parameters.reach(kRabbitsLights);
   Pcg32 drift(parameters.seed, 22);
   for (uint32_t i = 0; i < lights; ++i) {
     const double distance = radius * 1.08 * std::sqrt((i + 0.5) / lights), angle = 2.399963229728653 * i + 1.0;

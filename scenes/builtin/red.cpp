@@ -10,7 +10,7 @@
 namespace trueshade::builtin {
 namespace {
 
-constexpr uint32_t kLights = 100;
+constexpr uint32_t kRedLights = 100;
 constexpr int kSide = 2000;       // vertices
 constexpr double kExtent = 40.0;  // scene units across
 
@@ -114,8 +114,8 @@ Scene red(const Parameters& parameters) {
   scene.instances.push_back({});
 
   Pcg32 random(parameters.seed, 4);
-  const uint32_t lights = parameters.lights_or(kLights);
-  const double reach = parameters.reach(kLights);
+  const uint32_t lights = parameters.lights_or(kRedLights);
+  const double reach = parameters.reach(kRedLights);
   Pcg32 drift(parameters.seed, 24);
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {

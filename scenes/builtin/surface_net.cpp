@@ -13,7 +13,7 @@ constexpr int kBlock = 4;  // nodes along a side of a block that is skipped toge
 
 class Net {
  public:
-  Net(const Field& field, const glm::dvec3& low, const glm::ivec3& cells, double step)
+  Net(const DistanceField& field, const glm::dvec3& low, const glm::ivec3& cells, double step)
       : field_(field),
         low_(low),
         nodes_(cells + glm::ivec3(1)),
@@ -123,7 +123,7 @@ class Net {
     return sum;
   }
 
-  const Field& field_;
+  const DistanceField& field_;
   glm::dvec3 low_;
   glm::ivec3 nodes_;
   double step_;
@@ -134,7 +134,7 @@ class Net {
 
 }  // namespace
 
-Mesh surface_net(const Field& field, const glm::dvec3& low, const glm::ivec3& cells, double step) {
+Mesh surface_net(const DistanceField& field, const glm::dvec3& low, const glm::ivec3& cells, double step) {
   return Net(field, low, cells, step).build();
 }
 

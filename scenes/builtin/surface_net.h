@@ -7,13 +7,13 @@
 namespace trueshade {
 
 /// A scalar field, negative inside, whose slope is at most 1 or little more (a distance or near it).
-using Field = std::function<double(const glm::dvec3&)>;
+using DistanceField = std::function<double(const glm::dvec3&)>;
 
 /// The surface field = 0 inside the box from `low`, of `cells` cells of side `step`, with normals along the gradient.
 /// Surface nets (Sarah Gibson, "Constrained Elastic Surface Nets", 1998): a vertex in each cell that the surface
 /// crosses, moved onto the surface, and a quad around each grid edge that it crosses. Closed if the surface stays
 /// inside the box.
-Mesh surface_net(const Field& field, const glm::dvec3& low, const glm::ivec3& cells, double step);
+Mesh surface_net(const DistanceField& field, const glm::dvec3& low, const glm::ivec3& cells, double step);
 
 /// Splits the longest edges of a closed mesh, no two that share a triangle, until there are `triangles`; each split
 /// adds two, and its new vertex is the middle of the edge. Does nothing if there are that many; the difference must be

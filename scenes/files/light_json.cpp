@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scenes/files/light_buffers.h"
 #include "scenes/builtin/light_generators.h"
+#include "scenes/files/light_buffers.h"
 #include "scenes/files/scene_files.h"
 #include "scenes/files/steps_json.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
-
-constexpr double kLargest = 1e18;
-constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity", "steps", "interpolation", "repeat"};
 constexpr std::string_view kDirectionalKeys[] = {"type",    "direction", "color",         "intensity",
@@ -37,18 +34,18 @@ constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",    
 constexpr std::string_view kBuffersKeys[] = {"type", "position", "color", "falloff", "intensity", "range"};
 
 // As LightType, then those that make many; the types' steps follow.
-enum Object : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kBuffers, kAmbientStep };
-constexpr json::ObjectKeys kObjects[] = {{"ambient", kAmbientKeys},
-                                         {"directional", kDirectionalKeys},
-                                         {"point", kPointKeys},
-                                         {"spot", kSpotKeys},
-                                         {"ring", kRingKeys},
-                                         {"box", kBoxKeys},
-                                         {"buffers", kBuffersKeys},
-                                         {"ambient_step", kAmbientStepKeys},
-                                         {"directional_step", kDirectionalStepKeys},
-                                         {"point_step", kPointStepKeys},
-                                         {"spot_step", kSpotStepKeys}};
+enum : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kBuffers, kAmbientStep };
+constexpr json::ObjectKeys kLightJsonKeys[] = {{"ambient", kAmbientKeys},
+                                               {"directional", kDirectionalKeys},
+                                               {"point", kPointKeys},
+                                               {"spot", kSpotKeys},
+                                               {"ring", kRingKeys},
+                                               {"box", kBoxKeys},
+                                               {"buffers", kBuffersKeys},
+                                               {"ambient_step", kAmbientStepKeys},
+                                               {"directional_step", kDirectionalStepKeys},
+                                               {"point_step", kPointStepKeys},
+                                               {"spot_step", kSpotStepKeys}};
 constexpr std::string_view kTypes[] = {"ambient", "directional", "point", "spot", "ring", "box", "buffers"};
 
 std::optional<glm::dvec4> read_direction(const json::Node& object) {
@@ -70,10 +67,10 @@ struct LightValue {
   bool required;  ///< in the lights that have the key
 };
 constexpr LightValue kValues[] = {
-    {"ambient", LightProperty::ambient, Kind::three_numbers, 0.0, kLargest, false},
-    {"position", LightProperty::position, Kind::three_numbers, -kLargest, kLargest, true},
-    {"range", LightProperty::range, Kind::number, kSmallest, kLargest, false},
-    {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, kLargest, false},
+    {"ambient", LightProperty::ambient, Kind::three_numbers, 0.0, json::kLargest, false},
+    {"position", LightProperty::position, Kind::three_numbers, -json::kLargest, json::kLargest, true},
+    {"range", LightProperty::range, Kind::number, json::kSmallest, json::kLargest, false},
+    {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, json::kLargest, false},
     {"cone_deg", LightProperty::cone, Kind::degrees, 0.0, 180.0, true},
     {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false},
     {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false}};
@@ -88,8 +85,8 @@ class LightReader {
  public:
   LightReader(const json::Node& node, LightType type, Scene& scene)
       : node_(node),
-        keys_(kObjects[size_t(type)]),
-        steps_(node, kObjects[kAmbientStep + size_t(type)]),
+        keys_(kLightJsonKeys[size_t(type)]),
+        steps_(node, kLightJsonKeys[kAmbientStep + size_t(type)]),
         index_(uint32_t(scene.lights.size())),
         light_(scene.lights.emplace_back()),
         motions_(scene.timeline.lights) {
@@ -119,8 +116,8 @@ class LightReader {
 
   /// Colour and intensity move together or not at all, as one multiplies the other.
   void read_brightness() {
-    Said color = steps_.said("color", numbers("color", 3, 0.0, kLargest));
-    Said intensity = steps_.said("intensity", numbers("intensity", 1, 0.0, kLargest));
+    Said color = steps_.said("color", numbers("color", 3, 0.0, json::kLargest));
+    Said intensity = steps_.said("intensity", numbers("intensity", 1, 0.0, json::kLargest));
     const bool moves = color.track || intensity.track;
     const auto standing = [moves](Said& said) {
       if (moves && !said.track) said = {{}, Track{{0.0}, {said.value.value_or(glm::dvec4(1.0))}}};
@@ -154,7 +151,7 @@ glm::vec3 three_or(const json::Node& node, std::string_view key, const glm::vec3
 std::vector<glm::vec3> read_colors(const json::Node& node) {
   std::vector<glm::vec3> colors;
   if (const auto list = node.find("colors"))
-    for (size_t i = 0; i < list->array(1, 64).size(); ++i) colors.push_back(list->element(i).vec3(0.0, kLargest));
+    for (size_t i = 0; i < list->array(1, 64).size(); ++i) colors.push_back(list->element(i).vec3(0.0, json::kLargest));
   return colors.empty() ? std::vector<glm::vec3>{glm::vec3(1.0f)} : colors;
 }
 
@@ -164,19 +161,19 @@ void read_shared(const json::Node& node, Generator& out, size_t lights, const Sc
   out.count = uint32_t(node.member("count").integer(1, UINT32_MAX));
   if (lights + out.count > limits.lights)
     node.fail("the lights are over the limit", "at most " + std::to_string(limits.lights), ErrorKind::limit);
-  out.intensity = real_or(node, "intensity", 1.0, 0.0, kLargest);
+  out.intensity = real_or(node, "intensity", 1.0, 0.0, json::kLargest);
   out.noise = real_or(node, "noise", 0.0, 0.0, 1.0);
   if (const auto seed = node.find("seed")) out.seed = uint64_t(seed->integer(0, 9007199254740991));
-  if (const auto range = node.find("range")) out.range = range->real(kSmallest, kLargest);
-  out.attenuation = three_or(node, "attenuation", out.attenuation, 0.0, kLargest);
+  if (const auto range = node.find("range")) out.range = range->real(json::kSmallest, json::kLargest);
+  out.attenuation = three_or(node, "attenuation", out.attenuation, 0.0, json::kLargest);
 }
 
 void read_ring(const json::Node& node, Scene& scene, const SceneLimits& limits) {
   LightRing ring;
   read_shared(node, ring, scene.lights.size(), limits);
-  ring.centre = glm::dvec3(three_or(node, "center", glm::vec3(0.0f), -kLargest, kLargest));
-  ring.centre.y += real_or(node, "height", 0.0, -kLargest, kLargest);
-  ring.radius = double(node.member("radius").real(kSmallest, kLargest));
+  ring.centre = glm::dvec3(three_or(node, "center", glm::vec3(0.0f), -json::kLargest, json::kLargest));
+  ring.centre.y += real_or(node, "height", 0.0, -json::kLargest, json::kLargest);
+  ring.radius = double(node.member("radius").real(json::kSmallest, json::kLargest));
   const std::vector<glm::vec3> colors = read_colors(node);
   ring.colors = colors;
   ring.turn_s = real_or(node, "turn_s", 0.0, 0.001, 1e6);
@@ -186,11 +183,11 @@ void read_ring(const json::Node& node, Scene& scene, const SceneLimits& limits) 
 void read_box(const json::Node& node, Scene& scene, const SceneLimits& limits) {
   LightBox box;
   read_shared(node, box, scene.lights.size(), limits);
-  box.from = glm::dvec3(node.member("from").vec3(-kLargest, kLargest));
-  box.to = glm::dvec3(node.member("to").vec3(-kLargest, kLargest));
+  box.from = glm::dvec3(node.member("from").vec3(-json::kLargest, json::kLargest));
+  box.to = glm::dvec3(node.member("to").vec3(-json::kLargest, json::kLargest));
   const std::vector<glm::vec3> colors = read_colors(node);
   box.colors = colors;
-  box.drift = real_or(node, "drift", 0.0, 0.0, kLargest);
+  box.drift = real_or(node, "drift", 0.0, 0.0, json::kLargest);
   box.drift_s = real_or(node, "drift_s", box.drift_s, 0.001, 1e6);
   add_box(scene, box);
 }
@@ -226,7 +223,7 @@ std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSou
                             source.most);
 }
 
-/// The samples under a key, each number in [least, kLargest]; none where the key is absent.
+/// The samples under a key, each number in [least, json::kLargest]; none where the key is absent.
 std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view key, double least,
                                    const BufferSource& source) {
   const auto node = lights.find(key);
@@ -236,13 +233,13 @@ std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view ke
     const size_t count = node->array(0, SIZE_MAX).size();
     if (count > source.most)
       node->fail("the lights are over the limit", "at most " + std::to_string(source.most), ErrorKind::limit);
-    for (size_t i = 0; i < count; ++i) samples.push_back(node->element(i).vec3(least, kLargest));
+    for (size_t i = 0; i < count; ++i) samples.push_back(node->element(i).vec3(least, json::kLargest));
     return samples;
   }
   std::vector<glm::vec3> samples = samples_from_file(*node, source);
   for (size_t i = 0; i < samples.size(); ++i)
     for (int k = 0; k < 3; ++k)
-      if (!(samples[i][k] >= float(least) && samples[i][k] <= float(kLargest)))
+      if (!(samples[i][k] >= float(least) && samples[i][k] <= float(json::kLargest)))
         node->fail("sample " + std::to_string(i) + " is out of range",
                    "numbers from " + json::number_text(least) + " to 1e+18");
   return samples;
@@ -251,7 +248,7 @@ std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view ke
 void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
   source.most -= std::min<uint64_t>(source.most, scene.lights.size());
   node.member("position");
-  const std::vector<glm::vec3> position = read_buffer(node, "position", -kLargest, source);
+  const std::vector<glm::vec3> position = read_buffer(node, "position", -json::kLargest, source);
   const std::vector<glm::vec3> color = read_buffer(node, "color", 0.0, source);
   const std::vector<glm::vec3> falloff = read_buffer(node, "falloff", 0.0, source);
   for (const auto& [key, samples] : {std::pair("color", &color), std::pair("falloff", &falloff)})
@@ -259,7 +256,7 @@ void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
       node.fail(std::string("'") + key + "' has " + std::to_string(samples->size()) + " samples, 'position' " +
                     std::to_string(position.size()),
                 "as many of each: sample i is light i");
-  const double intensity = real_or(node, "intensity", 1.0, 0.0, kLargest);
+  const double intensity = real_or(node, "intensity", 1.0, 0.0, json::kLargest);
   const auto range = node.find("range");
   for (size_t i = 0; i < position.size(); ++i) {
     Light light;
@@ -267,14 +264,14 @@ void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
     if (!color.empty()) light.color = color[i];
     set_property(light, LightProperty::intensity, glm::dvec4(intensity));
     if (!falloff.empty()) light.attenuation = falloff[i];
-    if (range) light.range = range->real(kSmallest, kLargest);
+    if (range) light.range = range->real(json::kSmallest, json::kLargest);
     scene.lights.push_back(light);
   }
 }
 
 }  // namespace
 
-std::span<const json::ObjectKeys> light_json_keys() { return kObjects; }
+std::span<const json::ObjectKeys> light_json_keys() { return kLightJsonKeys; }
 
 void read_lights(const json::Node& list, Scene& scene, const std::string& path, const SceneLimits& limits,
                  const ImageDecoder& decode) {
@@ -282,7 +279,7 @@ void read_lights(const json::Node& list, Scene& scene, const std::string& path, 
   for (size_t i = 0; i < count; ++i) {
     const json::Node node = list.element(i);
     const size_t type = node.member("type").choice(kTypes);
-    node.check_keys(kObjects[type]);
+    node.check_keys(kLightJsonKeys[type]);
     if (type == kRing)
       read_ring(node, scene, limits);
     else if (type == kBox)

@@ -3,7 +3,8 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/builtin/light_generators.h"
+#include "scenes/files/gltf/gltf_scene.h"
+#include "scenes/files/lights_of_ours.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/files/scene_json.h"
 #include "scenes/scene.h"
@@ -16,22 +17,11 @@ namespace {
 /// The mesh alone: grey, seen whole, inside a ring of lights from warm to cold.
 Scene scene_of(Mesh mesh) {
   Scene scene;
-  scene.clear = {0.02f, 0.02f, 0.03f, 1.0f};
   scene.meshes.push_back(std::move(mesh));
   scene.materials.push_back({"grey", {0.7f, 0.7f, 0.7f, 1.0f}});
   scene.instances.push_back({});
-  const Bounds bounds = bounds_of(scene);
-  scene.camera = camera_seeing(bounds);
-  const glm::vec3 colors[] = {{1.0f, 0.72f, 0.42f}, {1.0f, 0.35f, 0.45f}, {0.35f, 0.5f, 1.0f}, {0.5f, 1.0f, 0.9f}};
-  LightRing ring;
-  ring.count = 24;
-  ring.centre = bounds.centre + glm::dvec3(0.0, 0.6 * bounds.radius, 0.0);
-  ring.radius = 1.3 * bounds.radius;
-  ring.colors = colors;
-  ring.intensity = 0.3;
-  ring.range = float(3.0 * bounds.radius);
-  ring.attenuation = {1.0f, 0.0f, float(1.0 / (bounds.radius * bounds.radius))};
-  add_ring(scene, ring);
+  scene.camera = camera_seeing(bounds_of(scene));
+  add_lights_of_ours(scene);
   return scene;
 }
 
@@ -47,6 +37,8 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
   if (spec.ends_with(".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes);
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode);
+  } else if (is_gltf_name(spec)) {
+    scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);
   } else if (is_geometry_name(spec)) {
     scene = scene_of(
         mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));
@@ -55,7 +47,7 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
     const std::string name = spec.substr(0, spec.find(','));
     const bool bare = std::any_of(known.begin(), known.end(), [&](const BuiltinInfo& b) { return b.name == name; });
     throw Error(ErrorKind::bad_input, spec, "the ending names no scene or geometry format",
-                bare ? "a built-in scene is builtin:" + spec : "builtin:NAME, .json, .ply or .ply.gz");
+                bare ? "a built-in scene is builtin:" + spec : "builtin:NAME, .json, .gltf, .glb, .ply or .ply.gz");
   }
   scene.spec = name_without_folder(spec);
   validate(scene, limits);

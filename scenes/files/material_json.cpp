@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scenes/builtin/texture_pattern.h"
+#include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
@@ -26,6 +27,13 @@ template <class Enum>
 Enum choice_or(const json::Node& node, std::string_view key, std::span<const std::string_view> names, Enum absent) {
   const auto found = node.find(key);
   return found ? Enum(found->choice(names)) : absent;
+}
+
+void read_two(const json::Node& node, std::string_view key, glm::vec2& out) {
+  const auto pair = node.find(key);
+  if (!pair) return;
+  pair->array(2, 2);
+  for (int k = 0; k < 2; ++k) out[k] = pair->element(size_t(k)).real(-kLargestUvTransform, kLargestUvTransform);
 }
 
 int side(const json::Node& node) { return int(node.integer(1, kMaxTextureSide)); }
@@ -141,6 +149,11 @@ TextureSlot MaterialReader::read_map(const json::Node& node) const {
   if (const auto high = node.find("lod_max")) s.lod_max = high->real(-1000.0, 1000.0);
   if (!(s.lod_min <= s.lod_max)) node.fail("lod_min is above lod_max", "lod_min <= lod_max");
   if (const auto border = node.find("border")) s.border = border->color();
+  if (const auto set = node.find("uv_set")) slot.uv_set = uint8_t(set->integer(0, 1));
+  read_two(node, "uv_offset", slot.transform.offset);
+  read_two(node, "uv_scale", slot.transform.scale);
+  if (const auto turn = node.find("uv_rotation_deg"))
+    slot.transform.rotation_rad = float(turn->number(-36000.0, 36000.0) * (kPi / 180.0));
   return slot;
 }
 
@@ -158,12 +171,19 @@ Material MaterialReader::read_material(const json::Node& node) const {
   if (const auto scale = node.find("normal_scale")) material.normal_scale = scale->real(-1000.0, 1000.0);
   if (const auto cutoff = node.find("alpha_cutoff")) material.alpha_cutoff = cutoff->real(0.0, 1.0);
   if (const auto transparent = node.find("transparent")) material.transparent = transparent->boolean();
+  if (const auto map = node.find("metallic_roughness_map")) material.metallic_roughness_map = read_map(*map);
+  if (const auto map = node.find("emission_map")) material.emission_map = read_map(*map);
+  if (const auto map = node.find("occlusion_map")) material.occlusion_map = read_map(*map);
+  if (const auto strength = node.find("occlusion_strength")) material.occlusion_strength = strength->real(0.0, 1.0);
+  if (const auto unlit = node.find("unlit")) material.unlit = unlit->boolean();
+  if (const auto both = node.find("double_sided")) material.double_sided = both->boolean();
   return material;
 }
 
 void MaterialReader::complete_mip_chains() const {
   for (const Material& material : scene_.materials)
-    for (const TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map})
+    for (const TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map,
+                                    &material.metallic_roughness_map, &material.emission_map, &material.occlusion_map})
       if (slot->used() && slot->sampler.mip_filter != MipFilter::none)
         if (Texture& texture = scene_.textures[size_t(slot->texture)]; texture.levels.size() == 1)
           build_mip_chain(texture);

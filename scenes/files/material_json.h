@@ -2,20 +2,38 @@
 #include <map>
 #include <string>
 
+#include "scenes/files/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
-#include "scenes/files/scene_files.h"
 
 namespace trueshade {
 
 /// The keys of the objects that texture and material texts are made of.
 inline constexpr std::string_view kTextureKeys[] = {"name", "file", "levels", "encoding", "origin", "pattern"};
 inline constexpr std::string_view kPatternKeys[] = {"type", "size", "format", "colors", "cells", "seed"};
-inline constexpr std::string_view kMapKeys[] = {"texture",  "wrap",    "mag",     "min",   "mip",
-                                                "lod_bias", "lod_min", "lod_max", "border"};
-inline constexpr std::string_view kMaterialKeys[] = {
-    "name",      "color",        "specular_color", "shininess",    "emission",     "metallic",   "roughness",
-    "color_map", "specular_map", "normal_map",     "normal_scale", "alpha_cutoff", "transparent"};
+inline constexpr std::string_view kMapKeys[] = {"texture", "wrap",     "mag",       "min",
+                                                "mip",     "lod_bias", "lod_min",   "lod_max",
+                                                "border",  "uv_set",   "uv_offset", "uv_rotation_deg",
+                                                "uv_scale"};
+inline constexpr std::string_view kMaterialKeys[] = {"name",
+                                                     "color",
+                                                     "specular_color",
+                                                     "shininess",
+                                                     "emission",
+                                                     "metallic",
+                                                     "roughness",
+                                                     "color_map",
+                                                     "specular_map",
+                                                     "normal_map",
+                                                     "normal_scale",
+                                                     "alpha_cutoff",
+                                                     "transparent",
+                                                     "metallic_roughness_map",
+                                                     "emission_map",
+                                                     "occlusion_map",
+                                                     "occlusion_strength",
+                                                     "unlit",
+                                                     "double_sided"};
 
 /// Reads a scene text's textures and materials into a scene. Borrows all it is given.
 class MaterialReader {

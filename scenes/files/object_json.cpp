@@ -1,18 +1,20 @@
 #include "scenes/files/object_json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "scenes/builtin/builtin_scenes.h"
-#include "scenes/files/load_geometry.h"
 #include "scenes/builtin/pcg32.h"
+#include "scenes/files/gltf/gltf_geometry.h"
+#include "scenes/files/gltf/gltf_scene.h"
+#include "scenes/files/load_geometry.h"
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
 
-constexpr double kLargest = 1e18;
 constexpr glm::vec4 kGrey{0.8f, 0.8f, 0.8f, 1.0f};
 
 constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",          "normals",      "color", "material",
@@ -21,10 +23,10 @@ constexpr std::string_view kObjectKeys[] = {"geometry", "mesh",          "normal
 constexpr std::string_view kStepKeys[] = {"time", "color", "position", "rotation", "rotation_deg", "scale"};
 constexpr std::string_view kGridKeys[] = {"count", "spacing", "jitter", "turn_deg", "shrink", "colors", "seed"};
 
-enum Object : size_t { kObject, kStep, kGrid };
-constexpr json::ObjectKeys kObjects[] = {{"object", kObjectKeys},    {"object_step", kStepKeys}, {"grid", kGridKeys},
-                                         {"texture", kTextureKeys},  {"pattern", kPatternKeys},  {"map", kMapKeys},
-                                         {"material", kMaterialKeys}};
+enum : size_t { kObject, kStep, kGrid };
+constexpr json::ObjectKeys kObjectJsonKeys[] = {
+    {"object", kObjectKeys},   {"object_step", kStepKeys}, {"grid", kGridKeys},        {"texture", kTextureKeys},
+    {"pattern", kPatternKeys}, {"map", kMapKeys},          {"material", kMaterialKeys}};
 
 std::optional<glm::dvec4> read_color(const json::Node& object) {
   const auto node = object.find("color");
@@ -40,7 +42,7 @@ glm::dvec3 number_or_three(const json::Node& node, double least, double most) {
 std::optional<glm::dvec4> read_scale(const json::Node& object) {
   const auto node = object.find("scale");
   if (!node) return std::nullopt;
-  return glm::dvec4(number_or_three(*node, -kLargest, kLargest), 0.0);
+  return glm::dvec4(number_or_three(*node, -json::kLargest, json::kLargest), 0.0);
 }
 
 /// Unit quaternion from `rotation` or `rotation_deg`.
@@ -66,7 +68,7 @@ std::optional<glm::dvec4> read_rotation(const json::Node& object) {
 
 ObjectMotion read_motion(const StepReader& steps) {
   ObjectMotion motion;
-  Said position = steps.said("position", numbers("position", 3, -kLargest, kLargest));
+  Said position = steps.said("position", numbers("position", 3, -json::kLargest, json::kLargest));
   Said rotation = steps.said("rotation", read_rotation), scale = steps.said("scale", read_scale);
   if (position.value) motion.rest.position = glm::dvec3(*position.value);
   if (rotation.value) motion.rest.rotation = *rotation.value;
@@ -87,12 +89,12 @@ struct Grid {
 };
 
 Grid read_grid(const json::Node& node) {
-  node.check_keys(kObjects[kGrid]);
+  node.check_keys(kObjectJsonKeys[kGrid]);
   Grid grid{};
   const json::Node count = node.member("count");
   count.array(3, 3);
   for (size_t k = 0; k < 3; ++k) grid.count[k] = uint32_t(count.element(k).integer(1, 1 << 24));
-  grid.spacing = number_or_three(node.member("spacing"), -kLargest, kLargest);
+  grid.spacing = number_or_three(node.member("spacing"), -json::kLargest, json::kLargest);
   if (const auto jitter = node.find("jitter")) grid.jitter = jitter->number(0.0, 1.0);
   if (const auto turn = node.find("turn_deg")) grid.turn_rad = turn->number(0.0, 360.0) * (kPi / 180.0);
   if (const auto shrink = node.find("shrink")) grid.shrink = shrink->number(0.0, 1.0);
@@ -116,7 +118,7 @@ Placement copy_place(const Grid& grid, const uint32_t (&cell)[3], Pcg32& random)
 
 }  // namespace
 
-std::span<const json::ObjectKeys> object_json_keys() { return kObjects; }
+std::span<const json::ObjectKeys> object_json_keys() { return kObjectJsonKeys; }
 
 void ObjectReader::read_materials(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
@@ -136,10 +138,14 @@ void ObjectReader::read_objects(const json::Node& list) {
 }
 
 void ObjectReader::read_object(const json::Node& node) {
-  node.check_keys(kObjects[kObject]);
-  const StepReader steps(node, kObjects[kStep]);
-  Instance instance;
-  instance.mesh = mesh(node);
+  node.check_keys(kObjectJsonKeys[kObject]);
+  const StepReader steps(node, kObjectJsonKeys[kStep]);
+  std::vector<Instance> instances;
+  bool has_materials = true;
+  for (const Part& part : parts(node)) {
+    instances.push_back({part.mesh, part.material.value_or(0)});
+    has_materials = has_materials && part.material.has_value();
+  }
   const ObjectMotion placed = read_motion(steps);
   std::optional<uint32_t> motion;
   if (placed.position || placed.rotation || placed.scale) {
@@ -147,16 +153,15 @@ void ObjectReader::read_object(const json::Node& node) {
     scene_.timeline.motions.push_back(placed);
   }
   const auto grid = node.find("grid");
+  const bool says = node.find("material") || steps.said("color", read_color).at_all();
   if (grid && grid->find("colors")) {
-    if (node.find("material") || steps.said("color", read_color).at_all())
-      grid->fail("the object has a colour, and the grid has too", "one of them");
-  } else {
-    instance.material = material(node, steps);
+    if (says) grid->fail("the object has a colour, and the grid has too", "one of them");
+  } else if (says || !has_materials) {
+    const uint32_t index = material(node, steps);
+    for (Instance& instance : instances) instance.material = index;
   }
-  if (grid)
-    add_grid(*grid, instance, motion, placed);
-  else
-    add(instance, {}, motion, placed);
+  if (grid) return add_grid(*grid, std::move(instances), motion, placed);
+  for (const Instance& instance : instances) add(instance, {}, motion, placed);
 }
 
 /// Adds an instance at its place at time 0.
@@ -170,11 +175,12 @@ void ObjectReader::add(const Instance& instance, const Placement& copy, std::opt
     scene_.instances.back().world_from_object = world_from_object(copied(placed.rest, copy));
 }
 
-void ObjectReader::add_grid(const json::Node& node, Instance instance, std::optional<uint32_t> motion,
+void ObjectReader::add_grid(const json::Node& node, std::vector<Instance> instances, std::optional<uint32_t> motion,
                             const ObjectMotion& placed) {
   const Grid grid = read_grid(node);
   const uint64_t copies = uint64_t(grid.count[0]) * grid.count[1];  // below 2^48
-  if (copies > limits_.instances || copies * grid.count[2] + scene_.instances.size() > limits_.instances)
+  const uint64_t room = limits_.instances - std::min<uint64_t>(limits_.instances, scene_.instances.size());
+  if (copies > room || copies * grid.count[2] > room / std::max<size_t>(instances.size(), 1))
     node.fail("the objects are over the limit", "at most " + std::to_string(limits_.instances), ErrorKind::limit);
   Pcg32 random(grid.seed, 10);
   uint32_t cell[3];
@@ -182,13 +188,15 @@ void ObjectReader::add_grid(const json::Node& node, Instance instance, std::opti
     for (cell[1] = 0; cell[1] < grid.count[1]; ++cell[1])
       for (cell[0] = 0; cell[0] < grid.count[0]; ++cell[0]) {
         const Placement copy = copy_place(grid, cell, random);
-        if (!grid.colors.empty())
-          instance.material = material_of(grid.colors[random.below(uint32_t(grid.colors.size()))]);
-        add(instance, copy, motion, placed);
+        if (!grid.colors.empty()) {
+          const uint32_t index = material_of(grid.colors[random.below(uint32_t(grid.colors.size()))]);
+          for (Instance& instance : instances) instance.material = index;
+        }
+        for (const Instance& instance : instances) add(instance, copy, motion, placed);
       }
 }
 
-uint32_t ObjectReader::mesh(const json::Node& node) {
+const std::vector<ObjectReader::Part>& ObjectReader::parts(const json::Node& node) {
   const auto geometry = node.find("geometry"), generated = node.find("mesh"), normals = node.find("normals");
   if (geometry.has_value() == generated.has_value())
     node.fail("an object has 'geometry' or 'mesh', one of them", "name a file or a mesh of ours");
@@ -198,27 +206,59 @@ uint32_t ObjectReader::mesh(const json::Node& node) {
   }
   constexpr std::string_view kNormals[] = {"flat", "smooth"};
   const MissingNormals missing = normals ? MissingNormals(normals->choice(kNormals)) : MissingNormals::flat;
-  const std::string file = relative_path_from_uri(geometry->string(), path_ + ": " + geometry->pointer());
-  const auto [found, is_new] = files_.emplace(std::tuple(file, missing), uint32_t(scene_.meshes.size()));
-  if (is_new) {
-    if (!is_geometry_name(file)) geometry->fail("the ending names no geometry format", ".ply or .ply.gz");
-    const Bytes bytes = folder_.read(file, limits_.file_bytes, path_ + ": " + geometry->pointer());
-    scene_.meshes.push_back(mesh_from_file(bytes, file, limits_.file_bytes, missing));
-  }
+  const std::string where = path_ + ": " + geometry->pointer();
+  const std::string file = relative_path_from_uri(geometry->string(), where);
+  if (!is_geometry_name(file) && !is_gltf_name(file))
+    geometry->fail("the ending names no geometry format", ".gltf, .glb, .ply or .ply.gz");
+  if (normals && is_gltf_name(file)) normals->fail("missing normals of a glTF file are flat", "remove it");
+  const auto [found, is_new] = files_.try_emplace(std::tuple(file, missing));
+  if (is_new) found->second = is_gltf_name(file) ? parts_of_gltf(file, where) : parts_of_file(file, missing, where);
   return found->second;
 }
 
-uint32_t ObjectReader::generated_mesh(const json::Node& node) {
+std::vector<ObjectReader::Part> ObjectReader::parts_of_file(const std::string& file, MissingNormals missing,
+                                                            const std::string& where) {
+  const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
+  scene_.meshes.push_back(mesh_from_file(bytes, file, limits_.file_bytes, missing));
+  return {{uint32_t(scene_.meshes.size() - 1), std::nullopt}};
+}
+
+/// What the file draws at its time 0, a mesh a material. Its materials and textures are added behind those there are.
+std::vector<ObjectReader::Part> ObjectReader::parts_of_gltf(const std::string& file, const std::string& where) {
+  const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
+  const size_t slash = path_.rfind('/');
+  const std::string path = slash == std::string::npos ? file : path_.substr(0, slash + 1) + file;
+  GltfGeometry geometry = geometry_of(scene_from_gltf(bytes, path, limits_, decode_));
+  const uint32_t first_material = uint32_t(scene_.materials.size());
+  const int32_t first_texture = int32_t(scene_.textures.size());
+  for (Material& material : geometry.materials) {
+    for (TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map,
+                              &material.metallic_roughness_map, &material.emission_map, &material.occlusion_map})
+      if (slot->used()) slot->texture += first_texture;
+    scene_.materials.push_back(std::move(material));
+  }
+  for (Texture& texture : geometry.textures) scene_.textures.push_back(std::move(texture));
+  std::vector<Part> parts;
+  for (GltfGeometry::Part& part : geometry.parts) {
+    parts.push_back({uint32_t(scene_.meshes.size()), first_material + part.material});
+    part.mesh.name = file;
+    scene_.meshes.push_back(std::move(part.mesh));
+  }
+  return parts;
+}
+
+const std::vector<ObjectReader::Part>& ObjectReader::generated_mesh(const json::Node& node) {
   constexpr std::string_view kNames[] = {"cube", "plane", "sphere", "knot", "rabbit"};
   const size_t which = node.choice(kNames);
-  const auto [found, is_new] = generated_.emplace(which, uint32_t(scene_.meshes.size()));
-  if (is_new)
-    scene_.meshes.push_back(which == 0   ? cube_mesh()
-                            : which == 1 ? plane_mesh(14)
-                            : which == 2 ? sphere_mesh(28)
-                            : which == 3 ? builtin::knot_mesh()
-                                         : builtin::rabbit_mesh());
-  if (is_new && which < 2) add_face_uv(scene_.meshes.back());
+  const auto [found, is_new] = generated_.try_emplace(which);
+  if (!is_new) return found->second;
+  found->second.push_back({uint32_t(scene_.meshes.size()), std::nullopt});
+  scene_.meshes.push_back(which == 0   ? cube_mesh()
+                          : which == 1 ? plane_mesh(14)
+                          : which == 2 ? sphere_mesh(28)
+                          : which == 3 ? builtin::knot_mesh()
+                                       : builtin::rabbit_mesh());
+  if (which < 2) add_face_uv(scene_.meshes.back());
   return found->second;
 }
 

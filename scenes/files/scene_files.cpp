@@ -35,7 +35,8 @@ class Descriptor {
   int fd_;
 };
 
-Bytes content(int fd, uint64_t limit, const std::string& where) {
+/// Bytes of a regular file; see read_user_file().
+uint64_t checked_size(int fd, uint64_t limit, const std::string& where) {
   struct stat status {};
   if (fstat(fd, &status) != 0) throw Error(ErrorKind::io, where, std::strerror(errno), "a file that can be read");
   if (!S_ISREG(status.st_mode))
@@ -44,15 +45,25 @@ Bytes content(int fd, uint64_t limit, const std::string& where) {
   if (size > limit)
     throw Error(ErrorKind::limit, where, std::to_string(size) + " bytes are over the limit",
                 "at most " + std::to_string(limit) + " bytes");
-  Bytes bytes(size);
+  return size;
+}
+
+Bytes content(int fd, uint64_t limit, const std::string& where) {
+  Bytes bytes(size_t(checked_size(fd, limit, where)));
   for (size_t done = 0; done < bytes.size();) {
-    const ssize_t got = read(fd, bytes.data() + done, bytes.size() - done);
+    const ssize_t got = ::read(fd, bytes.data() + done, bytes.size() - done);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw Error(ErrorKind::io, where, std::strerror(errno), "a file that can be read");
     if (got == 0) throw Error(ErrorKind::io, where, "the file became shorter while it was read", "try again");
     done += size_t(got);
   }
   return bytes;
+}
+
+void check_opened(int fd, const std::string& place) {
+  if (fd < 0 && (errno == EXDEV || errno == ELOOP))
+    throw Error(ErrorKind::bad_input, place, "a link leads out of the scene's folder", "a file inside the folder");
+  if (fd < 0) throw Error(ErrorKind::io, place, std::strerror(errno), "a file that exists and can be read");
 }
 
 std::string folder_of(const std::string& path) {
@@ -156,10 +167,15 @@ int SceneFolder::open_beneath(const std::string& relative, bool portable) const 
 Bytes SceneFolder::read(const std::string& relative, uint64_t limit, std::string_view where, bool portable) const {
   const Descriptor file(open_beneath(relative, portable));
   const std::string place = std::string(where) + ": " + relative;
-  if (file.get() < 0 && (errno == EXDEV || errno == ELOOP))
-    throw Error(ErrorKind::bad_input, place, "a link leads out of the scene's folder", "a file inside the folder");
-  if (file.get() < 0) throw Error(ErrorKind::io, place, std::strerror(errno), "a file that exists and can be read");
+  check_opened(file.get(), place);
   return content(file.get(), limit, place);
+}
+
+void SceneFolder::check(const std::string& relative, uint64_t limit, std::string_view where) const {
+  const Descriptor file(open_beneath(relative, false));
+  const std::string place = std::string(where) + ": " + relative;
+  check_opened(file.get(), place);
+  checked_size(file.get(), limit, place);
 }
 
 }  // namespace trueshade

@@ -30,6 +30,9 @@ class SceneFolder {
   /// link leads out. `portable`: by resolved names instead of openat2(2), as on kernels before 5.6.
   Bytes read(const std::string& relative, uint64_t limit, std::string_view where, bool portable = false) const;
 
+  /// Throws what read() would throw, without reading the content.
+  void check(const std::string& relative, uint64_t limit, std::string_view where) const;
+
  private:
   int open_beneath(const std::string& relative, bool portable) const;
   std::string name_;

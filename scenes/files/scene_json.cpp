@@ -3,17 +3,14 @@
 #include "core/error.h"
 #include "scenes/files/light_json.h"
 #include "scenes/files/object_json.h"
+#include "scenes/files/steps_json.h"
 #include "scenes/pipeline/pipeline_json.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene_defaults.h"
-#include "scenes/files/steps_json.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
-
-constexpr double kLargest = 1e18;
-constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 
 constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "textures", "materials",
                                           "objects", "lights", "pipeline", "fps",      "$schema"};
@@ -22,16 +19,18 @@ constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
 constexpr std::string_view kCameraStepKeys[] = {"time", "eye", "target", "up", "fov_deg"};
 
-enum Object : size_t { kRoot, kCamera, kCameraStep };
-constexpr json::ObjectKeys kObjects[] = {{"", kRootKeys}, {"camera", kCameraKeys}, {"camera_step", kCameraStepKeys}};
+enum : size_t { kScene, kCamera, kCameraStep };
+constexpr json::ObjectKeys kSceneJsonKeys[] = {
+    {"", kRootKeys}, {"camera", kCameraKeys}, {"camera_step", kCameraStepKeys}};
 
 Camera matrix_camera(const json::Node& node, const json::Node& matrix) {
   Camera camera;
   node.check_keys({"camera", kMatrixCameraKeys});
   matrix.array(16, 16);
   camera.clip_from_world.emplace();
-  for (size_t i = 0; i < 16; ++i) (*camera.clip_from_world)[i] = matrix.element(i).real(-kLargest, kLargest);
-  camera.eye = node.member("eye").vec3(-kLargest, kLargest);
+  for (size_t i = 0; i < 16; ++i)
+    (*camera.clip_from_world)[i] = matrix.element(i).real(-json::kLargest, json::kLargest);
+  camera.eye = node.member("eye").vec3(-json::kLargest, json::kLargest);
   return camera;
 }
 
@@ -41,19 +40,21 @@ float real_or(const json::Node& node, std::string_view key, float absent, double
 }
 
 void read_camera(const json::Node& node, Scene& scene) {
-  node.check_keys(kObjects[kCamera]);
+  node.check_keys(kSceneJsonKeys[kCamera]);
   if (const auto matrix = node.find("clip_from_world")) {
     scene.camera = matrix_camera(node, *matrix);
     return;
   }
   Camera& camera = scene.camera;
-  const StepReader steps(node, kObjects[kCameraStep]);
+  const StepReader steps(node, kSceneJsonKeys[kCameraStep]);
   const auto take = [&](CameraProperty property, Said said) {
     if (said.value) set_property(camera, property, *said.value);
     if (said.track) scene.timeline.camera.push_back({property, std::move(*said.track)});
     return said.at_all();
   };
-  const auto three = [&](std::string_view key) { return steps.said(key, numbers(key, 3, -kLargest, kLargest)); };
+  const auto three = [&](std::string_view key) {
+    return steps.said(key, numbers(key, 3, -json::kLargest, json::kLargest));
+  };
   if (!take(CameraProperty::eye, three("eye"))) node.member("eye");  // fails
   take(CameraProperty::target, three("target"));
   take(CameraProperty::up, three("up"));
@@ -62,8 +63,8 @@ void read_camera(const json::Node& node, Scene& scene) {
   const auto fov = axis && axis->choice(kAxes) == 1 ? CameraProperty::fov_x : CameraProperty::fov_y;
   if (!take(fov, steps.said("fov_deg", degrees("fov_deg", 0.001, 179.99))))
     set_property(camera, fov, glm::dvec4(45.0 * (kPi / 180.0)));
-  camera.near = real_or(node, "near", camera.near, kSmallest, kLargest);
-  camera.far = real_or(node, "far", camera.far, kSmallest, kLargest);
+  camera.near = real_or(node, "near", camera.near, json::kSmallest, json::kLargest);
+  camera.far = real_or(node, "far", camera.far, json::kSmallest, json::kLargest);
   if (!(camera.near < camera.far)) node.fail("near is not below far", "0 < near < far");
 }
 
@@ -71,7 +72,7 @@ void read_camera(const json::Node& node, Scene& scene) {
 
 std::span<const json::ObjectKeys> scene_object_keys() {
   static const std::vector<json::ObjectKeys> all = [] {
-    std::vector<json::ObjectKeys> keys(std::begin(kObjects), std::end(kObjects));
+    std::vector<json::ObjectKeys> keys(std::begin(kSceneJsonKeys), std::end(kSceneJsonKeys));
     for (const auto& part : {object_json_keys(), light_json_keys()}) keys.insert(keys.end(), part.begin(), part.end());
     return keys;
   }();
@@ -82,7 +83,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
                       const ImageDecoder& decode) {
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
-  root.check_keys(kObjects[kRoot]);
+  root.check_keys(kSceneJsonKeys[kScene]);
   if (const auto schema = root.find("$schema")) schema->string();  // for editors
   root.member("version").integer(1, 1);
   Scene scene;

@@ -14,8 +14,6 @@ std::string number_text(double value) {
 
 namespace {
 
-constexpr double kLargest = 1e18;  // in double: 1e18f is a little less
-
 /// What a value is, for an error; a long string is cut.
 std::string shown(const Value& value) {
   if (std::holds_alternative<std::monostate>(value.is)) return "null";

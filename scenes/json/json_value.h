@@ -17,6 +17,10 @@
 // JSON (RFC 8259) as we read it: strict, and every error names the place by a JSON pointer (RFC 6901).
 namespace trueshade::json {
 
+/// What numbers of our files stay within unless they say less, in double (1e18f is a little less), and the least length
+/// where it must be above 0.
+inline constexpr double kLargest = 1e18, kSmallest = 1e-30;
+
 struct Value;
 using Array = std::vector<Value>;
 using Members = std::vector<std::pair<std::string, Value>>;  ///< in the order of the text; names are unique

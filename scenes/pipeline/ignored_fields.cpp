@@ -70,6 +70,14 @@ const Material& plain() {
   return material;
 }
 
+constexpr std::string_view kUnreadMap = "No stage reads this map";
+
+template <typename Holds>
+bool any_map(const Material& m, Holds holds) {
+  return holds(m.color_map) || holds(m.specular_map) || holds(m.normal_map) || holds(m.metallic_roughness_map) ||
+         holds(m.emission_map) || holds(m.occlusion_map);
+}
+
 constexpr Field<Material> kMaterialFields[] = {
     {"specular_color", kGlossReason, [](const Material& m) { return m.specular_color != plain().specular_color; },
      [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
@@ -88,6 +96,22 @@ constexpr Field<Material> kMaterialFields[] = {
     {"normal_scale", "The material has no normal_map",
      [](const Material& m) { return m.normal_scale != plain().normal_scale; },
      [](const Material& m, const Pipeline&) { return m.normal_map.used(); }},
+    {"metallic_roughness_map", kUnreadMap, [](const Material& m) { return m.metallic_roughness_map.used(); },
+     [](const Material&, const Pipeline&) { return false; }},
+    {"emission_map", kUnreadMap, [](const Material& m) { return m.emission_map.used(); },
+     [](const Material&, const Pipeline&) { return false; }},
+    {"occlusion_map", kUnreadMap, [](const Material& m) { return m.occlusion_map.used(); },
+     [](const Material&, const Pipeline&) { return false; }},
+    {"unlit", "Every surface is lit", [](const Material& m) { return m.unlit; },
+     [](const Material&, const Pipeline&) { return false; }},
+    {"double_sided", "Faces are culled as geometry.cull_face says, and normals are not turned round",
+     [](const Material& m) { return m.double_sided; }, [](const Material&, const Pipeline&) { return false; }},
+    {"uv_set", "Maps are read at the first set of texture coordinates",
+     [](const Material& m) { return any_map(m, [](const TextureSlot& s) { return s.uv_set != 0; }); },
+     [](const Material&, const Pipeline&) { return false; }},
+    {"uv_transform", "Texture coordinates are read as the mesh has them",
+     [](const Material& m) { return any_map(m, [](const TextureSlot& s) { return s.transform != UvTransform(); }); },
+     [](const Material&, const Pipeline&) { return false; }},
     {"transparent", "The transparency of the pipeline is 'none', so the material is drawn as an opaque one",
      [](const Material& m) { return m.transparent; },
      [](const Material&, const Pipeline& p) { return p.transparency.mode != TransparencyMode::none; }},
@@ -128,9 +152,7 @@ bool is_other_description(const IgnoredField& field, const Pipeline& pipeline) {
 }
 
 /// Whether Trueshade made the lights: of a built-in scene, or about a geometry file alone.
-bool has_lights_of_ours(std::string_view spec) {
-  return spec.starts_with("builtin:") || spec.ends_with(".ply") || spec.ends_with(".ply.gz");
-}
+bool has_lights_of_ours(const Scene& scene) { return scene.lights_of_ours || scene.spec.starts_with("builtin:"); }
 
 }  // namespace
 
@@ -139,7 +161,7 @@ std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pip
   std::vector<IgnoredField> ignored;
   if (pipeline.view != ImageView::lit) return ignored;
   append_ignored<Light>("light", kLightFields, scene.lights, pipeline, ignored);
-  if (has_lights_of_ours(scene.spec))
+  if (has_lights_of_ours(scene))
     std::erase_if(ignored, [&](const IgnoredField& field) { return is_other_description(field, pipeline); });
   append_ignored<Material>("material", kMaterialFields, scene.materials, pipeline, ignored);
   append_maps_without_uv(scene, ignored);

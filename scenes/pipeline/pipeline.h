@@ -133,7 +133,7 @@ struct Execution {
   int tile = 0;                    ///< pixels a side: 8, 16, 32, 48 or 64; 0: by size and threads, see tile_for()
   std::string_view simd = "best";  ///< best, scalar, sse4, avx2 or avx512
   bool light_culling = true;
-  bool geometry_culling = true;  ///< cluster frustum, cone and hierarchical-depth culls
+  bool geometry_culling = true;  ///< clusters outside the view or behind nearer blocks are left out
   bool shuffle_tiles = false;    ///< tiles in a scrambled order; for tests of determinism
   bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)

@@ -11,8 +11,6 @@ namespace {
 
 using namespace pipeline_words;
 
-constexpr double kLargest = 1e18;
-
 void read(const json::Node& node, bool& value) { value = node.boolean(); }
 
 template <typename Enum>
@@ -41,9 +39,9 @@ void read_format(const json::Node& object, std::string_view key, Format& format,
 }
 
 void read_geometry(const json::Node& node, GeometryState& g) {
-  node.check_keys(kObjects[kGeometry]);
+  node.check_keys(kPipelineJsonKeys[kGeometry]);
   if (const auto v = node.find("viewport")) {
-    v->check_keys(kObjects[kViewport]);
+    v->check_keys(kPipelineJsonKeys[kViewport]);
     read_integer(*v, "x", g.viewport.x, INT32_MIN, INT32_MAX);
     read_integer(*v, "y", g.viewport.y, INT32_MIN, INT32_MAX);
     read_integer(*v, "width", g.viewport.width, 0, INT32_MAX);
@@ -60,20 +58,20 @@ void read_geometry(const json::Node& node, GeometryState& g) {
   read_choice(node, "clip_depth", g.clip_depth, kClipDepths);
   read_choice(node, "provoking", g.provoking, kProvoking);
   read_format(node, "depth_format", g.depth_format, kDepthFormats);
-  read_real(node, "polygon_offset_factor", g.polygon_offset_factor, -kLargest, kLargest);
-  read_real(node, "polygon_offset_units", g.polygon_offset_units, -kLargest, kLargest);
+  read_real(node, "polygon_offset_factor", g.polygon_offset_factor, -json::kLargest, json::kLargest);
+  read_real(node, "polygon_offset_units", g.polygon_offset_units, -json::kLargest, json::kLargest);
 }
 
 void read_plane(const json::Node& gbuffer, std::string_view key, PlaneState& plane, std::span<const Format> allowed) {
   const auto node = gbuffer.find(key);
   if (!node) return;
-  node->check_keys(kObjects[kPlane]);
+  node->check_keys(kPipelineJsonKeys[kPlane]);
   read_format(*node, "format", plane.format, allowed);
   read_choice(*node, "interpolation", plane.interpolation, kInterpolations);
 }
 
 void read_gbuffer(const json::Node& node, GBufferState& g) {
-  node.check_keys(kObjects[kGBuffer]);
+  node.check_keys(kPipelineJsonKeys[kGBuffer]);
   read_plane(node, "position", g.position, kPositionFormats);
   read_plane(node, "normal", g.normal, kNormalFormats);
   read_plane(node, "albedo", g.albedo, kAlbedoFormats);
@@ -90,11 +88,11 @@ bool multiplies_albedo_last_but_reads_another(const LightModel& m) {
 }
 
 void read_light_model(const json::Node& node, LightModel& m) {
-  node.check_keys(kObjects[kLightModel]);
+  node.check_keys(kPipelineJsonKeys[kLightModel]);
   read_flag(node, "renormalize", m.renormalize);
   read_flag(node, "specular_masked", m.specular_masked);
-  read_real(node, "shininess", m.shininess, 0.0f, kLargest);
-  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, kLargest);
+  read_real(node, "shininess", m.shininess, 0.0f, json::kLargest);
+  if (const auto color = node.find("specular_color")) m.specular_color = color->vec3(0.0f, json::kLargest);
   read_choice(node, "falloff", m.falloff, kFalloffs);
   read_choice(node, "order", m.order, kOrders);
   read_flag(node, "alpha_from_albedo", m.alpha_from_albedo);
@@ -104,8 +102,8 @@ void read_light_model(const json::Node& node, LightModel& m) {
   read_choice(node, "specular_source", m.specular_source, kSpecularSources);
   read_choice(node, "viewer", m.viewer, kViewers);
   read_flag(node, "emission", m.emission);
-  if (const auto color = node.find("global_ambient")) m.global_ambient = color->vec3(0.0f, kLargest);
-  read_real(node, "damping", m.damping, 0.0f, kLargest);
+  if (const auto color = node.find("global_ambient")) m.global_ambient = color->vec3(0.0f, json::kLargest);
+  read_real(node, "damping", m.damping, 0.0f, json::kLargest);
   read_flag(node, "clamp_result", m.clamp_result);
   if (multiplies_albedo_last_but_reads_another(m))
     node.fail("order albedo_last with a specular colour that is not the albedo",
@@ -113,7 +111,7 @@ void read_light_model(const json::Node& node, LightModel& m) {
 }
 
 void read_light_volumes(const json::Node& node, LightVolumes& v) {
-  node.check_keys(kObjects[kLightVolumes]);
+  node.check_keys(kPipelineJsonKeys[kLightVolumes]);
   read_choice(node, "point", v.point, kExtents);
   read_choice(node, "spot", v.spot, kExtents);
   read_integer(node, "slices", v.slices, 3, 64);
@@ -126,20 +124,20 @@ void read_light_volumes(const json::Node& node, LightVolumes& v) {
 void read_blend_term(const json::Node& blend, std::string_view key, BlendTerm& term) {
   const auto node = blend.find(key);
   if (!node) return;
-  node->check_keys(kObjects[kBlendTerm]);
+  node->check_keys(kPipelineJsonKeys[kBlendTerm]);
   read_choice(*node, "equation", term.equation, kBlendEquationNames);
   read_choice(*node, "src", term.src, kBlendFactorNames);
   read_choice(*node, "dst", term.dst, kBlendFactorNames);
 }
 
 void read_blend(const json::Node& node, BlendState& b) {
-  node.check_keys(kObjects[kBlend]);
+  node.check_keys(kPipelineJsonKeys[kBlend]);
   read_flag(node, "enabled", b.enabled);
   read_blend_term(node, "rgb", b.rgb);
   read_blend_term(node, "alpha", b.alpha);
   if (const auto constant = node.find("constant")) {
     constant->array(4, 4);
-    for (size_t k = 0; k < 4; ++k) b.constant[k] = constant->element(k).real(-kLargest, kLargest);
+    for (size_t k = 0; k < 4; ++k) b.constant[k] = constant->element(k).real(-json::kLargest, json::kLargest);
   }
   if (const auto mask = node.find("mask")) {
     mask->array(4, 4);
@@ -148,7 +146,7 @@ void read_blend(const json::Node& node, BlendState& b) {
 }
 
 void read_transparency(const json::Node& node, TransparencyState& t) {
-  node.check_keys(kObjects[kTransparency]);
+  node.check_keys(kPipelineJsonKeys[kTransparency]);
   read_choice(node, "mode", t.mode, kTransparencyNames);
   if (const auto blend = node.find("blend")) read_blend(*blend, t.blend);
 }
@@ -163,19 +161,19 @@ bool blends_into_no_gbuffer(const json::Node& text, const Pipeline& p) {
 }
 
 void read_post(const json::Node& node, PostChain& p) {
-  node.check_keys(kObjects[kPost]);
+  node.check_keys(kPipelineJsonKeys[kPost]);
   read_integer(node, "samples", p.samples, 1, 8);
-  read_real(node, "marker_radius", p.marker_radius, 0.0, kLargest);
+  read_real(node, "marker_radius", p.marker_radius, 0.0, json::kLargest);
   if (const auto bloom = node.find("bloom")) {
-    bloom->check_keys(kObjects[kBloom]);
+    bloom->check_keys(kPipelineJsonKeys[kBloom]);
     read_real(*bloom, "strength", p.bloom.strength, 0.0, 1000.0);
-    read_real(*bloom, "threshold", p.bloom.threshold, 0.0, kLargest);
+    read_real(*bloom, "threshold", p.bloom.threshold, 0.0, json::kLargest);
     read_integer(*bloom, "radius", p.bloom.radius, 1, 14);
     read_integer(*bloom, "passes", p.bloom.passes, 1, 64);
   }
   read_choice(node, "tone_map", p.tone_map, kToneMaps);
   read_real(node, "key", p.key, 1e-6f, 1e6);
-  read_real(node, "white", p.white, 0.0, kLargest);
+  read_real(node, "white", p.white, 0.0, json::kLargest);
   if (p.white > 0.0f && p.white < 1e-6f) node.fail("white is between 0 and 1e-6", "0 for none, or 1e-6 to 1e18");
   read_real(node, "log_offset", p.log_offset, 1e-12f, 1e6);
   read_choice(node, "encode", p.encode, kEncodes);
@@ -185,10 +183,10 @@ void read_post(const json::Node& node, PostChain& p) {
 
 }  // namespace
 
-std::span<const json::ObjectKeys> pipeline_object_keys() { return kObjects; }
+std::span<const json::ObjectKeys> pipeline_object_keys() { return kPipelineJsonKeys; }
 
 Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
-  node.check_keys(kObjects[kRoot]);
+  node.check_keys(kPipelineJsonKeys[kRoot]);
   if (const auto schema = node.find("$schema")) schema->string();  // for editors
   if (const auto version = node.find("version")) version->integer(1, 1);
   Pipeline p = base;

@@ -69,7 +69,7 @@ inline constexpr std::string_view kPostKeys[] = {"samples", "marker_radius", "bl
                                                  "white",   "log_offset",    "encode", "edge_filter", "output"};
 inline constexpr std::string_view kBloomKeys[] = {"strength", "threshold", "radius", "passes"};
 
-enum Object : size_t {
+enum : size_t {
   kRoot,
   kGeometry,
   kViewport,
@@ -83,17 +83,17 @@ enum Object : size_t {
   kPost,
   kBloom
 };
-inline constexpr std::array<json::ObjectKeys, 12> kObjects{{{"", kRootKeys},
-                                                            {"geometry", kGeometryKeys},
-                                                            {"viewport", kViewportKeys},
-                                                            {"gbuffer", kGBufferKeys},
-                                                            {"plane", kPlaneKeys},
-                                                            {"light_model", kLightModelKeys},
-                                                            {"light_volumes", kLightVolumesKeys},
-                                                            {"blend", kBlendKeys},
-                                                            {"blend_term", kBlendTermKeys},
-                                                            {"transparency", kTransparencyKeys},
-                                                            {"post", kPostKeys},
-                                                            {"bloom", kBloomKeys}}};
+inline constexpr std::array<json::ObjectKeys, 12> kPipelineJsonKeys{{{"", kRootKeys},
+                                                                     {"geometry", kGeometryKeys},
+                                                                     {"viewport", kViewportKeys},
+                                                                     {"gbuffer", kGBufferKeys},
+                                                                     {"plane", kPlaneKeys},
+                                                                     {"light_model", kLightModelKeys},
+                                                                     {"light_volumes", kLightVolumesKeys},
+                                                                     {"blend", kBlendKeys},
+                                                                     {"blend_term", kBlendTermKeys},
+                                                                     {"transparency", kTransparencyKeys},
+                                                                     {"post", kPostKeys},
+                                                                     {"bloom", kBloomKeys}}};
 
 }  // namespace trueshade::pipeline_words

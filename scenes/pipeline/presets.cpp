@@ -126,6 +126,13 @@ std::span<const Preset> presets() {
   return rows;
 }
 
+const Pipeline& default_pipeline(const Scene& scene) {
+  const FpScope fp;
+  for (const Preset& row : presets())
+    if (scene.photometric && row.name == "punctual") return row.pipeline;
+  return presets().front().pipeline;
+}
+
 std::optional<Pipeline> preset_pipeline(std::string_view name) {
   const FpScope fp;
   for (const Preset& row : presets())

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
 
 namespace trueshade {
 
@@ -17,5 +18,9 @@ std::span<const Preset> presets();
 
 /// The pipeline of a preset's row; nothing if the name is unknown.
 std::optional<Pipeline> preset_pipeline(std::string_view name);
+
+/// The pipeline that a scene starts from where no preset is named: that of the first row, or for a photometric scene
+/// that of the row for candela and lux.
+const Pipeline& default_pipeline(const Scene& scene);
 
 }  // namespace trueshade

@@ -23,9 +23,14 @@ HWY_INLINE VF added_code(VF x, MF adds, VF largest) {
   return hn::IfThenElseZero(counts, hn::Round(hn::Mul(hn::Min(x, hn::Set(d, 1.0f)), largest)));
 }
 
-/// A vector of target pixels in registers, onto which light is added: where a light adds nothing nothing changes, and
-/// alpha is not written. kCodes: fixed point, by adding codes (docs/gl_rules.md section 10, point 4), which is exact in float32 and so may
-/// be held to the largest code later.
+/// Adds values to R, G and B in their stored form, where the plan sums values.
+inline HWY_NOINLINE void sum_values(const BlendPlan& plan, const VF source[3], VF stored[3]) {
+  for (int c = 0; c < 3; ++c) stored[c] = summed_values(plan, source[c], stored[c], c);
+}
+
+/// A vector of target pixels in registers, onto which light is added. Where a light adds nothing nothing changes, and
+/// alpha is not written. With kCodes the target is fixed point and codes are added (docs/gl_rules.md section 10, point
+/// 4). Such sums are exact in float32, so saturate() may clamp them to the largest code after many lights.
 template <bool kCodes>
 struct AddedLight {
   const BlendPlan* plan;
@@ -53,7 +58,7 @@ struct AddedLight {
       for (int c = 0; c < 3; ++c) source[c] = terms.finished(px, term.color[c], c);
       source[3] = hn::Zero(d);
       if (plan->sums_values)
-        for (int c = 0; c < 3; ++c) next[c] = summed_values(*plan, source[c], stored[c], c);
+        sum_values(*plan, source, next);
       else
         blend_out_of_line(*plan, source, next);
       for (int c = 0; c < 3; ++c) stored[c] = hn::IfThenElse(term.adds, next[c], stored[c]);

@@ -13,7 +13,6 @@ struct BlendWork {
   std::vector<uint64_t> bits;
   std::vector<uint32_t> touching;  ///< lights whose geometry may touch the tile
   TileLights lights, region;       ///< their draws, as many as are drawn at once
-  std::vector<ListedLight> block;
   std::vector<uint16_t> counts;
 };
 

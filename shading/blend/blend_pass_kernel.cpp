@@ -178,10 +178,8 @@ struct DrawRegions {
     for (int k = 0; k < int(kRegionBlockCount); ++k) {
       if (r.covered[k] == 0) continue;
       const int block = r.block(k, t.blocks());
-      const std::span<const ListedLight> list =
-          block_lights(t.surface, block, t.work.region, t.cull.distance, t.work.block);
       for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
-        draw_vector(terms, list, i);
+        draw_vector(terms, t.work.region.light, i);
     }
   }
 
@@ -239,3 +237,7 @@ void blend_tile_simd(const LightVolumeDraws& draws, const SurfaceTile& surface, 
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(blend_tile, HWY_NAMESPACE::blend_tile_simd);
+}  // namespace trueshade

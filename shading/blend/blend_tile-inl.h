@@ -76,7 +76,7 @@ struct TileBlend {
     add_plan.written[3] = false;
     const bool culls = in.culling && method.adds;
     cull = {.distance = culls, .cone = culls && in.table.cones, .facing = culls && !adds_unlit(terms.form.shape)};
-    find_regions(surface, blocks(), cull.facing, regions);
+    find_regions(surface, blocks(), bounds_of(cull), regions);
   }
   int blocks() const { return rect.size / kBlockSize; }
   int pixels() const { return rect.size * rect.size; }

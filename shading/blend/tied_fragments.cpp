@@ -8,7 +8,7 @@
 namespace trueshade {
 
 bool resolve_tied(const TileDraws& draws, const TileRect& rect, const GBufferState& planes, const LightModel& model,
-                  bool need_uv, bool culling, VisibilityTile& visible, VisibleVertices& vertices, TiedFragments& out) {
+                  UvPlanes uv, bool culling, VisibilityTile& visible, VisibleVertices& vertices, TiedFragments& out) {
   constexpr size_t kMostLayers = 256;
   fragments_at_equal_depth(draws, rect, culling, visible, out.fragments);
   out.used = 0;
@@ -23,7 +23,7 @@ bool resolve_tied(const TileDraws& draws, const TileRect& rect, const GBufferSta
       throw Error(ErrorKind::limit, "strategy", "more than 256 fragments share one pixel's depth",
                   "draw coincident surfaces once, or with another strategy");
     if (out.layers.size() == out.used) out.layers.push_back(std::make_unique<SurfaceTile>());
-    resolve_surfaces(draws, rect, planes, model, out.layer, need_uv, vertices, *out.layers[out.used]);
+    resolve_surfaces(draws, rect, planes, model, out.layer, uv, vertices, *out.layers[out.used]);
     ++out.used;
   }
   return true;

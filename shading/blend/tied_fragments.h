@@ -23,6 +23,6 @@ struct TiedFragments {
 ///   visible:  what draw_visibility() left of the same draws; `culling` as there
 ///   vertices: scratch
 bool resolve_tied(const TileDraws& draws, const TileRect& rect, const GBufferState& planes, const LightModel& model,
-                  bool need_uv, bool culling, VisibilityTile& visible, VisibleVertices& vertices, TiedFragments& out);
+                  UvPlanes uv, bool culling, VisibilityTile& visible, VisibleVertices& vertices, TiedFragments& out);
 
 }  // namespace trueshade

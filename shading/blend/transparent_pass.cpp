@@ -53,7 +53,7 @@ void TransparentPass::blend_into_albedo(const TileDraws& all, const TileRect& re
                                         TransparentWork& work, SurfaceTile& surface) const {
   const TileDraws draws = with_list(all, work.transparent);
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
-    resolve_surfaces(draws, rect, planes_, model_, work.layer, false, vertices, work.surface);
+    resolve_surfaces(draws, rect, planes_, model_, work.layer, UvPlanes::omitted, vertices, work.surface);
     blend_albedo(blend_, target_, work.surface, rect.size * rect.size, surface);
   }
 }
@@ -65,7 +65,7 @@ void TransparentPass::blend_after_lights(const TileDraws& all, const TileRect& r
   const TileDraws draws = with_list(all, work.transparent);
   LightCounts uncounted;
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
-    resolve_surfaces(draws, rect, planes_, model_, work.layer, false, vertices, work.surface);
+    resolve_surfaces(draws, rect, planes_, model_, work.layer, UvPlanes::omitted, vertices, work.surface);
     light_tile(work.surface, rect.size, lights_, clusters_, model_, kNothing,
                {.culling = execution.light_culling, .compiled = execution.compiled_models}, lists, work.color,
                uncounted);

@@ -7,33 +7,39 @@ namespace trueshade {
 /// The choices of a light model: everything that a branch of the light term reads, and no number but the exponent.
 /// Equal shapes run the same operations.
 struct LightShape {
-  bool renormalize, specular_masked;
-  Falloff falloff;
-  TermOrder order;
-  Cone cone;
-  Diffuse diffuse;
-  Specular specular;
-  SpecularSource source;
-  bool squared;  ///< Exponent::squared of the model's shininess
-  int power;     ///< what an integer shininess of the model powers (Exponent::integer); -1: read when it runs
+  bool renormalize = true, specular_masked = true;
+  Falloff falloff = Falloff::linear_range;
+  TermOrder order = TermOrder::factored;
+  Cone cone = Cone::none;
+  Diffuse diffuse = Diffuse::clamped;
+  Specular specular = Specular::none;
+  SpecularSource source = SpecularSource::model;
+  bool squared = false;  ///< Exponent::squared of the model's shininess
+  int power = -1;        ///< the model's Exponent::integer where a kernel is compiled for it; -1: read when it runs
   bool operator==(const LightShape&) const = default;
 };
 
-/// The shape of a model. `power`: with the model's exponent, where that is an integer and surfaces have none of their
-/// own.
-inline LightShape shape_of(const LightModel& m, bool power) {
-  const bool own = m.specular != Specular::none && !reads_specular_plane(m);
-  const Exponent exponent = exponent_of(m);
-  return {m.renormalize,
-          m.specular_masked,
-          m.falloff,
-          m.order,
-          m.cone,
-          m.diffuse,
-          m.specular,
-          m.specular_source,
-          own && exponent.squared,
-          own && power ? exponent.integer : -1};
+/// Whether a model has an exponent of its own; surfaces have the others.
+inline bool has_exponent(const LightModel& m) { return m.specular != Specular::none && !reads_specular_plane(m); }
+
+/// The shape of a model, whose exponent is read when the kernel runs.
+inline LightShape shape_of(const LightModel& m) {
+  return {.renormalize = m.renormalize,
+          .specular_masked = m.specular_masked,
+          .falloff = m.falloff,
+          .order = m.order,
+          .cone = m.cone,
+          .diffuse = m.diffuse,
+          .specular = m.specular,
+          .source = m.specular_source,
+          .squared = has_exponent(m) && exponent_of(m).squared};
+}
+
+/// The same with the model's exponent, where that is an integer.
+inline LightShape shape_with_power(const LightModel& m) {
+  LightShape shape = shape_of(m);
+  if (has_exponent(m)) shape.power = exponent_of(m).integer;
+  return shape;
 }
 
 /// Whether a light adds anything to pixels that face away.
@@ -50,6 +56,6 @@ struct AnyShape {
 };
 
 /// What the light term of any model is computed by.
-inline AnyShape any_shape(const LightModel& model) { return {shape_of(model, false)}; }
+inline AnyShape any_shape(const LightModel& model) { return {shape_of(model)}; }
 
 }  // namespace trueshade

@@ -15,7 +15,7 @@
 namespace trueshade {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNoCut = std::numeric_limits<float>::infinity();
 
 // The kernel's falloffs that end, operation by operation; correctly rounded sqrt, product, division and subtraction are
 // monotone, so each is positive below one squared distance and 0 from there on.
@@ -28,9 +28,9 @@ bool lit_at(Falloff falloff, float d2, float range) {
 // The least float that is not inside; `inside` holds below one value and not from there on. `guess` is near it.
 template <class Inside>
 float least_outside(float guess, const Inside& inside) {
-  constexpr uint32_t kEnd = std::bit_cast<uint32_t>(kInfinity);
+  constexpr uint32_t kEnd = std::bit_cast<uint32_t>(kNoCut);
   const auto holds = [&](uint32_t bits) { return inside(std::bit_cast<float>(bits)); };
-  if (holds(kEnd - 1)) return kInfinity;
+  if (holds(kEnd - 1)) return kNoCut;
   uint32_t low = std::isfinite(guess) && guess > 0.0f ? std::bit_cast<uint32_t>(guess) : 1, high = low;
   for (uint32_t step = 1; high < kEnd && holds(high); step *= 2) low = high + 1, high += std::min(step, kEnd - high);
   for (uint32_t step = 1; low > 0 && !holds(low - 1); step *= 2) high = low - 1, low -= std::min(step, low);
@@ -84,9 +84,9 @@ LightRow row_of(const Light& light, const LightModel& model) {
   }
   row.range = light.range, row.range2 = light.range * light.range;
   row.k0 = light.attenuation.x, row.k1 = light.attenuation.y, row.k2 = light.attenuation.z;
-  row.cut2 = row.extent2 = kInfinity;
+  row.cut2 = row.extent2 = kNoCut;
   row.edge = cone.edge, row.slope = cone.slope, row.dark_cosine = cone.dark;
-  row.spot_exponent = exponent_of(light.spot_exponent, false);
+  row.spot_exponent = exponent_of(light.spot_exponent);
   return row;
 }
 
@@ -108,7 +108,7 @@ void resize(LightTable& table, size_t lights) {
 
 // Rows from `first` on.
 void make_rows(std::span<const Light> lights, const LightModel& model, size_t first, LightTable& table) {
-  float range = -1.0f, cut2 = kInfinity;  // of the light before
+  float range = -1.0f, cut2 = kNoCut;  // of the light before
   for (size_t k = 0; k < lights.size(); ++k) {
     const Light& light = lights[k];
     LightRow& row = table.row[first + k] = row_of(light, model);

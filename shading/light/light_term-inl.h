@@ -87,7 +87,8 @@ struct LightTerms {
       out.specular[c] = has_gloss() ? hn::Load(d, s.plane[kSpecular + c] + i) : hn::Set(d, model.specular_color[c]);
     if (has_gloss())
       out.exponents = surface_exponents(hn::Load(d, s.plane[kSpecular + 3] + i), out.covered,
-                                        form.shape.specular == Specular::blinn_phong);
+                                        form.shape.specular == Specular::blinn_phong ? PowerBase::square_if_even
+                                                                                     : PowerBase::cosine);
     return out;
   }
 

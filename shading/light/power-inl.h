@@ -123,7 +123,7 @@ struct SurfaceExponents {
   int top_bit;  ///< highest bit of any
 };
 
-HWY_INLINE SurfaceExponents surface_exponents(VF shininess, MF covered, bool squares) {
+HWY_INLINE SurfaceExponents surface_exponents(VF shininess, MF covered, PowerBase base) {
   const DF d;
   alignas(64) float lane[HWY_MAX_BYTES / sizeof(float)];
   const VF zero = hn::Zero(d), two = hn::Set(d, 2.0f);
@@ -135,9 +135,9 @@ HWY_INLINE SurfaceExponents surface_exponents(VF shininess, MF covered, bool squ
   const uint32_t bits = lane_bits(d, covered);
   const float common = lane[bits == 0 ? 0 : std::countr_zero(bits)];
   out.agree = hn::AllFalse(d, hn::And(covered, hn::Ne(s, hn::Set(d, common))));
-  out.common = exponent_of(common, squares);
+  out.common = exponent_of(common, base);
   const VF half = hn::Floor(hn::Div(s, two));
-  out.odd = squares ? hn::Ne(hn::Mul(half, two), s) : hn::Eq(s, s);
+  out.odd = base == PowerBase::square_if_even ? hn::Ne(hn::Mul(half, two), s) : hn::Eq(s, s);
   out.power = hn::IfThenElse(out.odd, s, half);
   hn::Store(out.power, d, lane);
   float most = 1.0f;

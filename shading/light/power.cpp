@@ -35,11 +35,11 @@ double exp2_of(double t) {
   return sum * std::bit_cast<double>(uint64_t(int64_t(n) + 1023) << 52);
 }
 
-Exponent exponent_of(float exponent, bool squares) {
+Exponent exponent_of(float exponent, PowerBase base) {
   const bool integer = exponent <= 8192.0f && exponent == std::nearbyint(exponent);
   if (!integer) return {false, -1, double(exponent)};
   const int whole = int(exponent);
-  const bool squared = squares && whole % 2 == 0;
+  const bool squared = base == PowerBase::square_if_even && whole % 2 == 0;
   return {squared, squared ? whole / 2 : whole, double(squared ? whole / 2 : whole)};
 }
 

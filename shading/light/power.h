@@ -11,10 +11,12 @@ struct Exponent {
   double value;
 };
 
-/// `squares`: an even integer stands for its half, of the square.
-Exponent exponent_of(float exponent, bool squares);
+/// What an exponent is applied to: always to the cosine, or to its square where the exponent is an even integer.
+enum class PowerBase : uint8_t { cosine, square_if_even };
+Exponent exponent_of(float exponent, PowerBase base = PowerBase::cosine);
 inline Exponent exponent_of(const LightModel& model) {
-  return exponent_of(model.shininess, model.specular == Specular::blinn_phong);
+  return exponent_of(model.shininess,
+                     model.specular == Specular::blinn_phong ? PowerBase::square_if_even : PowerBase::cosine);
 }
 
 /// Base 2, x > 0; and 2^t. In double, to the last bits (docs/arithmetic.md section 9).

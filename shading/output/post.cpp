@@ -28,15 +28,17 @@ std::vector<double> binomial_weights(int radius) {
   return weight;
 }
 
-/// One blur along x (or y): f64 sums from the left (top), one rounding; past the border its last pixel goes on.
-Picture blurred(const Picture& from, const std::vector<double>& weight, bool along_x, int threads) {
+enum class BlurAxis : uint8_t { x, y };
+
+/// One blur along an axis: f64 sums from the left or the top, rounded once. Past the border its last pixel goes on.
+Picture blurred(const Picture& from, const std::vector<double>& weight, BlurAxis axis, int threads) {
   Picture to(from.width, from.height);
   const int radius = int(weight.size()) / 2;
   parallel_for(from.height, threads, [&](int y) {
     for (int x = 0; x < from.width; ++x) {
       double sum[3] = {0.0, 0.0, 0.0};
       for (int k = -radius; k <= radius; ++k) {
-        const float* tap = along_x ? from.at(std::clamp(x + k, 0, from.width - 1), y)
+        const float* tap = axis == BlurAxis::x ? from.at(std::clamp(x + k, 0, from.width - 1), y)
                                    : from.at(x, std::clamp(y + k, 0, from.height - 1));
         for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight[size_t(k + radius)] * double(tap[c]);
       }
@@ -82,8 +84,8 @@ void add_bloom(const PostChain::Bloom& bloom, int threads, Picture& picture) {
       for (int c = 0; c < 3; ++c) light.at(x, y)[c] = tame(picture.at(x, y)[c] - bloom.threshold);
   const std::vector<double> weight = binomial_weights(bloom.radius);
   for (int pass = 0; pass < bloom.passes; ++pass) {
-    light = blurred(light, weight, true, threads);
-    light = blurred(light, weight, false, threads);
+    light = blurred(light, weight, BlurAxis::x, threads);
+    light = blurred(light, weight, BlurAxis::y, threads);
   }
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)

@@ -6,10 +6,12 @@
 namespace trueshade {
 namespace {
 
-void write_tile(const ColorTile& color, bool coded, const TileRect& rect, HalfRound half_round, Image& target) {
+enum class TileForm : uint8_t { values, codes };
+
+void write_tile(const ColorTile& color, TileForm form, const TileRect& rect, HalfRound half_round, Image& target) {
   TexelSource source;
   for (int c = 0; c < 4; ++c) source.plane[c] = color.plane[c];
-  source.coded = coded;
+  source.coded = form == TileForm::codes;
   store_texels(source, rect, half_round, target);
 }
 
@@ -49,11 +51,11 @@ TexelSource source_of(std::string_view name, const VisibilityTile& visible, cons
 }  // namespace
 
 void store_target(const ColorTile& color, const TileRect& rect, HalfRound half_round, Image& target) {
-  write_tile(color, false, rect, half_round, target);
+  write_tile(color, TileForm::values, rect, half_round, target);
 }
 
 void write_stored(const ColorTile& stored, const TileRect& rect, Image& target) {
-  write_tile(stored, true, rect, HalfRound::toward_zero, target);
+  write_tile(stored, TileForm::codes, rect, HalfRound::toward_zero, target);
 }
 
 void store_aov(std::string_view name, const VisibilityTile& visible, const SurfaceTile& surface, const ColorTile& color,

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
+#include "raster/view.h"
+
 namespace trueshade {
 namespace {
 
 /// Unit vector along which distance from the eye grows in depth: what divides x and y in a perspective, else z.
 glm::vec3 view_axis(const Scene& scene, const Pipeline& pipeline) {
-  const Matrix4 m = clip_from_world(scene.camera, 1.0, pipeline.geometry.clip_depth == ClipDepth::zero_to_one);
+  const Matrix4 m = clip_from_world(scene.camera, 1.0, clip_range(pipeline.geometry));
   for (const size_t row : {size_t(3), size_t(2)}) {
     const double x = m[row], y = m[4 + row], z = m[8 + row], length2 = (x * x + y * y) + z * z;
     if (!(length2 > 0.0)) continue;

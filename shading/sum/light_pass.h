@@ -31,7 +31,6 @@ struct LightLists {
   FoundLights found;
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
-  std::vector<ListedLight> block;
 };
 
 /// What a light pass may spare itself. None of it changes a bit of what is stored.

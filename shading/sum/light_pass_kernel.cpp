@@ -47,3 +47,7 @@ void light_tile_simd(const SurfaceTile& surface, int tile, const LightTable& lig
 
 }  // namespace trueshade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(light_tile, HWY_NAMESPACE::light_tile_simd);
+}  // namespace trueshade

@@ -46,7 +46,7 @@ struct ListedTile {
   ListedTile(const TileWork& in, const LightShape& shape)
       : cull{in.shortcuts.culling, in.shortcuts.culling && in.lights.cones, in.shortcuts.culling && !adds_unlit(shape)},
         many(cull.distance && !in.clusters.empty()) {
-    find_regions(in.surface, in.blocks(), cull.facing, regions);
+    find_regions(in.surface, in.blocks(), bounds_of(cull), regions);
   }
 };
 
@@ -81,16 +81,14 @@ void sum_listed_region(const TileWork& in, const LightTerms<Shape>& terms, const
   for (int k = 0; k < int(kRegionBlockCount); ++k) {
     if (r.covered[k] == 0) continue;
     const int block = r.block(k, in.blocks());
-    const std::span<const ListedLight> list =
-        block_lights(in.surface, block, in.work.region, in.shortcuts.culling, in.work.block);
     for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(DF())))
-      sum_vector(in, terms, list, i);
+      sum_vector(in, terms, in.work.region.light, i);
   }
 }
 
 /// Adds its hits to a vector of pixels, in scene order, and stores the sum.
 template <class Shape>
-HWY_INLINE void sum_hits(const TileWork& in, const LightTerms<Shape>& terms, const HitVector& of) {
+HWY_NOINLINE void sum_hits(const TileWork& in, const LightTerms<Shape>& terms, const HitVector& of) {
   FoundLights& found = in.work.found;
   LightSum sum;
   for (int c = 0; c < 3; ++c) sum.color[c] = terms.start(in.surface, of.at, of.px, c);

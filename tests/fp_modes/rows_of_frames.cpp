@@ -47,7 +47,8 @@ void call_frames(Bytes& out) {
 }
 
 void call_prepared(Bytes& out) {
-  const PreparedScene prepared(scene_of_all());
+  PreparedScene prepared(scene_of_all());
+  prepared.update();
   out.put(prepared.scene().instances);
   const ClusteredScene& clusters = prepared.clusters();
   out.put(sizeof(&clusters));
@@ -119,7 +120,7 @@ constexpr Row kRows[] = {
     {"core/image_files/image_io.h", "write_image encode_png", call_writing},
     {"core/image_files/image_io.h", "read_planes decode_image read_image_info check_writable write_file", call_reading},
     {"shading/frame.h", "render_frame", call_frames},
-    {"shading/frame.h", "PreparedScene scene clusters", call_prepared},
+    {"shading/frame.h", "PreparedScene scene clusters update", call_prepared},
     {"shading/frame.h", "aov_names is_aov_name tile_for", call_aovs},
 };
 

@@ -27,10 +27,11 @@ constexpr const char* kText = R"({"version": 1, "fps": 29.97,
               "colors": [[0.4, 0.1, 0], [0, 0.1, 0.4]]}],
   "pipeline": {"light_model": {"damping": 0.1}}})";
 
-constexpr const char* kPly = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                             "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                             "0.1 0.2 0.3 1 2 3\n1.1 0.7 0 4 5 6\n1 1.3 1e-40 200 8 9\n0 1 0.1 10 11 12\n4 0 1 2 3\n";
+constexpr const char* kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0.1 0.2 0.3 1 2 3\n1.1 0.7 0 4 5 6\n1 1.3 1e-40 200 8 9\n0 1 0.1 10 11 12\n4 0 1 2 3\n";
 
 const ScratchFolder& folder() {
   static const ScratchFolder scratch;
@@ -51,8 +52,43 @@ const Orbit kOrbit{0, {0.1f, 0.2f, 0.3f}, {1.3f, 0.0f, 1e-40f}, {0.0f, 1.7f, 0.0
 const Track kTrack{{0.1, 0.7}, {{0.1, 0.2, 0.3, 0.4}, {1.0, 1e-310, 3.0, 0.7}}, Between::linear, true, 0.1, 0.9};
 const Placement kPlacement{{0.1, 0.2, 1e-310}, {0.1, 0.2, 0.3, 0.9273618495495704}, {0.7, 1.1, 3.0}};
 
+/// A triangle that turns, bends and blends, under a camera and a light that hang on a node.
+constexpr const char* kGltf = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 236, "uri":
+  "data:application/octet-stream;base64,)"
+                              "zczMPWZmZj8AAAAAAAAAAAAAAAAAAIA/zczMPc3MTD6amZk+lmdtP83MzD3NzEw+mpmZPs3MjD8zMzM/whYB"
+                              "AAAAgD9mZqY/zczMPZqZmT4AAAAAAAAAAAAAAADNzMw9AAAAAAAAAAAAAAAAMzMzPwAAAAAAAAAAAAAAADMz"
+                              "Mz/NzMw9zczMPc3MzD0zMzM/zczMPc3MzD3NzMw9MzMzP83MzD3NzMw9zczMPc3MjD/NzMw9AAAAAAAAAAAA"
+                              "AAAAZmZmPwAAAAAAAAAAAAAAAAAAAAAzMzM/AAAAAM3MzD3NzEw+mpmZPgAAgD8="
+                              R"("}],
+  "bufferViews": [{"buffer": 0, "byteLength": 8}, {"buffer": 0, "byteOffset": 8, "byteLength": 32},
+                  {"buffer": 0, "byteOffset": 40, "byteLength": 36}, {"buffer": 0, "byteOffset": 76, "byteLength": 36},
+                  {"buffer": 0, "byteOffset": 112, "byteLength": 12}, {"buffer": 0, "byteOffset": 124, "byteLength": 48},
+                  {"buffer": 0, "byteOffset": 172, "byteLength": 64}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                {"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC4"},
+                {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC3"},
+                {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC3"},
+                {"bufferView": 4, "componentType": 5121, "count": 3, "type": "VEC4"},
+                {"bufferView": 5, "componentType": 5126, "count": 3, "type": "VEC4"},
+                {"bufferView": 6, "componentType": 5126, "count": 1, "type": "MAT4"}],
+  "cameras": [{"type": "orthographic", "orthographic": {"xmag": 0.7, "ymag": 1.3, "znear": 0.1, "zfar": 7.7}}],
+  "extensionsUsed": ["KHR_lights_punctual"],
+  "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "color": [0.1, 0.7, 1e-40], "spot": {}}]}},
+  "meshes": [{"weights": [0.3], "primitives": [{"attributes": {"POSITION": 2, "JOINTS_0": 4, "WEIGHTS_0": 5},
+                                                "targets": [{"POSITION": 3}]}]}],
+  "skins": [{"joints": [1], "inverseBindMatrices": 6}],
+  "nodes": [{"mesh": 0, "skin": 0}, {"translation": [0.1, 0.2, 0.3], "scale": [0.7, 1.1, 3], "camera": 0,
+             "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+  "animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}]})";
+
+const std::string& gltf_path() {
+  static const std::string path = folder().write("model.gltf", kGltf);
+  return path;
+}
+
 void call_load(Bytes& out) {
   out.put(load_scene(scene_path()));
+  out.put(load_scene(gltf_path()));
   out.put(load_scene(mesh_path()));
   out.put(load_scene("builtin:cornell"));
   out.put_error([] { load_scene("builtin:city,lights=0.1"); });
@@ -65,6 +101,7 @@ void call_hash(Bytes& out) {
   for (const Material& material : scene_of_all().materials) {
     out.put(material.masked());
     out.put(material.textured());
+    out.put(material.has_maps());
   }
 }
 
@@ -89,6 +126,13 @@ void call_set_time(Bytes& out) {
   for (const double time : {0.0, 0.1, 2.7, -1e5}) {
     set_time(scene, time);
     out.put(scene);
+  }
+  Scene hierarchy = load_scene(gltf_path());
+  for (const double time : {0.3, 0.65}) {
+    set_time(hierarchy, time);
+    out.put(hierarchy);
+    for (const Light& light : hierarchy.lights) out.put_light(light);
+    out.put(hierarchy.camera.clip_from_world.value());
   }
   out.put_error([&] { set_time(scene, 1e7); });
   out.put_error([&] { set_time(scene, std::numeric_limits<double>::quiet_NaN()); });
@@ -121,7 +165,7 @@ void call_placements(Bytes& out) {
 
 void call_camera(Bytes& out) {
   Camera camera = scene_of_all().camera;
-  const Matrix4 clip = clip_from_world(camera, 1.7), other = clip_from_world(camera, 0.3, true);
+  const Matrix4 clip = clip_from_world(camera, 1.7), other = clip_from_world(camera, 0.3, ClipRange::zero_to_one);
   out.put(clip);
   out.put(other);
   out.put(product(clip, other));
@@ -174,7 +218,7 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/transparency.h", "draws_transparent",
      [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},
     {"scenes/scene.h", "load_scene Image", call_load},
-    {"scenes/scene.h", "scene_hash triangle_count masked textured", call_hash},
+    {"scenes/scene.h", "scene_hash triangle_count masked textured has_maps", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
     {"scenes/scene.h", "set_time", call_set_time},
     {"scenes/scene.h", "shininess_of_roughness", call_shininess},

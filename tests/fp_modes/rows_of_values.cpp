@@ -149,6 +149,9 @@ void call_light_model(Bytes& out) {
     out.put(maps_metals(preset.pipeline.light_model));
     out.put(preset_pipeline(preset.name)->light_model.specular_color.x);
   }
+  Scene scene;
+  scene.photometric = true;
+  out.put(default_pipeline(scene).light_model.shininess);
 }
 
 constexpr Row kRows[] = {
@@ -164,11 +167,11 @@ constexpr Row kRows[] = {
      }},
     {"core/image.h", "image_hash", [](Bytes& out) { out.put(image_hash(floats())); }},
     {"core/numeric_profile.h", "profile_name profile_from_name", call_names},
-    {"core/sha256.h", "update hex", call_sha},
+    {"core/sha256.h", "Sha256 update hex", call_sha},
     {"core/simd/simd_target.h", "simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane maps_metals", call_light_model},
-    {"scenes/pipeline/presets.h", "presets preset_pipeline", call_light_model},
+    {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes", call_pipeline},
     {"scenes/pipeline/pipeline.h", "validate", call_refusals},

@@ -36,7 +36,7 @@ std::array<float, 4> LooseTextures::texel(LooseFloat& f, const TextureSlot& slot
     lod = std::clamp<long double>(chosen + s.lod_bias, s.lod_min, s.lod_max);
   }
   const bool srgb = texture.format == TextureFormat::srgb8_a8, late = srgb && free_.decode_late;
-  const oracle::Rgba exact =
+  const oracle::TexelValue exact =
       oracle::filtered(late ? encoded_[index] : texture, s, place.u, place.v, lod, free_.weight_bits);
   const double off = free_.weight_bits > 0 ? 0.95 * steps_of(s, lod) / 255 : 0;  // as if filtered in 8 bits
   std::array<float, 4> out{};

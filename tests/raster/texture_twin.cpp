@@ -6,8 +6,8 @@
 #include <cstring>
 #include <random>
 
-#include "oracle/texture_lookup.h"
 #include "core/simd/simd_target.h"
+#include "oracle/texture_lookup.h"
 #include "raster/textures/texture.h"
 #include "tests/catch.hpp"
 
@@ -113,7 +113,7 @@ TEST_CASE("lookups equal the scalar oracle within half an ulp: every wrap, filte
         const long double lod = oracle::level_of_detail(texture, sampler, place_of(points[i]));
         const bool levels = sampler.mip_filter != MipFilter::none || sampler.mag_filter != sampler.min_filter;
         if (levels && near_switch(lod)) continue;
-        const oracle::Rgba exact = oracle::filtered(texture, sampler, points[i].u, points[i].v, lod);
+        const oracle::TexelValue exact = oracle::filtered(texture, sampler, points[i].u, points[i].v, lod);
         const bool filters = sampler.mag_filter == Filter::linear || sampler.min_filter == Filter::linear ||
                              sampler.mip_filter == MipFilter::linear;
         for (size_t c = 0; c < 4; ++c) {

@@ -54,7 +54,7 @@ TEST_CASE("a camera sees its target in the middle and its near and far planes at
   camera.near = 0.5f;
   camera.far = 80.0f;
   const glm::dvec3 eye(camera.eye), forward = unit(glm::dvec3(camera.target) - eye);
-  const Matrix4 gl = clip_from_world(camera, 1.5), d3d = clip_from_world(camera, 1.5, true);
+  const Matrix4 gl = clip_from_world(camera, 1.5), d3d = clip_from_world(camera, 1.5, ClipRange::zero_to_one);
   CHECK(std::fabs(ndc(gl, glm::dvec3(camera.target)).x) < 1e-14);
   CHECK(std::fabs(ndc(gl, glm::dvec3(camera.target)).y) < 1e-14);
   CHECK(ndc(gl, eye + forward * 0.5).z == Approx(-1.0).epsilon(1e-12));

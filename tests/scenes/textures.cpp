@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "expect_error.h"
-#include "scenes/scene.h"
 #include "scenes/builtin/texture_pattern.h"
+#include "scenes/scene.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -81,6 +81,50 @@ TEST_CASE("maps say how a texture is read") {
   CHECK(m.specular_map.sampler == Sampler{});
   CHECK(m.normal_map.sampler.wrap == std::array<Wrap, 2>{Wrap::mirror_clamp_to_edge, Wrap::mirror_clamp_to_edge});
   CHECK(scene.textures[0].levels.size() == 2);  // 2x2 and 1x1: some map reads between levels
+}
+
+TEST_CASE("maps say at which coordinates they are read, and materials what glTF's have besides") {
+  const Scene scene = load(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
+    {"name": "a", "color": [1, 1, 1], "occlusion_strength": 0.5, "unlit": true, "double_sided": true,
+     "emission_map": {"texture": "t", "uv_set": 1, "uv_offset": [1, -2], "uv_rotation_deg": 180, "uv_scale": [3, 4]},
+     "metallic_roughness_map": {"texture": "t", "mip": "none"}, "occlusion_map": {"texture": "t"}}, {"name": "b", "color": [1, 1, 1]})"));
+  const Material &m = scene.materials.at(0), &plain = scene.materials.at(1);
+  CHECK(m.emission_map.uv_set == 1);
+  CHECK(m.emission_map.transform == UvTransform{{1.0f, -2.0f}, {3.0f, 4.0f}, 3.14159265f});
+  CHECK(m.metallic_roughness_map.used());
+  CHECK(m.occlusion_map.transform == UvTransform());
+  CHECK(m.occlusion_strength == 0.5f);
+  CHECK(m.unlit);
+  CHECK(m.double_sided);
+  CHECK(m.has_maps());
+  CHECK(!m.textured());
+  CHECK(!plain.has_maps());
+  CHECK(scene.textures[0].levels.size() == 2);
+  const auto map = [](const std::string& more) {
+    return refusal(textures(R"({"name": "t", "file": "two.tex"})", material(more)));
+  };
+  CHECK_STARTS_WITH(map(R"(, "uv_set": 2)"), "s.json: /materials/0/color_map/uv_set: found 2");
+  CHECK_STARTS_WITH(map(R"(, "uv_scale": [1])"), "s.json: /materials/0/color_map/uv_scale: found an array of 1");
+  CHECK_STARTS_WITH(map(R"(, "uv_offset": [1, 1e7])"), "s.json: /materials/0/color_map/uv_offset/1: found 1e+07");
+}
+
+TEST_CASE("what glTF's materials have moves the hash of scenes that say it, and of no others") {
+  Scene scene = load(textures(R"({"name": "t", "file": "two.tex"})", material("")));
+  const std::string before = scene_hash(scene);
+  const auto changed = [&](const auto& change) {
+    Scene other = scene;
+    change(other);
+    validate(other);
+    return scene_hash(other) != before;
+  };
+  CHECK(changed([](Scene& s) { s.materials[0].unlit = true; }));
+  CHECK(changed([](Scene& s) { s.materials[0].double_sided = true; }));
+  CHECK(changed([](Scene& s) { s.materials[0].occlusion_strength = 0.5f; }));
+  CHECK(changed([](Scene& s) { s.materials[0].emission_map = s.materials[0].color_map; }));
+  CHECK(changed([](Scene& s) { s.materials[0].color_map.uv_set = 1; }));
+  CHECK(changed([](Scene& s) { s.materials[0].color_map.transform.rotation_rad = 1.0f; }));
+  CHECK(changed([](Scene& s) { s.materials[0].color_map.transform.offset.y = 1.0f; }));
+  CHECK(!changed([](Scene& s) { s.materials[0].normal_map.transform.offset.y = 1.0f; }));  // of no texture
 }
 
 TEST_CASE("levels come from files or are made where a map reads them") {
@@ -194,6 +238,30 @@ long double mean(const std::vector<float>& texels, long double first, long doubl
     if (high > low) sum += (high - low) * texels[i];
   }
   return sum / (end - first);
+}
+
+TEST_CASE("a level of even sides is four texels' mean, stored as a texel is stored") {
+  for (const TextureFormat format : {TextureFormat::rgba8, TextureFormat::srgb8_a8}) {
+    Texture texture{"t", format, {{256, 64, {}}}};
+    uint32_t state = 1;
+    for (int i = 0; i < 4 * 256 * 64; ++i) {
+      state = state * 1664525u + 1013904223u;
+      texture.levels[0].bytes.push_back(
+          uint8_t(i % 1024 < 512 ? state >> 24 : state >> 24 & 15));  // half of it is dark
+    }
+    build_mip_chain(texture);
+    std::vector<uint8_t> expected;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 128; ++x) {
+        std::array<float, 4> mean{};
+        for (size_t c = 0; c < 4; ++c) {
+          const auto at = [&](int i, int j) { return double(texel_value(texture, 0, 2 * x + i, 2 * y + j)[c]); };
+          mean[c] = float(((at(0, 0) + at(1, 0)) / 2 + (at(0, 1) + at(1, 1)) / 2) / 2);
+        }
+        append_texel(format, mean, expected);
+      }
+    CHECK(texture.levels[1].bytes == expected);
+  }
 }
 
 TEST_CASE("a level of the mip chain is the mean of what its texels cover, whatever the size") {

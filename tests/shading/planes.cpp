@@ -235,7 +235,7 @@ TEST_CASE("Z is the distance along the view axis, whatever the camera's matrix",
 TEST_CASE("Z is made of the position as it is stored, bit for bit", "[views]") {
   const Scene scene = load_scene("builtin:circle");
   const PreparedScene prepared(scene);
-  const Matrix4 m = clip_from_world(scene.camera, 1.0, false);
+  const Matrix4 m = clip_from_world(scene.camera, 1.0);
   const double inverse = 1.0 / std::sqrt((m[3] * m[3] + m[7] * m[7]) + m[11] * m[11]);
   const float axis[] = {float(m[3] * inverse), float(m[7] * inverse), float(m[11] * inverse)};
   const std::string planes[] = {"Z", "position", "id.object"};

@@ -19,7 +19,7 @@ void raise_all(const float* x, size_t count, const Exponent& exponent, float* ou
 }
 
 void raise_alike(const float* x, size_t count, float p, bool compiled, float* out) {
-  const Exponent exponent = exponent_of(p, false);
+  const Exponent exponent = exponent_of(p);
   if (!compiled) return raise_all<-1>(x, count, exponent, out);
   if (p == 16) return raise_all<16>(x, count, exponent, out);
   if (p == 30) return raise_all<30>(x, count, exponent, out);
@@ -30,7 +30,7 @@ void raise_apart(const float* x, const float* p, size_t count, float* out) {
   const DF d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const VF zero = hn::Zero(d);
-    const SurfaceExponents exponents = surface_exponents(hn::LoadU(d, p + i), hn::Eq(zero, zero), false);
+    const SurfaceExponents exponents = surface_exponents(hn::LoadU(d, p + i), hn::Eq(zero, zero), PowerBase::cosine);
     hn::StoreU(rounded_power(hn::LoadU(d, x + i), exponents), d, out + i);
   }
 }

@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "core/fp_env.h"
+#include "core/simd/simd_target.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 #include "oracle/scalar_renderer.h"
 #include "raster/light_geometry/light_outlines.h"
-#include "core/simd/simd_target.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -158,7 +158,7 @@ TEST_CASE("Every strategy draws one image, whatever the culling, threads, tiles,
         CHECK(hash(prepared, p, {.fast_geometry = false}) == once);
         CHECK(hash(prepared, p, {.threads = 1, .tile = 8, .shuffle_tiles = true}) == once);
         CHECK(hash(prepared, p, {.threads = 3, .tile = 48, .geometry_culling = false}) == once);
-        for (const std::string_view simd : {"scalar", "sse4", "avx2"})
+        for (const std::string_view simd : simd_targets())
           CHECK(hash(prepared, p, {.tile = 16, .simd = simd, .count_as_gl = true}) == once);
       }
     }

@@ -30,17 +30,10 @@ struct alignas(64) MappedTriangle {
   double value[kValues];
 };
 
-/// The values of the triangles that a vector of pixels sees: one, two, or several.
+/// The values of the triangles that a vector of pixels sees: of one, or of several.
 struct OneTriangle {
   const double* at;
   HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
-};
-struct TwoTriangles {
-  const double *first, *second;
-  M64 of_second;
-  HWY_INLINE V64 operator()(int k) const {
-    return hn::IfThenElse(of_second, hn::Set(D64(), second[k]), hn::Set(D64(), first[k]));
-  }
 };
 struct SeveralTriangles {
   using DI = hn::RebindToSigned<D64>;
@@ -89,9 +82,8 @@ struct MapBatch {
   int count = 0;
   alignas(64) int64_t
       triangle_at[kBlocks * kBlockPixels] = {};  ///< where each pixel's triangle begins among all values
-  int64_t first[kVectors] = {};                  ///< triangles of vectors, none where there are more than two
-  int64_t second[kVectors] = {};
-  M64 of_second[kVectors] = {}, owned[kVectors] = {};
+  int64_t first[kVectors] = {};                  ///< the triangle of a vector; none where there are several
+  M64 owned[kVectors] = {};
   UvPoint uv[kVectors] = {};
   int pixel[kVectors] = {};  ///< the first
 
@@ -102,12 +94,11 @@ struct MapBatch {
     return to;
   }
 
-  /// Calls use(values) with the values of the triangles that a vector sees; only three and more triangles are gathered.
+  /// Calls use(values) with the values of the triangles that a vector sees; those of several are gathered.
   template <class Use>
   HWY_INLINE auto with_triangles(int h, const Use& use) const {
     const double* const values = triangle[0].value;
-    if (first[h] != kNone && second[h] == kNone) return use(OneTriangle{values + first[h]});
-    if (first[h] != kNone) return use(TwoTriangles{values + first[h], values + second[h], of_second[h]});
+    if (first[h] != kNone) return use(OneTriangle{values + first[h]});
     return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), triangle_at + h * kHalf)});
   }
 
@@ -124,13 +115,9 @@ struct MapBatch {
       const int64_t* const at = triangle_at + h * kHalf;
       const auto all = hn::Load(di, at);
       const auto beside = [&](int64_t triangle) { return hn::Ne(all, hn::Set(di, triangle)); };
-      first[h] = at[bits != 0 ? std::countr_zero(bits) : 0], second[h] = kNone;
+      first[h] = at[bits != 0 ? std::countr_zero(bits) : 0];
       const auto others = beside(first[h]);
-      if (const uint32_t left = lane_bits(di, others) & bits; left != 0) {
-        second[h] = at[std::countr_zero(left)];
-        of_second[h] = hn::RebindMask(d, others);
-        if ((lane_bits(di, beside(second[h])) & left) != 0) first[h] = kNone;
-      }
+      if ((lane_bits(di, others) & bits) != 0) first[h] = kNone;
       with_triangles(h,
                      [&](const auto& triangle) { set_slopes(triangle, where.column(part), where.row(part), uv[h]); });
     }

@@ -32,7 +32,7 @@ struct MaterialTexel {
     const LightModel& model = task.model;
     float albedo[4] = {}, specular[4] = {}, emission[3] = {};
     for (int c = 0; c < 4; ++c) albedo[c] = 1.0f * m.base_color[c];
-    if (fills_planes(model)) apply_values(material_values(m, model, false), model, albedo, specular, emission);
+    if (fills_planes(model)) apply_values(material_values(m, model), model, albedo, specular, emission);
     material = index_plus_1;
     planes = 0;
     add(task, kAlbedo, 4, albedo, task.planes.albedo.format);

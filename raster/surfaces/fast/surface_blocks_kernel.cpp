@@ -1,3 +1,4 @@
+
 #include "core/simd/one_target.h"
 
 #include <hwy/highway.h>
@@ -29,7 +30,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
   const std::vector<Mesh>& meshes = in.scene.meshes;
   const bool colored = std::any_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
   const bool textured = in.view.maps.textured();
-  const WantedStreams wanted{task.need_uv, colored};
+  const WantedStreams wanted{task.reads_uv, colored};
   find_triangles(in, task.rect, task.visible, seen, out);
   if (out.covered_pixels == 0) return true;
   transform_seen(in, task.rect, wanted, seen);

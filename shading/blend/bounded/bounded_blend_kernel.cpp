@@ -1,3 +1,4 @@
+
 #include "core/simd/one_target.h"
 
 #include <hwy/highway.h>
@@ -56,7 +57,7 @@ bool add_bounded_codes(const TileBlend& t, const Region& r) {
     if (!t.in.bounded_codes || !t.method.adds || !t.method.codes) return false;
     for (int c = 0; c < 3; ++c)
       if (t.plan.largest(c) != 255.0f) return false;
-    const LightShape shape = shape_of(t.in.model, true);
+    const LightShape shape = shape_with_power(t.in.model);
     using Lambert = LambertPairs<kTogether>;
     if (shape == WindowLambert::shape) return add_codes_of<WindowLambert, Lambert, Lambert>(t, r);
     if (shape == SpotPhong::shape)

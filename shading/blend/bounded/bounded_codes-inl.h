@@ -15,6 +15,7 @@
 
 #include "shading/blend/added_light-inl.h"
 #include "shading/light/bounded/estimates-inl.h"
+#include "shading/light/fast/compiled_models.h"
 #include "shading/light/light_term-inl.h"
 #include "shading/light/lists/regions-inl.h"
 #include "shading/light/lists/tile_lights.h"
@@ -133,16 +134,7 @@ struct BoundedCodes {
 
 /// The shape whose codes section 17 bounds: Lambert with a linear window.
 struct WindowLambert {
-  static constexpr LightShape shape = {.renormalize = false,
-                                       .specular_masked = true,
-                                       .falloff = Falloff::linear_range,
-                                       .order = TermOrder::factored,
-                                       .cone = Cone::none,
-                                       .diffuse = Diffuse::clamped,
-                                       .specular = Specular::none,
-                                       .source = SpecularSource::model,
-                                       .squared = false,
-                                       .power = -1};
+  static constexpr LightShape shape = kWindowLambert;
   static constexpr bool compiled = true;
 };
 

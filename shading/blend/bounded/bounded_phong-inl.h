@@ -20,16 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// The shape whose codes section 18 bounds: Phong of the albedo's colour to the 60th, without a falloff.
 struct SpotPhong {
-  static constexpr LightShape shape = {.renormalize = true,
-                                       .specular_masked = false,
-                                       .falloff = Falloff::none,
-                                       .order = TermOrder::factored,
-                                       .cone = Cone::smooth_penumbra,
-                                       .diffuse = Diffuse::clamped,
-                                       .specular = Specular::phong,
-                                       .source = SpecularSource::albedo,
-                                       .squared = false,
-                                       .power = 60};
+  static constexpr LightShape shape = kSpotPhong;
   static constexpr bool compiled = true;
 };
 

@@ -7,6 +7,40 @@
 
 namespace trueshade {
 
+/// Blinn-Phong with shininess 32 and a linear window.
+inline constexpr LightShape kWindowBlinn = {.specular = Specular::blinn_phong, .squared = true, .power = 16};
+/// Blinn-Phong not masked, 1 / (1 + k1 d + k2 d^2), shininess 32.
+inline constexpr LightShape kQuadraticBlinn = {.renormalize = false,
+                                               .specular_masked = false,
+                                               .falloff = Falloff::quadratic,
+                                               .order = TermOrder::separate,
+                                               .specular = Specular::blinn_phong,
+                                               .squared = true,
+                                               .power = 16};
+/// Lambert with a linear window.
+inline constexpr LightShape kWindowLambert = {.renormalize = false};
+/// Lambert under spot lights without a distance term.
+inline constexpr LightShape kSpotLambert = {
+    .falloff = Falloff::none, .order = TermOrder::albedo_last, .cone = Cone::smooth_cutoff};
+/// Phong of the albedo's colour under spot lights, shininess 60.
+inline constexpr LightShape kSpotPhong = {.specular_masked = false,
+                                          .falloff = Falloff::none,
+                                          .cone = Cone::smooth_penumbra,
+                                          .specular = Specular::phong,
+                                          .source = SpecularSource::albedo,
+                                          .power = 60};
+/// OpenGL's fixed function.
+inline constexpr LightShape kFixedFunction = {.falloff = Falloff::attenuation,
+                                              .order = TermOrder::with_ambient,
+                                              .cone = Cone::exponent,
+                                              .specular = Specular::blinn_phong,
+                                              .source = SpecularSource::material};
+/// Blinn-Phong of glTF's materials under its punctual lights.
+inline constexpr LightShape kPunctual = {.falloff = Falloff::inverse_square,
+                                         .cone = Cone::squared_penumbra,
+                                         .specular = Specular::blinn_phong,
+                                         .source = SpecularSource::metallic_roughness};
+
 /// A shape that kernels are compiled for.
 struct CompiledModel {
   LightShape shape;
@@ -15,102 +49,11 @@ struct CompiledModel {
 
 /// Models of the presets. All others run the general kernel, with equal bits (tests/shading/light_models.cpp).
 inline constexpr CompiledModel kCompiledModels[] = {
-    // Blinn-Phong, shininess 32, a linear window.
-    {.shape = {.renormalize = true,
-               .specular_masked = true,
-               .falloff = Falloff::linear_range,
-               .order = TermOrder::factored,
-               .cone = Cone::none,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::blinn_phong,
-               .source = SpecularSource::model,
-               .squared = true,
-               .power = 16},
-     .blended = true},
-    // The same with any even shininess.
-    {.shape = {.renormalize = true,
-               .specular_masked = true,
-               .falloff = Falloff::linear_range,
-               .order = TermOrder::factored,
-               .cone = Cone::none,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::blinn_phong,
-               .source = SpecularSource::model,
-               .squared = true,
-               .power = -1},
-     .blended = true},
-    // Blinn-Phong not masked, 1 / (1 + k1 d + k2 d^2), shininess 32.
-    {.shape = {.renormalize = false,
-               .specular_masked = false,
-               .falloff = Falloff::quadratic,
-               .order = TermOrder::separate,
-               .cone = Cone::none,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::blinn_phong,
-               .source = SpecularSource::model,
-               .squared = true,
-               .power = 16},
-     .blended = false},
-    // Lambert under spot lights without a distance term.
-    {.shape = {.renormalize = true,
-               .specular_masked = true,
-               .falloff = Falloff::none,
-               .order = TermOrder::albedo_last,
-               .cone = Cone::smooth_cutoff,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::none,
-               .source = SpecularSource::model,
-               .squared = false,
-               .power = -1},
-     .blended = false},
-    // Lambert with a linear window.
-    {.shape = {.renormalize = false,
-               .specular_masked = true,
-               .falloff = Falloff::linear_range,
-               .order = TermOrder::factored,
-               .cone = Cone::none,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::none,
-               .source = SpecularSource::model,
-               .squared = false,
-               .power = -1},
-     .blended = true},
-    // Phong under spot lights, shininess 60.
-    {.shape = {.renormalize = true,
-               .specular_masked = false,
-               .falloff = Falloff::none,
-               .order = TermOrder::factored,
-               .cone = Cone::smooth_penumbra,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::phong,
-               .source = SpecularSource::albedo,
-               .squared = false,
-               .power = 60},
-     .blended = true},
-    // OpenGL's fixed function.
-    {.shape = {.renormalize = true,
-               .specular_masked = true,
-               .falloff = Falloff::attenuation,
-               .order = TermOrder::with_ambient,
-               .cone = Cone::exponent,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::blinn_phong,
-               .source = SpecularSource::material,
-               .squared = false,
-               .power = -1},
-     .blended = false},
-    // Blinn-Phong of glTF's materials under its punctual lights.
-    {.shape = {.renormalize = true,
-               .specular_masked = true,
-               .falloff = Falloff::inverse_square,
-               .order = TermOrder::factored,
-               .cone = Cone::squared_penumbra,
-               .diffuse = Diffuse::clamped,
-               .specular = Specular::blinn_phong,
-               .source = SpecularSource::metallic_roughness,
-               .squared = false,
-               .power = -1},
-     .blended = false}};
+    {.shape = kWindowBlinn, .blended = true},  {.shape = kQuadraticBlinn, .blended = false},
+    {.shape = kSpotLambert, .blended = false}, {.shape = kWindowLambert, .blended = true},
+    {.shape = kSpotPhong, .blended = true},    {.shape = kFixedFunction, .blended = false},
+    {.shape = kPunctual, .blended = false},
+};
 
 /// A shape as a type, whose branches the compiler folds.
 template <size_t kIndex>
@@ -130,7 +73,7 @@ bool with_compiled_shape(const LightModel& model, const Kernel& kernel) {
   } else {
     if constexpr (kFor == CompiledFor::all || kCompiledModels[kIndex].blended) {
       constexpr LightShape shape = kCompiledModels[kIndex].shape;
-      if (shape == shape_of(model, shape.power >= 0)) {
+      if (shape == (shape.power >= 0 ? shape_with_power(model) : shape_of(model))) {
         kernel(CompiledShape<kIndex>{});
         return true;
       }

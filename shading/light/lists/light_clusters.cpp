@@ -50,7 +50,7 @@ Bounds sphere_box(const float* position, float cut2) {
   return out;
 }
 
-constexpr size_t kCells = size_t(1) << (3 * kCellBits), kChunk = 4096;
+constexpr size_t kCells = size_t(1) << (3 * kCellBits), kClusterChunk = 4096;
 
 // Whether a light ends somewhere about a position.
 bool is_bounded(const LightTable& lights, size_t i) {
@@ -60,8 +60,9 @@ bool is_bounded(const LightTable& lights, size_t i) {
 // Calls visit(chunk, i, position) for each light, chunks on all threads.
 template <class Visit>
 void for_each_light(const LightTable& lights, int threads, const Visit& visit) {
-  parallel_for(int((lights.size() + kChunk - 1) / kChunk), threads, [&](int chunk) {
-    for (size_t i = size_t(chunk) * kChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kChunk); ++i) {
+  parallel_for(int((lights.size() + kClusterChunk - 1) / kClusterChunk), threads, [&](int chunk) {
+    for (size_t i = size_t(chunk) * kClusterChunk; i < std::min(lights.size(), (size_t(chunk) + 1) * kClusterChunk);
+         ++i) {
       const float at[3] = {lights.position[0][i], lights.position[1][i], lights.position[2][i]};
       visit(chunk, i, at);
     }
@@ -69,7 +70,7 @@ void for_each_light(const LightTable& lights, int threads, const Visit& visit) {
 }
 
 Bounds positions_of(const LightTable& lights, int threads) {
-  std::vector<Bounds> parts(lights.size() / kChunk + 1);
+  std::vector<Bounds> parts(lights.size() / kClusterChunk + 1);
   for_each_light(lights, threads, [&](int chunk, size_t i, const float* at) {
     if (is_bounded(lights, i)) parts[size_t(chunk)].add(at, at);
   });
@@ -142,8 +143,7 @@ void make_light_clusters(const LightTable& lights, int threads, LightClusters& o
   if (lights.size() < LightClusters::kFewest) return;
   sort_along_curve(lights, threads, out);
   if (out.sorted.size() < LightClusters::kFewest) return;
-  const size_t clusters = (out.sorted.size() + kMembers - 1) / kMembers,
-               parents = (clusters + kMembers - 1) / kMembers;
+  const size_t clusters = (out.sorted.size() + kMembers - 1) / kMembers, parents = (clusters + kMembers - 1) / kMembers;
   out.cluster.resize(clusters);
   resize(out.boxes, clusters);
   resize(out.parents, parents);

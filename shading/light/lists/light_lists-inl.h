@@ -48,6 +48,9 @@ struct RegionCull {
   bool cone;      ///< or out of its cone
   bool facing;    ///< all normals point away: the model adds nothing then
 };
+inline RegionBounds bounds_of(RegionCull cull) {
+  return cull.facing ? RegionBounds::positions_and_normals : RegionBounds::positions;
+}
 
 // A light is dropped only if the least squared distance, with slack for its six roundings, is past the light's cut:
 // then the kernel's own d2 is past it at every pixel. A light without a cut is never dropped: to pixels whose positions
@@ -210,24 +213,6 @@ inline void region_lights(const TileLights& lights, const Region& r, int blocks,
     if (cull.facing && !hn::AllFalse(d, reaches)) reaches = hn::AndNot(faced_away(position, first, r), reaches);
     for_each_lane(reaches, first, lights.light.size(), add);
   }
-}
-
-/// The lights that may reach a block: the region's, or where these are many those near the block. `scratch` is kept.
-inline std::span<const ListedLight> block_lights(const SurfaceTile& surface, int block, const TileLights& region,
-                                                 bool cull, std::vector<ListedLight>& scratch) {
-  constexpr size_t kMany = 40;
-  if (!cull || region.light.size() <= kMany) return region.light;
-  const DF d;
-  BoxVector vectors;
-  for (int i = block * kBlockPixels; i < (block + 1) * kBlockPixels; i += int(hn::Lanes(d)))
-    vectors.add(surface, kPosition, i, hn::MaskFromVec(hn::BitCast(d, hn::Load(DI(), surface.covered + i))));
-  const Box box = vectors.box();
-  const float* const position[3] = {region.position[0].data(), region.position[1].data(), region.position[2].data()};
-  scratch.clear();
-  for (size_t first = 0; first < region.light.size(); first += hn::Lanes(d))
-    for_each_lane(within_reach(position, region.cut2.data(), first, box), first, region.light.size(),
-                  [&](size_t i) { scratch.push_back(region.light[i]); });
-  return scratch;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

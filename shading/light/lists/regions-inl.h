@@ -226,7 +226,10 @@ HWY_INLINE void bound_plane(const Leaf& of_block, Region& r, int row, float& low
   low = hn::GetLane(hn::MinOfLanes(d, all.low)), high = hn::GetLane(hn::MaxOfLanes(d, all.high));
 }
 
-inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region& r) {
+/// What of a region's surfaces is bounded.
+enum class RegionBounds : uint8_t { positions, positions_and_normals };
+
+inline void bound_region(const SurfaceTile& s, int blocks, RegionBounds bounds, Region& r) {
   r.pixels = 0;
   for (int k = 0; k < int(kRegionBlockCount); ++k) {
     unsigned bits = 0;
@@ -245,10 +248,11 @@ inline void bound_region(const SurfaceTile& s, int blocks, bool normals, Region&
       bound_plane(PlaneBounds{s.plane[plane], r, blocks}, r, row, low, high);
   };
   for (int c = 0; c < 3; ++c) bound(kPosition + c, c, r.position.low[c], r.position.high[c]);
-  for (int c = 0; c < 3 && normals; ++c) bound(kNormal + c, 3 + c, r.normal.low[c], r.normal.high[c]);
+  for (int c = 0; c < 3 && bounds == RegionBounds::positions_and_normals; ++c)
+    bound(kNormal + c, 3 + c, r.normal.low[c], r.normal.high[c]);
 }
 
-inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileRegions& out) {
+inline void find_regions(const SurfaceTile& s, int blocks, RegionBounds bounds, TileRegions& out) {
   out.count = out.pixels = 0;
   out.position = kNoBox;
   for (int by = 0; by < blocks; by += kRegionBlocks)
@@ -256,7 +260,7 @@ inline void find_regions(const SurfaceTile& s, int blocks, bool normals, TileReg
       Region& r = out.region[out.count];
       r.bx = bx, r.by = by;
       r.wide = std::min(kRegionBlocks, blocks - bx), r.tall = std::min(kRegionBlocks, blocks - by);
-      bound_region(s, blocks, normals, r);
+      bound_region(s, blocks, bounds, r);
       if (r.pixels == 0) continue;
       out.pixels += r.pixels;
       for (int c = 0; c < 3; ++c) {

@@ -49,7 +49,7 @@ BoundedLights make_bounded_lights(const LightTable& lights, const LightModel& mo
   BoundedLights out;
   const size_t count = lights.size();
   constexpr size_t kFewest = 32, kMost = 16384;  // fewer are as soon added up; of more hardly a sum would be proved
-  const LightShape shape = shape_of(model, true);
+  const LightShape shape = shape_with_power(model);
   if (count > kMost || !starts_in_proof_range(model, lights)) return out;
   if (shape == WindowBlinn::shape && count < LightClusters::kFewest) make_window_lights(lights, out);
   if (count < kFewest || shape != QuadraticBlinn::shape) return out;

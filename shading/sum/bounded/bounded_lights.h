@@ -5,7 +5,7 @@
 
 #include "raster/fixed_point.h"
 #include "scenes/pipeline/light_model.h"
-#include "shading/light/light_shape.h"
+#include "shading/light/fast/compiled_models.h"
 #include "shading/light/light_table.h"
 
 namespace trueshade {
@@ -62,31 +62,13 @@ inline constexpr size_t kSumPart = 32;
 
 /// The shape whose sums section 16 bounds: Blinn-Phong not masked, 1 / (1 + k1 d + k2 d^2), shininess 32.
 struct QuadraticBlinn {
-  static constexpr LightShape shape = {.renormalize = false,
-                                       .specular_masked = false,
-                                       .falloff = Falloff::quadratic,
-                                       .order = TermOrder::separate,
-                                       .cone = Cone::none,
-                                       .diffuse = Diffuse::clamped,
-                                       .specular = Specular::blinn_phong,
-                                       .source = SpecularSource::model,
-                                       .squared = true,
-                                       .power = 16};
+  static constexpr LightShape shape = kQuadraticBlinn;
   static constexpr bool compiled = true;
 };
 
 /// The shape whose sums section 19 bounds: Blinn-Phong, shininess 32, a linear window.
 struct WindowBlinn {
-  static constexpr LightShape shape = {.renormalize = true,
-                                       .specular_masked = true,
-                                       .falloff = Falloff::linear_range,
-                                       .order = TermOrder::factored,
-                                       .cone = Cone::none,
-                                       .diffuse = Diffuse::clamped,
-                                       .specular = Specular::blinn_phong,
-                                       .source = SpecularSource::model,
-                                       .squared = true,
-                                       .power = 16};
+  static constexpr LightShape shape = kWindowBlinn;
   static constexpr bool compiled = true;
 };
 

@@ -119,27 +119,25 @@ inline void list_bits(std::span<const uint64_t> words, size_t count, std::vector
   out.resize(size_t(next - out.data()));
 }
 
-/// Sorts the lights of a region into lists. A light's specular term is left out where it adds at most `least`.
-inline void sort_lights(const LightTable& table, const BoundedLights& bounded, const LightModel& model,
-                        const RegionBalls& at, float least, LightsByGloss& out) {
-  using Shape = QuadraticBlinn;
-  const DF d;
-  constexpr float kSlack = 0x1p-14f;  // more than the roundings of what is bounded and of the bounds
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  const float most_specular =
-      std::max({model.specular_color[0], model.specular_color[1], model.specular_color[2]}) * (1.0f + 0x1p-8f);
-  const float size = at.normal.farthest;
-  const size_t words = (bounded.quadratic.size() + 63) / 64;
-  out.matte_bits.assign(words, 0);
-  out.shiny_bits.assign(words, 0);
-  VF left_out = zero;
-  for (size_t i = 0; i < bounded.quadratic.size(); i += hn::Lanes(d)) {
+/// Bounds over a region for a vector of lights.
+struct LightBounds {
+  static constexpr float kSlack = 0x1p-14f;  // more than the roundings of what is bounded and of the bounds
+  VF length;                                 ///< from the region's centre to the light
+  VF most_facing;                            ///< N . L
+  VF most_toward;                            ///< N . H times the length of H
+  VF least_half;                             ///< length of H
+
+  HWY_INLINE LightBounds(const LightTable& table, const RegionBalls& at, size_t i) {
+    const DF d;
+    const VF zero = hn::Zero(d);
+    const float size = at.normal.farthest;
     VF to_light[3], length2 = zero, facing = zero, half2 = zero;
     for (int c = 0; c < 3; ++c) {
       to_light[c] = hn::Sub(hn::LoadU(d, table.position[c].data() + i), hn::Set(d, at.position.center[c]));
       length2 = hn::Add(length2, hn::Mul(to_light[c], to_light[c]));
     }
-    const VF length = hn::Sqrt(length2), inverse = hn::Div(one, length);
+    length = hn::Sqrt(length2);
+    const VF inverse = hn::Div(hn::Set(d, 1.0f), length);
     VF spread = hn::Mul(inverse, hn::Set(d, at.position.radius));  // of L about the centre's
     spread =
         hn::IfThenElse(hn::Lt(spread, hn::Set(d, 0.25f)), hn::Mul(spread, hn::Set(d, 1.02f)), hn::Add(spread, spread));
@@ -151,25 +149,49 @@ inline void sort_lights(const LightTable& table, const BoundedLights& bounded, c
       toward_viewer += at.viewer[c] * at.normal.center[c];
     }
     const VF loose = hn::Mul(spread, hn::Set(d, size));
-    const VF most_facing = hn::Add(hn::Add(facing, loose), hn::Set(d, at.normal.radius + kSlack * size));
-    const VF most_toward =
-        hn::Add(hn::Add(facing, loose),
-                hn::Set(d, toward_viewer + 2.0f * at.normal.radius + size * at.viewer_radius + 4.0f * kSlack * size));
-    const VF least_half = hn::Sub(hn::Sub(hn::Sqrt(half2), spread), hn::Set(d, at.viewer_radius + kSlack));
-    const VF cosine = hn::Add(hn::IfThenElseZero(hn::Gt(most_toward, zero), hn::Div(most_toward, least_half)),
-                              hn::Set(d, 64 * kSlack * size));
-    const VF power = integer_power<2 * Shape::shape.power>(cosine);
-    const VF gap = hn::Mul(hn::Sub(length, hn::Set(d, at.position.radius)), hn::Set(d, 1.0f - 0x1p-18f));
-    const VF distance = hn::IfThenElseZero(hn::Gt(gap, zero), gap);
-    const VF weaker = hn::Add(one, hn::Mul(distance, hn::Add(hn::LoadU(d, bounded.k1.data() + i),
-                                                             hn::Mul(distance, hn::LoadU(d, bounded.k2.data() + i)))));
-    const VF strongest = hn::Mul(hn::LoadU(d, bounded.strongest.data() + i), hn::Set(d, most_specular));
-    const VF most_shine = hn::Div(hn::Mul(strongest, power), weaker);
+    most_facing = hn::Add(hn::Add(facing, loose), hn::Set(d, at.normal.radius + kSlack * size));
+    most_toward = hn::Add(hn::Add(facing, loose), hn::Set(d, toward_viewer + 2.0f * at.normal.radius +
+                                                                 size * at.viewer_radius + 4.0f * kSlack * size));
+    least_half = hn::Sub(hn::Sub(hn::Sqrt(half2), spread), hn::Set(d, at.viewer_radius + kSlack));
+  }
+};
+
+/// The most that the specular terms of a vector of lights add to any pixel of a region.
+HWY_INLINE VF most_shine(const BoundedLights& bounded, const LightBounds& bounds, const RegionBalls& at,
+                         float most_specular, size_t i) {
+  const DF d;
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  const VF toward =
+      hn::IfThenElseZero(hn::Gt(bounds.most_toward, zero), hn::Div(bounds.most_toward, bounds.least_half));
+  const VF cosine = hn::Add(toward, hn::Set(d, 64 * LightBounds::kSlack * at.normal.farthest));
+  const VF power = integer_power<2 * QuadraticBlinn::shape.power>(cosine);
+  const VF gap = hn::Mul(hn::Sub(bounds.length, hn::Set(d, at.position.radius)), hn::Set(d, 1.0f - 0x1p-18f));
+  const VF distance = hn::IfThenElseZero(hn::Gt(gap, zero), gap);
+  const VF weaker = hn::Add(one, hn::Mul(distance, hn::Add(hn::LoadU(d, bounded.k1.data() + i),
+                                                           hn::Mul(distance, hn::LoadU(d, bounded.k2.data() + i)))));
+  const VF strongest = hn::Mul(hn::LoadU(d, bounded.strongest.data() + i), hn::Set(d, most_specular));
+  return hn::Div(hn::Mul(strongest, power), weaker);
+}
+
+/// Sorts the lights of a region into lists. A light's specular term is left out where it adds at most `least`.
+inline void sort_lights(const LightTable& table, const BoundedLights& bounded, const LightModel& model,
+                        const RegionBalls& at, float least, LightsByGloss& out) {
+  const DF d;
+  const VF zero = hn::Zero(d);
+  const float most_specular =
+      std::max({model.specular_color[0], model.specular_color[1], model.specular_color[2]}) * (1.0f + 0x1p-8f);
+  const size_t words = (bounded.quadratic.size() + 63) / 64;
+  out.matte_bits.assign(words, 0);
+  out.shiny_bits.assign(words, 0);
+  VF left_out = zero;
+  for (size_t i = 0; i < bounded.quadratic.size(); i += hn::Lanes(d)) {
+    const LightBounds bounds(table, at, i);
+    const VF shine = most_shine(bounded, bounds, at, most_specular, i);
     // False where a side is no number.
-    const MF away = hn::Lt(most_facing, zero);
-    const MF dull = hn::And(hn::Gt(least_half, hn::Set(d, 0x1p-5f)), hn::Le(most_shine, hn::Set(d, least)));
-    const MF unseen = Shape::shape.specular_masked ? away : hn::And(away, dull);
-    left_out = hn::Add(left_out, hn::IfThenElseZero(dull, most_shine));
+    const MF away = hn::Lt(bounds.most_facing, zero);
+    const MF dull = hn::And(hn::Gt(bounds.least_half, hn::Set(d, 0x1p-5f)), hn::Le(shine, hn::Set(d, least)));
+    const MF unseen = QuadraticBlinn::shape.specular_masked ? away : hn::And(away, dull);
+    left_out = hn::Add(left_out, hn::IfThenElseZero(dull, shine));
     out.matte_bits[i / 64] |= mask_bits(hn::AndNot(unseen, dull)) << i % 64;
     out.shiny_bits[i / 64] |= mask_bits(hn::Not(hn::Or(unseen, dull))) << i % 64;
   }

@@ -1,3 +1,4 @@
+
 #include "core/simd/one_target.h"
 
 #include <hwy/highway.h>
@@ -97,7 +98,7 @@ void sum_quadratic_tile(const BoundedTile& tile) {
   constexpr float kShare = 0x1p-2f;  // of a code, that may be left out; most often it is a hundredth of that
   const TileWork& in = tile.in;
   TileRegions regions;
-  find_regions(in.surface, in.blocks(), false, regions);
+  find_regions(in.surface, in.blocks(), RegionBounds::positions, regions);
   if (regions.pixels < in.tile * in.tile) clear_tile(in);
   if (regions.count == 0) return;
   list_tile_lights(in, regions, {.distance = true, .cone = in.lights.cones, .facing = false});

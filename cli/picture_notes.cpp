@@ -1,0 +1,127 @@
+#include "cli/picture_notes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shading/output/view_image.h"
+
+namespace trueshade {
+namespace {
+
+/// By Gauss's elimination with the largest pivot of a column. A matrix counts as singular where its determinant is
+/// below 1e-12 of the product of its columns' largest elements, or is no number.
+bool is_singular(const std::array<float, 16>& column_major) {
+  std::array<std::array<double, 4>, 4> m{};
+  double determinant = 1.0, scale = 1.0;
+  for (size_t c = 0; c < 4; ++c) {
+    double largest = 0.0;
+    for (size_t r = 0; r < 4; ++r) {
+      m[r][c] = double(column_major[4 * c + r]);
+      largest = std::max(largest, std::fabs(m[r][c]));
+    }
+    scale *= largest;
+  }
+  for (size_t c = 0; c < 4; ++c) {
+    const auto larger = [c](const auto& a, const auto& b) { return std::fabs(a[c]) < std::fabs(b[c]); };
+    std::swap(m[c], *std::max_element(m.begin() + std::ptrdiff_t(c), m.end(), larger));
+    if (m[c][c] == 0.0) return true;
+    determinant *= m[c][c];
+    for (size_t r = c + 1; r < 4; ++r)
+      for (size_t k = 4; k-- > c;) m[r][k] -= m[r][c] / m[c][c] * m[c][k];
+  }
+  return !(std::fabs(determinant) > 1e-12 * scale);
+}
+
+/// The alpha of a picture aside, whether every channel of every pixel is 0.
+bool is_black(const Image& picture) {
+  const int channels = std::min(info(picture.format).channels, 3);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int c = 0; c < channels; ++c)
+        if (picture.code(x, y, c) != 0) return false;
+  return true;
+}
+
+/// Why nothing of the scene is to be seen; empty where something is.
+std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame& frame) {
+  const FrameStats& stats = frame.stats;
+  if (stats.covered_pixels == 0 && stats.transparent_fragments == 0) {
+    if (stats.triangles == 0) return "Nothing is drawn: The scene has no triangles";
+    if (scene.camera.clip_from_world && is_singular(*scene.camera.clip_from_world))
+      return "Nothing is drawn: The matrix clip_from_world of the camera is singular, or nearly, so that it takes the "
+             "scene to a "
+             "plane, a line or a point (its elements stand column by column)";
+    return "Nothing is drawn: None of " + std::to_string(stats.triangles) +
+           " triangles covers a pixel (the camera may look past the scene or stand beyond its near and far planes, "
+           "and cull_face may leave out the side that it sees)";
+  }
+  if (pipeline.view != ImageView::lit || !is_black(frame.color)) return {};
+  if (scene.lights.empty()) return "The picture is black: The scene has no lights";
+  return "The picture is black: None of its " + std::to_string(scene.lights.size()) +
+         " lights brightens a surface (their ranges may be too short, their colours 0, or the surfaces may face away; "
+         "--view normal and --view light-count show which)";
+}
+
+/// Pixels with a channel at the largest value that the format holds.
+size_t clamped_pixels(const Image& picture) {
+  const FormatInfo layout = info(picture.format);
+  const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  size_t clamped = 0;
+  if (layout.bytes_per_channel == 1) {
+    const uint8_t* texel = picture.texels.data();
+    for (size_t i = 0; i < pixels; ++i, texel += 4) clamped += std::max({texel[0], texel[1], texel[2]}) == 255 ? 1 : 0;
+    return clamped;
+  }
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      bool any = false;
+      for (int c = 0; c < 3; ++c) any = any || picture.code(x, y, c) == layout.largest_code(c);
+      clamped += any ? 1 : 0;
+    }
+  return clamped;
+}
+
+/// How much of a picture stands at the largest value that its format holds.
+std::string clamp_note(const Pipeline& pipeline, const Image& picture) {
+  constexpr size_t kLeastPercent = 5;
+  const FormatInfo layout = info(picture.format);
+  if (pipeline.view != ImageView::lit || layout.number_class != NumberClass::unorm || pipeline.post.active()) return {};
+  const size_t clamped = clamped_pixels(picture);
+  const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  if (100 * clamped < kLeastPercent * pixels) return {};
+  return std::to_string(clamped) + " of " + std::to_string(pixels) +
+         " pixels have a channel at 1, the largest value of " + std::string(layout.name) +
+         ": Brighter light is cut off there (--target rgba16f keeps it, and a tone_map of the "
+         "post chain brings it into range)";
+}
+
+/// Says so where the boxes of the view light-boxes hide nearly all of what is drawn.
+std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
+  constexpr int kHiddenPercent = 90;
+  if (pipeline.view != ImageView::light_boxes) return {};
+  const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  size_t black = 0, empty = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    const uint8_t* texel = &picture.texels[4 * i];
+    black += texel[0] == 0 && texel[1] == 0 && texel[2] == 0 ? 1 : 0;
+    empty += std::equal(texel, texel + 3, kEmptyColor) ? 1 : 0;
+  }
+  const size_t percent = 100 * black / std::max<size_t>(pixels - empty, 1);
+  if (percent < kHiddenPercent) return {};
+  return "The view light-boxes is black on " + std::to_string(percent) +
+         " % of what is drawn: Boxes are black solids, and the boxes of these lights cover what is behind them "
+         "(--view light-edges shows their edges alone)";
+}
+
+}  // namespace
+
+std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame) {
+  std::vector<std::string> notes;
+  for (std::string note :
+       {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color), hidden_note(pipeline, frame.color)})
+    if (!note.empty()) notes.push_back(std::move(note));
+  return notes;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,46 @@
+#pragma once
+#include <glm/mat4x3.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/files/gltf/buffers.h"
+
+namespace trueshade::gltf {
+
+/// Values of a document's accessors: sparse ones completed, normalized ones divided. What is read is counted against
+/// limits.geometry_bytes before memory for it is taken.
+class Accessors {
+ public:
+  Accessors(Buffers& buffers, const SceneLimits& limits)
+      : buffers_(buffers), document_(buffers.document()), left_(limits.geometry_bytes), limit_(limits.geometry_bytes) {}
+
+  /// One component of every element. Floats as they are; integers converted, normalized ones c / (2^n - 1), or
+  /// max(c / (2^(n-1) - 1), -1) where signed, rounded once. Error(bad_input) for numbers that are not finite or over
+  /// 1e18, and for sparse indices that do not ascend or lie beyond the elements.
+  std::vector<float> floats(uint32_t accessor, uint32_t component);
+  std::vector<double> doubles(uint32_t accessor, uint32_t component);
+
+  /// One component of unsigned integers.
+  std::vector<uint32_t> integers(uint32_t accessor, uint32_t component);
+
+  /// Every matrix of MAT4, whose last row is 0, 0, 0, 1.
+  std::vector<glm::dmat4x3> matrices(uint32_t accessor);
+
+  const Accessor& at(uint32_t accessor) const { return document_.accessors[accessor]; }
+  const Document& document() const { return document_; }
+
+  /// Error(limit) where `bytes` more would be over the limit.
+  void take(uint64_t bytes, const std::string& pointer);
+
+ private:
+  template <typename Out>
+  std::vector<Out> read(uint32_t accessor, uint32_t component);
+  template <typename Out>
+  void read_sparse(uint32_t accessor, uint32_t component, std::vector<Out>& out);
+
+  Buffers& buffers_;
+  const Document& document_;
+  uint64_t left_, limit_;
+};
+
+}  // namespace trueshade::gltf

@@ -1,0 +1,103 @@
+#include "scenes/files/gltf/animations.h"
+
+#include <map>
+
+namespace trueshade::gltf {
+namespace {
+
+std::vector<double> times_of(Accessors& accessors, uint32_t accessor) {
+  std::vector<double> times = accessors.doubles(accessor, 0);
+  const Accessor& a = accessors.at(accessor);
+  const bool has_data = a.view != kNone || a.sparse.has_value();  // without, all times are 0: as if there were one
+  for (size_t i = 0; has_data && i < times.size(); ++i)
+    if (times[i] < 0.0 || (i > 0 && !(times[i] > times[i - 1])))
+      accessors.document().fail(pointer_to("accessors", accessor),
+                                "time " + std::to_string(i) + " is negative or not above the one before it",
+                                "ascending times from 0 on");
+  return times;
+}
+
+/// Values of a sampler's output, four components each; those that the accessor does not have are 0.
+std::vector<glm::dvec4> values_of(Accessors& accessors, uint32_t accessor) {
+  const Accessor& a = accessors.at(accessor);
+  std::vector<glm::dvec4> values;
+  for (uint32_t k = 0; k < components_of(a.shape); ++k) {
+    const std::vector<double> component = accessors.doubles(accessor, k);
+    values.resize(component.size(), glm::dvec4(0.0));
+    for (size_t i = 0; i < component.size(); ++i) values[i][int(k)] = component[i];
+  }
+  return values;
+}
+
+void make_unit(Track& track, const Accessors& accessors, uint32_t accessor) {
+  for (size_t i = 0; i < track.values.size(); ++i) {
+    if (!is_nearly_unit(track.values[i]))
+      accessors.document().fail(pointer_to("accessors", accessor),
+                                "the rotation of step " + std::to_string(i) + " is not of unit length",
+                                "quaternions of length 1");
+    track.values[i] = unit(track.values[i]);
+  }
+}
+
+}  // namespace
+
+Track track_of(Accessors& accessors, const AnimationSource& animation, const Channel& channel) {
+  const AnimationSampler& sampler = animation.samplers[channel.sampler];
+  Track track;
+  track.times = times_of(accessors, sampler.input);
+  std::vector<glm::dvec4> values = values_of(accessors, sampler.output);
+  track.between = sampler.between;
+  if (sampler.between == Between::cubic) {
+    for (size_t i = 0; i < track.times.size(); ++i) {
+      track.arriving.push_back(values[3 * i]);
+      track.values.push_back(values[3 * i + 1]);
+      track.leaving.push_back(values[3 * i + 2]);
+    }
+  } else {
+    track.values = std::move(values);
+  }
+  if (channel.path != Path::rotation) return track;
+  if (track.between == Between::linear) track.between = Between::slerp;
+  make_unit(track, accessors, sampler.output);
+  return track;
+}
+
+WeightTrack weight_track_of(Accessors& accessors, const AnimationSource& animation, const Channel& channel) {
+  const AnimationSampler& sampler = animation.samplers[channel.sampler];
+  WeightTrack track;
+  track.times = times_of(accessors, sampler.input);
+  track.between = sampler.between;
+  const std::vector<double> values = accessors.doubles(sampler.output, 0);
+  const size_t parts = sampler.between == Between::cubic ? 3 : 1;
+  track.count = uint32_t(values.size() / (track.times.size() * parts));
+  if (parts == 1) {
+    track.values = values;
+    return track;
+  }
+  for (size_t i = 0; i < values.size(); ++i) {
+    const size_t part = i / track.count % 3;
+    (part == 0 ? track.arriving : part == 1 ? track.values : track.leaving).push_back(values[i]);
+  }
+  return track;
+}
+
+std::vector<NodeMotion> node_motions(Accessors& accessors, const AnimationSource& animation,
+                                     const Hierarchy& hierarchy) {
+  std::map<uint32_t, ObjectMotion> motions;  // by place in the hierarchy
+  for (const Channel& channel : animation.channels) {
+    if (channel.node == kNone || channel.path == Path::weights || channel.path == Path::unknown) continue;
+    const uint32_t place = hierarchy.placed[channel.node];
+    if (place == kNone) continue;
+    const auto [found, is_new] = motions.try_emplace(place);
+    if (is_new) found->second.rest = accessors.document().nodes[channel.node].placement;
+    Track track = track_of(accessors, animation, channel);
+    if (channel.path == Path::translation) found->second.position = std::move(track);
+    if (channel.path == Path::rotation) found->second.rotation = std::move(track);
+    if (channel.path == Path::scale) found->second.scale = std::move(track);
+  }
+  std::vector<NodeMotion> out;
+  for (auto& [place, motion] : motions) out.push_back({place, std::move(motion)});
+  return out;
+}
+
+}  // namespace trueshade::gltf

@@ -1,0 +1,21 @@
+#include "scenes/files/gltf/gltf_scene.h"
+
+#include "core/fp_env.h"
+#include "scenes/files/gltf/read_document.h"
+#include "scenes/files/gltf/scene_maker.h"
+
+namespace trueshade {
+
+bool is_gltf_name(std::string_view name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
+
+Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
+                      const ImageDecoder& decode) {
+  const FpScope fp;
+  const gltf::Container container = gltf::container_of(file, path);
+  const gltf::Document document = gltf::read_document(container, path, limits);
+  const SceneFolder folder(path);
+  gltf::Buffers buffers(document, container, folder, limits);
+  return gltf::SceneMaker(buffers, folder, limits, decode).make();
+}
+
+}  // namespace trueshade

@@ -1,0 +1,59 @@
+#include "scenes/files/gltf/materials.h"
+
+namespace trueshade::gltf {
+bool Materials::is_invisible(uint32_t index) const {
+  if (index == kNone) return false;
+  const MaterialSource& m = document_.materials[index];
+  return m.alpha_mode == AlphaMode::mask && m.alpha_cutoff > 1.0f;
+}
+
+uint32_t Materials::scene_material(uint32_t index) {
+  const auto [found, is_new] = materials_.emplace(index, uint32_t(scene_.materials.size()));
+  if (!is_new) return found->second;
+  const MaterialSource from = index == kNone ? MaterialSource() : document_.materials[index];
+  const std::string pointer = pointer_to("materials", index);
+  if (from.alpha_mode == AlphaMode::unknown)
+    document_.fail(pointer + "/alphaMode", "this mode is not in glTF", "OPAQUE, MASK or BLEND");
+  Material m;
+  m.name = from.name;
+  m.base_color = from.base_color;
+  m.metallic = from.metallic;
+  m.roughness = from.roughness;
+  for (int k = 0; k < 3; ++k) m.emission[k] = float(double(from.emission[k]) * double(from.emission_strength));
+  m.color_map = slot(from.base_color_map, TextureFormat::srgb8_a8, pointer + "/pbrMetallicRoughness/baseColorTexture");
+  m.metallic_roughness_map = slot(from.metallic_roughness_map, TextureFormat::rgba8,
+                                  pointer + "/pbrMetallicRoughness/metallicRoughnessTexture");
+  m.normal_map = slot(from.normal_map, TextureFormat::rgba8, pointer + "/normalTexture");
+  m.normal_scale = m.normal_map.used() ? from.normal_scale : 1.0f;
+  m.occlusion_map = slot(from.occlusion_map, TextureFormat::rgba8, pointer + "/occlusionTexture");
+  m.occlusion_strength = m.occlusion_map.used() ? from.occlusion_strength : 1.0f;
+  m.emission_map = slot(from.emission_map, TextureFormat::srgb8_a8, pointer + "/emissiveTexture");
+  m.alpha_cutoff = from.alpha_mode == AlphaMode::mask ? from.alpha_cutoff : 0.0f;
+  m.transparent = from.alpha_mode == AlphaMode::blend;
+  if (from.alpha_mode == AlphaMode::opaque) m.base_color.w = 1.0f;
+  m.unlit = from.unlit;
+  m.double_sided = from.double_sided;
+  scene_.materials.push_back(std::move(m));
+  return found->second;
+}
+
+TextureSlot Materials::slot(const TextureInfo& info, TextureFormat format, const std::string& pointer) {
+  TextureSlot slot;
+  if (info.texture == kNone) return slot;
+  const TextureSource& source = document_.textures[info.texture];
+  if (source.image == kNone)
+    document_.fail(pointer_to("textures", info.texture),
+                   source.other_image.empty()
+                       ? "the texture has no source"
+                       : "the texture has a source of " + source.other_image + " alone, which is not implemented",
+                   "a source that is PNG or JPEG");
+  if (info.uv_set > 1)
+    document_.fail(pointer, "the texture reads TEXCOORD_" + std::to_string(info.uv_set), "TEXCOORD_0 or TEXCOORD_1");
+  slot.sampler = source.sampler;
+  slot.uv_set = uint8_t(info.uv_set);
+  slot.transform = info.transform;
+  slot.texture = pictures_.texture(source.image, format, slot.sampler.mip_filter != MipFilter::none);
+  return slot;
+}
+
+}  // namespace trueshade::gltf

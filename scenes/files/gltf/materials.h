@@ -1,0 +1,31 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "scenes/files/gltf/pictures.h"
+
+namespace trueshade::gltf {
+
+/// Adds a document's materials to a scene when they are first asked for, and asks for the pictures that these read.
+/// Borrows all it is given.
+class Materials {
+ public:
+  Materials(const Document& document, Pictures& pictures, Scene& scene)
+      : document_(document), pictures_(pictures), scene_(scene) {}
+
+  /// Index into Scene::materials; kNone stands for glTF's default material.
+  uint32_t scene_material(uint32_t index);
+
+  /// Whether a material draws nothing: its alpha cutoff is over 1.
+  bool is_invisible(uint32_t index) const;
+
+ private:
+  TextureSlot slot(const TextureInfo& info, TextureFormat format, const std::string& pointer);
+
+  const Document& document_;
+  Pictures& pictures_;
+  Scene& scene_;
+  std::map<uint32_t, uint32_t> materials_;  ///< by index in the document
+};
+
+}  // namespace trueshade::gltf

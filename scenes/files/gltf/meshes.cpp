@@ -1,0 +1,139 @@
+#include "scenes/files/gltf/meshes.h"
+
+#include <algorithm>
+
+#include "scenes/add_normals.h"
+
+namespace trueshade::gltf {
+namespace {
+
+template <size_t N>
+void read_streams(Accessors& accessors, uint32_t accessor, std::array<std::vector<float>, N>& streams) {
+  if (accessor == kNone) return;
+  const uint32_t components = components_of(accessors.at(accessor).shape);
+  for (uint32_t k = 0; k < N && k < components; ++k) streams[k] = accessors.floats(accessor, k);
+}
+
+/// Corners as the primitive lists them.
+std::vector<uint32_t> read_corners(Accessors& accessors, const Primitive& primitive, size_t vertices,
+                                   const std::string& pointer) {
+  if (primitive.indices == kNone) {
+    accessors.take(vertices * sizeof(uint32_t), pointer);
+    std::vector<uint32_t> corners(vertices);
+    for (size_t i = 0; i < vertices; ++i) corners[i] = uint32_t(i);
+    return corners;
+  }
+  std::vector<uint32_t> corners = accessors.integers(primitive.indices, 0);
+  const uint32_t restart = UINT32_MAX >> (32 - 8 * bytes_of(accessors.at(primitive.indices).type));
+  if (const auto found = std::find(corners.begin(), corners.end(), restart); found != corners.end())
+    accessors.document().fail(pointer + "/indices",
+                              "index " + std::to_string(restart) + " at " + std::to_string(found - corners.begin()) +
+                                  " is the largest of its type, a primitive restart",
+                              "indices below it; there is no primitive restart in glTF");
+  for (size_t i = 0; i < corners.size(); ++i)
+    if (corners[i] >= vertices)
+      accessors.document().fail(
+          pointer + "/indices",
+          "index " + std::to_string(corners[i]) + " at " + std::to_string(i) + " is beyond the vertices",
+          "below " + std::to_string(vertices) + "; there is no primitive restart in glTF");
+  return corners;
+}
+
+void check_colors(const Mesh& mesh, const Document& document, uint32_t accessor) {
+  for (const std::vector<float>& stream : mesh.color)
+    for (size_t v = 0; v < stream.size(); ++v)
+      if (!(stream[v] >= 0.0f && stream[v] <= 1.0f))
+        document.fail(pointer_to("accessors", accessor),
+                      "the colour of vertex " + std::to_string(v) + " is out of range", "numbers from 0 to 1");
+}
+
+/// Three corners a triangle.
+std::vector<uint32_t> triangles_of(Accessors& accessors, std::vector<uint32_t> corners, Mode mode,
+                                   const std::string& pointer) {
+  if (mode == Mode::triangles) {
+    corners.resize(corners.size() / 3 * 3);
+    return corners;
+  }
+  std::vector<uint32_t> triangles;
+  if (corners.size() < 3) return triangles;
+  accessors.take(3 * (uint64_t(corners.size()) - 2) * sizeof(uint32_t), pointer);
+  triangles.reserve(3 * (corners.size() - 2));
+  for (size_t i = 0; i + 2 < corners.size(); ++i) {
+    if (mode == Mode::triangle_strip)
+      triangles.insert(triangles.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
+    else
+      triangles.insert(triangles.end(), {corners[i + 1], corners[i + 2], corners[0]});
+  }
+  return triangles;
+}
+
+/// `each` values an element, an element for each corner of each triangle.
+template <typename T>
+void take_apart(std::vector<T>& values, const std::vector<uint32_t>& corners, size_t each = 1) {
+  if (values.empty()) return;
+  std::vector<T> out;
+  out.reserve(corners.size() * each);
+  for (const uint32_t corner : corners)
+    out.insert(out.end(), values.begin() + ptrdiff_t(corner * each), values.begin() + ptrdiff_t((corner + 1) * each));
+  values = std::move(out);
+}
+
+void read_targets(Accessors& accessors, const Primitive& primitive, RestShape& shape) {
+  for (const Attributes& from : primitive.targets) {
+    MorphTarget& target = shape.targets.emplace_back();
+    read_streams(accessors, from.position, target.position);
+    read_streams(accessors, from.normal, target.normal);
+  }
+}
+
+/// Sets of four joints and weights, side by side for each vertex.
+void read_influences(Accessors& accessors, const Attributes& attributes, size_t vertices, RestShape& shape) {
+  shape.influences = uint32_t(4 * attributes.joints.size());
+  shape.joints.resize(vertices * shape.influences);
+  shape.weights.resize(vertices * shape.influences);
+  for (uint32_t k = 0; k < shape.influences; ++k) {
+    const std::vector<uint32_t> joints = accessors.integers(attributes.joints[k / 4], k % 4);
+    const std::vector<float> weights = accessors.floats(attributes.weights[k / 4], k % 4);
+    for (size_t v = 0; v < vertices; ++v) {
+      if (weights[v] < 0.0f)
+        accessors.document().fail(pointer_to("accessors", attributes.weights[k / 4]),
+                                  "the weight of vertex " + std::to_string(v) + " is below 0", "weights from 0 on");
+      shape.joints[v * shape.influences + k] = uint16_t(joints[v]);
+      shape.weights[v * shape.influences + k] = weights[v];
+    }
+  }
+}
+
+}  // namespace
+
+Geometry read_geometry(Accessors& accessors, const Primitive& primitive, const std::string& pointer) {
+  Geometry out;
+  const Attributes& from = primitive.attributes;
+  Mesh& mesh = out.mesh;
+  RestShape& shape = out.shape;
+  read_streams(accessors, from.position, mesh.position);
+  read_streams(accessors, from.normal, mesh.normal);
+  for (size_t set = 0; set < 2; ++set) read_streams(accessors, from.uv[set], set == 0 ? mesh.uv : mesh.uv1);
+  read_streams(accessors, from.color, mesh.color);
+  const size_t vertices = mesh.vertex_count();
+  if (mesh.has_color() && mesh.color[3].empty()) mesh.color[3].assign(vertices, 1.0f);
+  check_colors(mesh, accessors.document(), from.color);
+  read_targets(accessors, primitive, shape);
+  if (!from.joints.empty()) read_influences(accessors, from, vertices, shape);
+  mesh.indices =
+      triangles_of(accessors, read_corners(accessors, primitive, vertices, pointer), primitive.mode, pointer);
+  if (from.normal == kNone) {
+    accessors.take(uint64_t(mesh.indices.size()) * 4 * (12 + 6 * primitive.targets.size() + 2 * shape.influences),
+                   pointer);
+    shape.flat_normals = true;
+    for (MorphTarget& target : shape.targets)
+      for (auto& stream : target.position) take_apart(stream, mesh.indices);
+    take_apart(shape.joints, mesh.indices, shape.influences);
+    take_apart(shape.weights, mesh.indices, shape.influences);
+    add_normals(mesh, MissingNormals::flat);
+  }
+  if (!shape.targets.empty() || shape.influences > 0) shape.position = mesh.position, shape.normal = mesh.normal;
+  return out;
+}
+
+}  // namespace trueshade::gltf

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+
+#include "scenes/files/gltf/accessors.h"
+#include "scenes/mesh.h"
+#include "scenes/timeline.h"
+
+namespace trueshade::gltf {
+
+/// A primitive as triangles, and what poses it: empty without targets and joints.
+struct Geometry {
+  Mesh mesh;
+  RestShape shape;
+};
+
+/// Whether a primitive is drawn: points and lines are not.
+constexpr bool has_triangles(Mode mode) { return mode >= Mode::triangles; }
+
+/// Reads a primitive that has positions. Strips and fans become lists (glTF 2.0, 3.7.2.1), triangles in order; corners
+/// that end no triangle are left out. Without normals each triangle gets its own. Error(bad_input) behind `pointer` for
+/// an index beyond the vertices; Error(limit).
+Geometry read_geometry(Accessors& accessors, const Primitive& primitive, const std::string& pointer);
+
+}  // namespace trueshade::gltf

@@ -1,0 +1,168 @@
+#include "scenes/files/gltf/pictures.h"
+
+#include <algorithm>
+#include <exception>
+#include <set>
+
+#include "core/error.h"
+#include "core/threads/parallel_for.h"
+#include "scenes/files/gltf/data_uri.h"
+
+namespace trueshade::gltf {
+namespace {
+
+constexpr size_t kTogether = 8;  ///< pictures that are decoded at a time, each within its share of what may be decoded
+
+/// What a picture's first bytes say it is; glTF knows the first two.
+struct Magic {
+  std::string_view name, bytes;
+};
+constexpr Magic kMagics[] = {{"PNG", "\x89PNG\r\n\x1a\n"},
+                             {"JPEG", "\xff\xd8\xff"},
+                             {"KTX2", "\xabKTX 20"},
+                             {"KTX", "\xabKTX 11"},
+                             {"WebP", "RIFF"},
+                             {"DDS", "DDS "},
+                             {"GIF", "GIF8"},
+                             {"BMP", "BM"},
+                             {"OpenEXR", "\x76\x2f\x31\x01"},
+                             {"Radiance HDR", "#?"}};
+
+void check_magic(std::span<const uint8_t> content, const std::string& where) {
+  const std::string_view start(reinterpret_cast<const char*>(content.data()), std::min<size_t>(content.size(), 16));
+  for (const Magic& magic : kMagics) {
+    if (!start.starts_with(magic.bytes)) continue;
+    if (magic.name == "PNG" || magic.name == "JPEG") return;
+    throw Error(ErrorKind::bad_input, where, "the picture is " + std::string(magic.name), "PNG or JPEG");
+  }
+  throw Error(ErrorKind::bad_input, where, "the picture is neither PNG nor JPEG", "one of these");
+}
+
+void check_media_type(const std::string& type, const std::string& where) {
+  if (type != "image/png" && type != "image/jpeg")
+    throw Error(ErrorKind::bad_input, where, "the media type is neither image/png nor image/jpeg", "one of these");
+}
+
+uint64_t bytes_of(const Image& image, bool with_levels) {
+  uint64_t texels = 0;
+  for (int width = image.width, height = image.height;;
+       width = std::max(1, width / 2), height = std::max(1, height / 2)) {
+    texels += uint64_t(width) * uint64_t(height);
+    if (!with_levels || (width == 1 && height == 1)) return 4 * texels;
+  }
+}
+
+}  // namespace
+
+struct Pictures::Task {
+  Bytes owned;
+  std::span<const uint8_t> content;
+  Image image;
+  bool too_large = false;  ///< for its share: it is tried again by itself
+  std::exception_ptr error;
+};
+
+int32_t Pictures::texture(uint32_t image, TextureFormat format, bool has_levels) {
+  const auto [found, is_new] = textures_.emplace(std::pair(image, format), int32_t(scene_.textures.size()));
+  if (is_new) {
+    const std::optional<std::string>& uri = document_.images[image].uri;
+    Texture& texture = scene_.textures.emplace_back();
+    texture.name = uri && !is_data_uri(*uri) ? *uri : "image " + std::to_string(image);
+    texture.format = format;
+    wanted_.push_back({image, false});
+  }
+  Wanted& wanted = wanted_[size_t(found->second)];
+  wanted.has_levels = wanted.has_levels || has_levels;
+  return found->second;
+}
+
+void Pictures::decode_all() {
+  for (size_t first = 0; first < wanted_.size(); first += kTogether)
+    decode_some(first, std::min(kTogether, wanted_.size() - first));
+  parallel_for(int(wanted_.size()), 0, [&](int i) {
+    if (wanted_[size_t(i)].has_levels) build_mip_chain(scene_.textures[size_t(i)]);
+  });
+  std::vector<bool> is_read(document_.images.size(), false);
+  for (const Wanted& wanted : wanted_) is_read[wanted.image] = true;
+  std::set<std::string_view> checked;  // many images may name one file
+  for (uint32_t i = 0; i < document_.images.size(); ++i) {
+    const std::optional<std::string>& uri = document_.images[i].uri;
+    if (!is_read[i] && uri && checked.insert(*uri).second) check_file(i);
+  }
+}
+
+void Pictures::decode_some(size_t first, size_t count) {
+  std::vector<Task> tasks(count);
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t image = wanted_[first + i].image;
+    const std::string where = place_of(image);
+    if (!decode_) throw Error(ErrorKind::bad_input, where, "this program reads no image files", "no textures");
+    tasks[i].owned = content(image, tasks[i].content);
+    if (const std::string& mime = document_.images[image].mime; !mime.empty())
+      check_media_type(mime, where + "/mimeType");
+    check_magic(tasks[i].content, where);
+  }
+  // A chain of levels adds a third at most.
+  const auto left = [this] { return (limits_.texture_bytes - std::min(limits_.texture_bytes, bytes_)) / 4 * 3; };
+  const uint64_t share = left() / kTogether;
+  parallel_for(int(count), 0, [&](int i) {
+    Task& task = tasks[size_t(i)];
+    try {
+      task.image = decode_(task.content, place_of(wanted_[first + size_t(i)].image), share);
+    } catch (const Error& error) {
+      task.too_large = error.kind() == ErrorKind::limit;
+      task.error = std::current_exception();
+    } catch (...) {
+      task.error = std::current_exception();
+    }
+  });
+  for (size_t i = 0; i < count; ++i) {
+    Task& task = tasks[i];
+    if (task.too_large)
+      task.image = decode_(task.content, place_of(wanted_[first + i].image), left());
+    else if (task.error)
+      std::rethrow_exception(task.error);
+    if (task.image.format != Format::rgba8)
+      throw Error(ErrorKind::bad_input, place_of(wanted_[first + i].image),
+                  "the picture does not have 8 bits a channel", "8 bits");
+    bytes_ += bytes_of(task.image, wanted_[first + i].has_levels);
+    if (bytes_ > limits_.texture_bytes)
+      throw Error(ErrorKind::limit, place_of(wanted_[first + i].image),
+                  "with this picture and its smaller levels the pictures are over the limit",
+                  "at most " + std::to_string(limits_.texture_bytes) + " bytes in all");
+    // Rows run from the top, where glTF has v = 0.
+    scene_.textures[first + i].levels = {{task.image.width, task.image.height, std::move(task.image.texels)}};
+  }
+}
+
+std::string Pictures::place_of(uint32_t image) const { return document_.file + ": " + pointer_to("images", image); }
+
+/// The errors of content() for a picture that nothing reads. Of a file only the size is asked for.
+void Pictures::check_file(uint32_t image) const {
+  const std::string& uri = *document_.images[image].uri;
+  const std::string where = place_of(image) + "/uri";
+  if (is_data_uri(uri))
+    data_of_uri(uri, where, limits_.file_bytes);
+  else
+    folder_.check(relative_path_from_uri(uri, where), limits_.file_bytes, where);
+}
+
+/// The bytes of a picture's file: owned ones, or those of a view.
+Bytes Pictures::content(uint32_t image, std::span<const uint8_t>& view) const {
+  const ImageSource& source = document_.images[image];
+  const std::string where = place_of(image);
+  Bytes owned;
+  if (source.view != kNone) {
+    if (document_.views[source.view].stride != 0)
+      throw Error(ErrorKind::bad_input, where, "the view of a picture has a stride", "a view without one");
+    view = buffers_.view(source.view);
+    return owned;
+  }
+  owned = is_data_uri(*source.uri)
+              ? data_of_uri(*source.uri, where + "/uri", limits_.file_bytes).bytes
+              : folder_.read(relative_path_from_uri(*source.uri, where + "/uri"), limits_.file_bytes, where + "/uri");
+  view = owned;  // moving a vector leaves its elements where they are
+  return owned;
+}
+
+}  // namespace trueshade::gltf

@@ -1,0 +1,215 @@
+#include "scenes/files/gltf/scene_maker.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "scenes/files/gltf/animations.h"
+#include "scenes/files/gltf/instancing.h"
+#include "scenes/files/gltf/lights_and_cameras.h"
+#include "scenes/files/gltf/skins.h"
+#include "scenes/files/lights_of_ours.h"
+#include "scenes/scene_defaults.h"
+
+namespace trueshade::gltf {
+
+SceneMaker::SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits,
+                       const ImageDecoder& decode)
+    : document_(buffers.document()),
+      limits_(limits),
+      accessors_(buffers, limits),
+      pictures_(buffers, folder, limits, decode, scene_),
+      materials_(document_, pictures_, scene_),
+      hierarchy_(hierarchy_of(document_, limits)) {}
+
+Scene SceneMaker::make() {
+  Timeline& timeline = scene_.timeline;
+  scene_.spec = document_.file;
+  scene_.photometric = true;
+  timeline.nodes = scene_nodes(document_, hierarchy_);
+  if (animation()) {
+    timeline.node_motions = node_motions(accessors_, *animation(), hierarchy_);
+    for (const Channel& channel : animation()->channels)
+      if (channel.path == Path::weights && channel.node != kNone) weight_channels_.emplace(channel.node, &channel);
+  }
+  for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) add_node(place);
+  check_the_rest();
+  set_time(scene_, 0.0);
+  if (!timeline.node_camera) scene_.camera = camera_seeing(bounds_of(scene_));
+  if (!moves()) timeline = Timeline{};
+  if (scene_.lights.empty()) add_lights_of_ours(scene_);
+  add_notes();
+  return std::move(scene_);
+}
+
+const AnimationSource* SceneMaker::animation() const {
+  return document_.animations.empty() ? nullptr : &document_.animations[0];
+}
+
+bool SceneMaker::moves() const {
+  const Timeline& timeline = scene_.timeline;
+  return !timeline.node_motions.empty() || std::any_of(timeline.posed.begin(), timeline.posed.end(),
+                                                       [](const PosedMesh& p) { return p.motion.has_value(); });
+}
+
+void SceneMaker::add_node(uint32_t place) {
+  const NodeSource& node = document_.nodes[hierarchy_.nodes[place]];
+  if (node.mesh != kNone) add_mesh(place, node);
+  if (node.copies && (node.mesh == kNone || node.skin != kNone)) ++ignored_copies_;
+  if (node.light != kNone) add_light(place, node.light);
+  if (node.camera == kNone || ++cameras_ > 1) return;
+  const Lens lens = lens_of(document_, node.camera);
+  scene_.camera = lens.camera;
+  scene_.timeline.node_camera = NodeCamera{place, lens.clip_from_view};
+}
+
+SceneMaker::Parts SceneMaker::parts_of(const MeshSource& mesh) const {
+  Parts parts;
+  for (size_t i = 0; i < mesh.primitives.size(); ++i) {
+    const Primitive& primitive = mesh.primitives[i];
+    if (!has_triangles(primitive.mode))
+      ++(primitive.mode == Mode::points ? parts.points : parts.lines);
+    else if (primitive.attributes.position == kNone)
+      ++parts.without_positions;
+    else if (!materials_.is_invisible(primitive.material))
+      parts.drawn.push_back(i);
+  }
+  return parts;
+}
+
+/// A mesh may have many primitives that are not drawn and many nodes: it is summarised once.
+void SceneMaker::add_mesh(uint32_t place, const NodeSource& node) {
+  const auto [found, is_new] = parts_.try_emplace(node.mesh);
+  if (is_new) found->second = parts_of(document_.meshes[node.mesh]);
+  const Parts& parts = found->second;
+  points_ += parts.points;
+  lines_ += parts.lines;
+  without_positions_ += parts.without_positions;
+  for (const size_t primitive : parts.drawn) add_primitive(place, node, primitive);
+}
+
+void SceneMaker::add_light(uint32_t place, uint32_t light) {
+  if (scene_.lights.size() >= limits_.lights)
+    throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
+                "the lights are over the limit", "at most " + std::to_string(limits_.lights));
+  scene_.timeline.node_lights.push_back({uint32_t(scene_.lights.size()), place});
+  scene_.lights.push_back(light_of(document_, light));
+}
+
+void SceneMaker::check_instances(uint32_t place, uint64_t more) const {
+  if (more > limits_.instances || more + scene_.instances.size() > limits_.instances)
+    throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
+                "the instances are over the limit", "at most " + std::to_string(limits_.instances));
+}
+
+void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t index) {
+  const Primitive& primitive = document_.meshes[node.mesh].primitives[index];
+  check_instances(place, node.copies ? count_of(accessors_, *node.copies) : 1);
+  Drawn& drawn = drawn_of(node.mesh, index);
+  const bool skinned = node.skin != kNone && !primitive.attributes.joints.empty(),
+             posed = skinned || !primitive.targets.empty();
+  Instance instance;
+  instance.mesh = posed ? add_posed_mesh(node, place, drawn, skinned) : static_mesh(drawn);
+  instance.material = materials_.scene_material(primitive.material);
+  if (skinned) {  // in world space: the joints' matrices bring it there, and the node's has no say
+    scene_.instances.push_back(instance);
+    return;
+  }
+  const std::vector<glm::dmat4x3> copies =
+      node.copies ? matrices_of(accessors_, *node.copies, pointer_to("nodes", hierarchy_.nodes[place]))
+                  : std::vector<glm::dmat4x3>{glm::dmat4x3(1.0)};
+  for (const glm::dmat4x3& copy : copies) {
+    scene_.timeline.node_instances.push_back({uint32_t(scene_.instances.size()), place, copy, drawn.reach});
+    scene_.instances.push_back(instance);
+  }
+}
+
+SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
+  Drawn*& known = drawn_of_primitive_[{mesh, index}];
+  if (known) return *known;
+  const Primitive& p = document_.meshes[mesh].primitives[index];
+  const Attributes& a = p.attributes;
+  std::vector<uint32_t> key{a.position, a.normal, a.color, a.uv[0], a.uv[1], p.indices, uint32_t(p.mode)};
+  key.insert(key.end(), a.joints.begin(), a.joints.end());
+  key.insert(key.end(), a.weights.begin(), a.weights.end());
+  key.push_back(uint32_t(a.joints.size()));
+  for (const Attributes& target : p.targets) key.insert(key.end(), {target.position, target.normal});
+  const auto [found, is_new] = drawn_.try_emplace(std::move(key));
+  Drawn& drawn = found->second;
+  known = &drawn;  // elements of a map stay where they are
+  if (!is_new) return drawn;
+  drawn.pointer = pointer_to("meshes", mesh, "primitives", index);
+  drawn.geometry = read_geometry(accessors_, p, drawn.pointer);
+  drawn.geometry.mesh.name = document_.meshes[mesh].name;
+  drawn.reach = reach_of(drawn.geometry.mesh);
+  return drawn;
+}
+
+uint32_t SceneMaker::static_mesh(Drawn& drawn) {
+  if (drawn.mesh) return *drawn.mesh;
+  drawn.mesh = uint32_t(scene_.meshes.size());
+  const bool has_pose = drawn.geometry.shape.influences > 0;  // another node may give it a skin
+  scene_.meshes.push_back(has_pose ? drawn.geometry.mesh : std::move(drawn.geometry.mesh));
+  return *drawn.mesh;
+}
+
+/// Adds a mesh for this node alone, because each node has its own pose.
+uint32_t SceneMaker::add_posed_mesh(const NodeSource& node, uint32_t place, Drawn& drawn, bool skinned) {
+  Timeline& timeline = scene_.timeline;
+  const Mesh& mesh = drawn.geometry.mesh;
+  const size_t targets = document_.meshes[node.mesh].primitives.front().targets.size();  // of each primitive
+  accessors_.take(targets * sizeof(double) + sizeof(PosedMesh) + sizeof(Mesh), drawn.pointer);
+  if (!drawn.shape) {
+    drawn.shape = uint32_t(timeline.shapes.size());
+    timeline.shapes.push_back(std::move(drawn.geometry.shape));
+  }
+  const RestShape& shape = timeline.shapes[*drawn.shape];
+  const uint32_t index = hierarchy_.nodes[place];
+  const auto channel = weight_channels_.find(index);
+  PosedMesh posed = weighed(accessors_, index, shape.targets.size(), animation(),
+                            channel == weight_channels_.end() ? nullptr : channel->second);
+  posed.mesh = uint32_t(scene_.meshes.size());
+  posed.shape = *drawn.shape;
+  if (skinned) {
+    posed.skin = scene_skin(node.skin);
+    check_joints(document_, shape, timeline.skins[*posed.skin], drawn.pointer);
+  }
+  accessors_.take((uint64_t(mesh.vertex_count()) * 14 + mesh.indices.size()) * 4, drawn.pointer);
+  scene_.meshes.push_back(mesh);
+  timeline.posed.push_back(std::move(posed));
+  return timeline.posed.back().mesh;
+}
+
+uint32_t SceneMaker::scene_skin(uint32_t skin) {
+  const auto [found, is_new] = skins_.try_emplace(skin, uint32_t(scene_.timeline.skins.size()));
+  if (is_new) scene_.timeline.skins.push_back(skin_of(accessors_, skin, hierarchy_));
+  return found->second;
+}
+
+/// What the scene does not draw is read too, so that whether a file is broken does not depend on its default scene.
+void SceneMaker::check_the_rest() {
+  for (uint32_t mesh = 0; mesh < document_.meshes.size(); ++mesh)
+    for (size_t i = 0; i < document_.meshes[mesh].primitives.size(); ++i) {
+      const Primitive& primitive = document_.meshes[mesh].primitives[i];
+      if (has_triangles(primitive.mode) && primitive.attributes.position != kNone) drawn_of(mesh, i);
+    }
+  for (const SkinSource& skin : document_.skins)
+    if (skin.inverse_bind != kNone) accessors_.matrices(skin.inverse_bind);
+  pictures_.decode_all();
+}
+
+void SceneMaker::add_notes() {
+  const auto note = [&](uint64_t count, const char* one, const char* many, const char* rest) {
+    if (count > 0) scene_.notes.push_back(std::to_string(count) + ' ' + (count == 1 ? one : many) + rest);
+  };
+  note(points_, "primitive of points is", "primitives of points are", " not drawn, because only triangles are drawn");
+  note(lines_, "primitive of lines is", "primitives of lines are", " not drawn, because only triangles are drawn");
+  note(without_positions_, "primitive has", "primitives have", " no POSITION and no triangles to draw");
+  note(ignored_copies_, "node has", "nodes have",
+       " EXT_mesh_gpu_instancing, which is ignored: Only a mesh without a skin is copied");
+  note(std::max<uint64_t>(cameras_, 1) - 1, "camera is", "cameras are",
+       " ignored: The picture is taken through the first camera");
+  note(std::max<uint64_t>(document_.animations.size(), 1) - 1, "animation is", "animations are",
+       " ignored: The first animation is played");
+}
+
+}  // namespace trueshade::gltf
