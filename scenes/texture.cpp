@@ -27,7 +27,10 @@ void append(T value, std::vector<uint8_t>& bytes) {
   bytes.insert(bytes.end(), first, first + sizeof value);
 }
 
-uint8_t unorm8(float x) { return uint8_t(std::nearbyint(255.0f * (x > 0.0f ? std::min(x, 1.0f) : 0.0f))); }
+/// RNE(255 x), x in [0, 1]: beside 2^23 a float has no bits below 1.
+uint8_t code_of(float x) { return uint8_t((255.0f * x + 8388608.0f) - 8388608.0f); }
+
+uint8_t unorm8(float x) { return code_of(x > 0.0f ? std::min(x, 1.0f) : 0.0f); }
 
 /// Texels of a side of n that texel i of the next level's side of floor(n / 2) averages, weights over n. An odd side's
 /// texels overlap: 2 m + 1 texels become m, each the mean of the interval it covers.
@@ -77,24 +80,27 @@ uint8_t srgb8_of(float linear) {
   return uint8_t(code);
 }
 
+/// The mean of four texels' channel c: two of the row `low`, two of `high`, their codes standing for `values`.
+float mean_of(const std::array<float, 256>& values, const uint8_t* low, const uint8_t* high, size_t c) {
+  const double first = (double(values[low[c]]) + double(values[low[c + 4]])) * 0.5,
+               second = (double(values[high[c]]) + double(values[high[c + 4]])) * 0.5;
+  return float((first + second) * 0.5);
+}
+
 /// box() and append_texel() for codes of 8 bits where both sides are even: four texels, sums and halves in f64.
-void append_halved_rows(const Texture& texture, size_t above, TextureLevel& level) {
-  const TextureLevel& from = texture.levels[above];
-  const bool srgb = texture.format == TextureFormat::srgb8_a8;
-  const std::array<float, 256>& colors = srgb ? kLinearOfSrgb8 : kOfCode;
+template <TextureFormat kFormat>
+void append_halved_rows(const TextureLevel& from, TextureLevel& level) {
   const size_t row_bytes = 4 * size_t(from.width);
   level.bytes.resize(4 * size_t(level.width) * size_t(level.height));
   uint8_t* out = level.bytes.data();
   for (size_t y = 0; y < size_t(level.height); ++y) {
     const uint8_t *low = from.bytes.data() + 2 * y * row_bytes, *high = low + row_bytes;
-    for (size_t x = 0; x < size_t(level.width); ++x, low += 8, high += 8, out += 4)
-      for (size_t c = 0; c < 4; ++c) {
-        const std::array<float, 256>& values = c < 3 ? colors : kOfCode;
-        const double first = (double(values[low[c]]) + double(values[low[c + 4]])) * 0.5,
-                     second = (double(values[high[c]]) + double(values[high[c + 4]])) * 0.5;
-        const float mean = float((first + second) * 0.5);
-        out[c] = srgb && c < 3 ? srgb8_of(mean) : unorm8(mean);
-      }
+    for (size_t x = 0; x < size_t(level.width); ++x, low += 8, high += 8, out += 4) {
+      for (size_t c = 0; c < 3; ++c)
+        out[c] = kFormat == TextureFormat::srgb8_a8 ? srgb8_of(mean_of(kLinearOfSrgb8, low, high, c))
+                                                    : code_of(mean_of(kOfCode, low, high, c));
+      out[3] = code_of(mean_of(kOfCode, low, high, 3));
+    }
   }
 }
 
@@ -149,7 +155,11 @@ void build_mip_chain(Texture& texture) {
     const int width = texture.levels[above].width, height = texture.levels[above].height;
     TextureLevel level{std::max(1, width / 2), std::max(1, height / 2), {}};
     if (bytes_per_texel(texture.format) == 4 && width % 2 == 0 && height % 2 == 0) {
-      append_halved_rows(texture, above, level);
+      const TextureLevel& from = texture.levels[above];
+      if (texture.format == TextureFormat::srgb8_a8)
+        append_halved_rows<TextureFormat::srgb8_a8>(from, level);
+      else
+        append_halved_rows<TextureFormat::rgba8>(from, level);
       texture.levels.push_back(std::move(level));
       continue;
     }
