@@ -127,7 +127,7 @@ PipelineOptions options_of(const BenchOptions& options, const std::string& spec)
 
 SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
   const PeakMemory memory;
-  const Scene scene = load_scene(spec, {}, decode_image);
+  Scene scene = load_scene(spec, {}, decode_image);
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
@@ -155,6 +155,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   result.stats = frames.stats();
   result.floor = frame_floor(result.stats);
   result.bytes = frame_bytes(result.stats, result.pipeline.target);
+  if (options.moving) result.moving = moving_time(scene, prepared, result.pipeline, execution);
   result.tile_costs = tile_costs(frames, result.stats, result.pipeline, execution);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "bench/floor.h"
 #include "bench/machine.h"
 #include "bench/picture_check.h"
+#include "cli/moving_frames.h"
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "scenes/pipeline/pipeline.h"
@@ -37,6 +38,7 @@ struct SceneTime {
   double peak_mib = 0;  ///< most memory the process had while preparing and drawing, before any peer
   std::vector<PeerTime> peers;
   std::vector<std::string> peers_about;
+  std::optional<MovingTime> moving;
   Notes notes;
 
   /// How much faster than on one core the frame would be on `cores`, by these costs and the tiles that it would have.

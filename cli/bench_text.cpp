@@ -79,6 +79,17 @@ std::string fastest_text(const SceneTime& s) {
   return text;
 }
 
+std::string moving_text(const MovingTime& moving) {
+  return time_row("moving, next frame", moving.next, formatted(moving.ratio(), "%.2fx the same again")) +
+         time_row("moving, the same again", moving.again, "");
+}
+
+std::string moving_json(const MovingTime& moving) {
+  JsonObject json;
+  json.put("ms", moving.next.median()).put("again_ms", moving.again.median()).put("ratio", moving.ratio());
+  return json.put("frames", uint64_t(moving.next.ms.size())).text();
+}
+
 std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   JsonArray peers;
   for (const PeerTime& peer : s.peers) {
@@ -128,6 +139,7 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
     json.put_raw(
         "best_peer",
         JsonObject().put("name", best->name).put("strategy", best->strategy).put("ratio", s.ratio(*best)).text());
+  if (s.moving) json.put_raw("moving", moving_json(*s.moving));
   json.put_raw("ignored", ignored_json(s.notes)).put_raw("notes", lines_json(s.notes));
   return json.put_raw("peers", peers.text()).text();
 }
@@ -176,6 +188,7 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
     text += time_row(peer.name + ' ' + peer.strategy, peer.timing,
                      formatted(s.ratio(peer), "%.2fx ours") + picture_text(peer));
   text += fastest_text(s);
+  if (s.moving) text += moving_text(*s.moving);
   text += "  visibility " + formatted(f.core_ms.visibility, "%.2f") + " ms, surfaces " +
           formatted(f.core_ms.surfaces, "%.2f") + " ms, light " + formatted(f.core_ms.light, "%.2f") + " ms, store " +
           formatted(f.core_ms.store, "%.2f") + " ms of core time; " + formatted(ns_per_pixel_light(s), "%.2f") +

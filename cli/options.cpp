@@ -252,6 +252,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
                     "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
                     "and ours otherwise: "
                     "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
+  add_switch(bench, "--moving", options.moving,
+             "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
   add_value(bench, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
   add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   return bench;

@@ -37,7 +37,7 @@ struct RenderOptions : PipelineOptions {
   std::optional<FrameRange> frames;
   std::optional<PngEncoding> encode;  ///< of .png outputs; nothing: as the target's values are
   std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
-  std::string simd = "best";      ///< stays alive for execution.simd, see execution_of()
+  std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
   bool quiet = false;  ///< neither notes nor the names of files written
@@ -84,6 +84,7 @@ struct BenchOptions : PipelineOptions {
   std::vector<std::string> against;  ///< gl, gl=DESIGN+..., embree, and KEY=VALUE: ours drawn otherwise
   std::string simd = "best";         ///< stays alive for the execution
   Execution execution;
+  bool moving = false;                           ///< also frames of a sequence in which everything moves
   std::optional<std::string> json_file, report;  ///< files to write; the report is .html, and JSON named - is printed
 };
 

@@ -46,6 +46,19 @@ TEST_CASE("bench times the frame that render draws, beside Embree, and writes it
   CHECK(json["machine"]["clock_ghz"].get<double>() > 0.0);
 }
 
+TEST_CASE("bench --moving times each frame of a sequence against itself drawn again") {
+  const Outcome bench = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--moving", "--json", "-"});
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto scene = nlohmann::json::parse(bench.out)["scenes"][0];
+  const auto& moving = scene["moving"];
+  CHECK(moving["frames"].get<int>() > 1);
+  CHECK(moving["ratio"].get<double>() == Approx(moving["ms"].get<double>() / moving["again_ms"].get<double>()));
+  const Outcome text = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--moving"});
+  CHECK(text.out.find("moving, the same again") != std::string::npos);
+  CHECK(text.out.substr(0, text.out.find("  visibility")).find("x the same again") != std::string::npos);
+}
+
 TEST_CASE("bench --json - prints the document and nothing else") {
   const ScratchFolder folder;
   const Outcome bench = run_command({"bench", "builtin:cornell", "builtin:circle,lights=3", "--preset", "many-lights",
@@ -192,8 +205,8 @@ TEST_CASE("bench times ours drawn otherwise in the same run: other targets, view
 
 TEST_CASE("The whole command stays below the memory that five and eight million triangles were given") {
   const auto most_mb = [](const std::string& scene) {
-    const Outcome render = run_command({}, ".", "exec " PEAK_MEMORY " " TRUESHADE_COMMAND " render " + scene +
-                                                    " --hash");
+    const Outcome render =
+        run_command({}, ".", "exec " PEAK_MEMORY " " TRUESHADE_COMMAND " render " + scene + " --hash");
     INFO(render.err);
     REQUIRE(render.exit_code == 0);
     return 1024e-6 * std::stod(render.out.substr(render.out.rfind(' ')));
