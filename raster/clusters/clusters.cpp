@@ -9,8 +9,8 @@
 namespace trueshade {
 namespace {
 
-// Greedy: triangles in submission order until a vertex or triangle too many. Order inside a mesh is thus kept, which
-// makes (cluster, triangle) order the submission order.
+// Greedy: triangles in submission order until there is a vertex or a triangle too many, or the next triangle is part of
+// something else. Order inside a mesh is thus kept, which makes (cluster, triangle) order the submission order.
 class Builder {
  public:
   explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
@@ -28,7 +28,7 @@ class Builder {
     for (size_t triangle = 0; triangle < mesh_.triangle_count(); ++triangle) {
       const uint32_t* corner = &mesh_.indices[3 * triangle];
       if (triangle == 0 || current_.triangles == kClusterTriangles ||
-          current_.vertices + added(corner) > kClusterVertices)
+          current_.vertices + added(corner) > kClusterVertices || leaps(corner))
         start(triangle);
       for (int i = 0; i < 3; ++i) out_.corner[size_t(i)].push_back(local_vertex(corner[i]));
       ++current_.triangles;
@@ -52,8 +52,26 @@ class Builder {
     return count;
   }
 
+  /// Whether a triangle shares no vertex with the current cluster and lies so far from it that a box around both is
+  /// larger than the cluster's by kFar. Small boxes touch few tiles.
+  bool leaps(const uint32_t* corner) const {
+    if (current_.triangles < kFewTriangles || added(corner) < 3) return false;
+    double before = 0.0, after = 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+      float low = box_low_[c], high = box_high_[c];
+      before += double(high) - double(low);
+      for (int i = 0; i < 3; ++i) {
+        const float value = mesh_.position[c][corner[i]];
+        low = std::min(low, value), high = std::max(high, value);
+      }
+      after += double(high) - double(low);
+    }
+    return after > kFar * before;
+  }
+
   void start(size_t triangle) {
     finish();
+    box_low_ = {kMost, kMost, kMost}, box_high_ = {-kMost, -kMost, -kMost};
     ++stamp_;
     current_ = {};
     current_.first_vertex = uint32_t(out_.vertex.size());
@@ -65,6 +83,10 @@ class Builder {
       seen_in_[vertex] = stamp_;
       local_[vertex] = uint8_t(current_.vertices++);
       out_.vertex.push_back(vertex);
+      for (size_t c = 0; c < 3; ++c) {
+        box_low_[c] = std::min(box_low_[c], mesh_.position[c][vertex]);
+        box_high_[c] = std::max(box_high_[c], mesh_.position[c][vertex]);
+      }
     }
     return local_[vertex];
   }
@@ -106,9 +128,12 @@ class Builder {
   const Mesh& mesh_;
   ClusteredMesh out_;
   static constexpr size_t kBoxSlack = 16;
+  static constexpr int kFewTriangles = 8;  ///< of a cluster that a far triangle may still join
+  static constexpr double kFar = 1.25;     ///< times the sum of a box's sides
   static constexpr float kMost = std::numeric_limits<float>::max();
   float least_[3] = {kMost, kMost, kMost}, greatest_[3] = {-kMost, -kMost, -kMost};
   Cluster current_{};
+  std::array<float, 3> box_low_{}, box_high_{};  ///< of the current cluster
   uint32_t stamp_ = 0;
   std::vector<uint32_t> seen_in_;
   std::vector<uint8_t> local_;
