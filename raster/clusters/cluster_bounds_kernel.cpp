@@ -165,6 +165,7 @@ struct Bounds {
       gone = hn::Or(gone, hn::Or(hn::Lt(behind_near.high, zero), hn::Lt(before_far.high, zero)));
       clipped = hn::Or(clipped, hn::Lt(behind_near.low, zero));
     }
+    for (int axis = 0; axis < 2; ++axis) gone = hn::Or(gone, beside(row[axis], w_row, w, t, axis));
     Intervals ndc[3];
     quotients(row, w_row, w.low, ndc);
     const MWF across = pixel_spans(ndc[0], t, 0, t.x0, t.x1, x0, x1),
@@ -188,6 +189,19 @@ struct Bounds {
   static HWY_INLINE VWF difference(const Intervals& a) {  // not 0 where an end is infinite or NaN
     const VWF sum = hn::Add(a.low, a.high);
     return hn::Sub(sum, sum);
+  }
+
+  // Boxes beside the viewport, wherever they lie to the near plane: what clipping leaves of them has w > 0 and x / w
+  // past an end of [-1, 1] by two pixels and more, which no snapping brings back. The same of y.
+  static HWY_INLINE MWF beside(const ClipRow& row, const ClipRow& w_row, const Intervals& w, const WindowTransform& t,
+                               int axis) {
+    const DWF d;
+    const float two_pixels = 512.0f / std::abs(float(t.scale[axis]));
+    const VWF margin = hn::Mul(hn::Max(hn::Abs(w.low), hn::Abs(w.high)), hn::Set(d, two_pixels));
+    const auto past = [&](float sign) {
+      return hn::Lt(hn::Add(sum_interval(w_row, row, sign).high, margin), hn::Zero(d));
+    };
+    return hn::Or(past(1.0f), past(-1.0f));
   }
 
   // Boxes in front of the near plane that lie wholly where project_vertices() finds nothing that needs clipping.
