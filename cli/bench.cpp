@@ -127,11 +127,12 @@ PipelineOptions options_of(const BenchOptions& options, const std::string& spec)
 
 SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
   const PeakMemory memory;
-  Scene scene = load_scene(spec, {}, decode_image);
+  Scene scene = scene_of_options(spec, options.limits);
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
   result.notes = notes_of(scene, result.pipeline);
+  check_memory(scene, result.pipeline, execution, {}, {});
   const PreparedScene prepared(scene);
   OwnFrames frames(prepared, result.pipeline, execution);
   frames.draw();

@@ -22,7 +22,7 @@ struct ScaledScene {
   OwnFrames frames;
 
   ScaledScene(const PipelineOptions& options, const Execution& execution)
-      : scene(load_scene(options.scene, {}, decode_image)),
+      : scene(scene_of_options(options.scene, options.limits)),
         prepared(scene),
         frames(prepared, pipeline_of(options, scene), execution) {
     frames.checked_hash(simd_targets()[simd_targets().size() > 1 ? 1 : 0]);

@@ -13,7 +13,9 @@ void write_glsl(const GlslFilesOptions& options);
 void bench(const BenchOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
-/// Writes text to standard output and flushes it. Error(io) where that fails, say on a full disk.
+/// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full disk.
 void print(std::string_view text);
+/// Writes a line to standard error, as printable() has it.
+void say(std::string_view line);
 
 }  // namespace trueshade

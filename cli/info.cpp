@@ -2,29 +2,32 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/preparation.h"
 #include "core/image_files/image_io.h"
+#include "core/printable_text.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
 namespace {
 
 std::string info_row(const std::string& name, const std::string& value) {
-  return name + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') + value + '\n';
+  const std::string shown = printable(name, Lines::one);  // names and values of metadata are whatever a file holds
+  return shown + std::string(shown.size() < 22 ? 22 - shown.size() : 1, ' ') + printable(value, Lines::one) + '\n';
 }
 
-std::string about_image(const std::string& path) {
+std::string about_image(const std::string& path, uint64_t most_expansion) {
   const ImageFileInfo image = read_image_info(path);
   std::string text =
       info_row("image", path) + info_row("size", std::to_string(image.width) + 'x' + std::to_string(image.height));
   for (const std::string& channel : image.channels) text += info_row("channel", channel);
   for (const auto& [key, value] : image.metadata) text += info_row(key, value);
   if (!path.ends_with(".png")) return text;
-  read_planes(path);  // throws for a wrong checksum, damaged or missing texels
+  read_planes(path, most_expansion);  // throws for a wrong checksum, damaged or missing texels
   return text + info_row("pixels", "read whole, all checksums right");
 }
 
-std::string about_scene(const std::string& spec) {
-  const Scene scene = load_scene(spec, {}, decode_image);
+std::string about_scene(const std::string& spec, const Limits& limits) {
+  const Scene scene = scene_of_options(spec, limits);
   const char* const kTypes[] = {"ambient", "directional", "point", "spot"};
   size_t lights[4] = {};
   for (const Light& light : scene.lights) ++lights[size_t(light.type)];
@@ -51,7 +54,7 @@ std::string about_scene(const std::string& spec) {
 
 void print_info(const InfoOptions& options) {
   const bool image = options.file.ends_with(".png") || options.file.ends_with(".exr");
-  print(image ? about_image(options.file) : about_scene(options.file));
+  print(image ? about_image(options.file, options.limits.expansion) : about_scene(options.file, options.limits));
 }
 
 }  // namespace trueshade

@@ -1,27 +1,67 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <string>
-#include <system_error>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "core/error.h"
+#include "core/memory_cap.h"
+#include "core/printable_text.h"
 
 namespace trueshade {
 namespace {
 
 constexpr int kOurFault = 70;  // sysexits.h: EX_SOFTWARE
 
-/// An error is one line, and does nothing to a terminal, whatever a file's name or a key holds.
-int say(std::string message, int exit_code) {
-  for (char& c : message)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  std::fprintf(stderr, "trueshade: error: %s\n", message.c_str());
+/// Writes all of it, and takes no memory for that.
+void write_to_standard_error(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;  // nobody is left to be told
+    text.remove_prefix(size_t(written));
+  }
+}
+
+/// An error is one line, printable() whatever a file's name or a key holds. It is put together in memory that is there
+/// from the start, because the fault may be that there is no more.
+int say_error(std::string_view message, int exit_code) {
+  static char line[1 << 14];
+  size_t size = 0;
+  const auto append = [&size](std::string_view text) {
+    const size_t room = std::min(text.size(), sizeof line - 1 - size);
+    std::copy_n(text.data(), room, line + size);
+    size += room;
+  };
+  append("trueshade: error: ");
+  while (!message.empty()) {
+    const FirstCharacter first = first_character(message);
+    append(first.is_shown ? message.substr(0, first.bytes) : "?");
+    message.remove_prefix(first.bytes);
+  }
+  line[size++] = '\n';
+  write_to_standard_error({line, size});
   return exit_code;
+}
+
+int say_our_fault(const char* what) {
+  char text[1024];
+  std::snprintf(text, sizeof text, "internal: %.900s (please report it)", what);
+  return say_error(text, kOurFault);
+}
+
+int say_out_of_memory() {
+  return say_error("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
 }
 
 /// Says what is wrong, and gives the exit code: the only place that knows either.
@@ -29,27 +69,50 @@ int exit_code_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
   } catch (const Error& error) {
-    return say(error.what(), int(error.kind()));
+    return say_error(error.what(), int(error.kind()));
   } catch (const std::bad_alloc&) {
-    return say("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again)  // what a thread that cannot be started throws
-      return say("threads: there is not enough memory to start them (use fewer --threads)",
-                 int(ErrorKind::out_of_memory));
-    return say(std::string("internal: ") + error.what() + " (please report it)", kOurFault);
+    return say_out_of_memory();
+  } catch (const std::length_error&) {  // more elements than a container can ever have
+    return say_out_of_memory();
   } catch (const std::exception& error) {
-    return say(std::string("internal: ") + error.what() + " (please report it)", kOurFault);
+    return say_our_fault(error.what());
   } catch (...) {
-    return say("internal: unknown exception (please report it)", kOurFault);
+    return say_our_fault("unknown exception");
   }
 }
 
 /// Libraries end the process where they cannot start their own threads, far from any catch of ours.
-[[noreturn]] void end_without_signal() { std::_Exit(exit_code_of(std::current_exception())); }
+[[noreturn]] void end_without_signal() {
+  const std::exception_ptr fault = std::current_exception();
+  std::_Exit(fault ? exit_code_of(fault) : say_our_fault("terminated without an exception"));
+}
+
+/// Memory that is given back when there is no more, so that the way out of where it was needed has some.
+char* reserve = nullptr;
+constexpr size_t kReserve = size_t(1) << 18;
+
+void give_reserve_back() {
+  std::free(std::exchange(reserve, nullptr));
+  throw std::bad_alloc();
+}
+
+void install_handlers() {
+  std::set_terminate(end_without_signal);
+  reserve = static_cast<char*>(std::malloc(kReserve));
+  std::set_new_handler(give_reserve_back);
+}
+
+/// Called before the initializers of the libraries, which may run out of memory as well.
+__attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = install_handlers;
 
 constexpr int kViolation = 1;
 
 int execute(const Command& command) {
+  std::visit(
+      [](const auto& options) {
+        if constexpr (requires { options.limits; }) set_memory_cap(options.limits.memory);
+      },
+      command);
   if (const auto* options = std::get_if<RenderOptions>(&command)) render(*options);
   if (const auto* options = std::get_if<InfoOptions>(&command)) print_info(*options);
   if (const auto* options = std::get_if<ListOptions>(&command)) print_list(*options);
@@ -67,7 +130,6 @@ int execute(const Command& command) {
 int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  std::set_terminate(trueshade::end_without_signal);
   try {
     return trueshade::execute(trueshade::command_from_arguments(count, arguments));
   } catch (...) {

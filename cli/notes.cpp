@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cli/commands.h"
 #include "cli/json_text.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/view_image.h"
@@ -135,7 +136,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
 }
 
 void say_notes(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) std::fprintf(stderr, "trueshade: note: %s\n", line.c_str());
+  for (const std::string& line : lines) say("trueshade: note: " + line);
 }
 
 std::string ignored_json(const Notes& notes) {

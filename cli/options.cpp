@@ -91,6 +91,19 @@ void add_switch(CLI::App* command, const char* names, bool& on, const char* help
   command->add_flag_callback(names, [&on] { on = true; }, help);
 }
 
+/// The group `Limits`. Values are taken where they stand, which throws Error(usage).
+void add_limit_options(CLI::App* command, LimitedOptions& options) {
+  for (const LimitOption& limit : limit_options()) {
+    const auto take = [&options, &limit](const CLI::results_t& given) {
+      options.limits.*limit.limit = limit_from_text(limit, given.back());
+      return true;
+    };
+    command->add_option(limit.name, CLI::callback_t(take), help_of(limit))
+        ->type_name(limit.unit == LimitOption::Unit::bytes ? "SIZE" : "COUNT")
+        ->group("Limits");
+  }
+}
+
 /// The options of PipelineOptions but for the target.
 void add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
   std::string names;
@@ -130,6 +143,7 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   add_switch(render, "--stats", options.stats, "Print counts and times");
   add_switch(render, "--json", options.json, "Print all of it as one JSON document");
   add_switch(render, "-q,--quiet", options.quiet, "Say neither notes nor which files were written");
+  add_limit_options(render, options);
   return render;
 }
 
@@ -198,6 +212,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
       "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
   add_switch(command, "--json", options.json, "Print all of it as one JSON document");
   add_value(command, "-o,--output", "FILE", options.report, "Report to write, .html");
+  add_limit_options(command, options);
   command->footer(
       "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
       "others as for trueshade.");
@@ -209,6 +224,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);
+  check_scene(options.scene);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   check_preset(options.preset);
   if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
@@ -256,6 +272,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
              "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
   add_value(bench, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
   add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
+  add_limit_options(bench, options);
   return bench;
 }
 
@@ -265,6 +282,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.against) options.against = peers_from_text(*texts.against);
+  for (const std::string& scene : options.scenes) check_scene(scene);
   check_preset(options.preset);
   check_simd("--simd", options.simd);
   if (options.report && !options.report->ends_with(".html"))
@@ -337,6 +355,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   const CLI::App* render_command = add_render(app, render, texts);
   CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
   add_value(info_command, "FILE", "NAME", info.file, "Scene (as for render), or image (.png, .exr)")->required();
+  add_limit_options(info_command, info);
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   add_switch(list_command, "--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
@@ -363,7 +382,10 @@ Command command_from_arguments(int count, const char* const* arguments) {
     throw usage("command line", one_line(error.what()), "see trueshade --help");
   }
   if (render_command->parsed()) return finished(std::move(render), texts);
-  if (info_command->parsed()) return info;
+  if (info_command->parsed()) {
+    check_scene(info.file);
+    return info;
+  }
   if (glsl_command->parsed()) return finished(std::move(glsl), glsl_strategy);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);

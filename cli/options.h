@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/limit_options.h"
 #include "core/image_files/image_io.h"
 #include "scenes/pipeline/pipeline.h"
 
@@ -18,8 +19,13 @@ struct FrameRange {
   int first, last;
 };
 
+/// What every command that reads files has.
+struct LimitedOptions {
+  Limits limits;
+};
+
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
-struct PipelineOptions {
+struct PipelineOptions : LimitedOptions {
   std::string scene;                  ///< a file or builtin:NAME
   std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
@@ -47,7 +53,7 @@ struct RenderOptions : PipelineOptions {
 Execution execution_of(const RenderOptions& options);
 
 /// `trueshade info`
-struct InfoOptions {
+struct InfoOptions : LimitedOptions {
   std::string file;  ///< a scene or an image
 };
 

@@ -1,12 +1,15 @@
 #include "cli/preparation.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
-#include "core/error.h"
+#include "core/image_files/image_io.h"
+#include "core/memory_cap.h"
 #include "scenes/json/json_value.h"
 #include "scenes/files/scene_files.h"
 #include "scenes/pipeline/presets.h"
+#include "shading/frame_memory.h"
 
 namespace trueshade {
 namespace {
@@ -14,7 +17,7 @@ namespace {
 constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20;
 
 std::string text_of(const std::string& file) {
-  const Bytes bytes = read_user_file(file, kMaxPipelineBytes);
+  const Bytes bytes = read_user_file(file, kMaxPipelineBytes, "");
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -26,6 +29,25 @@ void check_pipeline(const PipelineOptions& options) {
   } else if (options.pipeline_file) {
     json::parse(text_of(*options.pipeline_file), *options.pipeline_file);
   }
+}
+
+Scene scene_of_options(const std::string& spec, const Limits& limits) {
+  return load_scene(spec, limits,
+                    [&limits](std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
+                      return decode_image(content, where, most_bytes, limits.expansion);
+                    });
+}
+
+void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+                  std::span<const std::string> aovs, std::span<const std::string> outputs) {
+  uint64_t largest = 0;  // files are made one after the other
+  const auto bytes_of = [](Format format) { return uint64_t(info(format).bytes_per_texel()); };
+  for (const std::string& path : outputs) {
+    uint64_t texel = pipeline.view == ImageView::lit ? bytes_of(pipeline.target) : 4;
+    for (size_t i = 0; i < aovs.size() && path.ends_with(".exr"); ++i) texel += 16;
+    largest = std::max(largest, texel * uint64_t(pipeline.width) * uint64_t(pipeline.height));
+  }
+  require_memory(predicted_memory(scene, pipeline, execution, aovs) + largest, scene.spec, "drawing it");
 }
 
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {

@@ -137,8 +137,9 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
 void render(const RenderOptions& options) {
   check_pipeline(options);
   for (const std::string& path : options.outputs) check_writable(path);
-  Scene scene = load_scene(options.scene, {}, decode_image);
+  Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
+  check_memory(scene, pipeline, execution_of(options), planes_to_render(options), options.outputs);
   if (options.frames) return render_frames(options, scene, pipeline);
   set_time(scene, options.time);
   RenderedFrame result = frame_at(options, scene, pipeline, options.time);

@@ -76,9 +76,10 @@ bool judge_opengl(const ValidationOptions& options) {
   for (const std::string& path : options.saved) check_writable(path);
   Validation v;
   if (!options.gbuffer_file.empty()) v.capture = capture_from_files(options.gbuffer_file, options.image_file);
-  Scene scene = load_scene(options.scene, {}, decode_image);
+  Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   v.pipeline = pipeline_of(options, scene);
+  check_memory(scene, v.pipeline, {}, {}, options.saved);
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.scene_notes = notes_of(scene, v.pipeline);

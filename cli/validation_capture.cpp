@@ -165,7 +165,7 @@ bool is_rgb_of_8_bits(const ImageFileInfo& file) {
 void read_picture(const std::string& path, oracle::Capture& capture) {
   if (is_rgb_of_8_bits(read_image_info(path))) {
     capture.has_alpha = false;
-    capture.color = decode_image(read_user_file(path, kMaxPictureBytes), path, kMaxPictureBytes);
+    capture.color = decode_image(read_user_file(path, kMaxPictureBytes, ""), path, kMaxPictureBytes);
     return;
   }
   std::vector<NamedImage> planes = read_planes(path);

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "core/printable_text.h"
 
 namespace trueshade {
 namespace {
@@ -37,9 +38,9 @@ bool is_standard_output(const struct stat& file) {
 void say_written(const std::string& path, const std::string& about, StandardOutput standard_output) {
   struct stat file {};
   const bool known = stat(path.c_str(), &file) == 0;
-  const std::string line = "wrote " + path + " (" + about + (known ? size_text(file) : "") + ")\n";
-  if (standard_output == StandardOutput::files && !(known && is_standard_output(file))) return print(line);
-  std::fputs(line.c_str(), stderr);
+  const std::string line = "wrote " + path + " (" + about + (known ? size_text(file) : "") + ")";
+  if (standard_output == StandardOutput::files && !(known && is_standard_output(file))) return print(printable(line, Lines::one) + '\n');
+  say(line);
 }
 
 std::string kind_of_file(const std::string& path) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -20,11 +21,18 @@ enum class ErrorKind : int {
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, std::string_view where, std::string_view reason, std::string_view remedy)
-      : std::runtime_error(std::string(where) + ": " + std::string(reason) + " (" + std::string(remedy) + ")"),
+      : std::runtime_error(
+            without_zeros(std::string(where) + ": " + std::string(reason) + " (" + std::string(remedy) + ")")),
         kind_(kind) {}
   ErrorKind kind() const { return kind_; }
 
  private:
+  /// what() ends at the first zero, which a file may have put into a name.
+  static std::string without_zeros(std::string text) {
+    std::replace(text.begin(), text.end(), '\0', '?');
+    return text;
+  }
+
   ErrorKind kind_;
 };
 

@@ -12,6 +12,7 @@
 #include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/mesh.h"
+#include "scenes/scene_limits.h"
 #include "scenes/texture.h"
 #include "scenes/timeline.h"
 
@@ -83,20 +84,7 @@ struct Scene {
   uint64_t triangle_count() const;  ///< over all instances
 };
 
-/// Limits a scene is held to; each has an option's or a key's name in its error.
-struct SceneLimits {
-  uint64_t lights = uint64_t(1) << 20;
-  uint64_t instances = uint64_t(16) << 20;
-  uint64_t file_bytes = uint64_t(1) << 30;
-  uint64_t json_bytes = uint64_t(256) << 20;
-  uint64_t texture_bytes = uint64_t(4) << 30;   ///< of all pictures, decoded
-  uint64_t buffer_bytes = uint64_t(4) << 30;    ///< of all buffers of a glTF file, and of what is unpacked from them
-  uint64_t geometry_bytes = uint64_t(4) << 30;  ///< of all vertices and indices read from a glTF file
-  uint64_t nodes = 1000000;
-  uint64_t node_depth = 1024;  ///< of nodes inside each other
-};
-
-/// Texels of an image file's content: rgba8 as the codes are, rgba16f or rgba32f. Made by who links an image library;
+/// Texels of an image file's content: rgba8 or rgba16 as the codes are, rgba16f or rgba32f. Made by who links an image library;
 /// scenes does not. `where` stands in errors. Error(limit) for more than `most_bytes`, before they are allocated.
 using ImageDecoder =
     std::function<Image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes)>;

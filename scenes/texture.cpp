@@ -147,6 +147,30 @@ void append_texel(TextureFormat format, const std::array<float, 4>& value, std::
   }
 }
 
+std::vector<uint8_t> float_texels_of_16_bits(std::span<const uint8_t> codes, CodeEncoding encoding) {
+  const FpScope fp;
+  constexpr size_t kCodes = 65536;
+  std::vector<float> linear(kCodes), color;
+  for (size_t code = 0; code < kCodes; ++code) linear[code] = float(double(code) / 65535.0);
+  color = linear;
+  if (encoding == CodeEncoding::srgb)
+    for (size_t code = 0; code < kCodes; ++code) color[code] = float(linear_from_srgb(double(code) / 65535.0));
+  std::vector<uint8_t> texels(2 * codes.size());
+  for (size_t i = 0; i < codes.size() / 2; ++i) {
+    const size_t code = size_t(codes[2 * i]) | size_t(codes[2 * i + 1]) << 8;
+    std::memcpy(texels.data() + 4 * i, &(i % 4 < 3 ? color : linear)[code], sizeof(float));
+  }
+  return texels;
+}
+
+uint64_t texture_bytes(int width, int height, TextureFormat format, MipChain chain) {
+  uint64_t texels = 0;
+  for (;; width = std::max(1, width / 2), height = std::max(1, height / 2)) {
+    texels += uint64_t(width) * uint64_t(height);
+    if (chain == MipChain::none || (width == 1 && height == 1)) return texels * uint64_t(bytes_per_texel(format));
+  }
+}
+
 void build_mip_chain(Texture& texture) {
   const FpScope fp;
   texture.levels.resize(1);

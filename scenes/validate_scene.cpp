@@ -216,10 +216,10 @@ void check_instance(const Scene& scene, const Instance& instance, const Part& pa
   check_transform(instance, part);
 }
 
-void check_limit(const std::string& spec, const char* what, uint64_t count, uint64_t limit) {
+void check_limit(const std::string& spec, const char* what, uint64_t count, uint64_t limit, const char* option) {
   if (count > limit)
     throw Error(ErrorKind::limit, spec, std::to_string(count) + " " + what + " are over the limit",
-                "at most " + std::to_string(limit));
+                within_limit(limit, "", option));
 }
 
 }  // namespace
@@ -228,8 +228,8 @@ void validate(const Scene& scene, const SceneLimits& limits) {
   const FpScope fp;
   const std::string& spec = scene.spec;
   const auto part = [&](const char* kind, size_t index) { return Part{spec, kind, index}; };
-  check_limit(spec, "lights", scene.lights.size(), limits.lights);
-  check_limit(spec, "instances", scene.instances.size(), limits.instances);
+  check_limit(spec, "lights", scene.lights.size(), limits.lights, "--max-lights");
+  check_limit(spec, "instances", scene.instances.size(), limits.instances, "--max-instances");
   for (size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], part("mesh", i));
   std::vector<float> largest_texels;
   for (size_t i = 0; i < scene.textures.size(); ++i)

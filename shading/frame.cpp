@@ -1,15 +1,13 @@
 #include "shading/frame.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <numeric>
 #include <optional>
 
-#include "core/error.h"
 #include "core/fp_env.h"
+#include "core/memory_cap.h"
 #include "core/simd/simd_target.h"
 #include "core/threads/clock.h"
 #include "core/threads/parallel_for.h"
@@ -42,21 +40,15 @@ std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution)
   return order;
 }
 
-// Refuses a frame before anything is allocated: with more bytes than half of the machine's memory the system would end
-// the program.
+// Refuses a frame before its pictures are allocated: with more than the cap the system would end the program.
 void check_memory(const FramePlan& plan, const Pipeline& pipeline, std::span<const std::string> planes) {
   const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
   uint64_t texel = uint64_t(info(pipeline.target).bytes_per_texel());
   for (const std::string& name : planes)
     texel += uint64_t(info(aov_format(name, plan.surface_planes)).bytes_per_texel());
   const uint64_t tiles = pixels / uint64_t(plan.execution.tile * plan.execution.tile) + 1;
-  const uint64_t need = pixels * texel + tiles * (sizeof(TileCounts) + 3 * sizeof(uint64_t));
-  const uint64_t have = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGESIZE));
-  if (need > have / 2)
-    throw Error(
-        ErrorKind::limit, "size",
-        "the image and its planes need " + std::to_string(need >> 20) + " MiB, over half of this machine's memory",
-        "a smaller size or fewer planes");
+  require_memory(pixels * texel + tiles * (sizeof(TileCounts) + 3 * sizeof(uint64_t)), "size",
+                 "the image with its planes");
 }
 
 // Adds in tile order, so that the sums do not depend on scheduling.

@@ -18,6 +18,7 @@ trueshade_slow(20
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
 trueshade_slow(10
+  "cli:frames take what is predicted, within a fifth, and are refused where that is over the cap"
   "docs: what docs/tutorial.md shows runs"
   "gl:A tile lists every light that lights one of its pixels, and few that light none"
   "gl:Every OpenGL design draws textured materials, and spot lights in their cones"
@@ -29,6 +30,7 @@ trueshade_slow(10
   "shading:Row 33 over all floats in [0, 1]: 8-bit stores never fall"
   "shading:hostile numbers in a scene's text: a frame without NaN, or exit code 3 or 4 in one line")
 trueshade_slow(4
+  "cli:wherever memory ends, the command ends in order"
   "allocations:A frame after the first asks for the memory of its picture, and a few times more, whatever the scene"
   "cli:A wrong channel goes by the name that its plane gives it"
   "cli:Depths in halves and identifiers read as floats are refused in one line, not judged in thousands"

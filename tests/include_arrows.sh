@@ -1,7 +1,6 @@
 #!/bin/bash
 # Fails on an #include that tests/include_arrows.txt does not allow. Also holds libraries to their places: OpenImageIO in
-# core/image_files, TBB in core/threads/thread_pool.cpp, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in
-# cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
+# core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 status=0
@@ -32,7 +31,6 @@ only_in() {
   [[ -z $found ]] || fail "$1 belongs in $2 only" "$found"
 }
 only_in 'OpenImageIO/' 'core/image_files/[a-z_]*.cpp'
-only_in '(tbb|oneapi)/' 'core/threads/thread_pool.cpp'
 only_in 'embree' 'oracle/ray_scene.h'
 only_in 'epoxy/' 'gl/driver/[a-z_]*\.(h|cpp)'
 only_in 'CLI/' 'cli/options.cpp'

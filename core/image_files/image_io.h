@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/expansion.h"
 #include "core/image.h"
 
 namespace trueshade {
@@ -69,19 +70,20 @@ struct ImageFileInfo {
 /// an untagged PNG has none. Error(io) if it cannot be read, Error(bad_input) if it is neither.
 ImageFileInfo read_image_info(const std::string& path);
 
-/// Texels of a picture's content: PNG (8 bits a channel) and JPEG as rgba8, EXR (R, G, B, perhaps A) as rgba16f or
-/// rgba32f. `where` stands in errors, as read_planes() has them; Error(limit) too where it would take over
-/// `most_bytes`.
-Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes);
+/// Texels of a picture's content: PNG as rgba8, or rgba16 where its channels have 16 bits; JPEG as rgba8; EXR (R, G, B,
+/// perhaps A) as rgba16f or rgba32f. `where` stands in errors, as read_planes() has them; Error(limit) too where it would
+/// take over `most_bytes`.
+Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes,
+                   uint64_t most_expansion = kMostExpansion);
 
 /// The planes of a PNG or EXR made by whomever, under the names that write_image's callers give them: `color` (R G B
 /// A), depth (depth.Z), position (P.X..), normal (N.X..), albedo, uv, id.object, id.material, light.count; whichever
 /// are there. Other channels of an EXR are passed over. Values are those of the file: half, float or uint (d32f, rg32f
-/// where a plane has so few components; halves of those are widened). A PNG is rgba8 or rgba16, as its channels have 8 or
-/// 16 bits: codes as they are stored, whatever they are tagged as; grey spread over R, G and B; alpha 1 where there is
-/// none, which read_image_info() tells. Memory grows with the rows decoded. Error(bad_input): not such a file, torn, a plane without all its channels,
-/// tiles, parts, crops, no plane at all. Error(limit): over 16384 pixels a side or 4 GiB decoded. Error(io): cannot be
-/// read.
-std::vector<NamedImage> read_planes(const std::string& path);
+/// where a plane has so few components; halves of those are widened). A PNG is rgba8 or, of 16
+/// bits a channel, rgba16: codes as they are stored (png_pixels.h), whatever they are tagged as; alpha 1 where there is
+/// none, which read_image_info() tells. Memory grows with the rows decoded. Error(bad_input): no file, not such a file,
+/// torn, a plane without all its channels, tiles, parts, crops, no plane at all. Error(limit): over 16384 pixels a side
+/// or 4 GiB decoded, over `most_expansion`, over the memory cap. Error(io): cannot be read.
+std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion = kMostExpansion);
 
 }  // namespace trueshade

@@ -1,9 +1,13 @@
 // The reading of EXR and JPEG files for programs that load OpenImageIO only when they need it. The module is looked for
 // beside the program, then where `cmake --install` puts it.
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <filesystem>
+#include <latch>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "core/image_files/image_io_table.h"
@@ -16,7 +20,43 @@ std::filesystem::path program_folder() {
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+Error out_of_memory(const char* where, const char* reason, const char* remedy) {
+  return {ErrorKind::out_of_memory, where, reason, remedy};
+}
+
+/// Starts as many threads at once as OpenImageIO and OpenEXR do for their pools (6 on 2 cores), and ends them. Where
+/// the libraries' own cannot be started, their initializers wait forever or end the process by a signal.
+void check_threads() {
+  const unsigned most = 2 * std::thread::hardware_concurrency() + 4;
+  std::latch all_tried(1);
+  std::vector<std::thread> threads;
+  bool missing = false;
+  try {
+    threads.reserve(most);
+    for (unsigned i = 0; i < most; ++i) threads.emplace_back([&all_tried] { all_tried.wait(); });
+  } catch (const std::system_error&) {
+    missing = true;
+  }
+  all_tried.count_down();
+  for (std::thread& thread : threads) thread.join();
+  if (missing)
+    throw out_of_memory("threads", "the system starts no more, and OpenImageIO needs some to read this picture",
+                        "raise the limit on processes (ulimit -u), or end others");
+}
+
+/// Whether the process may have as much address space as loading takes.
+bool has_address_space() {
+  constexpr size_t kBytes = size_t(320) << 20;
+  void* const probe = mmap(nullptr, kBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (probe == MAP_FAILED) return false;
+  munmap(probe, kBytes);
+  return true;
+}
+
 const ImageIoTable& loaded_table() {
+  check_threads();
+  if (!has_address_space())
+    throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   std::string reason = "it is not there";
   for (const char* folder : {".", "../lib/trueshade", "../" TRUESHADE_LIBDIR "/trueshade"}) {
     const std::filesystem::path path = program_folder() / folder / kImageIoModule;
@@ -27,6 +67,8 @@ const ImageIoTable& loaded_table() {
         module == nullptr ? nullptr : reinterpret_cast<ImageIoTableFunction>(dlsym(module, kImageIoTableSymbol));
     if (table != nullptr) return *table();
     reason = dlerror();
+    if (reason.find("failed to map") != std::string::npos || reason.find("cannot allocate") != std::string::npos)
+      throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   }
   throw Error(ErrorKind::io, kImageIoModule, "cannot be loaded: " + reason,
               "install Trueshade whole, with OpenImageIO");

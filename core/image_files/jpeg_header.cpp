@@ -24,6 +24,7 @@ size_t word_at(std::span<const uint8_t> bytes, size_t at) { return size_t(bytes[
 
 JpegSize frame_size(const std::string& where, std::span<const uint8_t> segment, uint8_t marker) {
   if (marker > 0xC2) throw refused(where, "it is neither a baseline nor a progressive JPEG");
+  if (segment.size() >= 6 && segment[5] == 4) throw refused(where, "it is a JPEG of four inks, CMYK or YCCK");
   if (segment.size() < 6 || segment[0] != 8 || (segment[5] != 1 && segment[5] != 3))
     throw refused(where, "it is not a JPEG of 8 bits with one or three components");
   return {int(word_at(segment, 3)), int(word_at(segment, 1))};

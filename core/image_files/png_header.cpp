@@ -13,29 +13,30 @@ namespace {
 
 std::string text_of(std::span<const uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
 
-void read_size_and_channels(std::span<const uint8_t> data, ImageFileInfo& header) {
+/// The colour types, and which numbers of bits each has (table 11.1). Bit k of `depths` stands for k bits.
+struct PngColorType {
+  uint8_t number;
+  std::string_view channels;
+  uint32_t depths;
+};
+constexpr uint32_t k8Or16 = 1u << 8 | 1u << 16, kUpTo8 = 1u << 1 | 1u << 2 | 1u << 4 | 1u << 8;
+constexpr PngColorType kColorTypes[] = {{0, "Y", kUpTo8 | 1u << 16},
+                                        {2, "RGB", k8Or16},
+                                        {3, "P", kUpTo8},  // an index into a palette
+                                        {4, "YA", k8Or16},
+                                        {6, "RGBA", k8Or16}};
+
+/// False for a colour type or a depth that PNG does not have.
+bool read_size_and_channels(std::span<const uint8_t> data, ImageFileInfo& header) {
   header.width = int(png_word_at(data, 0));
   header.height = int(png_word_at(data, 4));
-  const std::string depth = " uint" + std::to_string(int(data[8]));
-  std::string_view names;
-  switch (data[9]) {
-    case 0:
-      names = "Y";
-      break;
-    case 2:
-      names = "RGB";
-      break;
-    case 3:
-      names = "P";
-      break;  // an index into a palette
-    case 4:
-      names = "YA";
-      break;
-    default:
-      names = "RGBA";
-      break;
+  const uint8_t bits = data[8];
+  for (const PngColorType& type : kColorTypes) {
+    if (type.number != data[9] || bits > 16 || (type.depths >> bits & 1) == 0) continue;
+    for (const char name : type.channels) header.channels.push_back(name + (" uint" + std::to_string(int(bits))));
+    return true;
   }
-  for (const char name : names) header.channels.push_back(name + depth);
+  return false;
 }
 
 /// Keyword and text of an iTXt that is not compressed.
@@ -78,7 +79,8 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
     if (type == "IHDR") {
       if (length != 13 || png_word_at(data, 0) - 1 > 0x7ffffffeu || png_word_at(data, 4) - 1 > 0x7ffffffeu)
         throw refuse(at, "the IHDR has not 13 bytes or a side out of range");
-      read_size_and_channels(data, header);
+      if (!read_size_and_channels(data, header))
+        throw refuse(at, "the IHDR has a colour type or a bit depth that PNG does not know");
     } else if (type == "tEXt") {
       const auto key_end = std::find(data.begin(), data.end(), uint8_t(0));
       if (key_end == data.end()) throw refuse(at, "a tEXt chunk has no end of its keyword");

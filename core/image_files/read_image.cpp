@@ -10,18 +10,20 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/image_files/exr_layout.h"
 #include "core/image_files/exr_planes.h"
 #include "core/image_files/image_io.h"
 #include "core/image_files/jpeg_pixels.h"
 #include "core/image_files/png_header.h"
 #include "core/image_files/png_pixels.h"
 #include "core/image_files/size_limits.h"
+#include "core/memory_cap.h"
+#include "core/picture_kind.h"
 
 namespace trueshade {
 namespace {
 
 constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
-constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kExr = "\x76\x2f\x31\x01", kJpeg = "\xff\xd8\xff";
 
 std::vector<uint8_t> read_bytes(const std::string& path) {
   const auto fail = [&path](const char* step) -> Error {
@@ -32,9 +34,11 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* file) { close(*file); });
   struct stat status {};
   if (fstat(descriptor, &status) != 0) throw fail("read it");
-  if (!S_ISREG(status.st_mode)) throw Error(ErrorKind::io, path, "it is not a regular file", "name an image file");
+  if (!S_ISREG(status.st_mode))
+    throw Error(ErrorKind::bad_input, path, "this is no regular file", "name an image file");
   if (uint64_t(status.st_size) > kMaxFileBytes)
     throw Error(ErrorKind::limit, path, "the file is over 4 GiB", "give a smaller one");
+  require_memory(uint64_t(status.st_size), path, "the file");
   std::vector<uint8_t> bytes(size_t(status.st_size));
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t got = read(descriptor, bytes.data() + done, bytes.size() - done);
@@ -46,15 +50,38 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   return bytes;
 }
 
-bool starts_with(std::span<const uint8_t> bytes, std::string_view magic) {
-  return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+/// Before pixels are decoded: `texel_bytes` is what a pixel takes then, and `copies` how often it is held at once.
+void check_decoded(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t copies,
+                   std::span<const uint8_t> encoded, uint64_t most_expansion) {
+  check_size(where, width, height, texel_bytes);
+  const uint64_t decoded = uint64_t(width) * uint64_t(height) * texel_bytes;
+  if (is_expanded(decoded, encoded.size(), most_expansion))
+    throw Error(ErrorKind::limit, where,
+                std::to_string(encoded.size()) + " bytes hold a picture of " + std::to_string(decoded) +
+                    ", over --max-expansion " + std::to_string(most_expansion),
+                "a smaller picture, or a higher --max-expansion");
+  require_memory(copies * decoded, where, "the picture");
 }
 
-std::vector<NamedImage> png_planes(const std::string& path, std::span<const uint8_t> bytes) {
+constexpr uint64_t kOpenImageIo = uint64_t(140) << 20;  ///< what loading it takes
+
+/// exr_planes() of a file whose header is right, after it is known what that takes.
+std::vector<NamedImage> checked_planes(const std::string& where, std::span<const uint8_t> bytes,
+                                       uint64_t most_expansion) {
+  const ExrLayout layout = exr_layout(where, bytes);
+  check_decoded(where, layout.width, layout.height, layout.pixel_bytes, 2, bytes, most_expansion);
+  require_memory(kOpenImageIo, where, "the library that reads the picture");
+  return exr_planes(where, bytes);
+}
+
+/// What decoding a PNG makes of a texel.
+uint64_t texel_bytes_of(const ImageFileInfo& png) { return png.channels[0].ends_with("uint16") ? 8 : 4; }
+
+std::vector<NamedImage> png_planes(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
   const ImageFileInfo header = png_header(path, bytes);
-  check_size(path, header.width, header.height, 8);
+  check_decoded(path, header.width, header.height, texel_bytes_of(header), 1, bytes, most_expansion);
   std::vector<NamedImage> planes;
-  planes.push_back({"color", png_pixels(path, bytes, PngDepths::of_8_or_16)});
+  planes.push_back({"color", png_pixels(path, bytes)});
   return planes;
 }
 
@@ -75,11 +102,17 @@ Image with_alpha(const Image& rgb) {
 void check_budget(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t most_bytes) {
   check_size(where, width, height, texel_bytes);
   if (uint64_t(width) * uint64_t(height) * texel_bytes > most_bytes)
-    throw Error(ErrorKind::limit, where, "with it the pictures are over the limit of decoded bytes", "smaller ones");
+    throw Error(ErrorKind::limit, where, "with it the pictures are over the limit of decoded bytes",
+                "smaller ones, or a higher --max-texture-memory");
 }
 
-Image exr_color(const std::string& where, std::span<const uint8_t> content) {
-  for (NamedImage& plane : exr_planes(where, content)) {
+Error wrong_kind(const std::string& where, std::string_view kind, const std::string& readable) {
+  return bad_image(where, kind.empty() ? "it is neither " + readable : "the picture is " + std::string(kind),
+                   "give one that is " + (readable == "PNG nor EXR" ? std::string("PNG or EXR") : "PNG, JPEG or EXR"));
+}
+
+Image exr_color(const std::string& where, std::span<const uint8_t> content, uint64_t most_expansion) {
+  for (NamedImage& plane : checked_planes(where, content, most_expansion)) {
     if (plane.name != "color") continue;
     return info(plane.image.format).channels == 3 ? with_alpha(plane.image) : std::move(plane.image);
   }
@@ -91,35 +124,44 @@ Image exr_color(const std::string& where, std::span<const uint8_t> content) {
 ImageFileInfo read_image_info(const std::string& path) {
   const FpScope fp;
   const std::vector<uint8_t> bytes = read_bytes(path);
-  if (starts_with(bytes, kPng)) return png_header(path, bytes);
-  if (starts_with(bytes, kExr)) return exr_header(path, bytes);
-  throw Error(ErrorKind::bad_input, path, "it is neither PNG nor EXR", "give one of these");
+  const std::string_view kind = picture_kind(bytes);
+  if (kind == "PNG") return png_header(path, bytes);
+  if (kind != "OpenEXR") throw wrong_kind(path, kind, "PNG nor EXR");
+  exr_layout(path, bytes);
+  require_memory(kOpenImageIo, path, "the library that reads the picture");
+  return exr_header(path, bytes);
 }
 
-Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
+Image decode_image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes,
+                   uint64_t most_expansion) {
   const FpScope ieee;
-  if (starts_with(content, kPng)) {
+  const std::string_view kind = picture_kind(content);
+  if (kind == "PNG") {
     const ImageFileInfo header = png_header(where, content);
-    check_budget(where, header.width, header.height, 4, most_bytes);
-    return png_pixels(where, content, PngDepths::of_8);
+    check_budget(where, header.width, header.height, texel_bytes_of(header), most_bytes);
+    check_decoded(where, header.width, header.height, texel_bytes_of(header), 1, content, most_expansion);
+    return png_pixels(where, content);
   }
-  if (starts_with(content, kJpeg)) {
+  if (kind == "JPEG") {
     const JpegSize size = jpeg_size(where, content);
     check_budget(where, size.width, size.height, 4, most_bytes);
+    check_decoded(where, size.width, size.height, 4, 2, content, most_expansion);
+    require_memory(kOpenImageIo, where, "the library that reads the picture");
     return jpeg_pixels(where, content);
   }
-  if (!starts_with(content, kExr)) throw bad_image(where, "it is neither PNG, JPEG nor EXR", "give one of these");
-  const ImageFileInfo header = exr_header(where, content);
-  check_budget(where, header.width, header.height, 16, most_bytes);
-  return exr_color(where, content);
+  if (kind != "OpenEXR") throw wrong_kind(where, kind, "PNG, JPEG nor EXR");
+  const ExrLayout layout = exr_layout(where, content);
+  check_budget(where, layout.width, layout.height, 16, most_bytes);
+  return exr_color(where, content, most_expansion);
 }
 
-std::vector<NamedImage> read_planes(const std::string& path) {
+std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion) {
   const FpScope ieee;
   const std::vector<uint8_t> bytes = read_bytes(path);
-  if (starts_with(bytes, kPng)) return png_planes(path, bytes);
-  if (starts_with(bytes, kExr)) return exr_planes(path, bytes);
-  throw bad_image(path, "it is neither PNG nor EXR", "give one of these");
+  const std::string_view kind = picture_kind(bytes);
+  if (kind == "PNG") return png_planes(path, bytes, most_expansion);
+  if (kind == "OpenEXR") return checked_planes(path, bytes, most_expansion);
+  throw wrong_kind(path, kind, "PNG nor EXR");
 }
 
 }  // namespace trueshade

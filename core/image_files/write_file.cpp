@@ -1,11 +1,16 @@
+#include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
@@ -52,10 +57,30 @@ std::string temporary_name(const std::string& path, int attempt) {
   return folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
 }
 
+/// Removes temporaries that processes left which were killed between naming a file and moving it to its place. A
+/// temporary belongs to a process that is there, or holds its lock, until neither is so.
+void remove_abandoned(const std::string& folder) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
+  if (!entries) return;  // a folder may be writable and not readable
+  while (const dirent* entry = readdir(entries.get())) {
+    int owner = 0, attempt = 0, end = 0;
+    if (std::sscanf(entry->d_name, ".trueshade-%d-%d.tmp%n", &owner, &attempt, &end) != 2 || end == 0 ||
+        entry->d_name[end] != '\0' || owner <= 0 || kill(owner, 0) == 0 || errno != ESRCH)
+      continue;
+    const int file = openat(dirfd(entries.get()), entry->d_name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) continue;
+    struct stat status {};
+    if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && flock(file, LOCK_EX | LOCK_NB) == 0)
+      unlinkat(dirfd(entries.get()), entry->d_name, 0);
+    close(file);
+  }
+}
+
 /// What a path that may be written stands for.
 struct Destination {
-  bool stream;       ///< a device or a pipe: bytes go into it, and nothing takes its place
-  std::string path;  ///< with no link at its end
+  bool stream;                   ///< a device or a pipe: bytes go into it, and nothing takes its place
+  std::string path;              ///< with no link at its end
+  std::optional<mode_t> mode{};  ///< permissions of the file that is there
 };
 
 /// Where links lead, also to what is not there yet.
@@ -83,7 +108,7 @@ Destination destination_of(const std::string& path) {
   if (S_ISDIR(there.st_mode)) fail(path, "write", EISDIR);
   if (!S_ISREG(there.st_mode))
     throw Error(ErrorKind::io, path, "is neither a file nor a stream of bytes", "choose another name");
-  return {false, followed(path)};
+  return {false, followed(path), there.st_mode & 0777};
 }
 
 void write_bytes(int descriptor, const std::string& path, std::span<const uint8_t> bytes) {
@@ -109,12 +134,14 @@ void write_stream(const std::string& path, const FilePieces& pieces) {
 class Temporary {
  public:
   explicit Temporary(const std::string& path) : path_(path) {
+    remove_abandoned(folder_of(path));
     descriptor_ = open(folder_of(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
       name_ = temporary_name(path, attempt);
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
       if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail(path, "create a file in its folder", errno);
     }
+    flock(descriptor_, LOCK_EX | LOCK_NB);  // nobody else has it; where there are no locks, the process's number serves
   }
   ~Temporary() {
     if (descriptor_ >= 0) close(descriptor_);
@@ -125,6 +152,11 @@ class Temporary {
 
   void write_all(const FilePieces& pieces) {
     for (const std::span<const uint8_t> piece : pieces) write_bytes(descriptor_, path_, piece);
+  }
+
+  /// The permissions of the file that it takes the place of, where the system allows.
+  void take_mode(mode_t mode) {
+    if (fchmod(descriptor_, mode) != 0 && errno != EPERM && errno != ENOTSUP) fail(path_, "give it its mode", errno);
   }
 
   /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
@@ -168,6 +200,7 @@ void write_file(const std::string& path, const FilePieces& pieces) {
   const Destination to = destination_of(path);
   if (to.stream) return write_stream(to.path, pieces);
   Temporary file(to.path);
+  if (to.mode) file.take_mode(*to.mode);
   file.write_all(pieces);
   file.take_name();
 }

@@ -2,66 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
+#include <system_error>
 #include <thread>
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif
 
-// Debian's TBB is not built for ThreadSanitizer, which then sees races that are none. Under it, plain threads serve.
-#if defined(__SANITIZE_THREAD__)
-#define TRUESHADE_PLAIN_THREADS 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define TRUESHADE_PLAIN_THREADS 1
-#endif
-#endif
-#ifndef TRUESHADE_PLAIN_THREADS
-#define TRUESHADE_PLAIN_THREADS 0
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
-#include <optional>
-#endif
-
 namespace trueshade {
 namespace {
-
-#if TRUESHADE_PLAIN_THREADS
-template <class Task>
-void start(int, const Task& task) {
-  std::thread(task).detach();
-}
-#else
-/// Where TBB's threads come to: room for the most helpers that any loop has asked for.
-class Arena {
- public:
-  template <class Task>
-  void start(int helpers, const Task& task) {
-    const std::lock_guard lock(mutex_);
-    if (helpers > room_) {
-      room_ = helpers;
-      arena_.terminate();  // threads that are in it stay
-      // An arena holds the number down by itself; only more threads than cores need the process's limit raised.
-      if (helpers >= thread_count(0)) more_.emplace(tbb::global_control::max_allowed_parallelism, size_t(helpers) + 1);
-      arena_.initialize(helpers, 0);
-    }
-    arena_.enqueue(task);
-  }
-
- private:
-  std::mutex mutex_;
-  int room_ = 0;
-  tbb::task_arena arena_;
-  std::optional<tbb::global_control> more_;
-};
-
-template <class Task>
-void start(int helpers, const Task& task) {
-  static Arena& arena = *new Arena;  // never destroyed, as the pool
-  arena.start(helpers, task);
-}
-#endif
 
 void pause_core() {
 #if defined(__x86_64__)
@@ -90,7 +40,7 @@ constexpr std::chrono::microseconds kLookForWork{100}, kLookForEnd{2000};
 
 }  // namespace
 
-// Never destroyed: TBB's threads may look in while the process ends.
+// Never destroyed: its threads may look in while the process ends.
 ThreadPool& ThreadPool::shared() {
   static ThreadPool& pool = *new ThreadPool;
   return pool;
@@ -111,7 +61,36 @@ void ThreadPool::rouse(int helpers) {
   // Counted once: threads that leave for want of work while others are still being asked for are not replaced.
   for (int missing = helpers - serving_; missing > 0; --missing) {
     ++serving_;
-    start(helpers, [this] { serve(); });
+    if (call_helper()) continue;
+    --serving_;
+    return;
+  }
+}
+
+bool ThreadPool::call_helper() {
+  const std::lock_guard lock(parking_);
+  if (called_ < parked_) {
+    ++called_;
+    wake_.notify_one();
+    return true;
+  }
+  try {
+    std::thread([this] { live(); }).detach();
+  } catch (const std::system_error&) {  // the system's limit on threads, or no memory for a stack
+    return false;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
+void ThreadPool::live() {
+  while (true) {
+    serve();
+    std::unique_lock lock(parking_);
+    ++parked_;
+    wake_.wait(lock, [this] { return called_ > 0; });
+    --called_, --parked_;
   }
 }
 

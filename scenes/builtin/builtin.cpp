@@ -96,7 +96,7 @@ class SpecReader {
         p.lights = uint32_t(number(key, value, 0, UINT32_MAX));
         if (*p.lights > limits.lights)
           throw Error(ErrorKind::limit, where(), "lights=" + std::string(value) + " is over the limit of lights",
-                      "at most " + std::to_string(limits.lights));
+                      within_limit(limits.lights, "", "--max-lights"));
       } else if (key == "objects" && row.most_objects > 0 && !p.objects) {
         p.objects = uint32_t(number(key, value, 1, row.most_objects));
       } else if (key == "seed" && !has_seed) {

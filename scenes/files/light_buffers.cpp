@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "scenes/scene_limits.h"
 
 namespace trueshade {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::string_view kSeparators = ",;\t ";
 
 void check_count(uint64_t count, const std::string& where, uint64_t most) {
   if (count > most)
-    throw Error(ErrorKind::limit, where, "the lights are over the limit", "at most " + std::to_string(most));
+    throw Error(ErrorKind::limit, where, "the lights are over the limit", within_limit(most, "more", "--max-lights"));
 }
 
 /// The fields of a line: empty ones only between separators that are no blanks.

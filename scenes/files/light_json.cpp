@@ -160,7 +160,7 @@ template <typename Generator>
 void read_shared(const json::Node& node, Generator& out, size_t lights, const SceneLimits& limits) {
   out.count = uint32_t(node.member("count").integer(1, UINT32_MAX));
   if (lights + out.count > limits.lights)
-    node.fail("the lights are over the limit", "at most " + std::to_string(limits.lights), ErrorKind::limit);
+    node.fail("the lights are over the limit", within_limit(limits.lights, "", "--max-lights"), ErrorKind::limit);
   out.intensity = real_or(node, "intensity", 1.0, 0.0, json::kLargest);
   out.noise = real_or(node, "noise", 0.0, 0.0, 1.0);
   if (const auto seed = node.find("seed")) out.seed = uint64_t(seed->integer(0, 9007199254740991));
@@ -232,7 +232,7 @@ std::vector<glm::vec3> read_buffer(const json::Node& lights, std::string_view ke
     std::vector<glm::vec3> samples;
     const size_t count = node->array(0, SIZE_MAX).size();
     if (count > source.most)
-      node->fail("the lights are over the limit", "at most " + std::to_string(source.most), ErrorKind::limit);
+      node->fail("the lights are over the limit", within_limit(source.most, "more", "--max-lights"), ErrorKind::limit);
     for (size_t i = 0; i < count; ++i) samples.push_back(node->element(i).vec3(least, json::kLargest));
     return samples;
   }

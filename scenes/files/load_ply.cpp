@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/files/ply_header.h"
 
 namespace trueshade {
@@ -173,7 +174,8 @@ const Property* find(const Element& element, std::string_view name) {
 template <typename Source>
 class Reader {
  public:
-  Reader(Source source, const ply::Header& header, Mesh& mesh) : source_(source), header_(header), mesh_(mesh) {}
+  Reader(Source source, const ply::Header& header, std::string_view where, Mesh& mesh)
+      : source_(source), header_(header), where_(where), mesh_(mesh) {}
 
   /// Whether the file had normals.
   bool read() {
@@ -262,6 +264,7 @@ class Reader {
 
   void read_vertices(const Element& element) {
     std::vector<Target> targets(element.properties.size());
+    require_memory(element.count * sizeof(float) * std::min<size_t>(targets.size(), kMostStreams), where_, "its vertices");
     assign<3>(element, targets, {"x", "y", "z"}, mesh_.position, true);
     has_normals_ = assign<3>(element, targets, {"nx", "ny", "nz"}, mesh_.normal, false);
     assign<2>(element, targets, {"u", "v"}, mesh_.uv, false) ||
@@ -304,6 +307,7 @@ class Reader {
     const uint64_t corners = list_length(property);
     if (corners < 3)
       source_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners", "3 or more");
+    make_room(3 * (corners - 2));
     uint32_t first = 0, previous = 0;
     for (uint64_t i = 0; i < corners; ++i) {
       const double index = source_.value(property.type);
@@ -318,11 +322,30 @@ class Reader {
     }
   }
 
+  /// Before indices grow, which doubles them.
+  void make_room(uint64_t more) {
+    const uint64_t needed = mesh_.indices.size() + more;
+    if (needed <= mesh_.indices.capacity()) return;
+    const uint64_t room = std::max<uint64_t>(needed, 2 * mesh_.indices.size());
+    require_memory(room * sizeof(uint32_t), where_, "its triangles");
+    mesh_.indices.reserve(size_t{room});
+  }
+
+  static constexpr size_t kMostStreams = 12;  // position, normal, uv, colour
   Source source_;
   const ply::Header& header_;
+  std::string_view where_;
   Mesh& mesh_;
   bool has_normals_ = false;
 };
+
+/// Numbers that a vertex has, with a normal.
+uint64_t streams_of(const Mesh& mesh) {
+  uint64_t streams = 6;
+  for (const auto& stream : mesh.uv) streams += !stream.empty();
+  for (const auto& stream : mesh.color) streams += !stream.empty();
+  return streams;
+}
 
 }  // namespace
 
@@ -330,9 +353,13 @@ Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, Missin
   const ply::Header header = ply::header_of(file, where);
   Mesh mesh;
   const bool has_normals = header.encoding == Encoding::ascii
-                               ? Reader<TextSource>(TextSource(file, header, where), header, mesh).read()
-                               : Reader<BinarySource>(BinarySource(file, header, where), header, mesh).read();
-  if (!has_normals) add_normals(mesh, missing_normals);
+                               ? Reader<TextSource>(TextSource(file, header, where), header, where, mesh).read()
+                               : Reader<BinarySource>(BinarySource(file, header, where), header, where, mesh).read();
+  if (!has_normals) {
+    const uint64_t corners = missing_normals == MissingNormals::flat ? mesh.indices.size() : 0;
+    require_memory(corners * sizeof(float) * streams_of(mesh) + 36 * uint64_t(mesh.vertex_count()), where, "its normals");
+    add_normals(mesh, missing_normals);
+  }
   return mesh;
 }
 

@@ -35,13 +35,13 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
   if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
   if (spec.ends_with(".json")) {
-    const Bytes text = read_user_file(spec, limits.json_bytes);
+    const Bytes text = read_user_file(spec, limits.json_bytes, "--max-json");
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode);
   } else if (is_gltf_name(spec)) {
     scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);
   } else if (is_geometry_name(spec)) {
     scene = scene_of(
-        mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits.file_bytes, MissingNormals::smooth));
+        mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits, MissingNormals::smooth));
   } else {
     const auto& known = builtin_scenes();
     const std::string name = spec.substr(0, spec.find(','));

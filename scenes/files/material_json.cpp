@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "scenes/trig.h"
 
@@ -14,13 +15,12 @@ const json::ObjectKeys kTexture{"texture", kTextureKeys}, kPattern{"pattern", kP
     kMaterial{"material", kMaterialKeys};
 
 /// Texels of a decoded picture, whose rows run from the top, with the row of v = 0 first.
-TextureLevel level_of(const Image& image, bool upper_left) {
-  TextureLevel level{image.width, image.height, image.texels};
-  if (upper_left) return level;
-  const size_t row = image.row_bytes();
-  for (size_t y = 0; y < size_t(image.height); ++y)
-    std::memcpy(level.bytes.data() + y * row, image.texels.data() + (size_t(image.height) - 1 - y) * row, row);
-  return level;
+TextureLevel level_of(Image image, bool upper_left) {
+  const size_t row = image.row_bytes(), rows = size_t(image.height);
+  uint8_t* const texels = image.texels.data();
+  for (size_t y = 0; y < rows / 2 && !upper_left; ++y)
+    std::swap_ranges(texels + y * row, texels + (y + 1) * row, texels + (rows - 1 - y) * row);
+  return {image.width, image.height, std::move(image.texels)};
 }
 
 template <class Enum>
@@ -67,19 +67,32 @@ TextureLevel MaterialReader::read_level(const json::Node& file, bool upper_left,
   if (!decode_) file.fail("this program reads no image files", "a pattern");
   const std::string relative = relative_path_from_uri(file.string(), where);
   const Bytes content = folder_.read(relative, limits_.file_bytes, where);
-  const Image image = decode_(content, where + ": " + relative, limits_.texture_bytes - bytes_);
-  const bool codes = image.format == Format::rgba8;
+  Image image =
+      decode_(content, where + ": " + relative, limits_.texture_bytes - std::min(bytes_, limits_.texture_bytes));
+  const bool wide = image.format == Format::rgba16, codes = wide || image.format == Format::rgba8;
   if (!codes && image.format != Format::rgba16f && image.format != Format::rgba32f)
-    file.fail("its texels are neither 8 bits nor half or float with RGBA", "PNG, JPEG, or an EXR with R, G, B, A");
+    file.fail("its texels are neither codes nor half or float with RGBA", "PNG, JPEG, or an EXR with R, G, B, A");
   if (!codes && encoding == "srgb") file.fail("a picture of floats is linear", "no encoding, or linear");
-  const TextureFormat here = image.format == Format::rgba32f   ? TextureFormat::rgba32f
-                             : image.format == Format::rgba16f ? TextureFormat::rgba16f
-                             : encoding == "linear"            ? TextureFormat::rgba8
-                                                               : TextureFormat::srgb8_a8;
+  const TextureFormat here = wide || image.format == Format::rgba32f ? TextureFormat::rgba32f
+                             : image.format == Format::rgba16f       ? TextureFormat::rgba16f
+                             : encoding == "linear"                  ? TextureFormat::rgba8
+                                                                     : TextureFormat::srgb8_a8;
   if (has_format && format != here) file.fail("the levels have different formats", "levels of one format");
   format = here, has_format = true;
-  bytes_ += image.texels.size();
-  return level_of(image, upper_left);
+  take(texture_bytes(image.width, image.height, here, MipChain::none), file);
+  TextureLevel level = level_of(std::move(image), upper_left);
+  if (wide)
+    level.bytes =
+        float_texels_of_16_bits(level.bytes, encoding == "linear" ? CodeEncoding::linear : CodeEncoding::srgb);
+  return level;
+}
+
+void MaterialReader::take(uint64_t bytes, const json::Node& node) {
+  bytes_ += bytes;
+  if (bytes_ > limits_.texture_bytes)
+    node.fail("with its " + std::to_string(bytes) + " bytes the textures are over the limit",
+              within_limit(limits_.texture_bytes, "bytes in all", "--max-texture-memory"), ErrorKind::limit);
+  require_memory(bytes, path_ + ": " + node.pointer(), "the texture");
 }
 
 Texture MaterialReader::read_texture(const json::Node& node) {
@@ -91,7 +104,9 @@ Texture MaterialReader::read_texture(const json::Node& node) {
   if (pattern) {
     if (encoding) encoding->fail("a pattern has a format", "remove it");
     if (origin) origin->fail("a pattern has its origin at uv (0, 0)", "remove it");
-    return texture_of(read_pattern(*pattern));
+    const TexturePattern made = read_pattern(*pattern);
+    take(texture_bytes(made.width, made.height, made.format, MipChain::none), *pattern);
+    return texture_of(made);
   }
   constexpr std::string_view kEncodings[] = {"srgb", "linear"}, kOrigins[] = {"lower_left", "upper_left"};
   const std::string how = encoding ? std::string(kEncodings[encoding->choice(kEncodings)]) : "";
@@ -180,13 +195,20 @@ Material MaterialReader::read_material(const json::Node& node) const {
   return material;
 }
 
-void MaterialReader::complete_mip_chains() const {
+void MaterialReader::complete_mip_chains(const json::Node& materials) {
   for (const Material& material : scene_.materials)
-    for (const TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map,
-                                    &material.metallic_roughness_map, &material.emission_map, &material.occlusion_map})
-      if (slot->used() && slot->sampler.mip_filter != MipFilter::none)
-        if (Texture& texture = scene_.textures[size_t(slot->texture)]; texture.levels.size() == 1)
-          build_mip_chain(texture);
+    for (const TextureSlot* slot :
+         {&material.color_map, &material.specular_map, &material.normal_map, &material.metallic_roughness_map,
+          &material.emission_map, &material.occlusion_map}) {
+      if (!slot->used() || slot->sampler.mip_filter == MipFilter::none) continue;
+      Texture& texture = scene_.textures[size_t(slot->texture)];
+      if (texture.levels.size() != 1) continue;
+      const auto bytes = [&](MipChain chain) {
+        return texture_bytes(texture.levels[0].width, texture.levels[0].height, texture.format, chain);
+      };
+      take(bytes(MipChain::whole) - bytes(MipChain::none), materials);
+      build_mip_chain(texture);
+    }
 }
 
 }  // namespace trueshade

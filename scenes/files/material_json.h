@@ -46,7 +46,12 @@ class MaterialReader {
   Material read_material(const json::Node& node) const;
 
   /// Builds the levels that lookups between levels need and no file gave. After the last material.
-  void complete_mip_chains() const;
+  void complete_mip_chains(const json::Node& materials);
+
+  /// Counts bytes of textures. Error(limit) naming `node` before memory for them is taken.
+  void take(uint64_t bytes, const json::Node& node);
+  void count(uint64_t bytes) { bytes_ += bytes; }  ///< of textures that others have read within what was left
+  uint64_t bytes() const { return bytes_; }
 
  private:
   Texture read_texture(const json::Node& node);
@@ -59,7 +64,7 @@ class MaterialReader {
   const SceneFolder& folder_;
   const SceneLimits& limits_;
   const ImageDecoder& decode_;
-  uint64_t bytes_ = 0;  ///< of all levels read
+  uint64_t bytes_ = 0;  ///< of all levels
   std::map<std::string, int32_t, std::less<>> named_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/files/gltf/gltf_geometry.h"
@@ -129,7 +130,7 @@ void ObjectReader::read_materials(const json::Node& list) {
       node.fail("a material of this name exists", "another name");
     scene_.materials.push_back(std::move(material));
   }
-  surfaces_.complete_mip_chains();
+  surfaces_.complete_mip_chains(list);
 }
 
 void ObjectReader::read_objects(const json::Node& list) {
@@ -181,7 +182,10 @@ void ObjectReader::add_grid(const json::Node& node, std::vector<Instance> instan
   const uint64_t copies = uint64_t(grid.count[0]) * grid.count[1];  // below 2^48
   const uint64_t room = limits_.instances - std::min<uint64_t>(limits_.instances, scene_.instances.size());
   if (copies > room || copies * grid.count[2] > room / std::max<size_t>(instances.size(), 1))
-    node.fail("the objects are over the limit", "at most " + std::to_string(limits_.instances), ErrorKind::limit);
+    node.fail("the objects are over the limit", within_limit(limits_.instances, "", "--max-instances"), ErrorKind::limit);
+  require_memory(copies * grid.count[2] * instances.size() * kDrawnInstanceBytes, path_ + ": " + node.pointer(),
+                 "drawing the objects");
+  scene_.instances.reserve(scene_.instances.size() + size_t(copies * grid.count[2] * instances.size()));
   Pcg32 random(grid.seed, 10);
   uint32_t cell[3];
   for (cell[2] = 0; cell[2] < grid.count[2]; ++cell[2])
@@ -219,7 +223,7 @@ const std::vector<ObjectReader::Part>& ObjectReader::parts(const json::Node& nod
 std::vector<ObjectReader::Part> ObjectReader::parts_of_file(const std::string& file, MissingNormals missing,
                                                             const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
-  scene_.meshes.push_back(mesh_from_file(bytes, file, limits_.file_bytes, missing));
+  scene_.meshes.push_back(mesh_from_file(bytes, file, limits_, missing));
   return {{uint32_t(scene_.meshes.size() - 1), std::nullopt}};
 }
 
@@ -228,7 +232,9 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_gltf(const std::string& f
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
   const size_t slash = path_.rfind('/');
   const std::string path = slash == std::string::npos ? file : path_.substr(0, slash + 1) + file;
-  GltfGeometry geometry = geometry_of(scene_from_gltf(bytes, path, limits_, decode_));
+  SceneLimits left = limits_;
+  left.texture_bytes -= std::min(left.texture_bytes, surfaces_.bytes());
+  GltfGeometry geometry = geometry_of(scene_from_gltf(bytes, path, left, decode_));
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());
   for (Material& material : geometry.materials) {
@@ -237,7 +243,10 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_gltf(const std::string& f
       if (slot->used()) slot->texture += first_texture;
     scene_.materials.push_back(std::move(material));
   }
-  for (Texture& texture : geometry.textures) scene_.textures.push_back(std::move(texture));
+  for (Texture& texture : geometry.textures) {
+    for (const TextureLevel& level : texture.levels) surfaces_.count(level.bytes.size());
+    scene_.textures.push_back(std::move(texture));
+  }
   std::vector<Part> parts;
   for (GltfGeometry::Part& part : geometry.parts) {
     parts.push_back({uint32_t(scene_.meshes.size()), first_material + part.material});

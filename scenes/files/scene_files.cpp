@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 
 namespace trueshade {
 namespace {
@@ -36,7 +37,7 @@ class Descriptor {
 };
 
 /// Bytes of a regular file; see read_user_file().
-uint64_t checked_size(int fd, uint64_t limit, const std::string& where) {
+uint64_t checked_size(int fd, uint64_t limit, const std::string& where, std::string_view option) {
   struct stat status {};
   if (fstat(fd, &status) != 0) throw Error(ErrorKind::io, where, std::strerror(errno), "a file that can be read");
   if (!S_ISREG(status.st_mode))
@@ -44,12 +45,14 @@ uint64_t checked_size(int fd, uint64_t limit, const std::string& where) {
   const uint64_t size = uint64_t(status.st_size);
   if (size > limit)
     throw Error(ErrorKind::limit, where, std::to_string(size) + " bytes are over the limit",
-                "at most " + std::to_string(limit) + " bytes");
+                within_limit(limit, "bytes", option));
   return size;
 }
 
-Bytes content(int fd, uint64_t limit, const std::string& where) {
-  Bytes bytes(size_t(checked_size(fd, limit, where)));
+Bytes content(int fd, uint64_t limit, const std::string& where, std::string_view option) {
+  const uint64_t size = checked_size(fd, limit, where, option);
+  require_memory(size, where, "the file");
+  Bytes bytes(size_t{size});
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t got = ::read(fd, bytes.data() + done, bytes.size() - done);
     if (got < 0 && errno == EINTR) continue;
@@ -102,10 +105,10 @@ bool climbs_out(std::string_view path) {
 
 }  // namespace
 
-Bytes read_user_file(const std::string& path, uint64_t limit) {
+Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view option) {
   const Descriptor file(open(path.c_str(), kOpenFlags));
   if (file.get() < 0) throw Error(ErrorKind::io, path, std::strerror(errno), "a file that exists and can be read");
-  return content(file.get(), limit, path);
+  return content(file.get(), limit, path, option);
 }
 
 std::string relative_path_from_uri(std::string_view uri, std::string_view where) {
@@ -168,14 +171,14 @@ Bytes SceneFolder::read(const std::string& relative, uint64_t limit, std::string
   const Descriptor file(open_beneath(relative, portable));
   const std::string place = std::string(where) + ": " + relative;
   check_opened(file.get(), place);
-  return content(file.get(), limit, place);
+  return content(file.get(), limit, place, "--max-file");
 }
 
 void SceneFolder::check(const std::string& relative, uint64_t limit, std::string_view where) const {
   const Descriptor file(open_beneath(relative, false));
   const std::string place = std::string(where) + ": " + relative;
   check_opened(file.get(), place);
-  checked_size(file.get(), limit, place);
+  checked_size(file.get(), limit, place, "--max-file");
 }
 
 }  // namespace trueshade

@@ -4,14 +4,17 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/scene_limits.h"
+
 // Files a scene is made of. A scene file comes from anywhere; what it names may lie in its own folder only.
 namespace trueshade {
 
 using Bytes = std::vector<uint8_t>;
 
 /// Whole content of the regular file at `path`, which the user gave. Never waits for a pipe or device.
-/// Error(io) if it cannot be read, Error(bad_input) if it is no regular file, Error(limit) over `limit` bytes.
-Bytes read_user_file(const std::string& path, uint64_t limit);
+/// Error(io) if it cannot be read, Error(bad_input) if it is no regular file, Error(limit) over `limit` bytes, which
+/// `option` sets, if any does, or over the memory cap.
+Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view option = "--max-file");
 
 /// Path that a URI in a scene file stands for: percent-decoded and relative. Error(bad_input) behind `where` for a
 /// scheme, an absolute path, a backslash, NUL or other control character, a bad escape, or more `..` than folders
@@ -39,7 +42,8 @@ class SceneFolder {
   int folder_ = -1;
 };
 
-/// Content of a .gz file, all its members. Error(bad_input) for a broken stream, Error(limit) over `limit` bytes.
-Bytes gunzipped(const Bytes& compressed, uint64_t limit, std::string_view where);
+/// Content of a .gz file, all its members. Error(bad_input) for a broken stream; Error(limit) over limits.file_bytes, over
+/// limits.expansion, over the memory cap.
+Bytes gunzipped(const Bytes& compressed, const SceneLimits& limits, std::string_view where);
 
 }  // namespace trueshade

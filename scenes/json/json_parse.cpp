@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/json/json_value.h"
 
 namespace trueshade::json {
@@ -112,12 +113,21 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   std::vector<Value*> stack_;  // of open containers; an element moves only while its own container is closed
 };
 
+/// Bytes that the values of a text take at most while it is read: each stands in a vector, which may be three times as
+/// large as its elements while it grows; a key is a string of its own.
+uint64_t parsed_bytes(std::string_view text) {
+  uint64_t values = 1, keys = 0;
+  for (const char c : text) values += c == ',' || c == '[' || c == '{', keys += c == ':';
+  return 3 * (values * sizeof(Value) + keys * sizeof(Members::value_type)) + text.size();
+}
+
 }  // namespace
 
 Value parse(std::string_view text, std::string_view where) {
   if (text.starts_with("\xEF\xBB\xBF"))
     throw Error(ErrorKind::bad_input, std::string(where) + ": line 1, column 1",
                 "the text starts with a byte order mark", "UTF-8 without one");
+  require_memory(parsed_bytes(text), where, "its text");
   Builder builder(text, where);
   nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();

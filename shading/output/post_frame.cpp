@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/image_rows.h"
+#include "core/memory_cap.h"
 #include "scenes/light_shapes.h"
 #include "shading/output/overlay.h"
 #include "shading/output/post.h"
@@ -53,6 +54,7 @@ Image finished_image(const Scene& scene, const Pipeline& pipeline, const Executi
                      const Image* depth) {
   const FpScope fp;
   const PostChain& chain = pipeline.post;
+  require_memory(uint64_t(target.width) * uint64_t(target.height) * 4 * sizeof(float), "post", "the float picture");
   Picture picture = picture_of(target);
   if (chain.marker_radius > 0.0f)
     draw_markers(scene, pipeline_before_post(pipeline), chain.marker_radius, execution, *depth, picture);

@@ -2,9 +2,12 @@
 #include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -86,6 +89,38 @@ TEST_CASE("Pipes get the bytes, files behind links are replaced, and nothing els
   check_refused(run_command(draw(link)), 5, "link");
   std::filesystem::create_directory(folder.path("folder.png"));
   check_refused(run_command(draw(folder.path("folder.png"))), 5, "folder");
+}
+
+TEST_CASE("A file that is replaced keeps its permissions, and a new one has the user's") {
+  const ScratchFolder folder;
+  const auto mode = [&](const char* name) { return std::filesystem::status(folder.path(name)).permissions(); };
+  const auto draw = [&](const std::string& setup) {
+    REQUIRE(run_command({"render", "builtin:cornell", "--size", "8x8", "-o", "x.png"}, folder.path(""), setup).exit_code == 0);
+  };
+  draw("umask 027");
+  CHECK(mode("x.png") == std::filesystem::perms(0640));
+  std::filesystem::permissions(folder.path("x.png"), std::filesystem::perms(0600));
+  draw("umask 022");
+  CHECK(mode("x.png") == std::filesystem::perms(0600));
+}
+
+TEST_CASE("Temporaries of processes that are gone are removed, those of others and other files stay") {
+  const ScratchFolder folder;
+  const pid_t gone = fork();
+  if (gone == 0) _exit(0);
+  REQUIRE(waitpid(gone, nullptr, 0) == gone);
+  const std::string abandoned = ".trueshade-" + std::to_string(gone) + "-0.tmp",
+                    held = ".trueshade-" + std::to_string(gone) + "-1.tmp",
+                    owned = ".trueshade-" + std::to_string(getpid()) + "-0.tmp";
+  for (const std::string& name : {abandoned, held, owned, std::string(".trueshade-x.tmp"), abandoned + "x"})
+    folder.write(name, "half a picture");
+  const int lock = open(folder.path(held).c_str(), O_RDONLY);  // as a process that this one's numbers do not reach
+  REQUIRE(flock(lock, LOCK_EX | LOCK_NB) == 0);
+  output_of({"render", "builtin:cornell", "--size", "8x8", "-o", folder.path("x.png")});
+  close(lock);
+  std::vector<std::string> expected = {held, owned, ".trueshade-x.tmp", abandoned + "x", "x.png"};
+  std::sort(expected.begin(), expected.end());
+  CHECK(folder.entries() == expected);
 }
 
 TEST_CASE("A device gets the bytes and stays a device") {

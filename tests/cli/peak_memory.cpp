@@ -1,4 +1,4 @@
-// peak_memory COMMAND ARGUMENT...: runs a command and prints the most memory it had, in kB. A process that has started
+// peak_memory COMMAND ARGUMENT...: runs a command, prints the most memory it had, in kB, and ends as it did. A process that has started
 // others before cannot tell this: getrusage() gives the largest of all, and a child begins with the size of its parent.
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -15,7 +15,7 @@ int main(int count, char** arguments) {
   }
   int status = 0;
   rusage usage{};
-  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0) return 1;
+  if (child < 0 || wait4(child, &status, 0, &usage) != child || !WIFEXITED(status)) return 1;
   std::printf("peak %ld\n", usage.ru_maxrss);
-  return 0;
+  return WEXITSTATUS(status);
 }

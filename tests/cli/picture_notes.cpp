@@ -131,6 +131,8 @@ TEST_CASE("An encoding without a PNG is refused by a text about the outputs that
 
 TEST_CASE("A scene without a name is refused by its option") {
   check_refused(run_command({"render", "", "--hash"}), 2, "SCENE: its name is empty");
+  for (const char* command : {"info", "validate", "bench"})
+    check_refused(run_command({command, ""}), 2, "SCENE: its name is empty");
 }
 
 TEST_CASE("Quiet, the command says neither notes nor files, and errors all the same") {

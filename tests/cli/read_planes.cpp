@@ -141,7 +141,7 @@ TEST_CASE("files that are not a whole picture of our planes are refused") {
   write_bytes(folder.path("magic.exr"), std::string("\x76\x2f\x31\x01") + std::string(400, 'x'));
   CHECK(refusal(folder.path("magic.exr")) == ErrorKind::bad_input);
   CHECK(refusal(folder.path("absent.exr")) == ErrorKind::io);
-  CHECK(refusal(folder.path("")) == ErrorKind::io);
+  CHECK(refusal(folder.path("")) == ErrorKind::bad_input);  // a folder, as of a scene
 }
 
 }  // namespace trueshade

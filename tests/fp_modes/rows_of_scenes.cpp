@@ -188,6 +188,10 @@ void call_textures(Bytes& out) {
     out.put(bytes_per_texel(format));
   }
   out.put(scene_of_all().materials[0].color_map.used());
+  out.put(texture_bytes(13, 7, TextureFormat::rgba16f, MipChain::whole));
+  const std::vector<uint8_t> codes = {1, 0, 0x55, 0x7f, 0xff, 0xff, 9, 0x80};
+  for (const CodeEncoding encoding : {CodeEncoding::linear, CodeEncoding::srgb})
+    out.put(float_texels_of_16_bits(codes, encoding));
 }
 
 void call_shininess(Bytes& out) {
@@ -213,7 +217,8 @@ constexpr Row kRows[] = {
     {"scenes/camera.h", "clip_from_world product view_axis", call_camera},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit", call_placements},
-    {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used", call_textures},
+    {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
+     call_textures},
     {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property empty", call_tracks},
     {"scenes/pipeline/transparency.h", "draws_transparent",
      [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},

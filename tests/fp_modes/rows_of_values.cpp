@@ -1,13 +1,16 @@
 // core/ and the values of a pipeline.
 #include "core/blend_state.h"
 #include "core/error.h"
+#include "core/expansion.h"
 #include "core/half.h"
+#include "core/memory_cap.h"
 #include "core/numeric_profile.h"
 #include "core/sha256.h"
 #include "core/simd/simd_target.h"
 #include "core/threads/parallel_for.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/scene_limits.h"
 #include "tests/fp_modes/rows.h"
 
 namespace trueshade {
@@ -154,11 +157,25 @@ void call_light_model(Bytes& out) {
   out.put(default_pipeline(scene).light_model.shininess);
 }
 
+void call_memory(Bytes& out) {
+  set_memory_cap(0);
+  out.put(available_memory());
+  out.put(memory_cap());
+  out.put(resident_memory() > 0);
+  out.put(least_group_limit("/nowhere", "/a", "memory.max"));
+  require_memory(1, "here", "a byte");
+}
+
 constexpr Row kRows[] = {
-    {"core/error.h", "Error kind",
+    {"core/error.h", "Error kind without_zeros",
      [](Bytes& out) { out.put(Error(ErrorKind::io, "here", "a reason", "a remedy").kind()); }},
-    {"core/format.h",
-     "info format_from_name packed bytes_per_texel srgb_channel largest_code small_float", call_formats},
+    {"core/expansion.h", "is_expanded",
+     [](Bytes& out) { out.put(is_expanded(uint64_t(65) << 20, 1 << 19, kMostExpansion)); }},
+    {"core/memory_cap.h", "available_memory memory_cap set_memory_cap resident_memory require_memory least_group_limit",
+     call_memory},
+    {"scenes/scene_limits.h", "within_limit", [](Bytes& out) { out.put(within_limit(7, "bytes", "--max-file")); }},
+    {"core/format.h", "info format_from_name packed bytes_per_texel srgb_channel largest_code small_float",
+     call_formats},
     {"core/half.h", "half_from_float float_from_half", call_halves},
     {"core/threads/parallel_for.h", "parallel_for thread_count wake_threads LoopTimes loops TaskRef", call_loops},
     {"core/image.h", "Image code set_code value texel row_bytes",

@@ -138,7 +138,7 @@ TEST_CASE("a file cut at any byte is refused") {
   const std::string packed = gzip(kQuad);
   for (size_t size = 0; size < packed.size(); ++size)
     error_of(ErrorKind::bad_input,
-             [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", 1 << 20, MissingNormals::flat); });
+             [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", SceneLimits{.file_bytes = 1 << 20}, MissingNormals::flat); });
 }
 
 TEST_CASE("bad text files are refused with the line") {
@@ -197,14 +197,14 @@ TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
 
 TEST_CASE("a compressed file is unpacked, up to the limit and not beyond") {
   const Bytes packed = bytes_of(gzip(kQuad));
-  CHECK(mesh_from_file(packed, "m.ply.gz", kQuad.size(), MissingNormals::flat).triangle_count() == 2);
-  error_of(ErrorKind::limit, [&] { mesh_from_file(packed, "m.ply.gz", kQuad.size() - 1, MissingNormals::flat); });
+  CHECK(mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size()}, MissingNormals::flat).triangle_count() == 2);
+  error_of(ErrorKind::limit, [&] { mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size() - 1}, MissingNormals::flat); });
   const Bytes bomb = bytes_of(gzip(std::string(32 << 20, ' ')));
   CHECK(bomb.size() < 40000);
-  error_of(ErrorKind::limit, [&] { gunzipped(bomb, 1 << 20, "bomb.ply.gz"); });
-  error_of(ErrorKind::bad_input, [&] { gunzipped(bytes_of("no gzip at all"), 1 << 20, "x.gz"); });
+  error_of(ErrorKind::limit, [&] { gunzipped(bomb, SceneLimits{.file_bytes = 1 << 20}, "bomb.ply.gz"); });
+  error_of(ErrorKind::bad_input, [&] { gunzipped(bytes_of("no gzip at all"), SceneLimits{.file_bytes = 1 << 20}, "x.gz"); });
   const std::string two = gzip("ab") + gzip("cd");
-  CHECK(gunzipped(bytes_of(two), 100, "two.gz") == bytes_of("abcd"));
+  CHECK(gunzipped(bytes_of(two), SceneLimits{.file_bytes = 100}, "two.gz") == bytes_of("abcd"));
 }
 
 TEST_CASE("Stanford's dragon loads as its README says") {

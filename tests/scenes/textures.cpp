@@ -58,6 +58,52 @@ TEST_CASE("a texture's rows start at v = 0, which is a picture's bottom unless i
         std::vector<uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
 }
 
+TEST_CASE("pictures of 16 bits a channel keep every code, linear or decoded from sRGB and rounded once") {
+  const ImageDecoder every_code = [](std::span<const uint8_t>, const std::string&, uint64_t) {
+    Image image(256, 256, Format::rgba16);
+    for (size_t i = 0; i < image.texels.size() / 2; ++i)
+      image.texels[2 * i] = uint8_t(i / 4), image.texels[2 * i + 1] = uint8_t(i / 4 >> 8);
+    return image;
+  };
+  const ScratchFolder scratch;
+  scratch.write("p.png", "read by the decoder above");
+  for (const bool srgb : {false, true}) {
+    const std::string about = srgb ? R"(, "origin": "upper_left")" : R"(, "origin": "upper_left", "encoding": "linear")";
+    const std::string file = scratch.write("s.json", textures(R"({"name": "t", "file": "p.png")" + about + "}"));
+    const Texture texture = load_scene(file, {}, every_code).textures.at(0);
+    REQUIRE(texture.format == TextureFormat::rgba32f);
+    int wrong = 0, repeated = 0;
+    float last = -1.0f;
+    for (int code = 0; code < 65536; ++code) {
+      const std::array<float, 4> texel = texel_value(texture, 0, code % 256, code / 256);
+      const long double value = code / 65535.0L;
+      const long double linear = !srgb                ? value
+                                 : value <= 0.04045L ? value / 12.92L
+                                                     : std::pow((value + 0.055L) / 1.055L, 2.4L);  // IEC 61966-2-1
+      wrong += texel[0] != float(linear) || texel[3] != float(value);
+      repeated += !(texel[0] > last);
+      last = texel[0];
+    }
+    CAPTURE(srgb);
+    CHECK(wrong == 0);
+    CHECK(repeated == 0);
+  }
+}
+
+TEST_CASE("patterns and levels that are made count against the limit of textures") {
+  SceneLimits limits;
+  const std::string pattern = textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16, 16]}})");
+  limits.texture_bytes = 16 * 16 * 4;
+  CHECK(load(pattern, limits).textures.size() == 1);
+  limits.texture_bytes -= 1;
+  CHECK_STARTS_WITH(refusal(pattern, ErrorKind::limit, limits), "s.json: /textures/0/pattern: with its 1024 bytes");
+  const std::string mapped = textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16, 16]}})", material(""));
+  limits.texture_bytes = (256 + 64 + 16 + 4 + 1) * 4;
+  CHECK(load(mapped, limits).textures[0].levels.size() == 5);
+  limits.texture_bytes -= 1;
+  CHECK_STARTS_WITH(refusal(mapped, ErrorKind::limit, limits), "s.json: /materials: with its 340 bytes");
+}
+
 TEST_CASE("maps say how a texture is read") {
   const Scene scene = load(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
     {"name": "a", "color": [1, 1, 1], "alpha_cutoff": 0.25, "transparent": true, "normal_scale": -2,

@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
+#include "scenes/scene_limits.h"
 
 namespace trueshade::gltf {
 namespace {
@@ -74,8 +76,9 @@ void Accessors::take(uint64_t bytes, const std::string& pointer) {
   if (bytes > left_)
     throw Error(ErrorKind::limit, document_.file + ": " + pointer,
                 "with these " + std::to_string(bytes) + " bytes the geometry is over the limit",
-                "at most " + std::to_string(limit_) + " bytes in all");
+                within_limit(limit_, "bytes in all", "--max-geometry-memory"));
   left_ -= bytes;
+  require_memory(bytes, document_.file + ": " + pointer, "the geometry");
 }
 
 template <typename Out>

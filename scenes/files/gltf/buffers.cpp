@@ -1,6 +1,7 @@
 #include "scenes/files/gltf/buffers.h"
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/files/gltf/data_uri.h"
 #include "scenes/files/gltf/meshopt.h"
 
@@ -38,8 +39,9 @@ void Buffers::take(uint64_t bytes, const std::string& where) {
   if (bytes > left_)
     throw Error(ErrorKind::limit, where,
                 "with these " + std::to_string(bytes) + " bytes the buffers are over the limit",
-                "at most " + std::to_string(limit_) + " bytes in all");
+                within_limit(limit_, "bytes in all", "--max-buffer-memory"));
   left_ -= bytes;
+  require_memory(bytes, where, "the buffer");
 }
 
 Bytes Buffers::bytes_of_uri(const std::string& uri, const std::string& where) {

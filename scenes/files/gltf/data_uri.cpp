@@ -1,6 +1,7 @@
 #include "scenes/files/gltf/data_uri.h"
 
 #include "core/error.h"
+#include "scenes/scene_limits.h"
 
 namespace trueshade::gltf {
 namespace {
@@ -21,7 +22,7 @@ int digit_of(char c) {
 Bytes decoded(std::string_view text, const std::string& where, uint64_t limit) {
   if (text.size() % 4 != 0) refuse(where, "the length of the base64 is no multiple of 4");
   if (text.size() / 4 * 3 > limit)
-    throw Error(ErrorKind::limit, where, "the data are over the limit", "at most " + std::to_string(limit) + " bytes");
+    throw Error(ErrorKind::limit, where, "the data are over the limit", within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
   const size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   Bytes bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -48,7 +49,7 @@ int hex_digit(char c) {
 
 Bytes percent_decoded(std::string_view text, const std::string& where, uint64_t limit) {
   if (text.size() > limit)
-    throw Error(ErrorKind::limit, where, "the data are over the limit", "at most " + std::to_string(limit) + " bytes");
+    throw Error(ErrorKind::limit, where, "the data are over the limit", within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
   Bytes bytes;
   for (size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {

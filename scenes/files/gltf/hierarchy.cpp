@@ -26,7 +26,7 @@ Hierarchy hierarchy_of(const Document& document, const SceneLimits& limits) {
     waiting.pop_back();
     if (at.depth > limits.node_depth)
       throw Error(ErrorKind::limit, document.file + ": " + pointer_to("nodes", at.node),
-                  "the node lies deeper than the limit", "at most " + std::to_string(limits.node_depth) + " levels");
+                  "the node lies deeper than the limit", within_limit(limits.node_depth, "levels", "--max-node-depth"));
     out.placed[at.node] = uint32_t(out.nodes.size());
     out.nodes.push_back(at.node);
     const std::vector<uint32_t>& children = document.nodes[at.node].children;

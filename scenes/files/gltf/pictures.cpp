@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
+#include "core/picture_kind.h"
 #include "core/threads/parallel_for.h"
 #include "scenes/files/gltf/data_uri.h"
 
@@ -13,43 +15,16 @@ namespace {
 
 constexpr size_t kTogether = 8;  ///< pictures that are decoded at a time, each within its share of what may be decoded
 
-/// What a picture's first bytes say it is; glTF knows the first two.
-struct Magic {
-  std::string_view name, bytes;
-};
-constexpr Magic kMagics[] = {{"PNG", "\x89PNG\r\n\x1a\n"},
-                             {"JPEG", "\xff\xd8\xff"},
-                             {"KTX2", "\xabKTX 20"},
-                             {"KTX", "\xabKTX 11"},
-                             {"WebP", "RIFF"},
-                             {"DDS", "DDS "},
-                             {"GIF", "GIF8"},
-                             {"BMP", "BM"},
-                             {"OpenEXR", "\x76\x2f\x31\x01"},
-                             {"Radiance HDR", "#?"}};
-
 void check_magic(std::span<const uint8_t> content, const std::string& where) {
-  const std::string_view start(reinterpret_cast<const char*>(content.data()), std::min<size_t>(content.size(), 16));
-  for (const Magic& magic : kMagics) {
-    if (!start.starts_with(magic.bytes)) continue;
-    if (magic.name == "PNG" || magic.name == "JPEG") return;
-    throw Error(ErrorKind::bad_input, where, "the picture is " + std::string(magic.name), "PNG or JPEG");
-  }
-  throw Error(ErrorKind::bad_input, where, "the picture is neither PNG nor JPEG", "one of these");
+  const std::string_view kind = picture_kind(content);
+  if (kind == "PNG" || kind == "JPEG") return;
+  if (kind.empty()) throw Error(ErrorKind::bad_input, where, "the picture is neither PNG nor JPEG", "one of these");
+  throw Error(ErrorKind::bad_input, where, "the picture is " + std::string(kind), "PNG or JPEG");
 }
 
 void check_media_type(const std::string& type, const std::string& where) {
   if (type != "image/png" && type != "image/jpeg")
     throw Error(ErrorKind::bad_input, where, "the media type is neither image/png nor image/jpeg", "one of these");
-}
-
-uint64_t bytes_of(const Image& image, bool with_levels) {
-  uint64_t texels = 0;
-  for (int width = image.width, height = image.height;;
-       width = std::max(1, width / 2), height = std::max(1, height / 2)) {
-    texels += uint64_t(width) * uint64_t(height);
-    if (!with_levels || (width == 1 && height == 1)) return 4 * texels;
-  }
 }
 
 }  // namespace
@@ -122,17 +97,28 @@ void Pictures::decode_some(size_t first, size_t count) {
       task.image = decode_(task.content, place_of(wanted_[first + i].image), left());
     else if (task.error)
       std::rethrow_exception(task.error);
-    if (task.image.format != Format::rgba8)
-      throw Error(ErrorKind::bad_input, place_of(wanted_[first + i].image),
-                  "the picture does not have 8 bits a channel", "8 bits");
-    bytes_ += bytes_of(task.image, wanted_[first + i].has_levels);
-    if (bytes_ > limits_.texture_bytes)
-      throw Error(ErrorKind::limit, place_of(wanted_[first + i].image),
-                  "with this picture and its smaller levels the pictures are over the limit",
-                  "at most " + std::to_string(limits_.texture_bytes) + " bytes in all");
-    // Rows run from the top, where glTF has v = 0.
-    scene_.textures[first + i].levels = {{task.image.width, task.image.height, std::move(task.image.texels)}};
+    take(std::move(task.image), first + i);
   }
+}
+
+/// Makes a decoded picture the first level of a texture. Rows run from the top, where glTF has v = 0.
+void Pictures::take(Image image, size_t index) {
+  Texture& texture = scene_.textures[index];
+  const Wanted& wanted = wanted_[index];
+  const bool wide = image.format == Format::rgba16;  // 16 bits a channel, which only floats keep
+  const CodeEncoding encoding =
+      texture.format == TextureFormat::srgb8_a8 ? CodeEncoding::srgb : CodeEncoding::linear;
+  if (wide) texture.format = TextureFormat::rgba32f;
+  const uint64_t bytes = texture_bytes(image.width, image.height, texture.format,
+                                       wanted.has_levels ? MipChain::whole : MipChain::none);
+  bytes_ += bytes;
+  if (bytes_ > limits_.texture_bytes)
+    throw Error(ErrorKind::limit, place_of(wanted.image),
+                "with this picture and its smaller levels the pictures are over the limit",
+                within_limit(limits_.texture_bytes, "bytes in all", "--max-texture-memory"));
+  require_memory(bytes, place_of(wanted.image), "the texture");
+  if (wide) image.texels = float_texels_of_16_bits(image.texels, encoding);
+  texture.levels = {{image.width, image.height, std::move(image.texels)}};
 }
 
 std::string Pictures::place_of(uint32_t image) const { return document_.file + ": " + pointer_to("images", image); }

@@ -37,6 +37,7 @@ class Pictures {
   struct Task;
 
   void decode_some(size_t first, size_t count);
+  void take(Image image, size_t index);
   Bytes content(uint32_t image, std::span<const uint8_t>& view) const;
   void check_file(uint32_t image) const;
   std::string place_of(uint32_t image) const;

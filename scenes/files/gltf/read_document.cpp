@@ -110,7 +110,7 @@ void Document::fail(const std::string& pointer, const std::string& reason, const
 Document read_document(const Container& container, const std::string& file, const SceneLimits& limits) {
   if (container.json.size() > limits.json_bytes)
     throw Error(ErrorKind::limit, file, std::to_string(container.json.size()) + " bytes of JSON are over the limit",
-                "at most " + std::to_string(limits.json_bytes) + " bytes");
+                within_limit(limits.json_bytes, "bytes", "--max-json"));
   const json::Value value = json::parse(container.json, file);
   const json::Node root(value, file);
   Document document;
@@ -121,7 +121,7 @@ Document read_document(const Container& container, const std::string& file, cons
   const Counts counts = counts_of(root);
   if (counts.nodes > limits.nodes)
     root.member("nodes").fail(std::to_string(counts.nodes) + " nodes are over the limit",
-                              "at most " + std::to_string(limits.nodes), ErrorKind::limit);
+                              within_limit(limits.nodes, "", "--max-nodes"), ErrorKind::limit);
   read_data(root, counts, document);
   read_materials(root, counts, document);
   read_meshes(root, counts, document);

@@ -90,7 +90,7 @@ void SceneMaker::add_mesh(uint32_t place, const NodeSource& node) {
 void SceneMaker::add_light(uint32_t place, uint32_t light) {
   if (scene_.lights.size() >= limits_.lights)
     throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
-                "the lights are over the limit", "at most " + std::to_string(limits_.lights));
+                "the lights are over the limit", within_limit(limits_.lights, "", "--max-lights"));
   scene_.timeline.node_lights.push_back({uint32_t(scene_.lights.size()), place});
   scene_.lights.push_back(light_of(document_, light));
 }
@@ -98,7 +98,7 @@ void SceneMaker::add_light(uint32_t place, uint32_t light) {
 void SceneMaker::check_instances(uint32_t place, uint64_t more) const {
   if (more > limits_.instances || more + scene_.instances.size() > limits_.instances)
     throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
-                "the instances are over the limit", "at most " + std::to_string(limits_.instances));
+                "the instances are over the limit", within_limit(limits_.instances, "", "--max-instances"));
 }
 
 void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t index) {

@@ -236,10 +236,10 @@ TEST_CASE("hierarchies that are none are refused") {
   SceneLimits limits;
   limits.nodes = 2, limits.node_depth = 2;
   CHECK_STARTS_WITH(refused_nodes("{}, {}, {}", "0", ErrorKind::limit, limits),
-                    ": /nodes: 3 nodes are over the limit (at most 2)");
+                    ": /nodes: 3 nodes are over the limit (at most 2, or a higher --max-nodes)");
   limits.nodes = 3;
   CHECK_STARTS_WITH(refused_nodes(R"({"children": [1]}, {"children": [2]}, {})", "0", ErrorKind::limit, limits),
-                    ": /nodes/2: the node lies deeper than the limit (at most 2 levels)");
+                    ": /nodes/2: the node lies deeper than the limit (at most 2 levels, or a higher --max-node-depth)");
 }
 
 TEST_CASE("a chain of a thousand nodes is read without recursion") {

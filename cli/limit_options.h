@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "scenes/scene_limits.h"
+
+namespace trueshade {
+
+/// Limits that options set.
+struct Limits : SceneLimits {
+  uint64_t memory = 0;  ///< bytes; 0: as memory_cap() has it
+};
+
+/// An option of the group `Limits`.
+struct LimitOption {
+  const char* name;
+  enum class Unit : uint8_t { count, bytes } unit;
+  uint64_t Limits::*limit;
+  const char* help;
+};
+std::span<const LimitOption> limit_options();
+
+/// What the help says of an option, with its default.
+std::string help_of(const LimitOption& option);
+
+/// Reads the value of an option: a whole number above 0, and of bytes with K, M, G or T behind it for powers of 1024.
+/// Error(usage) naming the option.
+uint64_t limit_from_text(const LimitOption& option, const std::string& text);
+
+}  // namespace trueshade

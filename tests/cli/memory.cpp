@@ -1,0 +1,262 @@
+// Memory: what would take too much is refused before it is taken, in one line that names the option; what is drawn
+// stays below the cap; and where the system gives none, the command ends in order.
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cli/limit_options.h"
+#include "tests/catch.hpp"
+#include "tests/cli/refused.h"
+#include "tests/cli/run_command.h"
+#include "tests/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// How a run ended, and the most memory it had.
+struct Run {
+  Outcome outcome;
+  double mib = 0;
+};
+
+Run measured(const Arguments& arguments, const ScratchFolder& folder) {
+  std::string line = "cd '" + folder.path("") + "' && '" PEAK_MEMORY "' '" TRUESHADE_COMMAND "'";
+  for (const std::string& argument : arguments) line += " '" + argument + "'";
+  const int status = std::system((line + " >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'").c_str());
+  const auto content = [&](const char* name) {
+    std::ifstream file(folder.path(name));
+    std::stringstream text;
+    text << file.rdbuf();
+    std::filesystem::remove(folder.path(name));
+    return text.str();
+  };
+  Run run{{WEXITSTATUS(status), content("out"), content("err")}, 0};
+  const size_t peak = run.outcome.out.rfind("peak ");
+  REQUIRE(peak != std::string::npos);
+  run.mib = std::stod(run.outcome.out.substr(peak + 5)) / 1024;
+  run.outcome.out.resize(peak);
+  return run;
+}
+
+double mib_of_start() {
+  const ScratchFolder folder;
+  return measured({"list"}, folder).mib;
+}
+
+/// Refused in one line, with less than 256 MiB more than a command that does nothing.
+void check_refused_early(const Arguments& arguments, const ScratchFolder& folder, int exit_code,
+                         const std::string& about) {
+  const Run run = measured(arguments, folder);
+  check_refused(run.outcome, exit_code, about);
+  CAPTURE(run.mib);
+  CHECK(run.mib < mib_of_start() + 256);
+}
+
+std::string gzipped(const std::string& content) {
+  z_stream stream{};
+  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY) == Z_OK);
+  std::string out(deflateBound(&stream, uLong(content.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = uInt(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = uInt(out.size());
+  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+std::string word(uint32_t value) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8) text += char(value >> shift);
+  return text;
+}
+
+std::string png_chunk(const std::string& type, const std::string& data) {
+  const std::string content = type + data;
+  return word(uint32_t(data.size())) + content +
+         word(uint32_t(crc32(0, reinterpret_cast<const Bytef*>(content.data()), uInt(content.size()))));
+}
+
+/// A black PNG of RGB, a thousandth as long as its texels.
+std::string black_png(uint32_t side) {
+  const std::string rows(size_t(side) * (3 * side + 1), '\0');
+  uLongf size = compressBound(uLong(rows.size()));
+  std::string packed(size, '\0');
+  REQUIRE(compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+                    uLong(rows.size()), 1) == Z_OK);
+  packed.resize(size);
+  return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", word(side) + word(side) + std::string("\x08\x02\0\0\0", 5)) +
+         png_chunk("IDAT", packed) + png_chunk("IEND", "");
+}
+
+TEST_CASE("small files that would take gigabytes are refused early, by the name of a limit") {
+  const ScratchFolder folder;
+  std::string patterns;
+  for (int i = 0; i < 12; ++i)
+    patterns += std::string(i == 0 ? "" : ",") + R"({"name": "t)" + std::to_string(i) +
+                R"(", "pattern": {"type": "checker", "format": "rgba32f", "size": [16384, 16384]}})";
+  folder.write("patterns.json", R"({"version": 1, "textures": [)" + patterns + "]}");
+  check_refused_early({"render", "patterns.json", "--hash", "--max-texture-memory", "3G"}, folder, 4,
+                      "patterns.json: /textures/0/pattern: with its 4294967296 bytes the textures are over the limit "
+                      "(at most 3221225472 bytes in all, or a higher --max-texture-memory)");
+  folder.write("p.json", R"({"width": 4096, "height": 4096, "post": {"samples": 8, "bloom": {"strength": 1}}})");
+  check_refused_early({"render", "builtin:cornell", "--pipeline", "p.json", "--hash", "--max-memory", "8G"}, folder, 4,
+                      "raise --max-memory");
+  folder.write("grid.json", R"({"version": 1, "objects": [{"mesh": "cube", "grid": {"count": [256, 256, 200], )"
+                            R"("spacing": 1}}]})");
+  check_refused_early({"render", "grid.json", "--hash", "--max-memory", "1G"}, folder, 4, "/objects/0/grid");
+  folder.write("m.ply.gz", gzipped("ply\nformat binary_little_endian 1.0\nelement vertex 16000000\nproperty float x\n"
+                                   "property float y\nproperty float z\nelement face 0\nproperty list uchar int "
+                                   "vertex_indices\nend_header\n" +
+                                   std::string(size_t(192) << 20, '\0')));
+  check_refused_early({"info", "m.ply.gz"}, folder, 4, "--max-expansion");
+  folder.write("black.png", black_png(8192));
+  check_refused_early({"info", "black.png"}, folder, 4, "--max-expansion");
+}
+
+TEST_CASE("an EXR whose lengths are beyond its bytes is refused before OpenEXR sees it") {
+  const ScratchFolder folder;
+  const auto little = [](uint32_t value) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) text += char(value >> shift);
+    return text;
+  };
+  const auto attribute = [&](const std::string& name, const std::string& type, const std::string& value) {
+    return name + '\0' + type + '\0' + little(uint32_t(value.size())) + value;
+  };
+  const std::string start = "\x76\x2f\x31\x01" + little(2),
+                    channels = attribute("channels", "chlist",
+                                         std::string("R\0", 2) + little(2) + little(0) + little(1) + little(1) + '\0'),
+                    compression = attribute("compression", "compression", std::string(1, '\0'));
+  const auto window = [&](uint32_t side) { return little(0) + little(0) + little(side - 1) + little(side - 1); };
+  const auto refused = [&](const std::string& file, int code, const std::string& about) {
+    folder.write("x.exr", file);
+    check_refused_early({"info", "x.exr"}, folder, code, about);
+  };
+  refused(start + "note" + '\0' + "string" + '\0' + little(0x7fffffff) + "short", 3, "longer than the file");
+  refused(start + attribute("preview", "preview", little(0x4000) + little(0x8000)), 3, "preview");
+  refused(start + attribute("ids", "idmanifest", little(0x7fffffff) + "x"), 3, "manifest");
+  refused(start + channels + compression + attribute("dataWindow", "box2i", window(0x7fffffff)) + '\0', 4, "65536");
+  refused(start + channels + compression + attribute("dataWindow", "box2i", window(60000)) + '\0', 3,
+          "the EXR ends before its pixels do");
+  refused(start + channels + '\0', 3, "no channels, window or compression");
+  refused("\x76\x2f\x31\x01" + little(2 | 0x1000) + std::string(100, '\0'), 3, "several parts");
+  refused("\x76\x2f\x31\x01" + little(2 | 0x800) + std::string(100, '\0'), 3, "deep");
+}
+
+TEST_CASE("frames take what is predicted, within a fifth, and are refused where that is over the cap") {
+  const ScratchFolder folder;
+  folder.write("post.json", R"({"post": {"samples": 2, "bloom": {"strength": 1}}})");
+  folder.write("grid.json",
+               R"({"version": 1, "camera": {"eye": [0, 0, 90], "target": [0, 0, 0]}, "objects": [{"mesh": )"
+               R"("cube", "grid": {"count": [100, 100, 60], "spacing": 1}}]})");
+  const std::vector<Arguments> frames = {
+      {"render", "builtin:cornell", "--size", "6000x6000", "--hash"},
+      {"render", "builtin:cornell", "--size", "3000x3000", "--target", "rgba32f", "--hash"},
+      {"render", "builtin:cornell", "--size", "2000x2000", "--pipeline", "post.json", "--hash"},
+      {"render", "builtin:cornell", "--size", "4000x4000", "--view", "normal", "--hash"},
+      {"render", "grid.json", "--size", "64x64", "--hash"}};
+  for (Arguments arguments : frames) {
+    const double peak = measured(arguments, folder).mib;
+    CAPTURE(arguments[1], arguments[3], peak);
+    const auto with_cap = [&](double mib) {
+      Arguments capped = arguments;
+      capped.insert(capped.end(), {"--max-memory", std::to_string(int(mib)) + 'M'});
+      return measured(capped, folder);
+    };
+    const Run below = with_cap(peak / 1.2);
+    CHECK(below.outcome.exit_code == 4);
+    CHECK(below.outcome.err.find("--max-memory") != std::string::npos);
+    const Run above = with_cap(peak * 1.2);
+    CAPTURE(above.outcome.err);
+    CHECK(above.outcome.exit_code == 0);
+    CHECK(above.mib <= peak * 1.2 + 64);
+  }
+}
+
+TEST_CASE("every limit has an option, which is checked, and which its error names") {
+  const ScratchFolder folder;
+  for (const LimitOption& limit : limit_options()) {
+    for (const char* bad : {"0", "-1", "many", "", "1.5", "99999999999999999999", "4X"})
+      check_refused(run_command({"info", "builtin:cornell", limit.name, bad}), 2, limit.name);
+    const bool bytes = limit.unit == LimitOption::Unit::bytes;
+    CHECK(limit_from_text(limit, "7") == 7);
+    if (bytes) CHECK(limit_from_text(limit, "3G") == uint64_t(3) << 30);
+    for (const char* command : {"render", "info", "validate", "bench"})
+      CHECK(run_command({command, "--help"}).out.find(limit.name) != std::string::npos);
+  }
+  const auto refused = [&](const std::string& scene, const std::string& option, const std::string& value) {
+    check_refused(run_command({"info", scene, option, value}, folder.path("")), 4, option);
+  };
+  folder.write("s.json",
+               R"({"version": 1, "objects": [{"mesh": "cube", "grid": {"count": [2, 2, 1], "spacing": 1}}]})");
+  folder.write("g.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [1]}, {"children": [2]}, {}], )"
+                         R"("scenes": [{"nodes": [0]}], "buffers": [{"byteLength": 3, "uri": "data:application/)"
+                         R"(octet-stream;base64,AAAA"}]})");
+  refused("builtin:city,lights=9", "--max-lights", "8");
+  refused("s.json", "--max-instances", "3");
+  refused("s.json", "--max-json", "20");
+  refused("g.gltf", "--max-file", "20");
+  refused("g.gltf", "--max-nodes", "2");
+  refused("g.gltf", "--max-node-depth", "2");
+  refused("g.gltf", "--max-buffer-memory", "2");
+}
+
+TEST_CASE("wherever memory ends, the command ends in order") {
+  const ScratchFolder folder;
+  folder.write("s.json",
+               R"({"version": 1, "objects": [{"mesh": "rabbit", "grid": {"count": [20, 20, 2], "spacing": 1}}]})");
+  int drawn = 0, out_of_memory = 0;
+  for (int mb = 16; mb <= 400; mb += mb < 120 ? 8 : 40) {
+    const Outcome outcome = run_command({"render", "s.json", "--size", "200x200", "--hash", "--threads", "4"},
+                                        folder.path(""), "ulimit -v " + std::to_string(mb * 1024));
+    CAPTURE(mb, outcome.exit_code, outcome.err);
+    if (outcome.exit_code == 127) continue;  // the system's loader had no memory for the libraries
+    drawn += outcome.exit_code == 0, out_of_memory += outcome.exit_code == 6;
+    CHECK((outcome.exit_code == 0 || outcome.exit_code == 6));
+    if (outcome.exit_code == 6) check_refused(outcome, 6, "memory");
+  }
+  CHECK(drawn > 0);
+  CHECK(out_of_memory > 0);
+}
+
+TEST_CASE("threads that the system does not start are done without, and a library that needs them is named") {
+  if (geteuid() != 0 ||
+      std::system("setpriv --reuid 54321 --clear-groups '" TRUESHADE_COMMAND "' list >/dev/null 2>&1") != 0) {
+    WARN("SKIPPED: holding another user to a number of processes needs root and setpriv");
+    return;
+  }
+  const ScratchFolder folder;
+  std::filesystem::permissions(folder.path(""), std::filesystem::perms::all);
+  REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x32", "-o", "x.exr"}, folder.path("")).exit_code == 0);
+  const auto run = [&](const std::string& arguments, int processes) {
+    const std::string line =
+        "cd '" + folder.path("") + "' && setpriv --reuid 54321 --clear-groups bash -c 'ulimit -u " +
+        std::to_string(processes) + "; exec \"" TRUESHADE_COMMAND "\" " + arguments + "' >out 2>err";
+    return WEXITSTATUS(std::system(line.c_str()));
+  };
+  CHECK(run("render builtin:cornell --size 300x300 --hash --threads 8", 1) == 0);
+  std::ifstream out(folder.path("out"));
+  std::string line;
+  REQUIRE(std::getline(out, line));
+  CHECK(run_command({"render", "builtin:cornell", "--size", "300x300", "--hash"}).out == line + "\n");
+  for (int processes = 1; processes <= 4; ++processes) {  // the library's initializers need more
+    CAPTURE(processes);
+    CHECK(run("info x.exr", processes) == 6);
+    std::ifstream err(folder.path("err"));
+    REQUIRE(std::getline(err, line));
+    CHECK(line.starts_with("trueshade: error: threads: "));
+    CHECK_FALSE(std::getline(err, line));
+  }
+}
+
+}  // namespace
+}  // namespace trueshade
