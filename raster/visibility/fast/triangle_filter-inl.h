@@ -4,8 +4,8 @@
 // Corners are packed into 32 bits, y above x, both relative to the middle of the tile and below 2^14 in magnitude. So a
 // signed compare of two of them is the canonical order (y, x), a difference fits 16 bits, the difference of a corner
 // and a sample of the tile (at most 2^13 from its middle) is below 24,576, and with that every edge function and area,
-// a difference of two products, is below 2^31. Corners further away are held to that; as this lies outside the tile,
-// boxes keep their samples, but the triangles that have such corners are not small.
+// a difference of two products, is below 2^31. Corners farther away are clamped to 2^14. The clamp lies outside the
+// tile, so a triangle's box covers the same samples; a triangle with a clamped corner does not count as small.
 #if defined(TRUESHADE_RASTER_VISIBILITY_FAST_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_VISIBILITY_FAST_TRIANGLE_FILTER_INL_H_
 #undef TRUESHADE_RASTER_VISIBILITY_FAST_TRIANGLE_FILTER_INL_H_
