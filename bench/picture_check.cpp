@@ -5,10 +5,18 @@
 
 namespace trueshade {
 
+namespace {
+
+bool is_textured(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.textured(); });
+}
+
+}  // namespace
+
+uint64_t one_pixel_in(const Scene& scene) { return is_textured(scene) ? 40 : 100; }
+
 double picture_codes(const Scene& scene, Strategy strategy) {
-  const bool textured =
-      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.textured(); });
-  return textured && blends_lights(strategy) ? 2.0 + std::sqrt(double(scene.lights.size())) : 2.0;
+  return is_textured(scene) && blends_lights(strategy) ? 2.0 + std::sqrt(double(scene.lights.size())) : 2.0;
 }
 
 uint64_t pixels_apart(const Image& a, const Image& b, double codes) {
@@ -36,7 +44,8 @@ PictureCheck picture_check(const PreparedScene& prepared, const Execution& execu
           codes,
           pixels_apart(theirs.image, ours, codes),
           pixels_apart(theirs.image, timed, codes),
-          uint64_t(ours.width) * uint64_t(ours.height)};
+          uint64_t(ours.width) * uint64_t(ours.height),
+          one_pixel_in(prepared.scene())};
 }
 
 }  // namespace trueshade

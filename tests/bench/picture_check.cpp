@@ -67,6 +67,11 @@ TEST_CASE("A peer's picture is right, the same, or of another strategy") {
   CHECK_FALSE(wrong.right());
   CHECK_FALSE(wrong.same());
   CHECK(wrong.pixels == 90 * 70);
+  CHECK(wrong.one_in == 100);
+  CHECK(one_pixel_in(builtin_scene("lecture")) == 40);  // it has textures
+  PictureCheck edge{Strategy::deferred_loop, true, 2.0, 25, 26, 1000, 40};
+  CHECK(edge.right());
+  CHECK_FALSE(edge.same_shading());
 }
 
 }  // namespace trueshade
