@@ -57,11 +57,12 @@ constexpr std::array<uint8_t, 259> range_of_length() {
 /// Distances up to 256 one by one, then by 128: each range begins behind a multiple of 128 there.
 constexpr std::array<uint8_t, 512> range_of_distance() {
   std::array<uint8_t, 512> range{};
-  for (size_t i = 0; i < kDistances; ++i)
-    for (size_t k = 0; k < size_t(1) << kDistanceRanges.extra_bits[i]; ++k) {
-      const size_t distance = kDistanceRanges.first[i] + k;
-      range[distance <= 256 ? distance - 1 : 256 + (distance - 1) / 128] = uint8_t(i);
-    }
+  for (size_t k = 0, i = 0; k < range.size(); ++k) {
+    const size_t distance = k < 256 ? k + 1 : (k - 256) * 128 + 1;
+    if (distance == 1) i = 0;  // again
+    while (i + 1 < kDistances && kDistanceRanges.first[i + 1] <= distance) ++i;
+    range[k] = uint8_t(i);
+  }
   return range;
 }
 

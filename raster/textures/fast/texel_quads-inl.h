@@ -161,7 +161,7 @@ struct TexelQuadsOf {
 #pragma GCC unroll 2
     for (int h = 0; h < 2; ++h) {
       __m512i part[8];
-      for (int k = 0; k < 8; ++k) part[k] = _mm512_load_si512(kSrgbHalves[h].data() + 32 * k);
+      for (int k = 0; k < 8; ++k) part[k] = _mm512_load_si512(kSrgbHalves[size_t(h)].data() + 32 * k);
 #pragma GCC unroll 3
       for (int n = 0; n < 3; ++n) {
         const __m512i at = code[n].raw;
