@@ -84,7 +84,7 @@ int exit_code_of(const std::exception_ptr& fault) {
 /// Libraries end the process where they cannot start their own threads, far from any catch of ours.
 [[noreturn]] void end_without_signal() {
   const std::exception_ptr fault = std::current_exception();
-  std::_Exit(fault ? exit_code_of(fault) : say_our_fault("terminated without an exception"));
+  std::_Exit(fault ? exit_code_of(fault) : say_out_of_memory());  // there was none left to throw an exception
 }
 
 /// Memory that is given back when there is no more, so that the way out of where it was needed has some.

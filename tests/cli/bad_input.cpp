@@ -1,8 +1,10 @@
 // What a user can do wrong: one line that says what, the exit code of docs/exit_codes.md, and no file left behind.
 #include <unistd.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
@@ -160,6 +162,32 @@ TEST_CASE("standard output that takes nothing is exit 5") {
   const std::string line = "'" TRUESHADE_COMMAND "' list >/dev/full 2>/dev/null";
   const int status = std::system(line.c_str());
   CHECK(WEXITSTATUS(status) == 5);
+}
+
+TEST_CASE("what a file holds does nothing to a terminal, in errors and in what info prints") {
+  const ScratchFolder folder;
+  folder.write("m.ply", std::string("ply\nformat ascii 1.0\nver\0tex\x1b[2J\xc2\x9b\xe2\x80\xae\xff many\n", 44));
+  check_refused(run_command({"info", "m.ply"}, folder.path("")), 3, "m.ply: line 3: 'ver?tex?[2J?");
+  folder.write("k.json", "{\"version\": 1, \"\xe2\x80\xae\xc2\x9b[2J\": 1}");
+  const Outcome key = run_command({"info", "k.json"}, folder.path(""));
+  check_refused(key, 3, "k.json: /");
+  REQUIRE(run_command({"render", "builtin:cornell", "--size", "8x8", "-o", "x.png"}, folder.path("")).exit_code == 0);
+  std::ifstream file(folder.path("x.png"), std::ios::binary);
+  std::string png{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = std::string("tEXta") + '\0' + "b\nc\x1b[2J\xc2\x9b";
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size()));
+  std::string checksum;
+  for (int shift = 24; shift >= 0; shift -= 8) checksum += char(sum >> shift);
+  png.insert(33, std::string("\0\0\0\x0b", 4) + text + checksum);  // behind the IHDR
+  folder.write("y.png", png);
+  const Outcome info = run_command({"info", "y.png"}, folder.path(""));
+  CHECK(info.exit_code == 0);
+  CHECK(info.out.find("b?c?[2J?\n") != std::string::npos);
+  for (const std::string& said : {key.err, info.out, info.err}) {
+    CAPTURE(said);
+    CHECK(said.find_first_of("\x1b\x9b\xff") == std::string::npos);
+    CHECK(said.find("\xe2\x80\xae") == std::string::npos);
+  }
 }
 
 TEST_CASE("info refuses what is neither image nor scene") {

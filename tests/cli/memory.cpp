@@ -228,6 +228,32 @@ TEST_CASE("wherever memory ends, the command ends in order") {
   CHECK(out_of_memory > 0);
 }
 
+TEST_CASE("whichever allocation is the last, and none succeeds after it, the command says so in one line") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  WARN("SKIPPED: sanitizers bring an allocator of their own");
+#else
+  const ScratchFolder folder;
+  int drawn = 0, refused = 0;
+  for (int last = 0; last < 8000; last += last < 8 ? 1 : last < 1000 ? 97 : 331) {
+    const Outcome outcome =
+        run_command({"render", "builtin:cornell", "--size", "64x64", "--threads", "2", "-o", "x.png"}, folder.path(""),
+                    "export LD_PRELOAD='" FAIL_ALLOCATIONS "' TRUESHADE_ALLOCATIONS=" + std::to_string(last));
+    CAPTURE(last, outcome.exit_code, outcome.err);
+    if (outcome.exit_code == 125) continue;  // timeout, which starts the command, had not enough
+    CHECK((outcome.exit_code == 0 || outcome.exit_code == 6));
+    drawn += outcome.exit_code == 0, refused += outcome.exit_code == 6;
+    if (outcome.exit_code != 6) continue;
+    CHECK(outcome.err.starts_with("trueshade: error: memory: "));
+    CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+    const std::vector<std::string> left =
+        folder.entries();  // the picture may be whole already, and nothing else is there
+    CHECK((left.empty() || left == std::vector<std::string>{"x.png"}));
+  }
+  CHECK(drawn > 0);
+  CHECK(refused > 10);
+#endif
+}
+
 TEST_CASE("threads that the system does not start are done without, and a library that needs them is named") {
   if (geteuid() != 0 ||
       std::system("setpriv --reuid 54321 --clear-groups '" TRUESHADE_COMMAND "' list >/dev/null 2>&1") != 0) {
