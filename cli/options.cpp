@@ -109,7 +109,7 @@ void add_pipeline_options(CLI::App* command, PipelineOptions& options, std::opti
   std::string names;
   for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
   add_value(command, "SCENE", "FILE", options.scene,
-            "Scene file (.json, .gltf, .glb, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+            "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
       ->required();
   add_value(command, "--preset", "NAME", options.preset, "Row of numbers the pipeline starts from: " + names);
   add_value(command, "--pipeline", "FILE", options.pipeline_file,

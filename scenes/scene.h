@@ -105,8 +105,8 @@ void set_time(Scene& scene, double time);
 /// validate() of what set_time() moves. Throws Error(bad_input) with the time.
 void validate_moving(const Scene& scene, double time);
 
-/// Reads `builtin:NAME[,key=value...]`, a scene file (.json), a glTF file (.gltf, .glb) or a geometry file (.ply,
-/// .ply.gz), and validates it. A glTF file without a camera or without lights gets them as a geometry file does.
+/// Reads `builtin:NAME[,key=value...]`, a scene file (.json), a glTF file (.gltf, .glb) or a geometry file (.obj, .ply,
+/// and these with .gz), endings in small letters or capitals, and validates it. A glTF file without a camera or without lights gets them as a geometry file does.
 /// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of
 /// lights. Without `decode` a scene that names an image file is refused.
 /// Errors: bad_input with file and place; limit; io for a file that cannot be read.

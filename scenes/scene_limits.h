@@ -16,7 +16,7 @@ struct SceneLimits {
   uint64_t json_bytes = uint64_t(256) << 20;   ///< --max-json: of a scene's text
   uint64_t texture_bytes = uint64_t(4) << 30;  ///< --max-texture-memory: of all textures with their levels, as stored
   uint64_t buffer_bytes = uint64_t(4) << 30;  ///< --max-buffer-memory: of a glTF file's buffers and what they unpack to
-  uint64_t geometry_bytes = uint64_t(4) << 30;  ///< --max-geometry-memory: of the vertices and indices of a glTF file
+  uint64_t geometry_bytes = uint64_t(4) << 30;  ///< --max-geometry-memory: of vertices and indices of a glTF or OBJ file
   uint64_t nodes = 1000000;                     ///< --max-nodes: of a glTF file
   uint64_t node_depth = 1024;                   ///< --max-node-depth: nodes inside each other
   uint64_t expansion = kMostExpansion;          ///< --max-expansion: of compressed content, where it is over 64 MiB

@@ -15,7 +15,7 @@ namespace {
 /// The content of a .gz file, given out piece by piece.
 class Inflater {
  public:
-  Inflater(const Bytes& compressed, const SceneLimits& limits, std::string_view where)
+  Inflater(std::span<const uint8_t> compressed, const SceneLimits& limits, std::string_view where)
       : compressed_(compressed), limits_(limits), where_(where) {
     if (inflateInit2(&stream_, 16 + MAX_WBITS) != Z_OK) throw std::bad_alloc();  // reads gzip headers
   }
@@ -62,14 +62,14 @@ class Inflater {
   }
 
  private:
-  const Bytes& compressed_;
+  std::span<const uint8_t> compressed_;
   const SceneLimits& limits_;
   std::string_view where_;
   z_stream stream_{};
 };
 
 /// What the last member says of its size, modulo 2^32 (RFC 1952, section 2.3.1). Nobody has checked it.
-uint64_t claimed_size(const Bytes& compressed) {
+uint64_t claimed_size(std::span<const uint8_t> compressed) {
   uint64_t size = 0;
   for (size_t i = 0; i < 4 && compressed.size() >= 4; ++i)
     size |= uint64_t(compressed[compressed.size() - 4 + i]) << (8 * i);
@@ -77,14 +77,14 @@ uint64_t claimed_size(const Bytes& compressed) {
 }
 
 /// Throws what unpacking throws, and takes no memory.
-void check_whole(const Bytes& compressed, const SceneLimits& limits, std::string_view where) {
+void check_whole(std::span<const uint8_t> compressed, const SceneLimits& limits, std::string_view where) {
   Bytes piece(size_t(1) << 16);
   Inflater(compressed, limits, where).run([&piece](uint64_t) { return std::span(piece); });
 }
 
 }  // namespace
 
-Bytes gunzipped(const Bytes& compressed, const SceneLimits& limits, std::string_view where) {
+Bytes gunzipped(std::span<const uint8_t> compressed, const SceneLimits& limits, std::string_view where) {
   constexpr uint64_t kMuch = uint64_t(64) << 20;
   if (claimed_size(compressed) > std::min(kMuch, limits.file_bytes)) check_whole(compressed, limits, where);
   Bytes out;

@@ -1,12 +1,14 @@
 #include "scenes/files/load_geometry.h"
 
+#include "core/file_ending.h"
+
 namespace trueshade {
 
-bool is_geometry_name(std::string_view name) { return name.ends_with(".ply") || name.ends_with(".ply.gz"); }
+bool is_geometry_name(std::string_view name) { return has_ending(name, ".ply") || has_ending(name, ".ply.gz"); }
 
 Mesh mesh_from_file(const Bytes& content, const std::string& name, const SceneLimits& limits,
                     MissingNormals missing_normals) {
-  const bool packed = name.ends_with(".gz");
+  const bool packed = has_ending(name, ".gz");
   Mesh mesh = mesh_from_ply(packed ? gunzipped(content, limits, name) : content, name, missing_normals);
   mesh.name = name;
   return mesh;

@@ -1,11 +1,13 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "core/fp_env.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/files/gltf/gltf_scene.h"
 #include "scenes/files/lights_of_ours.h"
 #include "scenes/files/load_geometry.h"
+#include "scenes/files/obj/obj_scene.h"
 #include "scenes/files/scene_json.h"
 #include "scenes/scene.h"
 #include "scenes/scene_defaults.h"
@@ -14,12 +16,16 @@
 namespace trueshade {
 namespace {
 
-/// The mesh alone: grey, seen whole, inside a ring of lights from warm to cold.
 Scene scene_of(Mesh mesh) {
   Scene scene;
   scene.meshes.push_back(std::move(mesh));
   scene.materials.push_back({"grey", {0.7f, 0.7f, 0.7f, 1.0f}});
   scene.instances.push_back({});
+  return scene;
+}
+
+/// Geometry alone: seen whole, inside a ring of lights from warm to cold.
+Scene shown(Scene scene) {
   scene.camera = camera_seeing(bounds_of(scene));
   add_lights_of_ours(scene);
   return scene;
@@ -34,20 +40,24 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
   constexpr std::string_view kBuiltin = "builtin:";
   if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
-  if (spec.ends_with(".json")) {
+  if (has_ending(spec, ".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes, "--max-json");
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode);
   } else if (is_gltf_name(spec)) {
     scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);
   } else if (is_geometry_name(spec)) {
-    scene = scene_of(
-        mesh_from_file(read_user_file(spec, limits.file_bytes), spec, limits, MissingNormals::smooth));
+    const Bytes file = read_user_file(spec, limits.file_bytes);
+    scene = shown(scene_of(mesh_from_file(file, spec, limits, MissingNormals::smooth)));
+  } else if (is_obj_name(spec)) {
+    const Bytes file = read_user_file(spec, limits.file_bytes);
+    scene = shown(scene_from_obj(file, spec, limits, decode, MissingNormals::smooth));
   } else {
     const auto& known = builtin_scenes();
     const std::string name = spec.substr(0, spec.find(','));
     const bool bare = std::any_of(known.begin(), known.end(), [&](const BuiltinInfo& b) { return b.name == name; });
     throw Error(ErrorKind::bad_input, spec, "the ending names no scene or geometry format",
-                bare ? "a built-in scene is builtin:" + spec : "builtin:NAME, .json, .gltf, .glb, .ply or .ply.gz");
+                bare ? "a built-in scene is builtin:" + spec
+                     : "builtin:NAME, .json, .gltf, .glb, .obj, .obj.gz, .ply or .ply.gz");
   }
   scene.spec = name_without_folder(spec);
   validate(scene, limits);

@@ -10,6 +10,7 @@
 #include "scenes/files/gltf/gltf_geometry.h"
 #include "scenes/files/gltf/gltf_scene.h"
 #include "scenes/files/load_geometry.h"
+#include "scenes/files/obj/obj_scene.h"
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 
@@ -212,29 +213,33 @@ const std::vector<ObjectReader::Part>& ObjectReader::parts(const json::Node& nod
   const MissingNormals missing = normals ? MissingNormals(normals->choice(kNormals)) : MissingNormals::flat;
   const std::string where = path_ + ": " + geometry->pointer();
   const std::string file = relative_path_from_uri(geometry->string(), where);
-  if (!is_geometry_name(file) && !is_gltf_name(file))
-    geometry->fail("the ending names no geometry format", ".gltf, .glb, .ply or .ply.gz");
+  const bool is_ply = is_geometry_name(file);
+  if (!is_ply && !is_gltf_name(file) && !is_obj_name(file))
+    geometry->fail("the ending names no geometry format", ".gltf, .glb, .obj, .obj.gz, .ply or .ply.gz");
   if (normals && is_gltf_name(file)) normals->fail("missing normals of a glTF file are flat", "remove it");
   const auto [found, is_new] = files_.try_emplace(std::tuple(file, missing));
-  if (is_new) found->second = is_gltf_name(file) ? parts_of_gltf(file, where) : parts_of_file(file, missing, where);
+  if (is_new) found->second = is_ply ? parts_of_ply(file, missing, where) : parts_of_models(file, missing, where);
   return found->second;
 }
 
-std::vector<ObjectReader::Part> ObjectReader::parts_of_file(const std::string& file, MissingNormals missing,
-                                                            const std::string& where) {
+std::vector<ObjectReader::Part> ObjectReader::parts_of_ply(const std::string& file, MissingNormals missing,
+                                                           const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
   scene_.meshes.push_back(mesh_from_file(bytes, file, limits_, missing));
   return {{uint32_t(scene_.meshes.size() - 1), std::nullopt}};
 }
 
-/// What the file draws at its time 0, a mesh a material. Its materials and textures are added behind those there are.
-std::vector<ObjectReader::Part> ObjectReader::parts_of_gltf(const std::string& file, const std::string& where) {
+/// What a glTF or OBJ file draws at its time 0, a mesh a material. Its materials and textures are added behind those there are.
+std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string& file, MissingNormals missing,
+                                                              const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
   const size_t slash = path_.rfind('/');
   const std::string path = slash == std::string::npos ? file : path_.substr(0, slash + 1) + file;
   SceneLimits left = limits_;
   left.texture_bytes -= std::min(left.texture_bytes, surfaces_.bytes());
-  GltfGeometry geometry = geometry_of(scene_from_gltf(bytes, path, left, decode_));
+  GltfGeometry geometry = geometry_of(is_gltf_name(file)
+                                          ? scene_from_gltf(bytes, path, left, decode_)
+                                          : scene_from_obj(bytes, path, left, decode_, missing));
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());
   for (Material& material : geometry.materials) {

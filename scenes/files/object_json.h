@@ -44,8 +44,8 @@ class ObjectReader {
   void add_grid(const json::Node& grid, std::vector<Instance> instances, std::optional<uint32_t> motion,
                 const ObjectMotion& placed);
   const std::vector<Part>& parts(const json::Node& node);
-  std::vector<Part> parts_of_file(const std::string& file, MissingNormals missing, const std::string& where);
-  std::vector<Part> parts_of_gltf(const std::string& file, const std::string& where);
+  std::vector<Part> parts_of_ply(const std::string& file, MissingNormals missing, const std::string& where);
+  std::vector<Part> parts_of_models(const std::string& file, MissingNormals missing, const std::string& where);
   const std::vector<Part>& generated_mesh(const json::Node& node);
   uint32_t material(const json::Node& node, const StepReader& steps);
   uint32_t material_of(const glm::vec4& color);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,6 @@ class SceneFolder {
 
 /// Content of a .gz file, all its members. Error(bad_input) for a broken stream; Error(limit) over limits.file_bytes, over
 /// limits.expansion, over the memory cap.
-Bytes gunzipped(const Bytes& compressed, const SceneLimits& limits, std::string_view where);
+Bytes gunzipped(std::span<const uint8_t> compressed, const SceneLimits& limits, std::string_view where);
 
 }  // namespace trueshade

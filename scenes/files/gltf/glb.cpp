@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/file_ending.h"
 
 namespace trueshade::gltf {
 namespace {
@@ -60,7 +61,7 @@ size_t checked_length(std::span<const uint8_t> file, const std::string& name) {
 
 Container container_of(std::span<const uint8_t> file, const std::string& name) {
   const bool magic = file.size() >= 4 && word_at(file, 0) == kMagic;
-  if (!magic && !name.ends_with(".glb"))
+  if (!magic && !has_ending(name, ".glb"))
     return {{reinterpret_cast<const char*>(file.data()), file.size()}, std::nullopt, false};
   const size_t length = checked_length(file, name);
   Container out{{}, std::nullopt, true};

@@ -1,12 +1,13 @@
 #include "scenes/files/gltf/gltf_scene.h"
 
+#include "core/file_ending.h"
 #include "core/fp_env.h"
 #include "scenes/files/gltf/read_document.h"
 #include "scenes/files/gltf/scene_maker.h"
 
 namespace trueshade {
 
-bool is_gltf_name(std::string_view name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
+bool is_gltf_name(std::string_view name) { return has_ending(name, ".gltf") || has_ending(name, ".glb"); }
 
 Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
                       const ImageDecoder& decode) {

@@ -1,0 +1,78 @@
+#include "scenes/files/obj/obj_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fp_env.h"
+
+namespace trueshade::obj {
+namespace {
+
+constexpr float kMaskedBelow = 0.5f;  ///< alpha of a picture
+
+TextureSlot slot_of(int32_t texture, const MapSource& map) {
+  TextureSlot slot;
+  slot.texture = texture;
+  if (map.clamp) slot.sampler.wrap.fill(Wrap::clamp_to_edge);
+  slot.transform.offset = map.offset;
+  slot.transform.scale = map.scale;
+  return slot;
+}
+
+const MapSource* pointer(const std::optional<MapSource>& map) { return map ? &*map : nullptr; }
+
+/// Colour and opacity.
+void set_color(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures, Material& m) {
+  const glm::vec3 color = from.kd.value_or(glm::vec3(from.map_kd ? 1.0f : 0.8f));
+  m.base_color = glm::vec4(color, from.d.value_or(1.0f));
+  m.transparent = m.base_color.w < 1.0f;
+  if (from.map_d) {
+    m.color_map = slot_of(pictures.colors_with_alpha(document, pointer(from.map_kd), *from.map_d),
+                          from.map_kd ? *from.map_kd : *from.map_d);
+    if (!m.transparent) m.alpha_cutoff = kMaskedBelow;
+  } else if (from.map_kd) {
+    m.color_map = slot_of(pictures.colors(document, *from.map_kd), *from.map_kd);
+  }
+}
+
+/// illum 0 is a colour without light, 1 has no highlights.
+void set_gloss(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures, Material& m) {
+  m.unlit = from.illum == 0;
+  const bool glossy = from.illum >= 2;
+  m.specular_color = glossy ? from.ks.value_or(glm::vec3(from.map_ks ? 1.0f : 0.0f)) : glm::vec3(0.0f);
+  m.shininess = std::nearbyint(std::min(from.ns.value_or(32.0f), 8192.0f));
+  if (glossy && from.map_ks) m.specular_map = slot_of(pictures.colors(document, *from.map_ks), *from.map_ks);
+}
+
+void set_normals(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures, Material& m) {
+  const MapSource* map = from.norm ? &*from.norm : pointer(from.map_bump);
+  if (!map) return;
+  bool scaled = false;
+  m.normal_map = slot_of(pictures.normals(document, *map, !from.norm, scaled), *map);
+  m.normal_scale = scaled ? 1.0f : map->bump;
+}
+
+void set_metal(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures, Material& m) {
+  m.metallic = from.pm.value_or(from.map_pm ? 1.0f : 0.0f);
+  m.roughness = from.pr.value_or(1.0f);
+  if (!from.map_pr && !from.map_pm) return;
+  m.metallic_roughness_map = slot_of(pictures.metallic_roughness(document, pointer(from.map_pr), pointer(from.map_pm)),
+                                     from.map_pr ? *from.map_pr : *from.map_pm);
+}
+
+}  // namespace
+
+Material material_of(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures) {
+  const FpScope fp;
+  Material m;
+  m.name = from.name;
+  set_color(document, from, pictures, m);
+  set_gloss(document, from, pictures, m);
+  set_normals(document, from, pictures, m);
+  set_metal(document, from, pictures, m);
+  m.emission = from.ke.value_or(glm::vec3(from.map_ke ? 1.0f : 0.0f));
+  if (from.map_ke) m.emission_map = slot_of(pictures.colors(document, *from.map_ke), *from.map_ke);
+  return m;
+}
+
+}  // namespace trueshade::obj

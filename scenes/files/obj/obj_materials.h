@@ -1,0 +1,11 @@
+#pragma once
+#include "scenes/files/obj/mtl_document.h"
+#include "scenes/files/obj/obj_pictures.h"
+#include "scenes/scene.h"
+
+namespace trueshade::obj {
+
+/// A material of an MTL file as a scene's; its pictures become textures of the scene. docs/obj.md has the rules.
+Material material_of(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures);
+
+}  // namespace trueshade::obj

@@ -1,0 +1,145 @@
+#include "scenes/files/obj/obj_scene.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "core/error.h"
+#include "core/file_ending.h"
+#include "core/fp_env.h"
+#include "scenes/files/obj/obj_materials.h"
+#include "scenes/files/obj/obj_meshes.h"
+#include "scenes/files/obj/read_mtl.h"
+#include "scenes/files/obj/read_obj.h"
+#include "scenes/files/obj/statements.h"
+
+namespace trueshade {
+namespace obj {
+namespace {
+
+constexpr glm::vec4 kGrey{0.7f, 0.7f, 0.7f, 1.0f};
+
+/// The materials that a document's libraries define, and the scene's of those that are drawn.
+class Libraries {
+ public:
+  Libraries(const ObjDocument& document, const SceneLimits& limits, const ImageDecoder& decode, const FileReader& read,
+            Scene& scene)
+      : document_(document), scene_(scene), pictures_(read, decode, limits, scene) {
+    uint64_t left = limits.file_bytes;
+    for (const ObjDocument::Library& library : document.libraries) {
+      const std::string where = document.file + ": line " + std::to_string(library.line),
+                        path = path_beside("", library.name, where);
+      const Bytes text = read(path, left, where);
+      left -= std::min<uint64_t>(left, text.size());
+      documents_.push_back(std::make_unique<MtlDocument>(read_mtl(text, path)));
+      for (const MtlMaterial& material : documents_.back()->materials)
+        if (!defined_.emplace(material.name, Defined{documents_.back().get(), &material}).second)
+          throw Error(ErrorKind::bad_input, path + ": line " + std::to_string(material.line),
+                      "a material of this name exists in another library", "another name");
+    }
+    drawn_.resize(document.material_names.size() + 1, -1);
+  }
+
+  /// Index in the scene of one of the document's materials; below 0 stands for none.
+  uint32_t material(int32_t index) {
+    int32_t& known = drawn_[size_t(index + 1)];
+    if (known < 0) {
+      Material material = made(index);
+      known = int32_t(scene_.materials.size());
+      scene_.materials.push_back(std::move(material));
+    }
+    return uint32_t(known);
+  }
+
+  /// What the scene leaves out.
+  void add_notes() {
+    std::map<std::string, uint64_t> passed_over;
+    for (const auto& document : documents_)
+      for (const auto& [name, count] : document->passed_over) passed_over[name] += count;
+    std::string names;
+    for (const auto& [name, count] : passed_over)
+      names += (names.empty() ? "" : ", ") + name + " (" + std::to_string(count) + ')';
+    if (!names.empty()) scene_.notes.push_back("What the material library says by these words is not drawn: " + names);
+    add_note(mirrors_, "material asks", "materials ask",
+             " for reflection or refraction (illum 3 to 9), which is not drawn: Their highlights are");
+    const std::string undefined =
+        " grey, because no library of the file (mtllib) defines " + std::string(undefined_ == 1 ? "it: " : "them: ");
+    add_note(undefined_, "material is", "materials are",
+             (undefined + undefined_names_ + (undefined_ > kMostNamed ? " and more" : "")).c_str());
+  }
+
+  void add_note(uint64_t count, const char* one, const char* many, const char* rest) {
+    if (count > 0) scene_.notes.push_back(std::to_string(count) + ' ' + (count == 1 ? one : many) + rest);
+  }
+
+ private:
+  struct Defined {
+    const MtlDocument* document;
+    const MtlMaterial* material;
+  };
+
+  Material made(int32_t index) {
+    if (index < 0) return {"grey", kGrey};
+    const std::string& name = document_.material_names[size_t(index)];
+    const auto found = defined_.find(name);
+    if (found != defined_.end()) {
+      mirrors_ += found->second.material->illum >= 3 && found->second.material->illum <= 9;
+      return material_of(*found->second.document, *found->second.material, pictures_);
+    }
+    if (++undefined_ <= kMostNamed) undefined_names_ += (undefined_ == 1 ? "" : ", ") + printable(name);
+    return {name, kGrey};
+  }
+
+  const ObjDocument& document_;
+  Scene& scene_;
+  ObjPictures pictures_;
+  std::vector<std::unique_ptr<MtlDocument>> documents_;
+  std::map<std::string, Defined> defined_;
+  std::vector<int32_t> drawn_;  ///< by index in the document + 1
+  static constexpr uint64_t kMostNamed = 8;
+  uint64_t mirrors_ = 0, undefined_ = 0;
+  std::string undefined_names_;
+};
+
+}  // namespace
+}  // namespace obj
+
+bool is_obj_name(std::string_view name) { return has_ending(name, ".obj") || has_ending(name, ".obj.gz"); }
+
+Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
+                     const ImageDecoder& decode, MissingNormals missing_normals, const obj::FileReader& read) {
+  const FpScope fp;
+  Scene scene;
+  scene.spec = path;
+  obj::ObjDocument document = obj::read_obj(file, path, limits);
+  obj::Libraries libraries(document, limits, decode, read, scene);
+  std::vector<obj::ObjPart> parts = obj::parts_of(document, missing_normals, limits);
+  for (obj::ObjPart& part : parts) {
+    Instance instance;
+    instance.mesh = uint32_t(scene.meshes.size());
+    instance.material = libraries.material(part.material);
+    part.mesh.name = part.object < 0 ? path : document.object_names[size_t(part.object)];
+    scene.meshes.push_back(std::move(part.mesh));
+    scene.instances.push_back(instance);
+  }
+  libraries.add_note(document.points, "statement of points (p) is", "statements of points (p) are",
+                     " not drawn, because only faces are drawn");
+  libraries.add_note(document.lines, "statement of lines (l) is", "statements of lines (l) are",
+                     " not drawn, because only faces are drawn");
+  libraries.add_note(document.free_form, "curve or surface is", "curves and surfaces are",
+                     " not drawn, because only faces are drawn");
+  libraries.add_notes();
+  return scene;
+}
+
+Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
+                     const ImageDecoder& decode, MissingNormals missing_normals) {
+  const SceneFolder folder(path);
+  const obj::FileReader read = [&](const std::string& relative, uint64_t limit, const std::string& where) {
+    return folder.read(relative, limit, where);
+  };
+  if (!has_ending(path, ".gz")) return scene_from_obj(file, path, limits, decode, missing_normals, read);
+  const Bytes unpacked = gunzipped(file, limits, path);
+  return scene_from_obj(unpacked, path, limits, decode, missing_normals, read);
+}
+
+}  // namespace trueshade
