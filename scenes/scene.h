@@ -78,7 +78,7 @@ struct Scene {
   /// Lights are in candela and lux, and materials of glTF's model: without a preset the pipeline is that of
   /// default_pipeline() in scenes/pipeline/presets.h.
   bool photometric = false;
-  bool lights_of_ours = false;       ///< the file has no lights: a ring of ours stands in
+  bool lights_of_ours = false;       ///< the file has no lights: lights of ours stand in
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
 
   uint64_t triangle_count() const;  ///< over all instances
@@ -106,10 +106,10 @@ void set_time(Scene& scene, double time);
 void validate_moving(const Scene& scene, double time);
 
 /// Reads `builtin:NAME[,key=value...]`, a scene file (.json), a glTF file (.gltf, .glb) or a geometry file (.obj, .ply,
-/// and these with .gz), endings in small letters or capitals, and validates it. A glTF file without a camera or without lights gets them as a geometry file does.
-/// A geometry file alone is drawn in grey, with smooth normals if it has none, by a camera of ours inside a ring of
-/// lights. Without `decode` a scene that names an image file is refused.
-/// Errors: bad_input with file and place; limit; io for a file that cannot be read.
+/// and these with .gz), endings in small letters or capitals, and validates it. A glTF file without a camera or without
+/// lights gets them as a geometry file does. A geometry file alone has smooth normals if it has none, is grey where it
+/// has no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an image file
+/// is refused. Errors: bad_input with file and place; limit; io for a file that cannot be read.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {});
 
 /// SHA-256 over the loaded values (not over file bytes): meshes, materials, textures (decoded texels), instances,

@@ -33,7 +33,7 @@ Bounds bounds_of(const Scene& scene) {
   if (!(least.x <= most.x)) return {};
   const glm::dvec3 diagonal = most - least;
   const double radius = 0.5 * std::sqrt(dot(diagonal, diagonal));
-  return {(least + most) * 0.5, radius > 0.0 ? radius : 1.0};
+  return {(least + most) * 0.5, radius > 0.0 ? radius : 1.0, least};
 }
 
 Camera camera_seeing(const Bounds& bounds) {

@@ -7,7 +7,8 @@ namespace trueshade {
 /// Box around all instances, in world space; of radius 1 about the origin if nothing is drawn.
 struct Bounds {
   glm::dvec3 centre{0.0};
-  double radius = 1.0;  ///< of the sphere around the box
+  double radius = 1.0;     ///< of the sphere around the box
+  glm::dvec3 least{-1.0};  ///< the box's lowest corner
 };
 Bounds bounds_of(const Scene& scene);
 

@@ -2,25 +2,118 @@
 
 #include <algorithm>
 
-#include "scenes/builtin/light_generators.h"
+#include "core/fp_env.h"
 #include "scenes/scene_defaults.h"
+#include "scenes/shapes.h"
+#include "scenes/trig.h"
 
 namespace trueshade {
+namespace {
+
+constexpr double kGreyReflectance = 0.7;             // reflectance that the lights are made for
+constexpr double kLeastGain = 0.7, kMostGain = 5.0;  // of the lights on white and on dark surfaces
+constexpr double kLightDistance = 2.2;               // of all but ambient light, in radii of the bounds
+
+constexpr double kGroundReflectance = 0.34;
+constexpr glm::dvec3 kAmbient(0.17, 0.18, 0.2);
+
+double luminance(const glm::dvec3& color) { return (0.2126 * color.x + 0.7152 * color.y) + 0.0722 * color.z; }
+
+glm::dvec3 mean_color(const Mesh& mesh) {
+  if (!mesh.has_color() || mesh.vertex_count() == 0) return glm::dvec3(1.0);
+  glm::dvec3 sum(0.0);
+  for (int k = 0; k < 3; ++k)
+    for (const float x : mesh.color[size_t(k)]) sum[k] += double(x);
+  return sum / double(mesh.vertex_count());
+}
+
+glm::dvec3 mean_color(const Scene& scene, const Material& material) {
+  const glm::dvec3 base(material.base_color);
+  if (!material.color_map.used()) return base;
+  const Texture& texture = scene.textures[size_t(material.color_map.texture)];
+  const TextureLevel& last = texture.levels.back();
+  if (last.width != 1 || last.height != 1) return base;
+  const std::array<float, 4> texel = texel_value(texture, texture.levels.size() - 1, 0, 0);
+  return base * glm::dvec3(texel[0], texel[1], texel[2]);
+}
+
+/// How much more light than on grey a scene gets.
+double gain_of(const Scene& scene) {
+  const double reflectance = mean_reflectance(scene);
+  return reflectance > 0.0 ? std::clamp(kGreyReflectance / reflectance, kLeastGain, kMostGain) : 1.0;
+}
+
+void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
+  const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
+  const double intensity = scene.photometric ? std::min(0.4 * distance2, 1e17) : 1.0;
+  Light light;
+  light.position = glm::vec3(bounds.centre + unit(from) * distance);
+  light.color = glm::vec3(color * intensity);
+  light.range = float(6.0 * bounds.radius);
+  light.attenuation = {1.0f, 0.0f, float(0.6 / distance2)};
+  scene.lights.push_back(light);
+}
+
+}  // namespace
+
+double mean_reflectance(const Scene& scene) {
+  const FpScope fp;
+  std::vector<glm::dvec3> of_mesh, of_material;
+  for (const Mesh& mesh : scene.meshes) of_mesh.push_back(mean_color(mesh));
+  for (const Material& material : scene.materials) of_material.push_back(mean_color(scene, material));
+  double sum = 0.0, weight = 0.0;
+  for (const Instance& instance : scene.instances) {
+    const double triangles = double(scene.meshes[instance.mesh].triangle_count());
+    sum += triangles * luminance(of_mesh[instance.mesh] * of_material[instance.material]);
+    weight += triangles;
+  }
+  return weight > 0.0 ? sum / weight : 0.0;
+}
 
 void add_lights_of_ours(Scene& scene) {
+  const FpScope fp;
   const Bounds bounds = bounds_of(scene);
-  const glm::vec3 colors[] = {{1.0f, 0.72f, 0.42f}, {1.0f, 0.35f, 0.45f}, {0.35f, 0.5f, 1.0f}, {0.5f, 1.0f, 0.9f}};
-  LightRing ring;
-  ring.count = 24;
-  ring.centre = bounds.centre + glm::dvec3(0.0, 0.6 * bounds.radius, 0.0);
-  ring.radius = 1.3 * bounds.radius;
-  ring.colors = colors;
-  ring.intensity = scene.photometric ? std::min(0.3 * (bounds.radius * bounds.radius), 1e17) : 0.3;
-  ring.range = float(3.0 * bounds.radius);
-  ring.attenuation = {1.0f, 0.0f, float(1.0 / (bounds.radius * bounds.radius))};
-  add_ring(scene, ring);
+  const double gain = gain_of(scene);
+  add_lamp(scene, bounds, {-0.8, 1.0, 0.9}, glm::dvec3(1.45, 1.36, 1.2) * gain);
+  add_lamp(scene, bounds, {1.0, 0.35, 0.7}, glm::dvec3(0.34, 0.42, 0.56) * gain);
+  add_lamp(scene, bounds, {0.5, 0.9, -1.0}, glm::dvec3(0.6, 0.57, 0.52) * gain);
+  Light ambient;
+  ambient.type = LightType::ambient;
+  ambient.color = glm::vec3(kAmbient * gain);
+  scene.lights.push_back(ambient);
   scene.clear = {0.02f, 0.02f, 0.03f, 1.0f};
   scene.lights_of_ours = true;
+}
+
+void add_ground(Scene& scene) {
+  constexpr int kSides = 96;
+  constexpr double kMost = 9e17;
+  const FpScope fp;
+  const Bounds bounds = bounds_of(scene);
+  const double radius = 8.0 * bounds.radius, height = bounds.least.y - 0.004 * bounds.radius;
+  const bool fits = std::fabs(bounds.centre.x) + radius < kMost && std::fabs(bounds.centre.z) + radius < kMost &&
+                    std::fabs(height) < kMost;
+  if (scene.triangle_count() == 0 || !fits) return;
+  Mesh disc;
+  disc.name = "ground";
+  const glm::dvec3 up(0.0, 1.0, 0.0), centre(bounds.centre.x, height, bounds.centre.z);
+  add_vertex(disc, centre, up);
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * kPi * double(i) / kSides;
+    add_vertex(disc, centre + glm::dvec3(cosine(angle), 0.0, -sine(angle)) * radius, up);
+    disc.indices.insert(disc.indices.end(), {0, uint32_t(1 + i), uint32_t(1 + (i + 1) % kSides)});
+  }
+  const glm::dvec3 to_centre = centre - glm::dvec3(scene.camera.eye);
+  const double farthest = std::sqrt(dot(to_centre, to_centre)) + radius;
+  scene.camera.far = std::max(scene.camera.far, float(std::min(1.01 * farthest, kMost)));
+  const float grey = float(kGroundReflectance / gain_of(scene));
+  scene.clear = glm::vec4(glm::vec3(kAmbient * kGroundReflectance), 1.0f);  // as the ground is where no lamp reaches
+  Instance instance;
+  instance.mesh = uint32_t(scene.meshes.size());
+  instance.material = uint32_t(scene.materials.size());
+  scene.meshes.push_back(std::move(disc));
+  scene.materials.push_back({"ground", {grey, grey, grey, 1.0f}});
+  scene.instances.push_back(instance);
 }
 
 }  // namespace trueshade

@@ -3,8 +3,20 @@
 
 namespace trueshade {
 
-/// Lights a scene whose file has none: a ring of 24 point lights from warm to cold about what is drawn, over a dark
-/// background. In a photometric scene they are as bright at the ring's distance as in others.
+/// The mean luminance that a scene's surfaces give back of white light, in [0, 1e18]: colours of materials times the
+/// means of vertices' colours and of colour maps (the smallest level of a whole chain), each instance by its triangles.
+double mean_reflectance(const Scene& scene);
+
+/// Lights a scene whose file has none, as a photographer lights an object: a warm key light from the upper left, a cool
+/// fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark surfaces
+/// get more light, up to 5 times as much as grey ones, and white ones less. In a photometric scene the lights are as
+/// bright at their distance as in others.
 void add_lights_of_ours(Scene& scene);
+
+/// Puts a level grey disc under what is drawn, a little below its lowest point, eight times as wide. It is darker
+/// where there is more light of ours, so that it looks the same under any object, and far away it is as the background.
+/// Nothing where nothing is drawn, or where the disc would leave the range of positions. The camera's far plane is
+/// moved behind it; the camera of camera_seeing() is above it.
+void add_ground(Scene& scene);
 
 }  // namespace trueshade

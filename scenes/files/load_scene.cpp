@@ -24,10 +24,11 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-/// Geometry alone: seen whole, inside a ring of lights from warm to cold.
+/// Geometry alone: seen whole, under lights of ours, on a ground.
 Scene shown(Scene scene) {
   scene.camera = camera_seeing(bounds_of(scene));
   add_lights_of_ours(scene);
+  add_ground(scene);
   return scene;
 }
 

@@ -229,7 +229,8 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_ply(const std::string& fi
   return {{uint32_t(scene_.meshes.size() - 1), std::nullopt}};
 }
 
-/// What a glTF or OBJ file draws at its time 0, a mesh a material. Its materials and textures are added behind those there are.
+/// What a glTF or OBJ file draws at its time 0, a mesh a material. Its materials and textures are added behind those
+/// that there are.
 std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string& file, MissingNormals missing,
                                                               const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);

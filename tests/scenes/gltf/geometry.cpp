@@ -450,7 +450,7 @@ TEST_CASE("a scene file may name a glTF file as geometry: a mesh a material, in 
 
 TEST_CASE("a file without camera and lights gets ours") {
   const Scene scene = nodes(R"({"mesh": 0, "scale": [10, 10, 10]})");
-  CHECK(scene.lights.size() == 24);
+  CHECK(scene.lights.size() == 4);
   CHECK(scene.lights_of_ours);
   CHECK(scene.camera.fov_y_rad == 0.7f);
   CHECK(scene.timeline.empty());

@@ -190,11 +190,12 @@ TEST_CASE("OBJ: files load by their ending, in capitals too and packed, alone an
   const ScratchFolder folder;
   const std::string text = square("usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
   const Scene scene = load_scene(folder.write("A.OBJ", text));
-  CHECK(scene.meshes.size() == 2);
+  CHECK(scene.meshes.size() == 3);  // with the ground
   CHECK(scene.lights_of_ours);
   folder.write("b/m.obj", text);
   const std::string json = R"({"version": 1, "objects": [{"geometry": "b/m.obj"},
-    {"geometry": "b/m.obj", "color": [1, 0, 0], "position": [2, 0, 0]}, {"geometry": "b/m.obj", "normals": "smooth"}]})";
+    {"geometry": "b/m.obj", "color": [1, 0, 0], "position": [2, 0, 0]},
+    {"geometry": "b/m.obj", "normals": "smooth"}]})";
   const Scene used = load_scene(folder.write("scene.json", json));
   CHECK(used.meshes.size() == 4);  // once with flat normals, once with smooth ones
   CHECK(used.instances.size() == 6);

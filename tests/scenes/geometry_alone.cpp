@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include "scenes/files/lights_of_ours.h"
+#include "scenes/scene.h"
+#include "tests/catch.hpp"
+#include "tests/scratch_folder.h"
+
+// What a geometry file gets that comes without a scene.
+namespace trueshade {
+namespace {
+
+Scene loaded(const std::string& obj) {
+  const ScratchFolder folder;
+  return load_scene(folder.write("m.obj", obj));
+}
+
+/// A box from (x, y, z) on, of a size, as six faces.
+std::string box(double x, double y, double z, double size) {
+  std::string text;
+  for (int corner = 0; corner < 8; ++corner)
+    text += "v " + std::to_string(x + size * (corner & 1)) + ' ' + std::to_string(y + size * (corner >> 1 & 1)) + ' ' +
+            std::to_string(z + size * (corner >> 2)) + '\n';
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+TEST_CASE("geometry alone: the ground lies just below, faces up, is wide, and ends before the far plane") {
+  for (const double size : {1e-3, 1.0, 700.0}) {
+    const Scene scene = loaded(box(3.0 * size, -2.0 * size, size, size));
+    REQUIRE(scene.instances.size() == 2);
+    const Mesh& ground = scene.meshes[scene.instances[1].mesh];
+    const double radius = 0.5 * std::sqrt(3.0) * size;
+    double farthest = 0.0;
+    for (size_t v = 0; v < ground.vertex_count(); ++v) {
+      const glm::dvec3 at(ground.position[0][v], ground.position[1][v], ground.position[2][v]);
+      CHECK(at.y < -2.0 * size);
+      CHECK(at.y > -2.0 * size - 0.01 * radius);
+      CHECK(ground.normal[1][v] == 1.0f);
+      const glm::dvec3 from_eye = at - glm::dvec3(scene.camera.eye);
+      farthest =
+          std::max(farthest, std::sqrt(from_eye.x * from_eye.x + from_eye.y * from_eye.y + from_eye.z * from_eye.z));
+    }
+    CHECK(farthest < double(scene.camera.far));
+    CHECK(double(ground.position[0][1]) - 3.5 * size == Approx(8.0 * radius));
+    CHECK(double(scene.camera.eye.y) > -2.0 * size);  // above it
+    for (size_t t = 0; t < ground.indices.size(); t += 3) {
+      double x[3], z[3];
+      for (size_t k = 0; k < 3; ++k) {
+        x[k] = ground.position[0][ground.indices[t + k]];
+        z[k] = ground.position[2][ground.indices[t + k]];
+      }
+      CHECK((z[1] - z[0]) * (x[2] - x[0]) - (x[1] - x[0]) * (z[2] - z[0]) > 0.0);  // counter-clockwise from above
+    }
+  }
+}
+
+TEST_CASE("geometry alone: nothing to stand on the ground, or no room for it, gives none") {
+  CHECK(loaded("").instances.empty());
+  CHECK(loaded(box(3e17, 0.0, 0.0, 1.1e17)).instances.size() == 1);
+  CHECK(loaded("v 0 0 0\nf 1 1 1\n").instances.size() == 2);
+}
+
+TEST_CASE("geometry alone: reflectance is that of materials and vertices, each object by its triangles") {
+  Scene scene;
+  scene.materials = {{"", {0.5f, 0.5f, 0.5f, 1.0f}}, {"", {1.0f, 0.0f, 0.0f, 1.0f}}};
+  Mesh mesh;
+  for (int k = 0; k < 3; ++k) mesh.position[size_t(k)] = mesh.normal[size_t(k)] = {0.0f, 1.0f};
+  mesh.indices = {0, 1, 1};
+  scene.meshes = {mesh, mesh};
+  scene.meshes[1].color = {std::vector<float>{0.0f, 1.0f}, {0.0f, 1.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}};
+  scene.meshes[1].indices = {0, 1, 1, 0, 0, 1, 1, 1, 0};
+  CHECK(mean_reflectance(scene) == 0.0);
+  scene.instances = {{0, 0}};
+  CHECK(mean_reflectance(scene) == Approx(0.5));
+  scene.instances = {{0, 0}, {1, 1}};
+  CHECK(mean_reflectance(scene) == Approx((0.5 + 3.0 * 0.5 * 0.2126) / 4.0));
+}
+
+TEST_CASE("geometry alone: lights are up to five times as bright on dark surfaces, and weaker on white") {
+  constexpr double kKey = 1.45;  // red of the key light on grey
+  const auto key_light = [](const std::string& color) {
+    return loaded("v 0 0 0 " + color + "\nv 1 0 0 " + color + "\nv 0 1 0 " + color + "\nf 1 2 3\n")
+        .lights.at(0)
+        .color.x;
+  };
+  CHECK(key_light("1 1 1") == Approx(0.7 * kKey));
+  CHECK(key_light("0.5 0.5 0.5") == Approx(2.0 * kKey));
+  CHECK(key_light("0.01 0.01 0.01") == Approx(5.0 * kKey));
+  CHECK(key_light("0 0 0") == Approx(kKey));
+}
+
+}  // namespace
+}  // namespace trueshade
