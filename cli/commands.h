@@ -10,6 +10,7 @@ void render(const RenderOptions& options);
 void print_info(const InfoOptions& options);
 void print_list(const ListOptions& options);
 void write_glsl(const GlslFilesOptions& options);
+void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 

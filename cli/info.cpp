@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/preparation.h"
+#include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
 #include "scenes/scene.h"
@@ -21,7 +22,7 @@ std::string about_image(const std::string& path, uint64_t most_expansion) {
       info_row("image", path) + info_row("size", std::to_string(image.width) + 'x' + std::to_string(image.height));
   for (const std::string& channel : image.channels) text += info_row("channel", channel);
   for (const auto& [key, value] : image.metadata) text += info_row(key, value);
-  if (!path.ends_with(".png")) return text;
+  if (!has_ending(path, ".png")) return text;
   read_planes(path, most_expansion);  // throws for a wrong checksum, damaged or missing texels
   return text + info_row("pixels", "read whole, all checksums right");
 }
@@ -53,7 +54,7 @@ std::string about_scene(const std::string& spec, const Limits& limits) {
 }  // namespace
 
 void print_info(const InfoOptions& options) {
-  const bool image = options.file.ends_with(".png") || options.file.ends_with(".exr");
+  const bool image = has_ending(options.file, ".png") || has_ending(options.file, ".exr");
   print(image ? about_image(options.file, options.limits.expansion) : about_scene(options.file, options.limits));
 }
 

@@ -8,6 +8,7 @@
 #include "cli/unknown_option.h"
 #include "cli/version.h"
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "judge/bounds/profile.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
@@ -43,9 +44,9 @@ void check_outputs(const RenderOptions& options) {
   check_named_once("-o", options.outputs);
   bool exr = false, png = false;
   for (const std::string& path : options.outputs) {
-    exr = exr || path.ends_with(".exr");
-    png = png || path.ends_with(".png");
-    if (!path.ends_with(".png") && !path.ends_with(".exr") && !path.ends_with(".html"))
+    exr = exr || has_ending(path, ".exr");
+    png = png || has_ending(path, ".png");
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !has_ending(path, ".html"))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
   }
   if (!options.aovs.empty() && !exr && !options.json)
@@ -188,6 +189,23 @@ GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::str
   return options;
 }
 
+CLI::App* add_export(CLI::App& app, ExportOptions& options, std::optional<std::string>& time) {
+  CLI::App* command = app.add_subcommand("export", "Write a scene as a GLB file, for other programs and for this one");
+  add_value(command, "SCENE", "FILE", options.scene, "Scene as for render")->required();
+  add_value(command, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output")->required();
+  add_value(command, "--time", "SECONDS", time, "Write the scene as it stands at this time, without what moves");
+  add_switch(command, "-q,--quiet", options.quiet, "Say neither notes nor which file was written");
+  return command;
+}
+
+ExportOptions finished(ExportOptions options, const std::optional<std::string>& time) {
+  check_scene(options.scene);
+  if (time) options.time = time_from_text(*time);
+  if (options.output != "-" && !has_ending(options.output, ".glb"))
+    throw usage("-o", "a scene is not written to '" + options.output + "'", "end the name in .glb, or - for standard output");
+  return options;
+}
+
 /// Option values of validate as text.
 struct ValidationTexts {
   std::optional<std::string> size, subpixel_bits, strategy, time;
@@ -237,12 +255,12 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (options.gbuffer_file.empty() && !options.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   for (const std::string& path : options.saved)
-    if (!path.ends_with(".png") && !path.ends_with(".exr"))
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
       throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
   check_named_once("--save", options.saved);
   if (!options.saved.empty() && !options.gbuffer_file.empty())
     throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
-  if (options.report && !options.report->ends_with(".html"))
+  if (options.report && !has_ending(*options.report, ".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   return options;
 }
@@ -285,7 +303,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   for (const std::string& scene : options.scenes) check_scene(scene);
   check_preset(options.preset);
   check_simd("--simd", options.simd);
-  if (options.report && !options.report->ends_with(".html"))
+  if (options.report && !has_ending(*options.report, ".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   if (options.report && options.json_file) check_named_once("--json", {*options.report, *options.json_file});
   return options;
@@ -320,7 +338,7 @@ Error unexpected_argument(const CLI::App& command, const std::vector<std::string
 
 /// The first argument is a command, or an option of the program itself. Error(usage) for any other.
 void check_first_argument(const CLI::App& app, const std::string& first) {
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "validate", "bench"};
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "export", "validate", "bench"};
   if (!first_unknown_option({&first, 1}, option_names(app)).empty()) throw unexpected_argument(app, {first});
   if (first[0] != '-' && std::find(std::begin(kCommands), std::end(kCommands), first) == std::end(kCommands))
     throw usage("command line", "there is no command '" + first + "'", "one of: " + joined(kCommands));
@@ -348,6 +366,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   ListOptions list;
   GlslFilesOptions glsl;
   std::optional<std::string> glsl_strategy;
+  ExportOptions exported;
+  std::optional<std::string> export_time;
   ValidationOptions validation;
   ValidationTexts validation_texts;
   BenchOptions benchmark;
@@ -359,6 +379,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   add_switch(list_command, "--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
+  const CLI::App* export_command = add_export(app, exported, export_time);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
   std::vector<std::string> words(arguments + 1, arguments + std::max(count, 1));
@@ -387,6 +408,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
     return info;
   }
   if (glsl_command->parsed()) return finished(std::move(glsl), glsl_strategy);
+  if (export_command->parsed()) return finished(std::move(exported), export_time);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
   return list;

@@ -57,6 +57,14 @@ struct InfoOptions : LimitedOptions {
   std::string file;  ///< a scene or an image
 };
 
+/// `trueshade export`
+struct ExportOptions {
+  std::string scene;           ///< a file or builtin:NAME
+  std::string output;          ///< .glb, or - for standard output
+  std::optional<double> time;  ///< seconds; nothing: the scene with all that moves
+  bool quiet = false;          ///< neither notes nor the name of the file written
+};
+
 /// `trueshade list`
 struct ListOptions {
   bool json = false;
@@ -100,7 +108,8 @@ struct PrintText {
 };
 
 using Command =
-    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ValidationOptions, BenchOptions, PrintText>;
+    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
+                 BenchOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

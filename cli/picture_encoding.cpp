@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/file_ending.h"
+
 namespace trueshade {
 
 ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipeline) {
@@ -18,7 +20,7 @@ std::string encoding_note(const RenderOptions& options, const Pipeline& pipeline
   const bool linear = info(format).number_class == NumberClass::floating &&
                       file_options(options, pipeline).values == PictureValues::of_target;
   const bool png = std::any_of(options.outputs.begin(), options.outputs.end(),
-                               [](const std::string& path) { return path.ends_with(".png"); });
+                               [](const std::string& path) { return has_ending(path, ".png"); });
   if (!linear || !png || options.encode) return {};
   return "The target " + std::string(info(format).name) +
          " holds linear light, and the PNG is sRGB-encoded as screens take it (--encode srgb says so, --encode raw "

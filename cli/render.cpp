@@ -15,6 +15,7 @@
 #include "cli/report.h"
 #include "cli/written_files.h"
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr int kRepeats = 9;
 constexpr double kRepeatBudgetMs = 300.0;
 
-bool is_report(const std::string& path) { return path.ends_with(".html"); }
+bool is_report(const std::string& path) { return has_ending(path, ".html"); }
 
 bool wants_report(const RenderOptions& options) {
   return std::any_of(options.outputs.begin(), options.outputs.end(), is_report);
@@ -64,7 +65,7 @@ std::string about_file(const std::string& path, const RenderedFrame& result, std
   std::string about = std::to_string(color.width) + 'x' + std::to_string(color.height) + ' ' +
                       std::string(info(color.format).name) + ", " + kind_of_file(path);
   if (is_report(path)) return about + " report";
-  if (!path.ends_with(".exr") || planes.empty()) return about;
+  if (!has_ending(path, ".exr") || planes.empty()) return about;
   about += " with planes";
   for (const NamedImage& plane : planes) about += ' ' + plane.name;
   return about;

@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "core/fp_env.h"
 #include "core/image_files/exr_file.h"
 #include "core/image_files/image_io.h"
@@ -10,9 +11,9 @@ void write_image(const std::string& path, const Image& color, std::span<const Na
                  const Metadata& metadata, const ImageFileOptions& options) {
   const FpScope ieee;
   std::vector<std::vector<uint8_t>> pieces;
-  if (path.ends_with(".png"))
+  if (has_ending(path, ".png"))
     pieces = png_file(path, color, metadata, options);
-  else if (path.ends_with(".exr"))
+  else if (has_ending(path, ".exr"))
     pieces = exr_file(path, color, aovs, metadata, options);
   else
     throw Error(ErrorKind::usage, path, "no image format has this ending", "end the name in .png or .exr");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/files/gltf/glb.h"
+#include "scenes/json/json_value.h"
 #include "scenes/light.h"
 #include "scenes/placement.h"
 #include "scenes/texture.h"
@@ -219,6 +220,7 @@ struct Document {
   std::vector<AnimationSource> animations;
   std::vector<std::vector<uint32_t>> scenes;  ///< root nodes of each
   uint32_t scene = kNone;
+  std::optional<json::Value> extras;  ///< of the root
 
   /// Throws `FILE: POINTER: reason (remedy)`.
   [[noreturn]] void fail(const std::string& pointer, const std::string& reason, const std::string& remedy) const;

@@ -2,6 +2,7 @@
 
 #include "core/file_ending.h"
 #include "core/fp_env.h"
+#include "scenes/files/gltf/extras/extras_scene.h"
 #include "scenes/files/gltf/read_document.h"
 #include "scenes/files/gltf/scene_maker.h"
 
@@ -16,6 +17,8 @@ Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, co
   const gltf::Document document = gltf::read_document(container, path, limits);
   const SceneFolder folder(path);
   gltf::Buffers buffers(document, container, folder, limits);
+  if (auto extras = gltf::read_extras(document))
+    return gltf::scene_of_extras(std::move(*extras), buffers, folder, limits, decode);
   return gltf::SceneMaker(buffers, folder, limits, decode).make();
 }
 

@@ -111,7 +111,7 @@ Document read_document(const Container& container, const std::string& file, cons
   if (container.json.size() > limits.json_bytes)
     throw Error(ErrorKind::limit, file, std::to_string(container.json.size()) + " bytes of JSON are over the limit",
                 within_limit(limits.json_bytes, "bytes", "--max-json"));
-  const json::Value value = json::parse(container.json, file);
+  json::Value value = json::parse(container.json, file);
   const json::Node root(value, file);
   Document document;
   document.file = file;
@@ -128,6 +128,8 @@ Document read_document(const Container& container, const std::string& file, cons
   read_lights_and_cameras(root, document);
   read_nodes(root, counts, document);
   read_animations(root, counts, document);
+  for (auto& [key, member] : *std::get<std::unique_ptr<json::Members>>(value.is))
+    if (key == "extras") document.extras = std::move(member);
   return document;
 }
 

@@ -1,0 +1,51 @@
+#include <span>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/notes.h"
+#include "cli/written_files.h"
+#include "core/image_files/image_io.h"
+#include "scenes/files/gltf/writing/glb_scene.h"
+
+namespace trueshade {
+namespace {
+
+std::vector<uint8_t> png_of_codes(const Image& image) {
+  ImageFileOptions options;
+  options.values = PictureValues::display_codes;
+  return encode_png(image, {}, options);
+}
+
+/// The scene that is written: with all that moves at time 0, or standing still at the time that was asked for.
+Scene scene_to_write(const ExportOptions& options) {
+  Scene scene = load_scene(options.scene, {}, decode_image);
+  if (!options.time) return scene;
+  set_time(scene, *options.time);
+  const double fps = scene.timeline.fps;
+  scene.timeline = Timeline();
+  scene.timeline.fps = fps;
+  return scene;
+}
+
+std::string number_of(size_t count, const char* one, const char* many) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+void export_scene(const ExportOptions& options) {
+  const bool to_output = options.output == "-";
+  if (!to_output) check_writable(options.output);
+  const Scene scene = scene_to_write(options);
+  GlbFile file = glb_of_scene(scene, png_of_codes);
+  if (!options.quiet) say_notes(file.notes);
+  if (to_output) return print({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
+  write_file(options.output, file.bytes);
+  if (options.quiet) return;
+  say_written(options.output,
+              number_of(scene.instances.size(), "object", "objects") + ", " +
+                  number_of(scene.lights.size(), "light", "lights") + ", GLB",
+              StandardOutput::files);
+}
+
+}  // namespace trueshade
