@@ -312,6 +312,20 @@ TEST_CASE("export: extras.trueshade is read strictly") {
                     "a.glb: /extras/trueshade/pipeline: ");
 }
 
+TEST_CASE("export: lists of extras.trueshade take no memory beyond the limit") {
+  std::string many = "\"materials\":[{}";
+  for (int i = 0; i < 20000; ++i) many += ",{}";
+  SceneLimits limits;
+  limits.geometry_bytes = 1 << 20;
+  CHECK_STARTS_WITH(error_of(ErrorKind::limit,
+                             [&] {
+                               const std::string json =
+                                   replaced("\"hierarchy\":{}", "\"hierarchy\":{\"nodes\":[" + many.substr(13) + "]}");
+                               scene_from_gltf(glb_of_json(json), "a.glb", limits, loaded_picture);
+                             }),
+                    "a.glb: /extras/trueshade/hierarchy/nodes: the list is over the limit of memory");
+}
+
 TEST_CASE("export: extras of others are passed over") {
   for (const char* extras :
        {"\"extras\":{\"other\"", "\"extras\":[1,2],\"was\":{\"other\"", "\"extras\":3,\"was\":{\"other\""})

@@ -20,10 +20,11 @@ void take_json(const json::Node& node, uint32_t& value);
 void take_json(const json::Node& node, bool& value);
 void take_json(const json::Node& node, std::string& value);
 
-/// Reads the fields of one value from a JSON object, as FieldWriter writes them. What is absent keeps its default.
+/// Reads the fields of one value from a JSON object, as FieldWriter writes them. What is absent keeps its default. A
+/// text of `{}` may stand for a large value: lists take from `left` bytes before they take memory, Error(limit) beyond.
 class FieldReader {
  public:
-  explicit FieldReader(const trueshade::json::Node& node) : node_(node) {}
+  FieldReader(const trueshade::json::Node& node, uint64_t& left) : node_(node), left_(left) {}
 
   /// Fails for a key that no field has.
   void finish() const { node_.check_keys({"", keys_}); }
@@ -59,7 +60,11 @@ class FieldReader {
   void list(std::string_view key, std::vector<T>& values, const Fields& fields) {
     const auto node = found(key);
     if (!node) return;
-    values.resize(node->array(1, SIZE_MAX).size());
+    const uint64_t count = node->array(1, SIZE_MAX).size();
+    if (count > left_ / sizeof(T))
+      node->fail("the list is over the limit of memory", "fewer elements", ErrorKind::limit);
+    left_ -= count * sizeof(T);
+    values.resize(size_t(count));
     for (size_t i = 0; i < values.size(); ++i) read(node->element(i), values[i], fields);
   }
 
@@ -70,8 +75,8 @@ class FieldReader {
   }
 
   template <typename T, typename Fields>
-  static void read(const trueshade::json::Node& node, T& value, const Fields& fields) {
-    FieldReader inner(node);
+  void read(const trueshade::json::Node& node, T& value, const Fields& fields) {
+    FieldReader inner(node, left_);
     fields(inner, value);
     inner.finish();
   }
@@ -107,6 +112,7 @@ class FieldReader {
   static void take(const trueshade::json::Node& node, std::vector<glm::dvec4>& v);
 
   const trueshade::json::Node& node_;
+  uint64_t& left_;
   std::vector<std::string_view> keys_;
 };
 

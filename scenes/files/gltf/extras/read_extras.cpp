@@ -97,7 +97,7 @@ class IndexCheck {
 
 }  // namespace
 
-std::optional<SceneExtras> read_extras(const Document& document) {
+std::optional<SceneExtras> read_extras(const Document& document, const SceneLimits& limits) {
   if (!document.extras || !std::holds_alternative<std::unique_ptr<json::Members>>(document.extras->is))
     return std::nullopt;
   const json::Value no_value;
@@ -105,7 +105,8 @@ std::optional<SceneExtras> read_extras(const Document& document) {
   const auto own = extras.find(kExtrasName);
   if (!own) return std::nullopt;
   SceneExtras out;
-  FieldReader reader(*own);
+  uint64_t left = limits.geometry_bytes;
+  FieldReader reader(*own, left);
   kSceneFields(reader, out);
   reader.finish();
   IndexCheck(out, document).all();

@@ -59,8 +59,8 @@ struct SceneExtras {
 };
 
 /// Reads and checks the member: keys, types, and that all indices are in range. Empty where the document has none.
-/// Error(bad_input) with a JSON pointer.
-std::optional<SceneExtras> read_extras(const Document& document);
+/// Error(bad_input) with a JSON pointer; Error(limit) for lists over limits.geometry_bytes.
+std::optional<SceneExtras> read_extras(const Document& document, const SceneLimits& limits);
 
 /// Checks what set_time() relies on: indices, steps, parents before their children. Error(bad_input) behind `where`.
 void check_timeline(const Scene& scene, const std::string& where);
