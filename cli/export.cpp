@@ -3,8 +3,10 @@
 
 #include "cli/commands.h"
 #include "cli/notes.h"
+#include "cli/preparation.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
+#include "core/memory_cap.h"
 #include "scenes/files/gltf/writing/glb_scene.h"
 
 namespace trueshade {
@@ -18,13 +20,22 @@ std::vector<uint8_t> png_of_codes(const Image& image) {
 
 /// The scene that is written: with all that moves at time 0, or standing still at the time that was asked for.
 Scene scene_to_write(const ExportOptions& options) {
-  Scene scene = load_scene(options.scene, {}, decode_image);
+  Scene scene = scene_of_options(options.scene, options.limits);
   if (!options.time) return scene;
   set_time(scene, *options.time);
   const double fps = scene.timeline.fps;
   scene.timeline = Timeline();
   scene.timeline.fps = fps;
   return scene;
+}
+
+/// What the file and its parts take while they are put together, about: each of them twice.
+uint64_t bytes_to_write(const Scene& scene) {
+  uint64_t bytes = 512 * (uint64_t(scene.instances.size()) + scene.lights.size());
+  for (const Mesh& mesh : scene.meshes) bytes += 48 * uint64_t(mesh.vertex_count()) + 4 * uint64_t(mesh.indices.size());
+  for (const Texture& texture : scene.textures)
+    for (const TextureLevel& level : texture.levels) bytes += level.bytes.size();
+  return 2 * bytes;
 }
 
 std::string number_of(size_t count, const char* one, const char* many) {
@@ -37,7 +48,8 @@ void export_scene(const ExportOptions& options) {
   const bool to_output = options.output == "-";
   if (!to_output) check_writable(options.output);
   const Scene scene = scene_to_write(options);
-  GlbFile file = glb_of_scene(scene, png_of_codes);
+  require_memory(bytes_to_write(scene), scene.spec, "the file");
+  const GlbFile file = glb_of_scene(scene, png_of_codes);
   if (!options.quiet) say_notes(file.notes);
   if (to_output) return print({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
   write_file(options.output, file.bytes);

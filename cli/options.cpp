@@ -195,6 +195,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options, std::optional<std::s
   add_value(command, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output")->required();
   add_value(command, "--time", "SECONDS", time, "Write the scene as it stands at this time, without what moves");
   add_switch(command, "-q,--quiet", options.quiet, "Say neither notes nor which file was written");
+  add_limit_options(command, options);
   return command;
 }
 

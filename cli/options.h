@@ -58,7 +58,7 @@ struct InfoOptions : LimitedOptions {
 };
 
 /// `trueshade export`
-struct ExportOptions {
+struct ExportOptions : LimitedOptions {
   std::string scene;           ///< a file or builtin:NAME
   std::string output;          ///< .glb, or - for standard output
   std::optional<double> time;  ///< seconds; nothing: the scene with all that moves

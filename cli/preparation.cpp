@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
 #include "scenes/json/json_value.h"
@@ -44,7 +45,7 @@ void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution&
   const auto bytes_of = [](Format format) { return uint64_t(info(format).bytes_per_texel()); };
   for (const std::string& path : outputs) {
     uint64_t texel = pipeline.view == ImageView::lit ? bytes_of(pipeline.target) : 4;
-    for (size_t i = 0; i < aovs.size() && path.ends_with(".exr"); ++i) texel += 16;
+    for (size_t i = 0; i < aovs.size() && has_ending(path, ".exr"); ++i) texel += 16;
     largest = std::max(largest, texel * uint64_t(pipeline.width) * uint64_t(pipeline.height));
   }
   require_memory(predicted_memory(scene, pipeline, execution, aovs) + largest, scene.spec, "drawing it");

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "scenes/files/obj/geometry_budget.h"
 #include "scenes/files/obj/polygons.h"
 #include "scenes/trig.h"
 
@@ -19,8 +20,7 @@ class MeshMaker {
   MeshMaker(const ObjDocument& document, MissingNormals missing, const SceneLimits& limits)
       : document_(document),
         missing_(missing),
-        limit_(limits.geometry_bytes),
-        left_(limits.geometry_bytes),
+        budget_(limits, document.file),
         first_vertex_(document.position_count(), kNone),
         first_sum_(document.position_count(), kNone) {}
 
@@ -61,12 +61,13 @@ class MeshMaker {
     part_ = found->second;
     group_ = run.smoothing >= 0 ? run.smoothing : missing_ == MissingNormals::smooth ? 1 : 0;
     if (!is_new) return;
-    if (left_ < sizeof(ObjPart)) fail(run.first_polygon, "the geometry is over the limit", limit_text());
-    left_ -= sizeof(ObjPart);
+    take(sizeof(ObjPart), run.first_polygon);
     parts_.push_back({Mesh(), run.material, run.object});
   }
 
-  std::string limit_text() const { return "at most " + std::to_string(limit_) + " bytes"; }
+  void take(uint64_t bytes, size_t polygon) {
+    if (!budget_.take(bytes)) fail(polygon, "the geometry is over the limit", budget_.remedy());
+  }
 
   glm::dvec3 position(const Corner& corner) const {
     const float* at = document_.positions.data() + 3 * size_t(corner.position);
@@ -76,14 +77,14 @@ class MeshMaker {
   void add_polygon(size_t polygon) {
     const size_t first = polygon == 0 ? 0 : document_.polygon_ends[polygon - 1],
                  count = document_.polygon_ends[polygon] - first;
-    if (count * (sizeof(Vertex) + sizeof(NormalSum) + 72) > left_)
-      fail(polygon, "the geometry is over the limit", limit_text());
+    polygon_ = polygon;
     corners_.clear();
     for (size_t i = 0; i < count; ++i) corners_.push_back(position(document_.corners[first + i]));
     triangles_.clear();
     if (!append_triangles(corners_, triangles_))
       fail(polygon, "a concave face has " + std::to_string(count) + " corners",
            "at most " + std::to_string(kMostConcaveCorners) + ", or triangles");
+    take(triangles_.size() * sizeof(uint32_t), polygon);
     for (size_t t = 0; t < triangles_.size(); t += 3) add_triangle(&document_.corners[first], &triangles_[t]);
   }
 
@@ -108,7 +109,7 @@ class MeshMaker {
   uint64_t file_normals() const { return document_.normals.size() / 3; }
 
   uint32_t new_sum(uint32_t next) {
-    left_ -= std::min<uint64_t>(left_, sizeof(NormalSum));
+    take(sizeof(NormalSum), polygon_);
     sums_.push_back({next, group_, glm::dvec3(0.0)});
     return uint32_t(sums_.size() - 1);
   }
@@ -128,7 +129,7 @@ class MeshMaker {
     }
     Mesh& mesh = parts_[part_].mesh;
     const uint32_t index = uint32_t(mesh.vertex_count());
-    left_ -= std::min<uint64_t>(left_, sizeof(Vertex) + 48);
+    take(sizeof(Vertex) + 12 * sizeof(float), polygon_);
     vertices_.push_back({first, part_, index, corner.uv, normal});
     first = uint32_t(vertices_.size() - 1);
     append(mesh, corner, normal);
@@ -168,7 +169,7 @@ class MeshMaker {
 
   const ObjDocument& document_;
   MissingNormals missing_;
-  uint64_t limit_, left_;
+  GeometryBudget budget_;
   std::vector<uint32_t> first_vertex_, first_sum_;  ///< of each position, into the lists below
   std::vector<Vertex> vertices_;
   std::vector<NormalSum> sums_;
@@ -176,6 +177,7 @@ class MeshMaker {
   std::map<std::pair<int32_t, int32_t>, uint32_t> part_of_;  ///< by object and material
   uint32_t part_ = 0;
   int32_t group_ = 0;
+  size_t polygon_ = 0;               // that is being added
   std::vector<glm::dvec3> corners_;  // of the polygon at hand
   std::vector<uint32_t> triangles_;
 };

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/memory_cap.h"
 #include "scenes/trig.h"
 
 namespace trueshade::obj {
@@ -102,6 +103,7 @@ Image ObjPictures::decoded(const MtlDocument& document, const MapSource& map) {
 }
 
 int32_t ObjPictures::add(Texture texture) {
+  require_memory(texture.levels[0].bytes.size() / 3, texture.name, "the texture");
   build_mip_chain(texture);
   for (const TextureLevel& level : texture.levels) bytes_ += level.bytes.size();
   scene_.textures.push_back(std::move(texture));

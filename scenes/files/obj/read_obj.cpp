@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 
+#include "scenes/files/obj/geometry_budget.h"
 #include "scenes/files/obj/statements.h"
 
 namespace trueshade::obj {
@@ -30,7 +31,7 @@ bool names_library(std::string_view name) {
 class ObjReader {
  public:
   ObjReader(std::span<const uint8_t> file, const std::string& name, const SceneLimits& limits)
-      : text_(file, name), limit_(limits.geometry_bytes), left_(limits.geometry_bytes) {
+      : text_(file, name), budget_(limits, name) {
     document_.file = name;
   }
 
@@ -68,9 +69,7 @@ class ObjReader {
   }
 
   void take(uint64_t bytes) {
-    if (bytes > left_)
-      text_.fail("the geometry is over the limit", "at most " + std::to_string(limit_) + " bytes", ErrorKind::limit);
-    left_ -= bytes;
+    if (!budget_.take(bytes)) text_.fail("the geometry is over the limit", budget_.remedy(), ErrorKind::limit);
   }
 
   int32_t named(std::vector<std::string>& names, std::map<std::string, int32_t>& known, std::string name) {
@@ -230,7 +229,7 @@ class ObjReader {
   }
 
   Statements text_;
-  uint64_t limit_, left_;
+  GeometryBudget budget_;
   ObjDocument document_;
   Run state_;
   std::map<std::string, int32_t> materials_, objects_, libraries_;
