@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "cli/options.h"
@@ -14,8 +16,12 @@ void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
-/// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full disk.
+/// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full
+/// disk.
 void print(std::string_view text);
+
+/// The same of a file's bytes, as they are.
+void print_bytes(std::span<const uint8_t> bytes);
 /// Writes a line to standard error, as printable() has it.
 void say(std::string_view line);
 

@@ -51,7 +51,7 @@ void export_scene(const ExportOptions& options) {
   require_memory(bytes_to_write(scene), scene.spec, "the file");
   const GlbFile file = glb_of_scene(scene, png_of_codes);
   if (!options.quiet) say_notes(file.notes);
-  if (to_output) return print({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
+  if (to_output) return print_bytes(file.bytes);
   write_file(options.output, file.bytes);
   if (options.quiet) return;
   say_written(options.output,

@@ -11,7 +11,11 @@ namespace trueshade {
 
 void print(std::string_view text) {
   const std::string shown = printable(text, Lines::several);
-  if (std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size() && std::fflush(stdout) == 0) return;
+  print_bytes({reinterpret_cast<const uint8_t*>(shown.data()), shown.size()});
+}
+
+void print_bytes(std::span<const uint8_t> bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0) return;
   throw Error(ErrorKind::io, "standard output", std::string("cannot write: ") + std::strerror(errno),
               "check where it is sent");
 }
