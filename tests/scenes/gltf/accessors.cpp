@@ -203,7 +203,7 @@ TEST_CASE("an accessor without data is zeros, and a huge one is refused before m
   SceneLimits limits;
   limits.geometry_bytes = 100;
   CHECK_STARTS_WITH(gltf_refusal(document("9"), ErrorKind::limit, limits),
-                    ": /accessors/0: with these 36 bytes the geometry is over the limit (at most 100 bytes in all)");
+                    ": /accessors/0: with these 36 bytes the geometry is over the limit (at most 100 bytes in all");
 }
 
 TEST_CASE("numbers that are not finite are refused where they are drawn") {
