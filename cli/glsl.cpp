@@ -23,7 +23,7 @@ void write_glsl(const GlslFilesOptions& options) {
   chosen.pipeline_file = options.pipeline_file;
   const Pipeline pipeline = pipeline_of(chosen, Scene{});
   oracle::GlslOptions judge;
-  judge.maps = judge.specular_maps = judge.normal_maps = options.maps;
+  judge.maps = judge.specular_maps = judge.normal_maps = judge.more_uv = judge.double_sided = options.maps;
   judge.transparent = pipeline.transparency.mode != TransparencyMode::none;
   const oracle::GlslShaders shaders = oracle::shaders_of(pipeline, judge);
   std::error_code error;

@@ -106,6 +106,24 @@ Fragment fragment_of(const DrawnTriangle& t, uint32_t index, const GeometryState
   return f;
 }
 
+/// The state with the faces of an instance: culling spares the backs of double-sided materials, and an instance that
+/// mirrors has its front where others have their back.
+GeometryState state_of(const Scene& scene, const Instance& instance, GeometryState state) {
+  if (scene.materials[instance.material].double_sided) {
+    const bool fronts = state.cull_face == CullFace::front || state.cull_face == CullFace::front_and_back;
+    state.cull_face = fronts ? CullFace::front : CullFace::none;
+  }
+  if (instance.mirrored) state.front_face = state.front_face == FrontFace::cw ? FrontFace::ccw : FrontFace::cw;
+  return state;
+}
+
+void turn_normals(DrawnTriangle& t) {
+  for (size_t k = kNormal; k < kNormal + 3; ++k) {
+    for (VertexValues& corner : t.window.values) corner[k] = -corner[k];
+    t.provoking[k] = -t.provoking[k];
+  }
+}
+
 }  // namespace
 
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
@@ -122,7 +140,10 @@ VertexValues vertex_values(const Scene& scene, const Instance& instance, const M
   for (size_t k = 0; k < 3; ++k) out[kNormal + k] = double(unit_normal[k]);
   // The base colour multiplies after interpolation: these are the vertex colours alone.
   for (size_t k = 0; k < 4; ++k) out[kAlbedo + k] = double(component(mesh.color[k], vertex, 1.0f));
-  for (size_t k = 0; k < 2; ++k) out[kUv + k] = double(component(mesh.uv[k], vertex, 0.0f));
+  for (size_t set = 0; set <= mesh.more_uv.size(); ++set) {
+    const UvStreams& uv = set == 0 ? mesh.uv : mesh.more_uv[set - 1];
+    for (size_t k = 0; k < 2; ++k) out[uv_index(set) + k] = double(component(uv[k], vertex, 0.0f));
+  }
   return out;
 }
 
@@ -137,15 +158,19 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
   for (uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
     const Instance& drawn = scene.instances[instance];
     const std::vector<uint32_t>& indices = scene.meshes[drawn.mesh].indices;
+    const GeometryState faced = state_of(scene, drawn, state);
+    const bool both_sides = scene.materials[drawn.material].double_sided;
+    const size_t used = uv_index(1 + scene.meshes[drawn.mesh].more_uv.size());
     for (uint32_t triangle = 0; triangle < indices.size() / 3; ++triangle) {
       std::array<VertexValues, 3> values;
       for (size_t i = 0; i < 3; ++i)
         values[i] = vertex_values(scene, drawn, clip_from_world, indices[3 * triangle + i]);
-      const WindowPolygon polygon = window_polygon(values, kMaxValues, state, viewport);
+      const WindowPolygon polygon = window_polygon(values, used, faced, viewport);
       const auto first = uint32_t(frame.triangles.size());
       for (const WindowTriangle& window : polygon.pieces) {
         DrawnTriangle piece{window, instance, triangle, {}, values[state.provoking == Provoking::last ? 2 : 0]};
         for (size_t i = 0; i < 3; ++i) piece.depth[i] = vertex_depth(window.values[i], state);
+        if (both_sides && !polygon.front) turn_normals(piece);
         set_polygon_offset(pipeline, piece);
         frame.triangles.push_back(piece);
       }

@@ -16,6 +16,9 @@ namespace trueshade::oracle {
 /// Where each attribute lies in VertexValues, after clip x, y, z, w.
 enum ValueIndex : size_t { kClip = 0, kPosition = 4, kNormal = 7, kAlbedo = 10, kUv = 14 };
 
+/// Of u of a set of texture coordinates; v follows.
+constexpr size_t uv_index(size_t set) { return kUv + 2 * set; }
+
 /// One covered sample of one triangle.
 struct Fragment {
   uint32_t instance = 0;

@@ -56,8 +56,9 @@ bool certain_lookup(const Texture& texture, const Sampler& s, const TexturePlace
 
 }  // namespace
 
-TexturePlace texture_place(const DrawnTriangle& t, Interpolation interpolation, int x, int y) {
-  const auto value = [&](size_t k) { return Real(float(value_at(t, kUv + k, interpolation, x, y).value)); };
+TexturePlace texture_place(const DrawnTriangle& t, Interpolation interpolation, int x, int y, size_t set) {
+  const size_t u = uv_index(set);
+  const auto value = [&](size_t k) { return Real(float(value_at(t, u + k, interpolation, x, y).value)); };
   TexturePlace place{value(0), value(1), 0, 0, 0, 0};
   if (interpolation == Interpolation::flat) return place;
   const int64_t px = int64_t(x) * kSubpixels + kSubpixels / 2, py = int64_t(y) * kSubpixels + kSubpixels / 2;
@@ -66,7 +67,7 @@ TexturePlace texture_place(const DrawnTriangle& t, Interpolation interpolation, 
   const std::array<Real, 3> above = edges_at(t, interpolation, px, py + kSubpixels);
   const auto corners = [&](size_t k) {
     const auto& v = t.window.values;
-    return std::array<double, 3>{v[0][kUv + k], v[1][kUv + k], v[2][kUv + k]};
+    return std::array<double, 3>{v[0][u + k], v[1][u + k], v[2][u + k]};
   };
   place.u_x = slope(here, right, corners(0)), place.v_x = slope(here, right, corners(1));
   place.u_y = slope(here, above, corners(0)), place.v_y = slope(here, above, corners(1));
@@ -82,9 +83,10 @@ SurfaceColor surface_color(const Scene& scene, const GBufferState& planes, const
   if (!material.color_map.used()) return out;
   const Texture& texture = scene.textures[size_t(material.color_map.texture)];
   const Sampler& s = material.color_map.sampler;
-  const TexturePlace p = texture_place(t, planes.uv.interpolation, x, y);
-  const double u_off = value_at(t, kUv, planes.uv.interpolation, x, y).ulp,
-               v_off = value_at(t, kUv + 1, planes.uv.interpolation, x, y).ulp;
+  const size_t set = material.color_map.uv_set;
+  const TexturePlace p = texture_place(t, planes.uv.interpolation, x, y, set);
+  const double u_off = value_at(t, uv_index(set), planes.uv.interpolation, x, y).ulp,
+               v_off = value_at(t, uv_index(set) + 1, planes.uv.interpolation, x, y).ulp;
   out.certain = certain_lookup(texture, s, p, u_off, v_off);
   const TexelValue texel = filtered(texture, s, p.u, p.v, level_of_detail(texture, s, p));
   for (size_t c = 0; c < 4; ++c) out.value[c] *= texel[c];

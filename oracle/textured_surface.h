@@ -7,9 +7,9 @@
 
 namespace trueshade::oracle {
 
-/// Texture coordinates at pixel (x, y), rounded to float as the renderer hands them to lookups, and the exact planes'
-/// derivatives.
-TexturePlace texture_place(const DrawnTriangle& triangle, Interpolation interpolation, int x, int y);
+/// Texture coordinates of a set at pixel (x, y), rounded to float as the renderer hands them to lookups, and the exact
+/// planes' derivatives.
+TexturePlace texture_place(const DrawnTriangle& triangle, Interpolation interpolation, int x, int y, size_t set = 0);
 
 /// Vertex colour times texel times base colour.
 struct SurfaceColor {

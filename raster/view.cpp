@@ -92,6 +92,24 @@ Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
 
 }  // namespace
 
+FaceStates::FaceStates(const Scene& scene, const GeometryState& state) {
+  for (uint8_t sides = 0; sides < kStates; ++sides) {
+    GeometryState& s = state_[sides] = state;
+    if ((sides & kDoubleSided) != 0 && s.cull_face == CullFace::back) s.cull_face = CullFace::none;
+    if ((sides & kDoubleSided) != 0 && s.cull_face == CullFace::front_and_back) s.cull_face = CullFace::front;
+    if ((sides & kMirrored) != 0) s.front_face = s.front_face == FrontFace::ccw ? FrontFace::cw : FrontFace::ccw;
+  }
+  const auto sides_of = [&](const Instance& i) {
+    return uint8_t((scene.materials[i.material].double_sided ? kDoubleSided : 0) | (i.mirrored ? kMirrored : 0));
+  };
+  const std::vector<Instance>& all = scene.instances;
+  if (std::all_of(all.begin(), all.end(), [&](const Instance& i) { return sides_of(i) == kAsStated; })) return;
+  for (const Instance& instance : all) {
+    of_instance_.push_back(sides_of(instance));
+    any_double_sided_ = any_double_sided_ || (of_instance_.back() & kDoubleSided) != 0;
+  }
+}
+
 DepthRule depth_rule(const GeometryState& state, NumericProfile profile) {
   DepthRule rule;
   rule.factor = double(state.polygon_offset_factor);
@@ -140,10 +158,15 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
 
 View make_view(const Scene& scene, const Pipeline& pipeline, int threads, std::vector<InstanceTransform> memory) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
-  View view{pipeline.width,     pipeline.height,
-            pipeline.profile,   window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
-            std::move(memory),  inverse_rows(clip),
-            rounded_rows(clip), scene_maps(scene, pipeline)};
+  View view{pipeline.width,
+            pipeline.height,
+            pipeline.profile,
+            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
+            std::move(memory),
+            inverse_rows(clip),
+            rounded_rows(clip),
+            scene_maps(scene, pipeline),
+            FaceStates(scene, pipeline.geometry)};
   constexpr size_t kChunk = 256;
   const size_t instances = scene.instances.size();
   view.instances.resize(instances);

@@ -53,6 +53,28 @@ struct InstanceTransform {
   float normal[3][3];  ///< world normal from object
 };
 
+/// The states that instances are drawn with. docs/arithmetic.md section 4.
+class FaceStates {
+ public:
+  FaceStates(const Scene& scene, const GeometryState& state);
+
+  /// That of an instance: the pipeline's, but double-sided back faces are not culled, and a mirrored instance has the
+  /// other front face.
+  const GeometryState& of(uint32_t instance) const {
+    return state_[of_instance_.empty() ? 0 : of_instance_[instance]];
+  }
+  bool double_sided(uint32_t instance) const {
+    return !of_instance_.empty() && (of_instance_[instance] & kDoubleSided) != 0;
+  }
+  bool any_double_sided() const { return any_double_sided_; }
+
+ private:
+  enum : uint8_t { kAsStated = 0, kDoubleSided = 1, kMirrored = 2, kStates = 4 };
+  GeometryState state_[kStates];
+  std::vector<uint8_t> of_instance_;  ///< empty where all are drawn as stated
+  bool any_double_sided_ = false;
+};
+
 /// Everything of a frame that the geometry pass reads, made once a frame.
 struct View {
   int width, height;
@@ -61,7 +83,8 @@ struct View {
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
   std::array<float, 16> world_from_clip;     ///< row-major; for positions rebuilt from depth
   std::array<float, 16> clip_from_world;     ///< row-major; for the geometry of lights
-  SceneMaps maps{};                          ///< what materials do with textures
+  SceneMaps maps;                            ///< what materials do with textures
+  FaceStates faces;                          ///< what each instance's faces are drawn with
 };
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,

@@ -56,7 +56,7 @@ void add_normals(Mesh& mesh, MissingNormals kind) {
   if (kind == MissingNormals::flat) {
     take_apart(mesh.position, mesh.indices);
     take_apart(mesh.uv, mesh.indices);
-    take_apart(mesh.uv1, mesh.indices);
+    for (UvStreams& set : mesh.more_uv) take_apart(set, mesh.indices);
     take_apart(mesh.color, mesh.indices);
     for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = uint32_t(i);
     for (auto& stream : mesh.normal) stream.assign(mesh.indices.size(), 0.0f);

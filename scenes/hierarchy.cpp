@@ -68,8 +68,11 @@ void move_hierarchy(Scene& scene, double time) {
   const Timeline& timeline = scene.timeline;
   if (timeline.nodes.empty() && timeline.posed.empty()) return;
   const std::vector<glm::dmat4x3> world = world_from_nodes(timeline, time);
-  for (const NodeInstance& hung : timeline.node_instances)
-    scene.instances[hung.instance].world_from_object = glm::mat4x3(product(world[hung.node], hung.node_from_object));
+  for (const NodeInstance& hung : timeline.node_instances) {
+    Instance& instance = scene.instances[hung.instance];
+    instance.world_from_object = glm::mat4x3(product(world[hung.node], hung.node_from_object));
+    instance.mirrored = mirrors(instance.world_from_object);
+  }
   for (const NodeLight& hung : timeline.node_lights) {
     Light& light = scene.lights[hung.light];
     light.position = glm::vec3(world[hung.node][3]);

@@ -7,14 +7,17 @@
 
 namespace trueshade {
 
+/// A set of texture coordinates, u and v.
+using UvStreams = std::array<std::vector<float>, 2>;
+
 /// Indexed triangles, a stream per component (SoA). Positions and normals in object space; every stream has
 /// vertex_count() elements or, where marked optional, none. Normals are stored as given: unit length is not required.
 struct Mesh {
   std::string name;
   std::array<std::vector<float>, 3> position;
   std::array<std::vector<float>, 3> normal;
-  std::array<std::vector<float>, 2> uv;     ///< optional; 0 where absent
-  std::array<std::vector<float>, 2> uv1{};  ///< optional second set, see TextureSlot::uv_set; 0 where absent
+  UvStreams uv;                             ///< optional; 0 where absent
+  std::vector<UvStreams> more_uv{};         ///< the sets behind uv, each optional; fewer than kMaxUvSets
   std::array<std::vector<float>, 4> color;  ///< optional RGBA, linear; 1 where absent
   std::vector<uint32_t> indices;            ///< 3 a triangle, in submission order; front faces counter-clockwise
   uint32_t pose = 0;                        ///< counts how often set_time() has moved the vertices
@@ -23,6 +26,12 @@ struct Mesh {
   size_t triangle_count() const { return indices.size() / 3; }
   bool has_uv() const { return !uv[0].empty(); }
   bool has_color() const { return !color[0].empty(); }
+
+  /// A set of texture coordinates, that TextureSlot::uv_set names; empty where the mesh has none.
+  const UvStreams& uv_set(size_t set) const {
+    static const UvStreams none;
+    return set == 0 ? uv : set <= more_uv.size() ? more_uv[set - 1] : none;
+  }
 };
 
 }  // namespace trueshade

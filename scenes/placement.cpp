@@ -45,4 +45,9 @@ glm::dvec4 unit(const glm::dvec4& q) {
   return length2 > 0.0 ? q * (1.0 / std::sqrt(length2)) : q;
 }
 
+bool mirrors(const glm::mat4x3& m) {
+  const FpScope fp;
+  return dot(glm::dvec3(m[0]), cross(glm::dvec3(m[1]), glm::dvec3(m[2]))) < 0.0;
+}
+
 }  // namespace trueshade

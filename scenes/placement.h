@@ -28,4 +28,7 @@ glm::dvec4 turn_about(int axis, double angle_rad);
 /// q * (1 / |q|); 0 stays 0.
 glm::dvec4 unit(const glm::dvec4& q);
 
+/// Whether an affine matrix, in f64, has a negative determinant.
+bool mirrors(const glm::mat4x3& matrix);
+
 }  // namespace trueshade

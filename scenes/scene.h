@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,15 @@ struct Material {
   }
 };
 
+/// The maps of a material: colour, specular, normal, metallic-roughness, emission, occlusion.
+inline constexpr size_t kMaterialMaps = 6;
+static_assert(kMaxUvSets == kMaterialMaps);
+template <class M>  // Material, const or not
+auto maps_of(M& m) {
+  return std::array{&m.color_map,    &m.specular_map, &m.normal_map, &m.metallic_roughness_map,
+                    &m.emission_map, &m.occlusion_map};
+}
+
 /// glTF's roughness as a Blinn-Phong exponent: 2 / max(roughness, 0.04)^4 - 2 to the nearest integer from 1 to 8192.
 float shininess_of_roughness(float roughness);
 
@@ -58,6 +68,9 @@ struct Instance {
   uint32_t mesh = 0;                    ///< index into Scene::meshes
   uint32_t material = 0;                ///< index into Scene::materials
   glm::mat4x3 world_from_object{1.0f};  ///< affine: 4 columns of 3
+  /// Whether its front faces are those that GeometryState::front_face calls back. Set of a glTF node whose transform
+  /// has a negative determinant (glTF 2.0, 3.7.4); other instances are faced as the window shows them.
+  bool mirrored = false;
 };
 
 /// Everything that is drawn, at one time: 0 where it was just loaded. Instances are drawn in order; lights are summed

@@ -158,22 +158,23 @@ class SceneHasher {
   }
 
   void add_placed_maps(uint64_t place, const Material& material) {
-    const TextureSlot* maps[] = {&material.color_map,    &material.specular_map,
-                                 &material.normal_map,   &material.metallic_roughness_map,
-                                 &material.emission_map, &material.occlusion_map};
-    for (size_t i = 0; i < std::size(maps); ++i) {
-      const UvTransform& t = maps[i]->transform;
-      if (!maps[i]->used() || (maps[i]->uv_set == 0 && t == UvTransform())) continue;
+    constexpr float kAsBaked[] = {0.0f, 0.0f, 1.0f, 1.0f, 0.0f};  // the transform that the layout has a place for
+    const auto maps = maps_of(material);
+    for (size_t i = 0; i < maps.size(); ++i) {
+      if (!maps[i]->used() || maps[i]->uv_set == 0) continue;
       add(place + i);
       count(maps[i]->uv_set);
-      for (const float x : {t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation_rad}) add(x);
+      add(kAsBaked);
     }
   }
 
-  void add_second_uv(uint64_t place, const Mesh& mesh) {
-    if (mesh.uv1[0].empty()) return;
-    add(place);
-    for (const auto& stream : mesh.uv1) add(stream);
+  void add_more_uv(uint64_t place, uint64_t step, const Mesh& mesh) {
+    for (const UvStreams& set : mesh.more_uv) {
+      if (!set[0].empty()) add(place);
+      if (!set[0].empty())
+        for (const auto& stream : set) add(stream);
+      place += step;
+    }
   }
 
   void add_transparent(uint64_t place, const Material& material) {
@@ -244,12 +245,15 @@ std::string scene_hash(const Scene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
   for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_transparent(kTransparent + i, scene.materials[i]);
   constexpr uint64_t kNewer = kLights | uint64_t(1) << 61, kPlacedMaps = kMaterials | uint64_t(1) << 60,
-                     kSecondUv = kTransparent | uint64_t(1) << 60;
+                     kSecondUv = kTransparent | uint64_t(1) << 60, kNextUv = uint64_t(1) << 56;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     hasher.add_newer(kNewer + i, scene.materials[i]);
     hasher.add_placed_maps(kPlacedMaps + 8 * i, scene.materials[i]);
   }
-  for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_second_uv(kSecondUv + i, scene.meshes[i]);
+  constexpr uint64_t kMirrored = kLights | uint64_t(1) << 60;
+  for (size_t i = 0; i < scene.instances.size(); ++i)
+    if (scene.instances[i].mirrored) hasher.add(kMirrored + i);
+  for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_more_uv(kSecondUv + i, kNextUv, scene.meshes[i]);
   const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.has_maps() || m.masked(); });
   if (plain) return hasher.hex();

@@ -2,7 +2,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 #include <string>
@@ -59,22 +58,13 @@ struct Sampler {
   bool operator==(const Sampler&) const = default;
 };
 
-/// Where a lookup reads: uv' = offset + R(rotation_rad) (scale * uv), R(a) (u, v) = (u cos a + v sin a, v cos a - u sin
-/// a) (KHR_texture_transform; it turns counter-clockwise as v runs down the picture).
-struct UvTransform {
-  glm::vec2 offset{0.0f}, scale{1.0f};  ///< each within kLargestUvTransform
-  float rotation_rad = 0.0f;            ///< within 1e5
-  bool operator==(const UvTransform&) const = default;
-};
-inline constexpr float kLargestUvTransform = 1e6f;
+inline constexpr size_t kMaxUvSets = 6;  ///< of a mesh: one for each map of a material
 
 /// A texture as a material uses it.
 struct TextureSlot {
   int32_t texture = -1;  ///< index into Scene::textures; below 0: none
   Sampler sampler;
-  // Kept and hashed; no stage reads them yet (scenes/pipeline/ignored_fields.cpp).
-  uint8_t uv_set = 0;  ///< of the mesh: 0 is Mesh::uv, 1 is Mesh::uv1
-  UvTransform transform{};
+  uint8_t uv_set = 0;  ///< of the mesh, below kMaxUvSets: where the map is read, see Mesh::uv_set()
   bool used() const { return texture >= 0; }
 };
 

@@ -51,7 +51,8 @@ void check_mesh(const Mesh& mesh, const Part& part) {
   check(mesh.position, false, "position");
   check(mesh.normal, false, "normal");
   check(mesh.uv, true, "uv");
-  check(mesh.uv1, true, "uv1");
+  part.require(mesh.more_uv.size() < kMaxUvSets, "the mesh has too many sets of texture coordinates", "at most 6");
+  for (const UvStreams& set : mesh.more_uv) check(set, true, "uv");
   check(mesh.color, true, "color");
   part.require(mesh.indices.size() % 3 == 0, "the number of indices is no multiple of 3", "3 a triangle");
   for (const uint32_t index : mesh.indices)
@@ -101,13 +102,7 @@ void check_map(const TextureSlot& slot, std::span<const float> largest, float fa
                    s.lod_min <= s.lod_max,
                "a level of detail is out of range", "a bias in [-16, 16], -1000 <= lod_min <= lod_max <= 1000");
   part.require(is_color(s.border), "the border colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
-  part.require(slot.uv_set <= 1, "a set of texture coordinates is out of range", "0 or 1");
-  const UvTransform& t = slot.transform;
-  for (const float x : {t.offset.x, t.offset.y, t.scale.x, t.scale.y})
-    part.require(std::fabs(x) <= kLargestUvTransform, "a transform of texture coordinates is out of range",
-                 "offset and scale within 1e6");
-  part.require(std::fabs(t.rotation_rad) <= 1e5f, "a turn of texture coordinates is out of range",
-               "within 1e5 radians");
+  part.require(slot.uv_set < kMaxUvSets, "a set of texture coordinates is out of range", "0 to 5");
   const float most = std::max({largest[size_t(slot.texture)], s.border.x, s.border.y, s.border.z});
   part.require(double(factor) * double(most) <= double(kMostReach), "colour times texture is over 1e18",
                "a smaller colour, or smaller texels");

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "oracle/exact_coverage.h"
 #include "gl/driver/context.h"
+#include "oracle/exact_coverage.h"
 
 namespace trueshade::oracle {
 
@@ -88,6 +88,11 @@ void check_limits(const GlContext& context, const Pipeline& pipeline, int width,
                 "at most " + std::to_string(most[0]));
 }
 
+void set_faces(CullFace culled, FrontFace front) {
+  set_culling(culled);
+  glFrontFace(front == FrontFace::ccw ? GL_CCW : GL_CW);
+}
+
 void set_geometry_state(const GeometryState& state, const Viewport& viewport, int shift_x, int shift_y) {
   set_common_state();
   glViewport(viewport.x + shift_x, viewport.y + shift_y, viewport.width, viewport.height);
@@ -96,8 +101,7 @@ void set_geometry_state(const GeometryState& state, const Viewport& viewport, in
   glDepthFunc(gl_enum(state.depth_func));
   glDepthMask(GL_TRUE);
   set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
-  set_culling(state.cull_face);
-  glFrontFace(state.front_face == FrontFace::ccw ? GL_CCW : GL_CW);
+  set_faces(state.cull_face, state.front_face);
   set_clip_control(state.clip_origin, state.clip_depth);
   set_enabled(GL_POLYGON_OFFSET_FILL, state.polygon_offset_factor != 0 || state.polygon_offset_units != 0);
   glPolygonOffset(state.polygon_offset_factor, state.polygon_offset_units);

@@ -12,6 +12,9 @@ void check_limits(const GlContext& context, const Pipeline& pipeline, int width,
 /// overridden.
 void set_geometry_state(const GeometryState& state, const Viewport& viewport, int shift_x, int shift_y);
 
+/// Of this state, culling and the front face alone.
+void set_faces(CullFace culled, FrontFace front);
+
 /// State of the draws of light geometry (meshes, or quads) but for blending: no depth test, nothing of the scene's
 /// culling.
 void set_volume_state(const Pipeline& pipeline, bool mesh, int shift_x, int shift_y);

@@ -93,6 +93,10 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
                                           : uploaded(none, Sampler{}));
     return textures;
   };
+  more_uv_ = any([](const Material& m) {
+    const auto maps = maps_of(m);
+    return std::any_of(maps.begin(), maps.end(), [](const TextureSlot* map) { return map->used() && map->uv_set > 0; });
+  });
   color_ = upload(&Material::color_map, white);
   if (any([](const Material& m) { return m.specular_map.used(); })) specular_ = upload(&Material::specular_map, white);
   if (any([](const Material& m) { return m.normal_map.used(); })) normal_ = upload(&Material::normal_map, level);
@@ -100,12 +104,18 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
 
 void MapTextures::bind(GLuint program, uint32_t material) const {
   constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;  // the last that every OpenGL has
+  const Material& m = scene_->materials[material];
   bind_texture(program, "color_map", kColorUnit, GL_TEXTURE_2D, color_[material]);
-  set_uniform(program, "alpha_cutoff", scene_->materials[material].alpha_cutoff);
+  set_uniform(program, "alpha_cutoff", m.alpha_cutoff);
+  if (more_uv_) {
+    set_uniform(program, "color_uv_set", int(m.color_map.uv_set));
+    set_uniform(program, "specular_uv_set", int(m.specular_map.uv_set));
+    set_uniform(program, "normal_uv_set", int(m.normal_map.uv_set));
+  }
   if (specular()) bind_texture(program, "specular_map", kSpecularUnit, GL_TEXTURE_2D, specular_[material]);
   if (!normal()) return;
   bind_texture(program, "normal_map", kNormalUnit, GL_TEXTURE_2D, normal_[material]);
-  set_uniform(program, "normal_scale", scene_->materials[material].normal_scale);
+  set_uniform(program, "normal_scale", m.normal_scale);
 }
 
 }  // namespace trueshade::oracle

@@ -14,6 +14,7 @@ class MapTextures {
   bool used() const { return !color_.empty(); }  ///< some material has a map or a mask
   bool specular() const { return !specular_.empty(); }
   bool normal() const { return !normal_.empty(); }
+  bool more_uv() const { return more_uv_; }  ///< some map reads texture coordinates beside the first set
 
   /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 15.
   void bind(GLuint program, uint32_t material) const;
@@ -21,6 +22,7 @@ class MapTextures {
  private:
   const Scene* scene_;
   std::vector<GlTexture> color_, specular_, normal_;  ///< one a material; where it has none, a texel that does nothing
+  bool more_uv_ = false;
 };
 
 }  // namespace trueshade::oracle

@@ -4,17 +4,17 @@
 #include <array>
 #include <stdexcept>
 
-#include "oracle/exact_coverage.h"
 #include "gl/driver/albedo_blend.h"
 #include "gl/driver/geometry_state.h"
 #include "gl/driver/objects.h"
 #include "gl/driver/pass_timer.h"
 #include "gl/driver/post_frame.h"
-#include "gl/emit/post_glsl.h"
 #include "gl/driver/probes.h"
 #include "gl/driver/read_back.h"
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/surface_uniforms.h"
+#include "gl/emit/post_glsl.h"
+#include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 #include "scenes/pipeline/light_mesh.h"
 
@@ -311,6 +311,8 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.maps = buffers_->maps().used();
   options.specular_maps = buffers_->maps().specular();
   options.normal_maps = buffers_->maps().normal();
+  options.more_uv = buffers_->maps().more_uv();
+  options.double_sided = buffers_->has_double_sided();
   options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);

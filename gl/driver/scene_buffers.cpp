@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "gl/driver/geometry_state.h"
 #include "gl/emit/glsl.h"
 #include "oracle/matrices.h"
 
@@ -43,22 +44,22 @@ Mesh unshared(const Mesh& mesh) {
   copied(mesh.normal, out.normal);
   copied(mesh.color, out.color);
   copied(mesh.uv, out.uv);
+  out.more_uv.resize(mesh.more_uv.size());
+  for (size_t k = 0; k < mesh.more_uv.size(); ++k) copied(mesh.more_uv[k], out.more_uv[k]);
   out.indices.resize(mesh.indices.size());
   std::iota(out.indices.begin(), out.indices.end(), 0u);
   return out;
 }
 
-/// Of each triangle of unshared() where u and where v grow, unit vectors in the object; zero where uv has no area.
-std::vector<float> tangents(const Mesh& mesh) {
-  std::vector<float> out(8 * (mesh.indices.size() / 3));
-  for (size_t i = 0; mesh.has_uv() && i < mesh.indices.size(); i += 3) {
+/// Of each triangle of unshared() where u and where v of a set grow, unit vectors in the object; zero where uv has no
+/// area. The first is put at `first`, each triangle's `stride` floats behind the last.
+void add_tangents(const Mesh& mesh, const UvStreams& uv, size_t first, size_t stride, std::vector<float>& out) {
+  for (size_t i = 0; !uv[0].empty() && i < mesh.indices.size(); i += 3) {
     const auto edge = [&](size_t k, int c) {
       return double(mesh.position[size_t(c)][i + k]) - double(mesh.position[size_t(c)][i]);
     };
-    const double a1 = double(mesh.uv[0][i + 1]) - double(mesh.uv[0][i]),
-                 b1 = double(mesh.uv[1][i + 1]) - double(mesh.uv[1][i]);
-    const double a2 = double(mesh.uv[0][i + 2]) - double(mesh.uv[0][i]),
-                 b2 = double(mesh.uv[1][i + 2]) - double(mesh.uv[1][i]);
+    const double a1 = double(uv[0][i + 1]) - double(uv[0][i]), b1 = double(uv[1][i + 1]) - double(uv[1][i]);
+    const double a2 = double(uv[0][i + 2]) - double(uv[0][i]), b2 = double(uv[1][i + 2]) - double(uv[1][i]);
     const double area = a1 * b2 - a2 * b1, sign = area < 0 ? -1 : 1;
     glm::dvec3 u(0.0), v(0.0);
     for (int c = 0; c < 3 && area != 0; ++c) {
@@ -68,10 +69,27 @@ std::vector<float> tangents(const Mesh& mesh) {
     for (glm::dvec3* axis : {&u, &v})
       if (const double length = std::hypot(axis->x, axis->y, axis->z); length > 0) *axis /= length;
     for (int c = 0; c < 3; ++c) {
-      out[8 * (i / 3) + size_t(c)] = float(u[c]);
-      out[8 * (i / 3) + 4 + size_t(c)] = float(v[c]);
+      out[stride * (i / 3) + first + size_t(c)] = float(u[c]);
+      out[stride * (i / 3) + first + 4 + size_t(c)] = float(v[c]);
     }
   }
+}
+
+/// The frames of all triangles: of the first set, or of each of kMaxUvSets in turn.
+std::vector<float> tangents(const Mesh& mesh, bool all_sets) {
+  const size_t sets = all_sets ? kMaxUvSets : 1;
+  std::vector<float> out(8 * sets * (mesh.indices.size() / 3));
+  for (size_t set = 0; set < sets; ++set) add_tangents(mesh, mesh.uv_set(set), 8 * set, 8 * sets, out);
+  return out;
+}
+
+/// u and v of the sets behind the first, kMaxUvSets - 1 texels a vertex.
+std::vector<float> more_uv_texels(const Mesh& mesh) {
+  constexpr size_t kFloats = 4 * (kMaxUvSets - 1);
+  std::vector<float> out(kFloats * mesh.vertex_count());
+  for (size_t set = 1; set < kMaxUvSets; ++set)
+    for (size_t v = 0; v < mesh.vertex_count() && !mesh.uv_set(set)[0].empty(); ++v)
+      for (size_t k = 0; k < 2; ++k) out[kFloats * v + 4 * (set - 1) + k] = mesh.uv_set(set)[k][v];
   return out;
 }
 
@@ -164,20 +182,39 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
 SceneBuffers::SceneBuffers(const Scene& scene, int rotation) : scene_(&scene), maps_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload(mesh, rotation));
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const bool transparent = scene.materials[instance.material].transparent;
-    const bool same = !runs_.empty() && runs_.back().mesh == instance.mesh && runs_.back().transparent == transparent &&
-                      (!maps_.used() || runs_.back().material == instance.material);
-    if (!same) runs_.push_back({instance.mesh, instance.material, i, 0, transparent});
-    ++runs_.back().count;
+    const InstanceRun alone = run_of(i);
+    has_own_faces_ = has_own_faces_ || alone.double_sided || alone.mirrored;
+    const auto joins = [&](const InstanceRun& run) {
+      return run.mesh == alone.mesh && run.transparent == alone.transparent && run.double_sided == alone.double_sided &&
+             run.mirrored == alone.mirrored && (!maps_.used() || run.material == alone.material);
+    };
+    if (!runs_.empty() && joins(runs_.back()))
+      ++runs_.back().count;
+    else
+      runs_.push_back(alone);
   }
+}
+
+InstanceRun SceneBuffers::run_of(uint32_t instance) const {
+  const Instance& i = scene_->instances[instance];
+  const Material& m = scene_->materials[i.material];
+  return {i.mesh, i.material, instance, 1, m.transparent, m.double_sided, i.mirrored};
+}
+
+void SceneBuffers::set_faces_of(const InstanceRun& run) const {
+  if (!has_own_faces_) return;
+  CullFace culled = culled_;
+  if (run.double_sided)
+    culled = culled_ == CullFace::none || culled_ == CullFace::back ? CullFace::none : CullFace::front;
+  set_faces(culled, run.mirrored == (front_ == FrontFace::ccw) ? FrontFace::cw : FrontFace::ccw);
 }
 
 SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& shared, int rotation) const {
   MeshBuffers out;
   const Mesh own = maps_.normal() ? unshared(shared) : Mesh{};
   const Mesh& mesh = maps_.normal() ? own : shared;
-  if (maps_.normal()) out.tangents = make_texel_buffer(tangents(mesh));
+  if (maps_.normal()) out.tangents = make_texel_buffer(tangents(mesh, maps_.more_uv()));
+  if (maps_.more_uv()) out.more_uv = make_texel_buffer(more_uv_texels(mesh));
   out.array = make_vertex_array();
   glBindVertexArray(out.array);
   const size_t stride = 6 + (mesh.has_color() ? 4 : 0) + (mesh.has_uv() ? 2 : 0);
@@ -202,6 +239,7 @@ bool SceneBuffers::has_type(LightType type) const {
 
 void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   const Matrix4 clip = projection_of(scene_->camera, pipeline.geometry, pipeline.width, pipeline.height);
+  culled_ = pipeline.geometry.cull_face, front_ = pipeline.geometry.front_face;
   std::vector<InstanceRecord>& records = records_;
   records.clear();
   records.reserve(scene_->instances.size());
@@ -221,6 +259,10 @@ void SceneBuffers::upload_instances(const Pipeline& pipeline) {
   instances_ = make_buffer(GL_ARRAY_BUFFER, std::span<const InstanceRecord>(records));
 }
 
+bool SceneBuffers::has_double_sided() const {
+  return std::any_of(runs_.begin(), runs_.end(), [](const InstanceRun& r) { return r.double_sided; });
+}
+
 bool SceneBuffers::has_transparent() const {
   return std::any_of(runs_.begin(), runs_.end(), [](const InstanceRun& r) { return r.transparent; });
 }
@@ -237,12 +279,16 @@ GLuint program_in_use() {
 
 void SceneBuffers::draw_run(const InstanceRun& run, GLuint program) const {
   constexpr int kTangentUnit = 11;
+  constexpr int kMoreUvUnit = 16;  // of vertex shaders alone: fragment shaders are sure of the units below it only
   const MeshBuffers& mesh = meshes_[run.mesh];
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
   glVertexAttrib2f(kUv, 0, 0);
+  set_faces_of(run);
+  if (has_double_sided()) set_uniform(program, "double_sided", int(run.double_sided));
   if (maps_.used()) maps_.bind(program, run.material);
   if (maps_.normal()) bind_texture(program, "tangents", kTangentUnit, GL_TEXTURE_BUFFER, mesh.tangents.texture);
+  if (maps_.more_uv()) bind_texture(program, "more_uv", kMoreUvUnit, GL_TEXTURE_BUFFER, mesh.more_uv.texture);
   glBindVertexArray(mesh.array);
   glBindBuffer(GL_ARRAY_BUFFER, instances_);
   point_at_instances(run.first);
@@ -255,10 +301,7 @@ void SceneBuffers::draw_instances(Surfaces which) const {
     if (which == Surfaces::all || run.transparent == (which == Surfaces::transparent)) draw_run(run, program);
 }
 
-void SceneBuffers::draw_transparent(uint32_t instance) const {
-  const Instance& i = scene_->instances[instance];
-  draw_run({i.mesh, i.material, instance, 1, true}, program_in_use());
-}
+void SceneBuffers::draw_transparent(uint32_t instance) const { draw_run(run_of(instance), program_in_use()); }
 
 void SceneBuffers::draw_each_instance(GLuint program, Surfaces which) const {
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
@@ -271,6 +314,9 @@ void SceneBuffers::draw_each_instance(GLuint program, Surfaces which) const {
     const bool transparent = scene_->materials[instance.material].transparent;
     if (which != Surfaces::all && transparent != (which == Surfaces::transparent)) continue;
     const MeshBuffers& mesh = meshes_[instance.mesh];
+    set_faces_of(run_of(i));
+    if (has_double_sided())
+      set_uniform(program, "double_sided", int(scene_->materials[instance.material].double_sided));
     glBindVertexArray(mesh.array);
     const float* values = records_[i].values.data();
     glUniform4fv(clip, 4, values);

@@ -11,12 +11,12 @@
 
 namespace trueshade::oracle {
 
-/// A run of instances, consecutive in the scene, of one mesh, all transparent or none, and, where materials have maps,
-/// of one material: one instanced draw.
+/// A run of instances, consecutive in the scene, of one mesh, all transparent, double-sided or mirrored or none, and,
+/// where materials have maps, of one material: one instanced draw.
 struct InstanceRun {
   uint32_t mesh = 0, material = 0;
   uint32_t first = 0, count = 0;
-  bool transparent = false;
+  bool transparent = false, double_sided = false, mirrored = false;
 };
 
 /// Which surfaces a pass draws.
@@ -43,8 +43,10 @@ class SceneBuffers {
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
   bool has_transparent() const;
-  /// Every triangle of those surfaces, in submission order, by the program in use; one of GlslOptions::maps where
-  /// maps() are used; texture units 11 (frames of normal maps) and 13 to 15.
+  bool has_double_sided() const;
+  /// Every triangle of those surfaces, in submission order, by the program in use, culled as the state in force
+  /// says; where there are double-sided or mirrored ones, as that of upload_instances()'s pipeline says for them; one
+  /// of GlslOptions::maps where maps() are used; texture units 11 (frames of normal maps), 13 to 15 and 16.
   void draw_instances(Surfaces which = Surfaces::all) const;
   /// One transparent instance of them.
   void draw_transparent(uint32_t instance) const;
@@ -62,10 +64,13 @@ class SceneBuffers {
     GlVertexArray array;
     GlBuffer vertices, indices;
     GlTexelBuffer tangents;  ///< where there are normal maps
+    GlTexelBuffer more_uv;   ///< where maps read texture coordinates beside the first set
     GLsizei index_count = 0;
   };
   MeshBuffers upload(const Mesh& mesh, int rotation) const;
   void draw_run(const InstanceRun& run, GLuint program) const;
+  void set_faces_of(const InstanceRun& run) const;
+  InstanceRun run_of(uint32_t instance) const;
 
   const Scene* scene_;
   MapTextures maps_;
@@ -73,6 +78,9 @@ class SceneBuffers {
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
+  bool has_own_faces_ = false;           ///< some run is not drawn with the pipeline's culling and front face
+  CullFace culled_ = CullFace::none;     ///< of the pipeline that it was made for
+  FrontFace front_ = FrontFace::ccw;
   GlTexelBuffer lights_, materials_;
   std::optional<LightModel> uploaded_;             ///< whose records lights_ holds
   std::optional<SpecularSource> material_layout_;  ///< of what materials_ holds

@@ -26,6 +26,29 @@ bool reads_specular_map(const LightModel& model, const GlslOptions& options) {
   return options.specular_maps && reads_specular_plane(model) && !maps_metals(model);
 }
 
+/// The maps whose texture coordinates have a varying each; the others share `texcoord`.
+std::vector<std::string> maps_with_own_uv(const GlslOptions& options) {
+  if (!options.more_uv) return {};
+  std::vector<std::string> maps{"color"};
+  if (options.specular_maps) maps.emplace_back("specular");
+  if (options.normal_maps) maps.emplace_back("normal");
+  return maps;
+}
+
+/// The texel of a map.
+std::string lookup_text(const std::string& map, const GlslOptions& options) {
+  return "texture(" + map + "_map, " + (options.more_uv ? map + "_texcoord" : "texcoord") + ")";
+}
+
+/// What a vertex shader reads of texture coordinates beside the first set: their texels, and which set each map reads.
+std::string more_uv_text(const GlslOptions& options) {
+  if (!options.more_uv) return {};
+  std::string text = "uniform samplerBuffer more_uv;  // five texels a vertex: u and v of the sets behind the first\n";
+  for (const std::string& map : maps_with_own_uv(options)) text += "uniform int " + map + "_uv_set;\n";
+  return text +
+         "vec2 uv_of(int set) { return set == 0 ? vertex_uv : texelFetch(more_uv, gl_VertexID * 5 + set - 1).xy; }\n";
+}
+
 bool has_ids(const std::vector<GlslPlane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const GlslPlane& p) { return p.format == Format::r32ui; });
 }
@@ -150,10 +173,13 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
   if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
+  for (const std::string& map : maps_with_own_uv(options))
+    declare(g.uv.interpolation, "vec2", (map + "_texcoord").c_str());
   if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_u");
   if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_v");
   if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
+  if (options.double_sided && direction == "in") text += "uniform bool double_sided;\n";
   if (reads_specular_map(pipeline.light_model, options) && direction == "in")
     text += "uniform sampler2D specular_map;\n";
   if (options.normal_maps && direction == "in") text += kBentNormal;
@@ -210,7 +236,8 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
   text +=
       "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
       "  vec4 glow = texelFetch(materials, 2 * int(ids.y) - 1);\n  vec3 emission = glow.rgb;\n";
-  if (reads_specular_map(model, options)) text += "  gloss.rgb = gloss.rgb * texture(specular_map, texcoord).rgb;\n";
+  if (reads_specular_map(model, options))
+    text += "  gloss.rgb = gloss.rgb * " + lookup_text("specular", options) + ".rgb;\n";
   if (maps_metals(model))
     text +=
         "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
@@ -219,12 +246,14 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
 }
 
 std::string albedo_text(const GlslOptions& options) {
-  return std::string(options.vertex_color ? "color * " : "") + (options.maps ? "texture(color_map, texcoord) * " : "") +
-         "base";
+  return std::string(options.vertex_color ? "color * " : "") +
+         (options.maps ? lookup_text("color", options) + " * " : "") + "base";
 }
 
 std::string normal_text(const GlslOptions& options) {
-  return options.normal_maps ? "bent_normal(world_normal, texture(normal_map, texcoord).xyz)" : "world_normal";
+  const std::string straight =
+      options.double_sided ? "(double_sided && !gl_FrontFacing ? -world_normal : world_normal)" : "world_normal";
+  return options.normal_maps ? "bent_normal(" + straight + ", " + lookup_text("normal", options) + ".xyz)" : straight;
 }
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -246,7 +275,10 @@ layout(location = 14) in vec4 base_color;
 layout(location = 15) in uvec2 instance_ids;
 )";
   if (options.normal_maps)
-    text += "uniform samplerBuffer tangents;  // two texels a triangle, in the object: where u grows, where v grows\n";
+    text += "uniform samplerBuffer tangents;  // two texels a triangle" +
+            std::string(options.more_uv ? " and each of six sets" : "") +
+            ", in the object: where u grows, where v grows\n";
+  text += more_uv_text(options);
   text += varyings_text(pipeline, options, "out");
   if (options.version >= 400) text += "precise gl_Position;\n";
   text += R"(
@@ -269,14 +301,16 @@ void main() {
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
   if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
+  for (const std::string& map : maps_with_own_uv(options))
+    text += "  " + map + "_texcoord = uv_of(" + map + "_uv_set);\n";
   if (options.normal_maps)
-    text +=
-        "  vec3 u = texelFetch(tangents, gl_VertexID / 3 * 2).xyz, v = texelFetch(tangents, gl_VertexID / 3 * 2 + "
-        "1).xyz;\n"
-        "  along_u = vec3(linear(world_from_object[0].xyz, u), linear(world_from_object[1].xyz, u), "
-        "linear(world_from_object[2].xyz, u));\n"
-        "  along_v = vec3(linear(world_from_object[0].xyz, v), linear(world_from_object[1].xyz, v), "
-        "linear(world_from_object[2].xyz, v));\n";
+    text += "  int frame = gl_VertexID / 3 * " + std::string(options.more_uv ? "12 + 2 * normal_uv_set" : "2") +
+            ";\n"
+            "  vec3 u = texelFetch(tangents, frame).xyz, v = texelFetch(tangents, frame + 1).xyz;\n"
+            "  along_u = vec3(linear(world_from_object[0].xyz, u), linear(world_from_object[1].xyz, u), "
+            "linear(world_from_object[2].xyz, u));\n"
+            "  along_v = vec3(linear(world_from_object[0].xyz, v), linear(world_from_object[1].xyz, v), "
+            "linear(world_from_object[2].xyz, v));\n";
   if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }

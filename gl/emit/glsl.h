@@ -19,9 +19,11 @@ struct GlslOptions {
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
-  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
-  bool transparent = false;  ///< surfaces are drawn after the lights
-  bool vertex_color = true;  ///< false: no mesh has any, so the base colour is the albedo
+  bool normal_maps = false;   ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool more_uv = false;       ///< of maps: some read texture coordinates beside the first set, from `more_uv`
+  bool double_sided = false;  ///< materials may be: the uniform of that name says so, a draw each
+  bool transparent = false;   ///< surfaces are drawn after the lights
+  bool vertex_color = true;   ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
 };
 

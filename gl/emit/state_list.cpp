@@ -187,7 +187,24 @@ std::string maps(const GlslOptions& options) {
         "growing u and growing v, 0 where uv has no area; no two triangles share a vertex: gl_VertexID / 3 is the "
         "triangle");
   }
+  if (options.more_uv) {
+    lines.back() += options.normal_maps ? "; six such pairs a triangle, one a set of texture coordinates" : "";
+    lines.emplace_back(
+        "more_uv: samplerBuffer over GL_RGBA32F, five texels a vertex, u and v of sets 1 to 5, 0 where the mesh has "
+        "none; color_uv_set, specular_uv_set, normal_uv_set: int, the set that a map reads, 0 is vertex_uv");
+  }
+  if (options.double_sided) lines.emplace_back("double_sided: bool, of the material");
   return calls(lines);
+}
+
+/// What the draws of instances do with faces that the geometry state does not say.
+std::string geometry_draws(const GlslOptions& options) {
+  std::string text = "instances in order, glDrawElementsInstanced(GL_TRIANGLES)";
+  if (options.double_sided)
+    text +=
+        "; where the material is double-sided, GL_BACK is not culled, and of GL_FRONT_AND_BACK GL_FRONT alone; where "
+        "the instance is mirrored (glTF: a negative determinant), the other glFrontFace";
+  return quoted(text);
 }
 
 std::string uniforms(const Pipeline& pipeline) {
@@ -355,8 +372,7 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options) {
          entry("geometry_depth", "{\"format\": " + quoted(gl_name(pipeline.geometry.depth_format)) +
                                      ", \"clear\": " + glsl_float(pipeline.geometry.clear_depth) + "}") +
          entry("geometry_state", calls(geometry_calls(pipeline))) + entry("geometry_attributes", attributes()) +
-         entry("geometry_maps", maps(options)) +
-         entry("geometry_draws", quoted("instances in order, glDrawElementsInstanced(GL_TRIANGLES)")) +
+         entry("geometry_maps", maps(options)) + entry("geometry_draws", geometry_draws(options)) +
          entry("light_target",
                "{\"format\": " + quoted(gl_name(pipeline.target)) + ", \"clear\": \"the scene's clear colour\"}") +
          entry("light_draws", array_of(light_draws(pipeline))) +

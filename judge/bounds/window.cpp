@@ -309,7 +309,19 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
   return v;
 }
 
-bool Projector::face(Piece& piece) const {
+/// Of an instance whose material is double-sided no back is culled; of one that mirrors front and back are exchanged.
+Projector::Faces Projector::faces_of(uint32_t instance) const {
+  const Instance& i = scene_.instances[instance];
+  Faces faces{pipeline_.geometry.cull_face, pipeline_.geometry.front_face};
+  if (scene_.materials[i.material].double_sided) {
+    if (faces.culled == CullFace::back) faces.culled = CullFace::none;
+    if (faces.culled == CullFace::front_and_back) faces.culled = CullFace::front;
+  }
+  if (i.mirrored) faces.front = faces.front == FrontFace::ccw ? FrontFace::cw : FrontFace::ccw;
+  return faces;
+}
+
+bool Projector::face(const Faces& faces, Piece& piece) const {
   const auto &a = piece.v[0], &b = piece.v[1], &c = piece.v[2];
   // The area is the edge function of a, b about the box of c; twice the widest of the three tells how sure it is.
   const double area =
@@ -324,9 +336,9 @@ bool Projector::face(Piece& piece) const {
   if (e.low == 0 && e.high == 0) return false;
   piece.facing_known = e.low > 0 || e.high < 0;
   piece.sign = piece.facing_known ? (e.low > 0 ? 1 : -1) : (area >= 0 ? 1 : -1);
-  piece.front = ((piece.sign > 0) != turned) == (pipeline_.geometry.front_face == FrontFace::ccw);
-  if (!piece.facing_known) return pipeline_.geometry.cull_face != CullFace::front_and_back;
-  switch (pipeline_.geometry.cull_face) {
+  piece.front = ((piece.sign > 0) != turned) == (faces.front == FrontFace::ccw);
+  if (!piece.facing_known) return faces.culled != CullFace::front_and_back;
+  switch (faces.culled) {
     case CullFace::none:
       return true;
     case CullFace::front:
@@ -369,13 +381,16 @@ void Projector::cut(std::vector<ClipVertex>& polygon, int plane) const {
   polygon = std::move(kept);
 }
 
-void Projector::exact_pieces(const std::array<ClipVertex, 3>& corners, std::vector<Piece>& out) const {
+void Projector::exact_pieces(const std::array<ClipVertex, 3>& corners, const Faces& faces,
+                             std::vector<Piece>& out) const {
   std::array<VertexValues, 3> values{};
   for (size_t i = 0; i < 3; ++i) {
     for (size_t k = 0; k < 4; ++k) values[i][k] = corners[i].c[k];
     values[i][4 + i] = 1;  // the weights are carried along as three attributes
   }
-  const WindowPolygon polygon = window_polygon(values, 7, pipeline_.geometry, viewport_);
+  GeometryState state = pipeline_.geometry;
+  state.cull_face = faces.culled, state.front_face = faces.front;
+  const WindowPolygon polygon = window_polygon(values, 7, state, viewport_);
   bool turned_over = false;
   for (const WindowTriangle& t : polygon.pieces) turned_over = turned_over || (t.twice_area > 0) != (polygon.sign > 0);
   for (const WindowTriangle& t : polygon.pieces) {
@@ -399,6 +414,7 @@ void Projector::exact_pieces(const std::array<ClipVertex, 3>& corners, std::vect
 void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const {
   out.clear();
   const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
+  const Faces faces = faces_of(instance);
   std::array<ClipVertex, 3> corners;
   bool inside = true, huge = false, leaves = false;
   for (size_t i = 0; i < 3; ++i) {
@@ -413,7 +429,7 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
     leaves = leaves || std::fabs(c[0]) > c[3] - corners[i].error[0] - corners[i].error[3] ||
              std::fabs(c[1]) > c[3] - corners[i].error[1] - corners[i].error[3];
   }
-  if (profile_.exact_vertices && (!inside || huge)) return exact_pieces(corners, out);
+  if (profile_.exact_vertices && (!inside || huge)) return exact_pieces(corners, faces, out);
   std::vector<ClipVertex> cut_polygon;
   if (!inside) {
     cut_polygon.assign(corners.begin(), corners.end());
@@ -427,7 +443,7 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
     piece.leaves_view = leaves && profile_.clips_to_view;
     const ClipVertex* of[3] = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (size_t k = 0; k < 3; ++k) piece.v[k] = window_vertex(*of[k], piece.leaves_view || piece.cut);
-    if (face(piece)) out.push_back(piece);
+    if (face(faces, piece)) out.push_back(piece);
   }
 }
 

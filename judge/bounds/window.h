@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "oracle/exact_coverage.h"
 #include "judge/bounds/profile.h"
+#include "oracle/exact_coverage.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
@@ -85,6 +85,10 @@ class Projector {
         along{};  ///< how far a cut vertex may lie along its edge: moves coverage, leaves the planes alone
     std::array<double, 3> weight{};
   };
+  struct Faces {
+    CullFace culled;
+    FrontFace front;
+  };
   struct InstanceMatrix {
     float row[4][4];
     std::array<double, 4> error;  ///< largest clip error of any vertex of the mesh
@@ -92,10 +96,11 @@ class Projector {
   ClipVertex clip_vertex(uint32_t instance, uint32_t vertex, size_t corner) const;
   WindowVertex window_vertex(const ClipVertex& v, bool leaves_view) const;
   void snap(WindowVertex& v, int axis, const ClipVertex& clip, double error, double along, bool leaves_view) const;
-  void exact_pieces(const std::array<ClipVertex, 3>& corners, std::vector<Piece>& out) const;
+  void exact_pieces(const std::array<ClipVertex, 3>& corners, const Faces& faces, std::vector<Piece>& out) const;
   void cut(std::vector<ClipVertex>& polygon, int plane) const;
   double plane_distance(const ClipVertex& v, int plane) const;
-  bool face(Piece& piece) const;
+  bool face(const Faces& faces, Piece& piece) const;
+  Faces faces_of(uint32_t instance) const;
 
   const Scene& scene_;
   const Pipeline pipeline_;

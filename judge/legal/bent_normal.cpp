@@ -80,13 +80,14 @@ Across across(const Bounded3& n, double n_error, const TangentFrame& frame, cons
 }  // namespace
 
 TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
-                           const TriangleValues& values) {
+                           const TriangleValues& values, size_t uv_set) {
   const Scene& scene = projector.scene();
   const Instance& drawn = scene.instances[instance];
   const Mesh& mesh = scene.meshes[drawn.mesh];
   const auto& p = values.value;
-  const double a1 = p[1][kUv] - p[0][kUv], b1 = p[1][kUv + 1] - p[0][kUv + 1];
-  const double a2 = p[2][kUv] - p[0][kUv], b2 = p[2][kUv + 1] - p[0][kUv + 1], area = a1 * b2 - a2 * b1;
+  const size_t u = uv_index(uv_set), v = u + 1;
+  const double a1 = p[1][u] - p[0][u], b1 = p[1][v] - p[0][v];
+  const double a2 = p[2][u] - p[0][u], b2 = p[2][v] - p[0][v], area = a1 * b2 - a2 * b1;
   TangentFrame frame;
   if (area == 0) return frame;
   const double sign = area < 0 ? -1 : 1;

@@ -12,8 +12,9 @@ struct TangentFrame {
 /// Of vertices in the world, as docs/arithmetic.md has it, in double; unless the profile has exact vertices, or of
 /// vertices in the object, turned into the world by the shader: three products of a row with one rounding each, two
 /// sums, and the rounding of the matrix element and of the direction, 5 v sum |m| |u|.
+/// uv_set: that the normal map reads.
 TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
-                           const TriangleValues& values);
+                           const TriangleValues& values, size_t uv_set);
 
 /// (T x + B y) + N z, of N as interpolated and x, y, z = 2 t - 1, x and y times `scale`.
 ///

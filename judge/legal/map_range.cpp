@@ -30,8 +30,9 @@ std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const 
   Range at[2];
   for (size_t k = 0; k < 2; ++k) {
     std::array<double, 3> error{};
-    piece_values(piece, values, kUv + k, uv[k], error);
-    at[k] = attribute_range(projector, piece, point, values, kUv + k, how);
+    const size_t index = uv_index(slot.uv_set) + k;
+    piece_values(piece, values, index, uv[k], error);
+    at[k] = attribute_range(projector, piece, point, values, index, how);
   }
   const Texture& texture = projector.scene().textures[size_t(slot.texture)];
   return texel_range(texture, slot.sampler, texture_sample(piece, uv, how, at[0], at[1], x, y), projector.profile());

@@ -20,10 +20,34 @@ SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& 
   if (reads_specular_plane(model_) && !maps_metals(model_)) gloss_ = texel(material_->specular_map);
   const auto bumps = texel(material_->normal_map);
   if (!bumps) return;
-  std::array<Range, 3> n;
-  for (size_t k = 0; k < 3; ++k) n[k] = attribute(kNormal + k, projector.pipeline().gbuffer.normal.interpolation);
-  bent_ = bent_normal(n, tangent_frame(projector, possible.instance, possible.triangle, values_), *bumps,
-                      double(material_->normal_scale), projector.profile());
+  bend(*bumps, possible.instance, possible.triangle);
+}
+
+namespace {
+
+Range negated(const Range& r) { return {-r.value, -r.high, -r.low}; }
+
+/// Either of two ranges, the first where `first` says that it is the likely one.
+Range either(const Range& a, const Range& b, bool first) {
+  return {first ? a.value : b.value, std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+}  // namespace
+
+void SurfaceValues::bend(const std::array<Range, 4>& bumps, uint32_t instance, uint32_t triangle) {
+  const TangentFrame frame = tangent_frame(projector_, instance, triangle, values_, material_->normal_map.uv_set);
+  std::array<Range, 3> n, turned;
+  for (size_t k = 0; k < 3; ++k) {
+    n[k] = attribute(kNormal + k, projector_.pipeline().gbuffer.normal.interpolation);
+    turned[k] = negated(n[k]);
+  }
+  const auto bent = [&](const std::array<Range, 3>& normal) {
+    return bent_normal(normal, frame, bumps, double(material_->normal_scale), projector_.profile());
+  };
+  bent_ = bent(may_be_front() ? n : turned);
+  if (!may_be_front() || !may_be_back()) return;
+  const std::array<Range, 3> back = bent(turned);
+  for (size_t k = 0; k < 3; ++k) (*bent_)[k] = either((*bent_)[k], back[k], piece_->front);
 }
 
 Range SurfaceValues::depth() const {
@@ -44,7 +68,10 @@ Range SurfaceValues::attribute(size_t index, Interpolation interpolation) const 
 }
 
 Range SurfaceValues::normal(int k, Interpolation interpolation) const {
-  return bent_ ? (*bent_)[size_t(k)] : attribute(kNormal + size_t(k), interpolation);
+  if (bent_) return (*bent_)[size_t(k)];
+  const Range straight = attribute(kNormal + size_t(k), interpolation);
+  if (!may_be_back()) return straight;
+  return may_be_front() ? either(straight, negated(straight), piece_->front) : negated(straight);
 }
 
 Range SurfaceValues::base_color(int k, Interpolation interpolation) const {

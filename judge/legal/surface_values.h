@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "judge/legal/bent_normal.h"
-#include "judge/legal/possible_surfaces.h"
-#include "judge/legal/map_range.h"
 #include "judge/bounds/shading.h"
+#include "judge/legal/bent_normal.h"
+#include "judge/legal/map_range.h"
+#include "judge/legal/possible_surfaces.h"
 
 namespace trueshade::oracle {
 
@@ -24,14 +24,15 @@ class SurfaceValues {
 
   Range depth() const;                                               ///< as the depth buffer may hold it
   Range attribute(size_t index, Interpolation interpolation) const;  ///< a ValueIndex plus a component
-  Range normal(int k, Interpolation interpolation) const;            ///< bent, where there is a map
-  Range base_color(int k, Interpolation interpolation) const;        ///< vertex colour times texel times base colour
-  Range albedo(const Range& base) const;                             ///< of the base colour: less what is metal
+  Range normal(int k, Interpolation interpolation) const;      ///< turned to the viewer, bent where there is a map
+  Range base_color(int k, Interpolation interpolation) const;  ///< vertex colour times texel times base colour
+  Range albedo(const Range& base) const;                       ///< of the base colour: less what is metal
   Range specular(const Range& base, int k) const;
   double shininess() const;
 
  private:
   Range tinted(const Range& r, double tint) const;
+  void bend(const std::array<Range, 4>& bumps, uint32_t instance, uint32_t triangle);
 
   const Projector& projector_;
   const LightModel& model_;
@@ -42,6 +43,10 @@ class SurfaceValues {
   TriangleValues values_;
   std::optional<std::array<Range, 4>> texel_, gloss_;
   std::optional<std::array<Range, 3>> bent_;
+
+  /// Whether the triangle may show its front, its back, or either: what becomes of a double-sided material's normal.
+  bool may_be_front() const { return !material_->double_sided || !piece_->facing_known || piece_->front; }
+  bool may_be_back() const { return material_->double_sided && (!piece_->facing_known || !piece_->front); }
 };
 
 /// A possible surface's fragment as lights read it where no plane is between.

@@ -10,8 +10,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
+#include "raster/surfaces/back_faces.h"
 #include "raster/surfaces/interpolate-inl.h"
 #include "raster/surfaces/material_maps-inl.h"
 #include "raster/surfaces/surface_task.h"
@@ -26,11 +28,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A piece of a clipped triangle with everything that interpolation reads.
 struct ClippedPiece {
   uint32_t id;
+  bool turned = false;  ///< normals are turned round
   TriangleSetup<__int128> setup;
   EdgeVectors<__int128> edges;
   double u[3], area;  ///< 1 / w of the corners in canonical order; the edges' exact sum, rounded once
-  double attribute[kStreams][3];
-  float provoking[kStreams];
+  double attribute[kAllStreams][3];
+  float provoking[kAllStreams];
 
   ClippedPiece(uint32_t of, const TriangleSetup<__int128>& s)
       : id(of), setup(s), edges(s), area(double(s.edge(0, 0, 0) + s.edge(1, 0, 0) + s.edge(2, 0, 0))) {}
@@ -60,7 +63,7 @@ inline bool has_pieces(const std::vector<ClippedPiece>& pieces, uint32_t id) {
 /// Adds the pieces of triangle `id`. `value`: of each stream at the triangle's corners, as submitted. Attributes are
 /// set for the streams of `group`.
 inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const StreamGroup* group, int groups,
-                               uint32_t id, const float value[kStreams][3], std::vector<ClippedPiece>& out) {
+                               uint32_t id, const float value[][3], std::vector<ClippedPiece>& out) {
   const SampleOrigin origin = sample_origin(rect.x, rect.y);
   const WindowTransform& t = in.view.window;
   GeometryState any_side = in.state;
@@ -74,6 +77,7 @@ inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const 
     if (piece.sign != fan.facing || !set_up_triangle(piece.triangle, any_side, t.upper_left, rect.limit, setup))
       continue;
     ClippedPiece& made = out.emplace_back(id, setup);
+    made.turned = is_turned(in.view, in.draws[in.list[id_position(id)]].instance, fan.facing > 0);
     int order[3];
     canonical_order(piece.triangle, order);
     for (int k = 0; k < 3; ++k) made.u[k] = 1.0 / fan.polygon.all[piece.corner[order[k]]].c[3];
@@ -88,22 +92,31 @@ inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const 
   }
 }
 
-/// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes.
+/// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes. `uv_sets`:
+/// those of which the piece has attributes.
 template <class Frames>
 HWY_INLINE void map_piece(const ClippedPiece& piece, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
-                          const Frames& frames, SurfaceTile& out) {
+                          int uv_sets, const Frames& frames, SurfaceTile& out) {
   const D64 d;
   EdgeSlopes edge;
-  V64 corner[2][3];
   for (int k = 0; k < 3; ++k) {
     edge.along_x[k] = hn::Set(d, double(piece.setup.sx[k]));
     edge.along_y[k] = hn::Set(d, double(piece.setup.sy[k]));
     edge.u[k] = hn::Set(d, piece.u[k]);
-    for (int c = 0; c < 2; ++c) corner[c][k] = hn::Set(d, piece.attribute[kUv + c][k]);
   }
-  UvPoint uv;
-  set_uv_slopes(w, edge, maps.uv_how, corner, uv);
-  apply_maps(maps, &uv, &owned, &at, frames, out);
+  UvPoint uv[kMaxUvSets];
+  for (int set = 0; set < uv_sets; ++set) {
+    V64 corner[2][3];
+    for (int c = 0; c < 2; ++c) {
+      const int stream = uv_stream(set) + c;
+      const double* const value = piece.attribute[stream];
+      for (int k = 0; k < 3; ++k) corner[c][k] = hn::Set(d, value[k]);
+      if (set == 0) continue;
+      uv[set].uv[c] = hn::PromoteTo(d, triangle_attribute(w, maps.uv_how, value, piece.provoking[stream]));
+    }
+    set_uv_slopes(w, edge, maps.uv_how, corner, uv[set]);
+  }
+  apply_maps(maps, uv, &owned, &at, frames, out);
 }
 
 /// The attributes of one piece at the lanes that it owns; other lanes keep what they have.
@@ -119,7 +132,9 @@ inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece
       hn::Store(hn::IfThenElse(mine, value, hn::Load(df, plane)), df, plane);
     }
   }
-  if (maps.textured()) map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at}, task.out);
+  for (uint32_t lanes = piece.turned ? lane_bits(D64(), owned) : 0; lanes != 0; lanes &= lanes - 1)
+    turn_normal(task.out, at + std::countr_zero(lanes));
+  if (maps.textured()) map_piece(piece, w, owned, at, maps, maps.uv_sets, PixelFrames{task.work, at}, task.out);
 }
 
 /// The pixels of clipped triangle `id` among those of the vector that begins at pixel `at`: each is of the first piece

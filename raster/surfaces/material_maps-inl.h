@@ -24,20 +24,21 @@ struct PixelFrames {
   const VisibleVertices& work;
   int at;  ///< the first pixel
 
-  HWY_INLINE BumpFrame operator()(int, const Vector3& normal) const {
+  HWY_INLINE BumpFrame operator()(int, int uv_set, const Vector3& normal) const {
     MapCorner corner[3];
     for (int k = 0; k < 3; ++k) {
       const auto vertex = hn::LoadU(I32(), reinterpret_cast<const int32_t*>(work.corner[k].data()) + at);
       for (int c = 0; c < MapCorner::kValues; ++c)
         corner[k].value[c] =
-            hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[MapCorner::kStream[c]].data(), vertex));
+            hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[MapCorner::stream(c, uv_set)].data(), vertex));
     }
     return bump_frame(tangent_frame(corner), normal);
   }
 };
 
 /// Reads the maps of one material, which has some, for kVectors vectors of pixels, whose loops are one: a vector alone
-/// would wait for its own quotients and sums.
+/// would wait for its own quotients and sums. `at`: the vectors' points in the first set of texture coordinates, then
+/// those in the next.
 template <int kVectors>
 class MapTexels {
  public:
@@ -54,8 +55,9 @@ class MapTexels {
  private:
   HWY_NOINLINE void find(const TextureView& texture) {
     MipChoice mip[kVectors];
-    choose_mips<kVectors>(texture, at_, mip);
-    for (int h = 0; h < kVectors; ++h) reader_[h].set(texture, mip[h], at_[h].uv, mine_[h]);
+    const UvPoint* const at = at_ + texture.uv_set * kVectors;
+    choose_mips<kVectors>(texture, at, mip);
+    for (int h = 0; h < kVectors; ++h) reader_[h].set(texture, mip[h], at[h].uv, mine_[h]);
     found_ = &texture;
   }
 
@@ -68,7 +70,7 @@ class MapTexels {
 
 /// Applies the maps of one material to the lanes `mine` of kVectors vectors, each from a pixel on: the colour is
 /// multiplied by the texel, the normal is bent, and the specular plane receives its texel, which surface_planes-inl.h
-/// multiplies by the material's own colour. `frames(h, normal)` gives the bump frames of vector h.
+/// multiplies by the material's own colour. `frames(h, uv_set, normal)` gives the bump frames of vector h.
 template <int kVectors, class Frames>
 inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const M64* mine, const int* pixel,
                            const Frames& frames, SurfaceTile& out) {
@@ -98,14 +100,14 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const M6
     V32 n[3], there[3];
     for (int c = 0; c < 3; ++c) n[c] = there[c] = hn::Load(df, out.plane[kNormal + c] + pixel[h]);
     const Vector3 normal{hn::PromoteTo(D64(), n[0]), hn::PromoteTo(D64(), n[1]), hn::PromoteTo(D64(), n[2])};
-    bend_normals(frames(h, normal), normal, rgba[h], double(maps.normal_scale), n);
+    bend_normals(frames(h, maps.normal->uv_set, normal), normal, rgba[h], double(maps.normal_scale), n);
     for (int c = 0; c < 3; ++c)
       hn::Store(hn::IfThenElse(float_mask(mine[h]), n[c], there[c]), df, out.plane[kNormal + c] + pixel[h]);
   }
 }
 
-/// Applies the maps of the lanes `owned` of kVectors vectors that begin at `pixel`. Texture coordinates are in the uv
-/// planes; `at` has their derivatives and receives the coordinates.
+/// Applies the maps of the lanes `owned` of kVectors vectors that begin at `pixel`. The first texture coordinates are
+/// in the uv planes; `at` has their derivatives and receives them. Behind these are the points in other sets.
 template <int kVectors = 1, class Frames>
 inline void apply_maps(const SceneMaps& maps, UvPoint* at, const M64* owned, const int* pixel, const Frames& frames,
                        SurfaceTile& out) {

@@ -34,8 +34,10 @@ HWY_INLINE Vector3 where(M64 mask, const Vector3& a) {
 /// A corner of the triangle of each pixel: world position and texture coordinates.
 struct MapCorner {
   static constexpr int kValues = 5;
-  static constexpr int kStream[kValues] = {kPosition, kPosition + 1, kPosition + 2, kUv, kUv + 1};
   V64 value[kValues];
+
+  /// The stream of a value, of a normal map that reads that set of texture coordinates.
+  static constexpr int stream(int k, int uv_set) { return k < 3 ? kPosition + k : uv_stream(uv_set) + k - 3; }
 
   /// Whether this corner comes before another in the order of values.
   HWY_INLINE M64 before(const MapCorner& other) const {

@@ -19,14 +19,18 @@ struct SurfaceTask {
   VisibleVertices& work;
   SurfaceTile& out;
   bool reads_uv;  ///< texture coordinates are interpolated, for maps or for their planes
-  StreamGroup group[4];
-  int groups;
+  StreamGroup group[5];
+  int groups;       ///< that are planes
+  int read_groups;  ///< and those behind them, that only maps read
+
+  int streams() const { return kStreams + 2 * (in.view.maps.uv_sets - 1); }
 
   int pixels() const { return rect.size * rect.size; }
   int blocks() const { return rect.size / kBlockSize; }  ///< a row
 };
 
-/// Sets the groups: positions unless depth gives them, normals, albedo, and texture coordinates where they are needed.
+/// Sets the groups: positions unless depth gives them, normals, albedo, and texture coordinates where they are needed,
+/// sets beside the first last.
 inline void set_groups(SurfaceTask& task) {
   const GBufferState& planes = task.planes;
   task.groups = 0;
@@ -34,6 +38,9 @@ inline void set_groups(SurfaceTask& task) {
   task.group[task.groups++] = {kNormal, 3, planes.normal};
   task.group[task.groups++] = {kAlbedo, 4, planes.albedo};
   if (task.reads_uv) task.group[task.groups++] = {kUv, 2, planes.uv};
+  task.read_groups = task.groups;
+  if (const int more = task.streams() - kStreams; more > 0)
+    task.group[task.read_groups++] = {kStreams, more, planes.uv};
 }
 
 }  // namespace trueshade

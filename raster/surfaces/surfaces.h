@@ -8,8 +8,13 @@
 
 namespace trueshade {
 
-/// Attribute streams of a vertex, in the order the planes of SurfaceTile have.
+/// Attribute streams of a vertex, in the order the planes of SurfaceTile have. Sets of texture coordinates beside the
+/// first lie behind them and have no planes.
 enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams = 12 };
+inline constexpr int kAllStreams = kStreams + 2 * (int(kMaxUvSets) - 1);
+
+/// The stream of u of a set of texture coordinates; that of v follows.
+constexpr int uv_stream(int set) { return set == 0 ? int(kUv) : kStreams + 2 * (set - 1); }
 
 /// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess, emission.
 enum MaterialPlane : int { kSpecular = kStreams, kEmission = kStreams + 4, kPlanes = kStreams + 7 };
@@ -36,13 +41,13 @@ struct SeenCluster {
 
 /// Vertices of the clusters that are seen in a tile, 64 a cluster, with everything interpolation needs.
 struct VisibleVertices {
-  std::vector<int32_t> x, y;  ///< 1/256 pixel, relative to the tile's first sample
-  std::vector<double> u;      ///< 1 / w
-  std::vector<float> stream[kStreams];
-  std::vector<int32_t> slot_of;     ///< by position in the tile's list; -1: not seen
-  std::vector<SeenCluster> seen;    ///< by slot
-  std::vector<uint32_t> corner[3];  ///< by pixel: vertices of its triangle, in the order submitted
-  VisibleTriangles triangles;       // fast path
+  std::vector<int32_t> x, y;               ///< 1/256 pixel, relative to the tile's first sample
+  std::vector<double> u;                   ///< 1 / w
+  std::vector<float> stream[kAllStreams];  ///< those behind kStreams only where a map reads them
+  std::vector<int32_t> slot_of;            ///< by position in the tile's list; -1: not seen
+  std::vector<SeenCluster> seen;           ///< by slot
+  std::vector<uint32_t> corner[3];         ///< by pixel: vertices of its triangle, in the order submitted
+  VisibleTriangles triangles;              // fast path
 };
 
 /// Finds the surface of every covered pixel of a tile: attributes interpolated once, then rounded to the planes'

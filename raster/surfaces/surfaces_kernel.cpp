@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "raster/surfaces/back_faces.h"
 #include "raster/surfaces/clipped_surfaces-inl.h"
 #include "raster/surfaces/fast/surface_blocks.h"  // fast path
 #include "raster/surfaces/material_maps-inl.h"
@@ -20,7 +21,7 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Applies the maps of a vector of pixels; those of clipped triangles are left to interpolate_piece().
-HWY_NOINLINE void map_pixels(const SurfaceTask& task, const PixelTriangles& triangles, int i) {
+HWY_NOINLINE void map_pixels(const SurfaceTask& task, const PixelTriangles& triangles, VI32 provoking, int i) {
   const D64 d;
   const D32 df;
   const SceneMaps& maps = task.in.view.maps;
@@ -29,14 +30,30 @@ HWY_NOINLINE void map_pixels(const SurfaceTask& task, const PixelTriangles& tria
     const uint32_t id = task.visible.id[size_t(i) + k];
     vertex_path[k] = id != 0 && !id_clipped(id) ? 1.0 : 0.0;
   }
-  V64 corner[2][3];
-  for (size_t c = 0; c < 2; ++c)
-    for (int k = 0; k < 3; ++k)
-      corner[c][k] = hn::PromoteTo(d, hn::GatherIndex(df, task.work.stream[kUv + c].data(), triangles.vertex[k]));
-  UvPoint at;
-  set_uv_slopes(triangles.at, triangles.edge_slopes(), maps.uv_how, corner, at);
+  UvPoint at[kMaxUvSets];
+  for (int set = 0; set < maps.uv_sets; ++set) {
+    const std::vector<float>* const stream = task.work.stream + uv_stream(set);
+    V64 corner[2][3];
+    for (int c = 0; c < 2; ++c) {
+      for (int k = 0; k < 3; ++k)
+        corner[c][k] = hn::PromoteTo(d, hn::GatherIndex(df, stream[c].data(), triangles.vertex[k]));
+      if (set > 0) at[set].uv[c] = hn::PromoteTo(d, triangles.attribute(stream[c].data(), maps.uv_how, provoking));
+    }
+    set_uv_slopes(triangles.at, triangles.edge_slopes(), maps.uv_how, corner, at[set]);
+  }
   const M64 owned = hn::Gt(hn::Load(d, vertex_path), hn::Zero(d));
-  apply_maps(maps, &at, &owned, &i, PixelFrames{task.work, i}, task.out);
+  apply_maps(maps, at, &owned, &i, PixelFrames{task.work, i}, task.out);
+}
+
+// Turns round the normals of a vector of pixels that show double-sided back faces; those of clipped triangles are left
+// to interpolate_piece().
+HWY_NOINLINE void turn_normals(const SurfaceTask& task, const PixelTriangles& triangles, int i) {
+  const D64 d;
+  alignas(64) double of_area[kMostLanes];
+  hn::Store(triangles.at.inverse_area, d, of_area);
+  for (int k = 0; k < int(hn::Lanes(d)); ++k)
+    if (task.out.covered[i + k] != 0 && is_turned(task.in.view, task.out.object[i + k] - 1, of_area[k] > 0.0))
+      turn_normal(task.out, i + k);
 }
 
 // Interpolates all covered pixels as if no triangle had been clipped; pixels of clipped triangles are drawn over.
@@ -59,7 +76,8 @@ void interpolate_tile(const SurfaceTask& task) {
       for (int c = g->first; c < g->first + g->count; ++c)
         hn::Store(triangles.attribute(work.stream[c].data(), g->plane.interpolation, provoking), df,
                   task.out.plane[c] + i);
-    if (task.in.view.maps.textured()) map_pixels(task, triangles, i);
+    if (task.in.view.faces.any_double_sided()) turn_normals(task, triangles, i);
+    if (task.in.view.maps.textured()) map_pixels(task, triangles, provoking, i);
   }
 }
 
@@ -75,10 +93,10 @@ void interpolate_clipped(const SurfaceTask& task) {
       if (id == 0 || !id_clipped(id) || id == done) continue;
       done = id;
       if (!has_pieces(pieces, id)) {
-        float value[kStreams][3];
-        for (int c = 0; c < kStreams; ++c)
+        float value[kAllStreams][3];
+        for (int c = 0; c < task.streams(); ++c)
           for (int k = 0; k < 3; ++k) value[c][k] = work.stream[c][work.corner[k][size_t(pixel)]];
-        add_clipped_pieces(task.in, task.rect, task.group, task.groups, id, value, pieces);
+        add_clipped_pieces(task.in, task.rect, task.group, task.read_groups, id, value, pieces);
       }
       interpolate_clipped_triangle(task, pieces, id, i);
     }
@@ -89,7 +107,7 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
                            const LightModel& model, const VisibilityTile& visible, UvPlanes uv, VisibleVertices& work,
                            SurfaceTile& out) {
   const bool reads_uv = uv == UvPlanes::filled || in.view.maps.textured();
-  SurfaceTask task{in, rect, planes, model, visible, work, out, reads_uv, {}, 0};
+  SurfaceTask task{in, rect, planes, model, visible, work, out, reads_uv, {}, 0, 0};
   set_groups(task);
   if (resolve_by_blocks(task)) return;  // fast path
   find_corners(task);

@@ -38,8 +38,9 @@ inline void copy_attributes(const SurfaceTask& task, const Mesh& mesh, const Clu
     copy_stream(mesh.normal[c], vertex, count, 0.0f, &work.stream[size_t(kNormal) + c][at]);
   }
   for (size_t c = 0; c < 4; ++c) copy_stream(mesh.color[c], vertex, count, 1.0f, &work.stream[size_t(kAlbedo) + c][at]);
-  for (size_t c = 0; c < 2 && task.reads_uv; ++c)
-    copy_stream(mesh.uv[c], vertex, count, 0.0f, &work.stream[size_t(kUv) + c][at]);
+  for (int set = 0; set < task.in.view.maps.uv_sets && task.reads_uv; ++set)
+    for (size_t c = 0; c < 2; ++c)
+      copy_stream(mesh.uv_set(size_t(set))[c], vertex, count, 0.0f, &work.stream[size_t(uv_stream(set)) + c][at]);
 }
 
 /// Transforms the vertices of a seen cluster, given by its position in the tile's list, into the 64 of a slot.
@@ -55,8 +56,9 @@ inline void fill_slot(const SurfaceTask& task, uint32_t position, int32_t slot) 
   if (work.x.size() < at + kClusterVertices) {
     const size_t grown = std::max(2 * work.x.size(), at + kClusterVertices);
     work.x.resize(grown), work.y.resize(grown), work.u.resize(grown);
-    for (auto& stream : work.stream) stream.resize(grown);
   }
+  for (int c = 0; c < task.streams(); ++c)
+    if (work.stream[c].size() < work.x.size()) work.stream[c].resize(work.x.size());
   WindowVertices window;
   window_vertices(clusters, cluster, transform, in.view.window, sample_origin(task.rect.x, task.rect.y), draw.no_clip,
                   window);

@@ -21,9 +21,10 @@ struct TextureView {
   int levels;
   Level level[kMaxTextureLevels];
   Sampler sampler;
-  bool masks;  ///< four bytes a texel, both axes repeat and all sides are powers of two
+  uint8_t uv_set;  ///< of the mesh, that lookups take their coordinates from
+  bool masks;      ///< four bytes a texel, both axes repeat and all sides are powers of two
 };
-TextureView view_of(const Texture& texture, const Sampler& sampler);
+TextureView view_of(const Texture& texture, const Sampler& sampler, uint8_t uv_set = 0);
 
 /// What a material does with textures. Absent maps are not read.
 struct MaterialMaps {
@@ -32,6 +33,7 @@ struct MaterialMaps {
   float normal_scale;
   float base_alpha, alpha_cutoff;  ///< cutoff 0: no test
   bool same_texels = false;        ///< all maps read the same texels of the same levels
+  int uv_sets = 1;                 ///< one more than the last that a map reads
   bool any() const { return color || specular || normal; }
 };
 
@@ -39,6 +41,7 @@ struct MaterialMaps {
 struct SceneMaps {
   std::vector<MaterialMaps> material;  ///< one per Scene::materials; empty where none has a map or a mask
   Interpolation uv_how, albedo_how;    ///< of texture coordinates and of vertex colours
+  int uv_sets = 1;                     ///< one more than the last that a map reads
   bool textured() const { return !material.empty(); }
 };
 SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline);

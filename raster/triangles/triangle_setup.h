@@ -32,12 +32,16 @@ struct TriangleSetup {
   }
 };
 
-/// Whether face culling drops a triangle whose area, in the window as it is shown, is positive (counter-clockwise).
+/// Whether a triangle shows its front whose area, in the window as it is shown, is positive (counter-clockwise) or not.
+constexpr bool is_front(const GeometryState& state, bool counter_clockwise) {
+  return counter_clockwise == (state.front_face == FrontFace::ccw);
+}
+
+/// Whether face culling drops it.
 constexpr bool culled(const GeometryState& state, bool counter_clockwise) {
   if (state.cull_face == CullFace::none) return false;
   if (state.cull_face == CullFace::front_and_back) return true;
-  const bool front = counter_clockwise == (state.front_face == FrontFace::ccw);
-  return front == (state.cull_face == CullFace::front);
+  return is_front(state, counter_clockwise) == (state.cull_face == CullFace::front);
 }
 
 /// Corners in canonical order: the smallest (y, x) first, the others as they follow.

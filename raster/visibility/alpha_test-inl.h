@@ -29,11 +29,12 @@ struct AlphaTest {
   double value[kValues][3], u[3];  ///< of the piece drawn, canonical order
   double area, slope_x[3], slope_y[3];
 
-  /// Corners of the mesh's triangle.
+  /// Corners of the mesh's triangle, of the material that `maps` are of.
   void set_source(const Mesh& mesh, const uint32_t corner[3], size_t provoking_corner) {
+    const UvStreams& uv = mesh.uv_set(maps->color ? maps->color->uv_set : 0);
     for (size_t k = 0; k < 3; ++k) {
-      source[kU][k] = mesh.has_uv() ? mesh.uv[0][corner[k]] : 0.0f;
-      source[kV][k] = mesh.has_uv() ? mesh.uv[1][corner[k]] : 0.0f;
+      source[kU][k] = uv[0].empty() ? 0.0f : uv[0][corner[k]];
+      source[kV][k] = uv[1].empty() ? 0.0f : uv[1][corner[k]];
       source[kAlpha][k] = mesh.has_color() ? mesh.color[3][corner[k]] : 1.0f;
     }
     for (int i = 0; i < kValues; ++i) provoking[i] = source[i][provoking_corner];
@@ -83,8 +84,7 @@ struct AlphaTest {
         for (int k = 0; k < 2; ++k) corner[k][i] = hn::Set(d, value[k][i]);
       }
       UvPoint at;
-      for (int k = 0; k < 2; ++k)
-        at.uv[k] = hn::PromoteTo(d, triangle_attribute(b, uv_how, value[k], provoking[k]));
+      for (int k = 0; k < 2; ++k) at.uv[k] = hn::PromoteTo(d, triangle_attribute(b, uv_how, value[k], provoking[k]));
       set_uv_slopes(b, edge, uv_how, corner, at);
       V32 rgba[4];
       sample(*maps->color, at, asked, rgba, kAlphaBit);

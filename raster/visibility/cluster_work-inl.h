@@ -25,6 +25,7 @@ struct ListedCluster {
   const ListedDraw& draw;
   const Instance& instance;
   const InstanceTransform& transform;
+  const GeometryState& state;  ///< with the faces of the instance
   const ClusteredMesh& mesh;
   const Cluster& cluster;
 
@@ -34,6 +35,7 @@ struct ListedCluster {
         draw(listed),
         instance(draws.scene.instances[listed.instance]),
         transform(draws.view.instances[listed.instance]),
+        state(draws.view.faces.of(listed.instance)),
         mesh(draws.clusters.meshes[instance.mesh]),
         cluster(mesh.clusters[listed.cluster]) {}
 };

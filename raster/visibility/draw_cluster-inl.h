@@ -50,7 +50,7 @@ inline AlphaTest* alpha_test(const ListedCluster& c, AlphaTest& test) {
 inline void set_source(const ListedCluster& c, const size_t corner[3], AlphaTest& test) {
   uint32_t vertex[3];
   for (size_t k = 0; k < 3; ++k) vertex[k] = c.mesh.vertex[c.cluster.first_vertex + corner[k]];
-  test.set_source(c.in.scene.meshes[c.instance.mesh], vertex, c.in.state.provoking == Provoking::last ? 2 : 0);
+  test.set_source(c.in.scene.meshes[c.instance.mesh], vertex, c.state.provoking == Provoking::last ? 2 : 0);
 }
 
 /// Draws a triangle of which some vertex needs clipping.
@@ -60,7 +60,7 @@ HWY_NOINLINE void draw_clipped_triangle(const ListedCluster& c, const ClipVertic
   ClipVertex clip[3];
   for (size_t k = 0; k < 3; ++k)
     for (int r = 0; r < 4; ++r) clip[k].c[r] = vertices.clip[r][corner[k]];
-  draw_clipped(clip, c.in.view.window, sample_origin(c.rect.x, c.rect.y), c.in.state, c.rect, sink);
+  draw_clipped(clip, c.in.view.window, sample_origin(c.rect.x, c.rect.y), c.state, c.rect, sink);
 }
 
 /// Draws a triangle none of whose vertices does. `hiding`: the tile whose blocks may hide it, or null.
@@ -76,7 +76,7 @@ HWY_INLINE void draw_whole_triangle(const ListedCluster& c, const WindowVertices
   }
   if (hiding != nullptr && hidden_triangle(*hiding, c.rect, window, t)) return;
   TriangleSetup<double> setup;
-  if (!set_up_triangle(window, c.in.state, t.upper_left, c.rect.limit, setup)) return;
+  if (!set_up_triangle(window, c.state, t.upper_left, c.rect.limit, setup)) return;
   if (masked != nullptr) {
     const double inverse_w[3] = {v.u[corner[0]], v.u[corner[1]], v.u[corner[2]]};
     masked->set_piece(window, inverse_w);

@@ -11,6 +11,10 @@
 namespace trueshade {
 namespace {
 
+/// In the order of maps_of().
+constexpr std::string_view kMaterialMapKeys[kMaterialMaps] = {
+    "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
+
 const json::ObjectKeys kTexture{"texture", kTextureKeys}, kPattern{"pattern", kPatternKeys}, kMap{"map", kMapKeys},
     kMaterial{"material", kMaterialKeys};
 
@@ -140,7 +144,7 @@ void MaterialReader::read_textures(const json::Node& list) {
   }
 }
 
-TextureSlot MaterialReader::read_map(const json::Node& node) const {
+TextureSlot MaterialReader::read_map(const json::Node& node, UvSource& uv) const {
   node.check_keys(kMap);
   TextureSlot slot;
   const json::Node name = node.member("texture");
@@ -164,15 +168,15 @@ TextureSlot MaterialReader::read_map(const json::Node& node) const {
   if (const auto high = node.find("lod_max")) s.lod_max = high->real(-1000.0, 1000.0);
   if (!(s.lod_min <= s.lod_max)) node.fail("lod_min is above lod_max", "lod_min <= lod_max");
   if (const auto border = node.find("border")) s.border = border->color();
-  if (const auto set = node.find("uv_set")) slot.uv_set = uint8_t(set->integer(0, 1));
-  read_two(node, "uv_offset", slot.transform.offset);
-  read_two(node, "uv_scale", slot.transform.scale);
+  if (const auto set = node.find("uv_set")) uv.set = uint32_t(set->integer(0, kMaxUvSets - 1));
+  read_two(node, "uv_offset", uv.transform.offset);
+  read_two(node, "uv_scale", uv.transform.scale);
   if (const auto turn = node.find("uv_rotation_deg"))
-    slot.transform.rotation_rad = float(turn->number(-36000.0, 36000.0) * (kPi / 180.0));
+    uv.transform.rotation_rad = float(turn->number(-36000.0, 36000.0) * (kPi / 180.0));
   return slot;
 }
 
-Material MaterialReader::read_material(const json::Node& node) const {
+Material MaterialReader::read_material(const json::Node& node, UvSources& uv) const {
   node.check_keys(kMaterial);
   Material material{node.member("name").string(), node.member("color").color()};
   if (const auto color = node.find("specular_color")) material.specular_color = color->vec3(0.0f, 1e18);
@@ -180,15 +184,12 @@ Material MaterialReader::read_material(const json::Node& node) const {
   if (const auto color = node.find("emission")) material.emission = color->vec3(0.0f, 1e18);
   if (const auto metallic = node.find("metallic")) material.metallic = metallic->real(0.0, 1.0);
   if (const auto roughness = node.find("roughness")) material.roughness = roughness->real(0.0, 1.0);
-  if (const auto map = node.find("color_map")) material.color_map = read_map(*map);
-  if (const auto map = node.find("specular_map")) material.specular_map = read_map(*map);
-  if (const auto map = node.find("normal_map")) material.normal_map = read_map(*map);
+  const auto maps = maps_of(material);
+  for (size_t i = 0; i < maps.size(); ++i)
+    if (const auto map = node.find(kMaterialMapKeys[i])) *maps[i] = read_map(*map, uv[i]);
   if (const auto scale = node.find("normal_scale")) material.normal_scale = scale->real(-1000.0, 1000.0);
   if (const auto cutoff = node.find("alpha_cutoff")) material.alpha_cutoff = cutoff->real(0.0, 1.0);
   if (const auto transparent = node.find("transparent")) material.transparent = transparent->boolean();
-  if (const auto map = node.find("metallic_roughness_map")) material.metallic_roughness_map = read_map(*map);
-  if (const auto map = node.find("emission_map")) material.emission_map = read_map(*map);
-  if (const auto map = node.find("occlusion_map")) material.occlusion_map = read_map(*map);
   if (const auto strength = node.find("occlusion_strength")) material.occlusion_strength = strength->real(0.0, 1.0);
   if (const auto unlit = node.find("unlit")) material.unlit = unlit->boolean();
   if (const auto both = node.find("double_sided")) material.double_sided = both->boolean();
@@ -197,9 +198,7 @@ Material MaterialReader::read_material(const json::Node& node) const {
 
 void MaterialReader::complete_mip_chains(const json::Node& materials) {
   for (const Material& material : scene_.materials)
-    for (const TextureSlot* slot :
-         {&material.color_map, &material.specular_map, &material.normal_map, &material.metallic_roughness_map,
-          &material.emission_map, &material.occlusion_map}) {
+    for (const TextureSlot* slot : maps_of(material)) {
       if (!slot->used() || slot->sampler.mip_filter == MipFilter::none) continue;
       Texture& texture = scene_.textures[size_t(slot->texture)];
       if (texture.levels.size() != 1) continue;

@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 
+#include "scenes/files/baked_uv.h"
 #include "scenes/files/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
@@ -43,7 +44,8 @@ class MaterialReader {
       : scene_(scene), path_(path), folder_(folder), limits_(limits), decode_(decode) {}
 
   void read_textures(const json::Node& list);
-  Material read_material(const json::Node& node) const;
+  /// `uv`: receives what the maps read, which is left to bake_uv().
+  Material read_material(const json::Node& node, UvSources& uv) const;
 
   /// Builds the levels that lookups between levels need and no file gave. After the last material.
   void complete_mip_chains(const json::Node& materials);
@@ -57,7 +59,7 @@ class MaterialReader {
   Texture read_texture(const json::Node& node);
   TextureLevel read_level(const json::Node& file, bool upper_left, TextureFormat& format, bool& has_format,
                           const std::string& encoding);
-  TextureSlot read_map(const json::Node& node) const;
+  TextureSlot read_map(const json::Node& node, UvSource& uv) const;
 
   Scene& scene_;
   const std::string& path_;

@@ -126,9 +126,12 @@ void ObjectReader::read_materials(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
   for (size_t i = 0; i < count; ++i) {
     const json::Node node = list.element(i);
-    Material material = surfaces_.read_material(node);
+    UvSources uv;
+    Material material = surfaces_.read_material(node, uv);
     if (!named_.emplace(material.name, uint32_t(scene_.materials.size())).second)
       node.fail("a material of this name exists", "another name");
+    uv_sources_.resize(scene_.materials.size());
+    uv_sources_.push_back(uv);
     scene_.materials.push_back(std::move(material));
   }
   surfaces_.complete_mip_chains(list);
@@ -137,6 +140,14 @@ void ObjectReader::read_materials(const json::Node& list) {
 void ObjectReader::read_objects(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
   for (size_t i = 0; i < count; ++i) read_object(list.element(i));
+  uv_sources_.resize(scene_.materials.size());
+  uint64_t bytes = 0;
+  bake_uv(scene_, uv_sources_, [&](uint64_t more) {
+    bytes += more;
+    if (bytes > limits_.geometry_bytes)
+      list.fail("the meshes with texture coordinates of their own for each material are over the limit",
+                "fewer materials that transform texture coordinates", ErrorKind::limit);
+  });
 }
 
 void ObjectReader::read_object(const json::Node& node) {
@@ -244,9 +255,14 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string&
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());
   for (Material& material : geometry.materials) {
-    for (TextureSlot* slot : {&material.color_map, &material.specular_map, &material.normal_map,
-                              &material.metallic_roughness_map, &material.emission_map, &material.occlusion_map})
-      if (slot->used()) slot->texture += first_texture;
+    UvSources uv;
+    const auto maps = maps_of(material);
+    for (size_t i = 0; i < maps.size(); ++i) {
+      if (maps[i]->used()) maps[i]->texture += first_texture;
+      uv[i].set = maps[i]->uv_set;
+    }
+    uv_sources_.resize(scene_.materials.size());
+    uv_sources_.push_back(uv);
     scene_.materials.push_back(std::move(material));
   }
   for (Texture& texture : geometry.textures) {

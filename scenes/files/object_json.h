@@ -62,6 +62,7 @@ class ObjectReader {
   std::map<std::string, uint32_t, std::less<>> named_;
   std::map<std::tuple<float, float, float, float>, uint32_t> colored_;
   std::map<uint32_t, glm::dvec3> reaches_;
+  std::vector<UvSources> uv_sources_;  ///< of materials; those behind the last have no maps
 };
 
 }  // namespace trueshade

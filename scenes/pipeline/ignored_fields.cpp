@@ -72,12 +72,6 @@ const Material& plain() {
 
 constexpr std::string_view kUnreadMap = "No stage reads this map";
 
-template <typename Holds>
-bool any_map(const Material& m, Holds holds) {
-  return holds(m.color_map) || holds(m.specular_map) || holds(m.normal_map) || holds(m.metallic_roughness_map) ||
-         holds(m.emission_map) || holds(m.occlusion_map);
-}
-
 constexpr Field<Material> kMaterialFields[] = {
     {"specular_color", kGlossReason, [](const Material& m) { return m.specular_color != plain().specular_color; },
      [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
@@ -104,14 +98,6 @@ constexpr Field<Material> kMaterialFields[] = {
      [](const Material&, const Pipeline&) { return false; }},
     {"unlit", "Every surface is lit", [](const Material& m) { return m.unlit; },
      [](const Material&, const Pipeline&) { return false; }},
-    {"double_sided", "Faces are culled as geometry.cull_face says, and normals are not turned round",
-     [](const Material& m) { return m.double_sided; }, [](const Material&, const Pipeline&) { return false; }},
-    {"uv_set", "Maps are read at the first set of texture coordinates",
-     [](const Material& m) { return any_map(m, [](const TextureSlot& s) { return s.uv_set != 0; }); },
-     [](const Material&, const Pipeline&) { return false; }},
-    {"uv_transform", "Texture coordinates are read as the mesh has them",
-     [](const Material& m) { return any_map(m, [](const TextureSlot& s) { return s.transform != UvTransform(); }); },
-     [](const Material&, const Pipeline&) { return false; }},
     {"transparent", "The transparency of the pipeline is 'none', so the material is drawn as an opaque one",
      [](const Material& m) { return m.transparent; },
      [](const Material&, const Pipeline& p) { return p.transparency.mode != TransparencyMode::none; }},
@@ -132,11 +118,16 @@ void append_ignored(std::string_view of, const Field<T> (&fields)[kFields], std:
   }
 }
 
+bool lacks_uv_of_maps(const Mesh& mesh, const Material& m) {
+  const auto lacks = [&](const TextureSlot& slot) { return slot.used() && mesh.uv_set(slot.uv_set)[0].empty(); };
+  return lacks(m.color_map) || lacks(m.specular_map) || lacks(m.normal_map);
+}
+
 /// Takes the maps of materials whose meshes have no texture coordinates as one field.
 void append_maps_without_uv(const Scene& scene, std::vector<IgnoredField>& ignored) {
   std::vector<bool> lacks_uv(scene.materials.size(), false);
   for (const Instance& instance : scene.instances)
-    if (scene.materials[instance.material].textured() && !scene.meshes[instance.mesh].has_uv())
+    if (lacks_uv_of_maps(scene.meshes[instance.mesh], scene.materials[instance.material]))
       lacks_uv[instance.material] = true;
   const auto count = std::count(lacks_uv.begin(), lacks_uv.end(), true);
   if (count > 0)

@@ -128,9 +128,14 @@ std::span<const Preset> presets() {
 
 const Pipeline& default_pipeline(const Scene& scene) {
   const FpScope fp;
-  for (const Preset& row : presets())
-    if (scene.photometric && row.name == "punctual") return row.pipeline;
-  return presets().front().pipeline;
+  static const Pipeline photometric = [] {
+    Pipeline pipeline = presets().front().pipeline;
+    for (const Preset& row : presets())
+      if (row.name == "punctual") pipeline = row.pipeline;
+    pipeline.geometry.cull_face = CullFace::back;  // glTF 2.0, "Double Sided"
+    return pipeline;
+  }();
+  return scene.photometric ? photometric : presets().front().pipeline;
 }
 
 std::optional<Pipeline> preset_pipeline(std::string_view name) {

@@ -20,7 +20,7 @@ std::span<const Preset> presets();
 std::optional<Pipeline> preset_pipeline(std::string_view name);
 
 /// The pipeline that a scene starts from where no preset is named: that of the first row, or for a photometric scene
-/// that of the row for candela and lux.
+/// that of the row for candela and lux, with back faces culled: glTF's materials that are not double-sided show none.
 const Pipeline& default_pipeline(const Scene& scene);
 
 }  // namespace trueshade

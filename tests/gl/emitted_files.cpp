@@ -79,7 +79,10 @@ TEST_CASE(
   for (Material& m : scene.materials) {
     m.color_map.texture = 0;
     m.normal_map.texture = m.specular_map.texture = 1;
+    m.specular_map.uv_set = 1, m.normal_map.uv_set = 2;
   }
+  for (Mesh& mesh : scene.meshes) mesh.more_uv = {{{mesh.position[1], mesh.position[0]}}, {{mesh.uv[1], mesh.uv[0]}}};
+  scene.materials[0].double_sided = true;
   for (size_t i = 0; i < scene.materials.size(); i += 2) {
     scene.materials[i].base_color.a = 0.5f;
     scene.materials[i].transparent = true;
@@ -95,7 +98,9 @@ TEST_CASE(
     REQUIRE(std::system(command.c_str()) == 0);
     const GlslShaders read = shaders_in(folder);
     CHECK(read.transparent_frag.find("normal_map") != std::string::npos);
-    CHECK(contents(folder / "state.json").find("tangents: samplerBuffer") != std::string::npos);
+    const std::string list = contents(folder / "state.json");
+    for (const char* said : {"tangents: samplerBuffer", "more_uv: samplerBuffer", "double_sided: bool", "is mirrored"})
+      CHECK(list.find(said) != std::string::npos);
     Pipeline pipeline = preset.pipeline;
     pipeline.strategy = strategy;
     pipeline.width = 120;
@@ -105,6 +110,7 @@ TEST_CASE(
     from_files.shaders = &read;
     from_files.shader_options.maps = from_files.shader_options.specular_maps = true;
     from_files.shader_options.normal_maps = from_files.shader_options.transparent = true;
+    from_files.shader_options.more_uv = from_files.shader_options.double_sided = true;
     const Capture theirs = renderer.draw(pipeline, from_files).capture, ours = renderer.draw(pipeline).capture;
     INFO(preset.name << ", " << name_of(strategy));
     CHECK(theirs.color.texels == ours.color.texels);

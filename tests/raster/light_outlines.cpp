@@ -6,9 +6,9 @@
 #include <random>
 
 #include "core/fp_env.h"
+#include "core/simd/simd_target.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
-#include "core/simd/simd_target.h"
 #include "scenes/trig.h"
 #include "tests/catch.hpp"
 

@@ -132,4 +132,28 @@ void add_maps(Random& random, Scene& scene) {
   }
 }
 
+void add_uv_sets(Random& random, Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    mesh.more_uv.resize(kMaxUvSets - 1);
+    for (UvStreams& set : mesh.more_uv)
+      for (auto& stream : set)
+        for (size_t v = 0; v < mesh.vertex_count(); ++v) stream.push_back(float(between(random, -3, 5)));
+  }
+  for (Material& m : scene.materials)
+    for (TextureSlot* map : maps_of(m)) map->uv_set = uint8_t(random() % kMaxUvSets);
+}
+
+void drop_uv_sets(Random& random, Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    for (UvStreams& set : mesh.more_uv)
+      if (random() % 4 == 0) set = {};
+    mesh.more_uv.resize(random() % kMaxUvSets);
+  }
+}
+
+void add_faces(Random& random, Scene& scene) {
+  for (Material& m : scene.materials) m.double_sided = random() % 3 != 0;
+  for (Instance& i : scene.instances) i.mirrored = random() % 2 == 0;
+}
+
 }  // namespace trueshade::testing

@@ -17,4 +17,13 @@ Pipeline random_pipeline(Random& random);
 /// Gives every material of a scene a colour map, some a normal map, some an alpha cutoff; any format, wrap and filter.
 void add_maps(Random& random, Scene& scene);
 
+/// Gives meshes all further sets of texture coordinates, and the maps of materials sets of their own.
+void add_uv_sets(Random& random, Scene& scene);
+
+/// Takes some sets away again: maps read 0 there.
+void drop_uv_sets(Random& random, Scene& scene);
+
+/// Makes some materials double-sided and some instances mirrored.
+void add_faces(Random& random, Scene& scene);
+
 }  // namespace trueshade::testing

@@ -26,7 +26,8 @@ TEST_CASE("Textured frames show what the scalar renderer shows: masked surfaces,
   uint64_t pixels = 0, covered = 0, uncertain = 0, compared = 0, masked = 0;
   double worst = 0.0;
   for (int i = 0; i < 240; ++i) {
-    const Scene scene = textured_scene(random);
+    Scene scene = textured_scene(random);
+    if (i % 2 == 1) add_uv_sets(random, scene), add_faces(random, scene);
     const Pipeline pipeline = random_pipeline(random);
     const oracle::ScalarFrame frame = oracle::scalar_frame(scene, pipeline);
     const Execution& execution = all[size_t(i) % all.size()];
@@ -55,9 +56,10 @@ TEST_CASE("Textured frames show what the scalar renderer shows: masked surfaces,
         // An ulp of uv moves a lookup by u_ulp * side texels, and a texel's neighbour may differ by 1 times the factor.
         const Material& material = scene.materials[scene.instances[fragment.instance].material];
         const TextureLevel& level = scene.textures[size_t(material.color_map.texture)].levels[0];
-        const double moved =
-            oracle::value_at(triangle, oracle::kUv, pipeline.gbuffer.uv.interpolation, x, y).ulp * level.width +
-            oracle::value_at(triangle, oracle::kUv + 1, pipeline.gbuffer.uv.interpolation, x, y).ulp * level.height;
+        const Interpolation how = pipeline.gbuffer.uv.interpolation;
+        const size_t u = oracle::uv_index(material.color_map.uv_set);
+        const double moved = oracle::value_at(triangle, u, how, x, y).ulp * level.width +
+                             oracle::value_at(triangle, u + 1, how, x, y).ulp * level.height;
         for (size_t c = 0; c < 4; ++c) {
           const double bound = 2.0 * (2.0 * moved + 4e-7);  // the largest base colour is 2
           const double off = std::fabs(double((long double)(planes.albedo[at][c]) - color.value[c]));
@@ -81,7 +83,10 @@ TEST_CASE("Textured frames are the same on every SIMD target, tile size and thre
   Random random(42);
   for (int i = 0; i < 40; ++i) {
     INFO("frame " << i);
-    const Scene scene = textured_scene(random);
+    Scene scene = textured_scene(random);
+    if (i % 2 == 1) add_uv_sets(random, scene);
+    if (i % 4 == 1) drop_uv_sets(random, scene);
+    if (i % 3 == 0) add_faces(random, scene);
     check_executions_alike(scene, random_pipeline(random));
   }
 }
@@ -98,6 +103,8 @@ TEST_CASE("Textured frames are the same by every fast path and by none") {
         for (auto& component : mesh.normal) std::fill(component.begin(), component.end(), component[0]);
     if (i % 3 == 0) scene.materials[1] = {};
     if (i % 4 == 0) scene.materials[0].normal_map.sampler = scene.materials[0].color_map.sampler;
+    if (i % 6 == 1) add_uv_sets(random, scene);
+    if (i % 3 == 0) add_faces(random, scene);
     Pipeline pipeline = random_pipeline(random);
     if (i % 5 != 0) pipeline.geometry.depth_func = DepthFunc::less;
     if (i % 3 == 0) pipeline.width *= 3, pipeline.height *= 2;
@@ -113,13 +120,44 @@ TEST_CASE("Textured frames do not depend on which vertex a triangle names first,
   const std::vector<Execution> all = executions();
   for (int i = 0; i < 40; ++i) {
     INFO("frame " << i);
-    const Scene scene = textured_scene(random);
+    Scene scene = textured_scene(random);
+    if (i % 2 == 1) add_uv_sets(random, scene);
+    if (i % 4 < 2) add_faces(random, scene);
     Pipeline pipeline = without_flat(random_pipeline(random));
     pipeline.gbuffer.uv.interpolation = Interpolation::smooth;
     const Execution& execution = all[size_t(i) % all.size()];
     check_moved_alike(scene, pipeline, execution);
     check_turned_alike(random, scene, pipeline, execution);
   }
+}
+
+TEST_CASE("A map reads the coordinates of its set: as if these were the first") {
+  Random random(46);
+  int different = 0;
+  for (int i = 0; i < 40; ++i) {
+    INFO("frame " << i);
+    Scene scene = textured_scene(random);
+    if (i % 3 == 0) add_faces(random, scene);
+    const Pipeline pipeline = random_pipeline(random);
+    const Planes expected = drawn(scene, pipeline, {});
+    Scene other = scene;
+    for (Mesh& mesh : other.meshes) {
+      mesh.more_uv.resize(4);
+      mesh.more_uv.back() = mesh.uv;
+      for (auto& stream : mesh.uv)
+        for (float& coordinate : stream) coordinate = 0.75f - 2.0f * coordinate;
+    }
+    different += drawn(other, pipeline, {}).albedo != expected.albedo ? 1 : 0;
+    for (Material& m : other.materials)
+      for (TextureSlot* map : maps_of(m)) map->uv_set = 4;
+    for (const Execution& execution : executions()) {
+      INFO(named(execution));
+      Planes planes = drawn(other, pipeline, execution);
+      planes.uv = expected.uv;  // the plane shows the first set
+      REQUIRE(planes == expected);
+    }
+  }
+  CHECK(different > 8);  // other pictures are empty, or their textures of one texel
 }
 
 TEST_CASE("A cutoff at 0 or a white texture changes no bit, and alpha below the cutoff opens what is behind") {

@@ -135,10 +135,9 @@ TEST_CASE("maps say at which coordinates they are read, and materials what glTF'
      "emission_map": {"texture": "t", "uv_set": 1, "uv_offset": [1, -2], "uv_rotation_deg": 180, "uv_scale": [3, 4]},
      "metallic_roughness_map": {"texture": "t", "mip": "none"}, "occlusion_map": {"texture": "t"}}, {"name": "b", "color": [1, 1, 1]})"));
   const Material &m = scene.materials.at(0), &plain = scene.materials.at(1);
-  CHECK(m.emission_map.uv_set == 1);
-  CHECK(m.emission_map.transform == UvTransform{{1.0f, -2.0f}, {3.0f, 4.0f}, 3.14159265f});
+  CHECK(m.emission_map.uv_set == 1);  // sources are counted by their sets
   CHECK(m.metallic_roughness_map.used());
-  CHECK(m.occlusion_map.transform == UvTransform());
+  CHECK(m.occlusion_map.uv_set == 0);
   CHECK(m.occlusion_strength == 0.5f);
   CHECK(m.unlit);
   CHECK(m.double_sided);
@@ -149,7 +148,7 @@ TEST_CASE("maps say at which coordinates they are read, and materials what glTF'
   const auto map = [](const std::string& more) {
     return refusal(textures(R"({"name": "t", "file": "two.tex"})", material(more)));
   };
-  CHECK_STARTS_WITH(map(R"(, "uv_set": 2)"), "s.json: /materials/0/color_map/uv_set: found 2");
+  CHECK_STARTS_WITH(map(R"(, "uv_set": 6)"), "s.json: /materials/0/color_map/uv_set: found 6");
   CHECK_STARTS_WITH(map(R"(, "uv_scale": [1])"), "s.json: /materials/0/color_map/uv_scale: found an array of 1");
   CHECK_STARTS_WITH(map(R"(, "uv_offset": [1, 1e7])"), "s.json: /materials/0/color_map/uv_offset/1: found 1e+07");
 }
@@ -168,9 +167,17 @@ TEST_CASE("what glTF's materials have moves the hash of scenes that say it, and 
   CHECK(changed([](Scene& s) { s.materials[0].occlusion_strength = 0.5f; }));
   CHECK(changed([](Scene& s) { s.materials[0].emission_map = s.materials[0].color_map; }));
   CHECK(changed([](Scene& s) { s.materials[0].color_map.uv_set = 1; }));
-  CHECK(changed([](Scene& s) { s.materials[0].color_map.transform.rotation_rad = 1.0f; }));
-  CHECK(changed([](Scene& s) { s.materials[0].color_map.transform.offset.y = 1.0f; }));
-  CHECK(!changed([](Scene& s) { s.materials[0].normal_map.transform.offset.y = 1.0f; }));  // of no texture
+  CHECK(!changed([](Scene& s) { s.materials[0].normal_map.uv_set = 1; }));  // of no texture
+  scene.meshes.push_back({"", {{{0.0f}, {0.0f}, {0.0f}}}, {{{0.0f}, {0.0f}, {1.0f}}}, {}, {}, {}, {}});
+  std::string hashes[3] = {scene_hash(scene)};
+  for (size_t sets = 1; sets < 3; ++sets) {
+    scene.meshes[0].more_uv.assign(sets, {});
+    scene.meshes[0].more_uv.back() = {{{0.5f}, {0.25f}}};
+    hashes[sets] = scene_hash(scene);
+  }
+  CHECK(hashes[0] != hashes[1]);
+  CHECK(hashes[0] != hashes[2]);
+  CHECK(hashes[1] != hashes[2]);
 }
 
 TEST_CASE("levels come from files or are made where a map reads them") {

@@ -131,7 +131,7 @@ struct MapBatch {
       owned[h] = lane_mask(D64(), 0);
       pixel[h] = pixel[0], uv[h] = uv[0];
     }
-    const auto frames = [&](int h, const Vector3& normal) {
+    const auto frames = [&](int h, int, const Vector3& normal) {
       return with_triangles(h, [&](const auto& triangle) { return bump_frame_at(triangle, normal); });
     };
     apply_maps<kVectors>(maps, uv, owned, pixel, frames, out);

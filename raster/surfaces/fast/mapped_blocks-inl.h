@@ -16,6 +16,7 @@
 #include "raster/surfaces/clipped_surfaces-inl.h"
 #include "raster/surfaces/fast/map_batch-inl.h"
 #include "raster/surfaces/fast/triangle_in_blocks-inl.h"
+#include "raster/surfaces/fast/turned_normals-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -124,7 +125,11 @@ struct MappedBlocks {
     put(MappedTriangle::kFrame, frame.u), put(MappedTriangle::kFrame + 3, frame.v);
     constexpr uint32_t kNormalBits = 7u << kNormalValue;
     if ((set_up.constant & kNormalBits) != kNormalBits) return;
-    const auto normal = [&](int c) { return hn::Set(D64(), double(float(set_up.a0[kNormalValue + c]) + 0.0f)); };
+    const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
+    const auto normal = [&](int c) {
+      const float straight = float(set_up.a0[kNormalValue + c]) + 0.0f;
+      return hn::Set(D64(), double(turned ? -straight : straight));
+    };
     const BumpFrame bump = bump_frame(frame, {normal(0), normal(1), normal(2)});
     put(MappedTriangle::kBumpFrame, bump.t), put(MappedTriangle::kBumpFrame + 3, bump.b);
     value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
@@ -168,8 +173,8 @@ struct MappedBlocks {
         const uint32_t owned = undecided & lane_bits(d, piece.covers(e));
         if (owned == 0) continue;
         map_piece(
-            piece, piece.weights(e), lane_mask(d, owned), at, in.view.maps,
-            [&](int, const Vector3& normal) { return bump_frame(frame, normal); }, out);
+            piece, piece.weights(e), lane_mask(d, owned), at, in.view.maps, 1,
+            [&](int, int, const Vector3& normal) { return bump_frame(frame, normal); }, out);
         undecided &= ~owned;
       }
     }

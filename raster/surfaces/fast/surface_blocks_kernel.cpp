@@ -9,6 +9,7 @@
 #include "raster/surfaces/fast/material_texels-inl.h"
 #include "raster/surfaces/fast/surface_blocks-inl.h"
 #include "raster/surfaces/fast/surface_blocks.h"
+#include "raster/surfaces/fast/turned_normals-inl.h"
 #include "raster/surfaces/fast/visible_triangles-inl.h"
 #include "raster/surfaces/surface_planes-inl.h"
 #include "raster/surfaces/surface_task.h"
@@ -22,6 +23,14 @@ bool all_smooth(const SurfaceTask& task) {
                      [](const StreamGroup& g) { return g.plane.interpolation == Interpolation::smooth; });
 }
 
+/// Whether a cluster that is seen has a material whose maps read texture coordinates beside the first.
+bool reads_more_uv(const TileDraws& in, const VisibleTriangles& seen) {
+  const SceneMaps& maps = in.view.maps;
+  return maps.uv_sets > 1 &&
+         std::any_of(seen.cluster.begin() + 1, seen.cluster.begin() + seen.clusters,
+                     [&](const VisibleCluster& c) { return maps.material[c.material - 1].uv_sets > 1; });
+}
+
 bool resolve_by_blocks(const SurfaceTask& task) {
   if (!task.in.fast_paths || !all_smooth(task)) return false;
   const TileDraws& in = task.in;
@@ -33,6 +42,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
   const WantedStreams wanted{task.reads_uv, colored};
   find_triangles(in, task.rect, task.visible, seen, out);
   if (out.covered_pixels == 0) return true;
+  if (reads_more_uv(in, seen)) return false;
   transform_seen(in, task.rect, wanted, seen);
   StreamGroup group[4];  // without the albedo where it is white
   int groups = 0;
@@ -40,6 +50,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
     if (colored || g->first != kAlbedo) group[groups++] = *g;
   const WantedValues values = wanted_values(group, wanted);
   BlockInterpolation{in, task.rect, group, groups, values, task.visible, seen, out}.run();
+  if (in.view.faces.any_double_sided()) TurnedNormals{in, task.visible, seen, out}.run();
   if (textured) {
     for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], task.pixels(), 1.0f);
     MappedBlocks{in, task.rect, values, task.visible, seen, out}.run();

@@ -133,7 +133,7 @@ inline void draw_small_triangles(const ListedCluster& c, const ClusterWork& work
   const WindowBox& box = work.vertices.box;
   const int32_t middle = c.rect.size * 128, least = middle - kPackedLimit + 1, most = middle + kPackedLimit - 1;
   const bool any_clamped = box.x0 <= least || box.y0 <= least || box.x1 >= most || box.y1 >= most;
-  const SmallDraw in{small.packed, any_clamped, c.in.state, c.in.view.window.upper_left, c.rect, PackedLimits(c.rect)};
+  const SmallDraw in{small.packed, any_clamped, c.state, c.in.view.window.upper_left, c.rect, PackedLimits(c.rect)};
   FilteredTriangles& found = small.found;
   pack_corners(work.vertices, c.cluster.vertices, middle, small.packed);
   filter_triangles(small.packed, any_clamped, c.mesh, c.cluster, in.limit, work.visible, found);

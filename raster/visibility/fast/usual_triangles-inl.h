@@ -78,7 +78,7 @@ HWY_INLINE int draw_usual_triangles(const ListedCluster& c, ClusterWork& work, i
   SmallWork& small = small_work();
   const uint32_t first_id = visible_id(c.draw.position, 0, Corners::vertices);
   draw_small_triangles(c, work, DepthFragments{small.fragments, work.vertices.z, first_id, sink}, small);
-  return draw_large_triangles({work.vertices, c.in.state, c.in.view.window.upper_left, c.rect}, small.found.large,
+  return draw_large_triangles({work.vertices, c.state, c.in.view.window.upper_left, c.rect}, small.found.large,
                               small.found.count_large, first_id, sink, work.triangle);
 }
 

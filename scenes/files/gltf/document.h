@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/files/baked_uv.h"
 #include "scenes/files/gltf/glb.h"
 #include "scenes/json/json_value.h"
 #include "scenes/light.h"
@@ -98,8 +99,7 @@ struct TextureSource {
 
 struct TextureInfo {
   uint32_t texture = kNone;
-  uint32_t uv_set = 0;
-  UvTransform transform;
+  UvSource uv{};
 };
 
 enum class AlphaMode : uint8_t { opaque, mask, blend, unknown };
@@ -122,8 +122,10 @@ struct MaterialSource {
 /// Attributes that are read, by accessor.
 struct Attributes {
   uint32_t position = kNone, normal = kNone, color = kNone;
-  std::array<uint32_t, 2> uv{kNone, kNone};
+  std::vector<uint32_t> uv;               ///< sets from 0 on, kNone where one is not there
   std::vector<uint32_t> joints, weights;  ///< sets from 0 on
+
+  uint32_t uv_set(size_t set) const { return set < uv.size() ? uv[set] : kNone; }
   bool operator==(const Attributes&) const = default;
 };
 

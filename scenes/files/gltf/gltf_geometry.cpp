@@ -39,19 +39,18 @@ void move_vertices(Mesh& mesh, size_t first, const glm::mat4x3& world_from_objec
   }
 }
 
-bool is_mirror(const glm::mat4x3& m) { return dot(glm::dvec3(m[0]), cross(glm::dvec3(m[1]), glm::dvec3(m[2]))) < 0.0; }
-
 void append_instance(const Mesh& mesh, const glm::mat4x3& world_from_object, Mesh& to) {
   const size_t before = to.vertex_count(), count = mesh.vertex_count(), first_index = to.indices.size();
   append_streams(mesh.uv, count, 0.0f, before, to.uv);
-  append_streams(mesh.uv1, count, 0.0f, before, to.uv1);
+  to.more_uv.resize(std::max(mesh.more_uv.size(), to.more_uv.size()));
+  for (size_t k = 0; k < to.more_uv.size(); ++k) append_streams(mesh.uv_set(k + 1), count, 0.0f, before, to.more_uv[k]);
   append_streams(mesh.color, count, 1.0f, before, to.color);
   append_streams(mesh.normal, count, 0.0f, before, to.normal);
   append_streams(mesh.position, count, 0.0f, before, to.position);
   for (const uint32_t index : mesh.indices) to.indices.push_back(uint32_t(before) + index);
   if (world_from_object == glm::mat4x3(1.0f)) return;
   move_vertices(to, before, world_from_object);
-  if (!is_mirror(world_from_object)) return;
+  if (!mirrors(world_from_object)) return;
   for (size_t i = first_index; i < to.indices.size(); i += 3) std::swap(to.indices[i + 1], to.indices[i + 2]);
 }
 

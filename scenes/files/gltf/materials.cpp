@@ -20,24 +20,29 @@ uint32_t Materials::scene_material(uint32_t index) {
   m.metallic = from.metallic;
   m.roughness = from.roughness;
   for (int k = 0; k < 3; ++k) m.emission[k] = float(double(from.emission[k]) * double(from.emission_strength));
-  m.color_map = slot(from.base_color_map, TextureFormat::srgb8_a8, pointer + "/pbrMetallicRoughness/baseColorTexture");
-  m.metallic_roughness_map = slot(from.metallic_roughness_map, TextureFormat::rgba8,
-                                  pointer + "/pbrMetallicRoughness/metallicRoughnessTexture");
-  m.normal_map = slot(from.normal_map, TextureFormat::rgba8, pointer + "/normalTexture");
+  m.color_map = slot(from.base_color_map, TextureFormat::srgb8_a8);
+  m.metallic_roughness_map = slot(from.metallic_roughness_map, TextureFormat::rgba8);
+  m.normal_map = slot(from.normal_map, TextureFormat::rgba8);
   m.normal_scale = m.normal_map.used() ? from.normal_scale : 1.0f;
-  m.occlusion_map = slot(from.occlusion_map, TextureFormat::rgba8, pointer + "/occlusionTexture");
+  m.occlusion_map = slot(from.occlusion_map, TextureFormat::rgba8);
   m.occlusion_strength = m.occlusion_map.used() ? from.occlusion_strength : 1.0f;
-  m.emission_map = slot(from.emission_map, TextureFormat::srgb8_a8, pointer + "/emissiveTexture");
+  m.emission_map = slot(from.emission_map, TextureFormat::srgb8_a8);
   m.alpha_cutoff = from.alpha_mode == AlphaMode::mask ? from.alpha_cutoff : 0.0f;
   m.transparent = from.alpha_mode == AlphaMode::blend;
   if (from.alpha_mode == AlphaMode::opaque) m.base_color.w = 1.0f;
   m.unlit = from.unlit;
   m.double_sided = from.double_sided;
   scene_.materials.push_back(std::move(m));
+  uv_sources_.push_back({from.base_color_map.uv,
+                         {},
+                         from.normal_map.uv,
+                         from.metallic_roughness_map.uv,
+                         from.emission_map.uv,
+                         from.occlusion_map.uv});
   return found->second;
 }
 
-TextureSlot Materials::slot(const TextureInfo& info, TextureFormat format, const std::string& pointer) {
+TextureSlot Materials::slot(const TextureInfo& info, TextureFormat format) {
   TextureSlot slot;
   if (info.texture == kNone) return slot;
   const TextureSource& source = document_.textures[info.texture];
@@ -47,11 +52,7 @@ TextureSlot Materials::slot(const TextureInfo& info, TextureFormat format, const
                        ? "the texture has no source"
                        : "the texture has a source of " + source.other_image + " alone, which is not implemented",
                    "a source that is PNG or JPEG");
-  if (info.uv_set > 1)
-    document_.fail(pointer, "the texture reads TEXCOORD_" + std::to_string(info.uv_set), "TEXCOORD_0 or TEXCOORD_1");
   slot.sampler = source.sampler;
-  slot.uv_set = uint8_t(info.uv_set);
-  slot.transform = info.transform;
   slot.texture = pictures_.texture(source.image, format, slot.sampler.mip_filter != MipFilter::none);
   return slot;
 }

@@ -1,12 +1,14 @@
 #pragma once
 #include <map>
 #include <string>
+#include <vector>
 
 #include "scenes/files/gltf/pictures.h"
 
 namespace trueshade::gltf {
 
-/// Adds a document's materials to a scene when they are first asked for, and asks for the pictures that these read.
+/// Adds a document's materials to a scene when they are first asked for, and asks for the pictures that these read. The
+/// index of a map's texture coordinates is left to bake_uv().
 /// Borrows all it is given.
 class Materials {
  public:
@@ -19,13 +21,17 @@ class Materials {
   /// Whether a material draws nothing: its alpha cutoff is over 1.
   bool is_invisible(uint32_t index) const;
 
+  /// What the maps of each of the scene's materials read.
+  const std::vector<UvSources>& uv_sources() const { return uv_sources_; }
+
  private:
-  TextureSlot slot(const TextureInfo& info, TextureFormat format, const std::string& pointer);
+  TextureSlot slot(const TextureInfo& info, TextureFormat format);
 
   const Document& document_;
   Pictures& pictures_;
   Scene& scene_;
   std::map<uint32_t, uint32_t> materials_;  ///< by index in the document
+  std::vector<UvSources> uv_sources_;       ///< by index in the scene
 };
 
 }  // namespace trueshade::gltf

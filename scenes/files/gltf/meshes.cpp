@@ -78,6 +78,12 @@ void take_apart(std::vector<T>& values, const std::vector<uint32_t>& corners, si
   values = std::move(out);
 }
 
+void read_uv_sets(Accessors& accessors, const Attributes& from, size_t count, Mesh& mesh) {
+  if (count > 1) mesh.more_uv.resize(count - 1);
+  for (size_t set = 0; set < count; ++set)
+    read_streams(accessors, from.uv_set(set), set == 0 ? mesh.uv : mesh.more_uv[set - 1]);
+}
+
 void read_targets(Accessors& accessors, const Primitive& primitive, RestShape& shape) {
   for (const Attributes& from : primitive.targets) {
     MorphTarget& target = shape.targets.emplace_back();
@@ -106,14 +112,14 @@ void read_influences(Accessors& accessors, const Attributes& attributes, size_t 
 
 }  // namespace
 
-Geometry read_geometry(Accessors& accessors, const Primitive& primitive, const std::string& pointer) {
+Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets, const std::string& pointer) {
   Geometry out;
   const Attributes& from = primitive.attributes;
   Mesh& mesh = out.mesh;
   RestShape& shape = out.shape;
   read_streams(accessors, from.position, mesh.position);
   read_streams(accessors, from.normal, mesh.normal);
-  for (size_t set = 0; set < 2; ++set) read_streams(accessors, from.uv[set], set == 0 ? mesh.uv : mesh.uv1);
+  read_uv_sets(accessors, from, uv_sets, mesh);
   read_streams(accessors, from.color, mesh.color);
   const size_t vertices = mesh.vertex_count();
   if (mesh.has_color() && mesh.color[3].empty()) mesh.color[3].assign(vertices, 1.0f);

@@ -16,9 +16,9 @@ struct Geometry {
 /// Whether a primitive is drawn: points and lines are not.
 constexpr bool has_triangles(Mode mode) { return mode >= Mode::triangles; }
 
-/// Reads a primitive that has positions. Strips and fans become lists (glTF 2.0, 3.7.2.1), triangles in order; corners
-/// that end no triangle are left out. Without normals each triangle gets its own. Error(bad_input) behind `pointer` for
-/// an index beyond the vertices; Error(limit).
-Geometry read_geometry(Accessors& accessors, const Primitive& primitive, const std::string& pointer);
+/// Reads a primitive that has positions, with the first `uv_sets` of its sets of texture coordinates. Strips and fans
+/// become lists (glTF 2.0, 3.7.2.1), triangles in order; corners that end no triangle are left out. Without normals
+/// each triangle gets its own. Error(bad_input) behind `pointer` for an index beyond the vertices; Error(limit).
+Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets, const std::string& pointer);
 
 }  // namespace trueshade::gltf

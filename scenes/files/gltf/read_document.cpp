@@ -16,7 +16,7 @@ struct Extension {
   std::string_view name;
   bool drawn;
 };
-constexpr Extension kExtensions[] = {{"KHR_lights_punctual", true},    {"KHR_texture_transform", false},
+constexpr Extension kExtensions[] = {{"KHR_lights_punctual", true},    {"KHR_texture_transform", true},
                                      {"KHR_materials_unlit", false},   {"KHR_materials_emissive_strength", true},
                                      {"KHR_mesh_quantization", true},  {"EXT_mesh_gpu_instancing", true},
                                      {"EXT_meshopt_compression", true}};

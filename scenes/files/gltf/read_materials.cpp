@@ -81,12 +81,12 @@ UvTransform read_transform(const json::Node& node) {
 TextureInfo read_info(const json::Node& node, const Counts& counts) {
   TextureInfo info;
   info.texture = index(node.member("index"), counts.textures, "texture");
-  info.uv_set = uint32_t(whole_or(node, "texCoord", 0, 0, 1 << 20));
+  info.uv.set = uint32_t(whole_or(node, "texCoord", 0, 0, 1 << 20));
   const auto extensions = extensions_of(node);
   const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
   if (!transform) return info;
-  info.transform = read_transform(*transform);
-  info.uv_set = uint32_t(whole_or(*transform, "texCoord", info.uv_set, 0, 1 << 20));
+  info.uv.transform = read_transform(*transform);
+  info.uv.set = uint32_t(whole_or(*transform, "texCoord", info.uv.set, 0, 1 << 20));
   return info;
 }
 

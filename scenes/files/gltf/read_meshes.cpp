@@ -64,8 +64,8 @@ void assign(const json::Node& node, const Allowed& row, uint32_t set, uint32_t a
   if (row.name == "POSITION") out.position = accessor;
   if (row.name == "NORMAL") out.normal = accessor;
   if (row.name == "COLOR_" && set == 0) out.color = accessor;
-  if (row.name == "TEXCOORD_" && set < out.uv.size()) out.uv[set] = accessor;
   if (set >= 16) node.fail("the number of an attribute is over 15", "a smaller one");
+  if (row.name == "TEXCOORD_") append(out.uv);
   if (row.name == "JOINTS_") append(out.joints);
   if (row.name == "WEIGHTS_") append(out.weights);
 }
@@ -112,10 +112,12 @@ void check_indices(const json::Node& node, const Accessor& a, const Document& do
 /// A target's attributes are among the primitive's.
 void check_target(const json::Node& node, const Attributes& target, const Attributes& base) {
   const bool lacks = (target.position != kNone && base.position == kNone) ||
-                     (target.normal != kNone && base.normal == kNone) ||
-                     (target.color != kNone && base.color == kNone) || (target.uv[0] != kNone && base.uv[0] == kNone) ||
-                     (target.uv[1] != kNone && base.uv[1] == kNone);
-  if (lacks) node.fail("a target moves an attribute that the primitive does not have", "attributes of the primitive");
+                     (target.normal != kNone && base.normal == kNone) || (target.color != kNone && base.color == kNone);
+  bool lacks_uv = false;
+  for (size_t set = 0; set < target.uv.size(); ++set)
+    lacks_uv = lacks_uv || (target.uv[set] != kNone && base.uv_set(set) == kNone);
+  if (lacks || lacks_uv)
+    node.fail("a target moves an attribute that the primitive does not have", "attributes of the primitive");
 }
 
 Primitive read_primitive(const json::Node& node, const Counts& counts, const Document& document) {
@@ -143,12 +145,9 @@ void check_uv_sets(const json::Node& node, const Primitive& primitive, const Doc
   const MaterialSource& m = document.materials[primitive.material];
   for (const TextureInfo* map :
        {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emission_map}) {
-    if (map->texture == kNone) continue;
-    if (map->uv_set >= primitive.attributes.uv.size())
-      node.fail("the material reads TEXCOORD_" + std::to_string(map->uv_set), "TEXCOORD_0 or TEXCOORD_1");
-    if (primitive.attributes.uv[map->uv_set] == kNone)
-      node.fail("the material reads TEXCOORD_" + std::to_string(map->uv_set) + ", which is not there",
-                "texture coordinates for the material's textures");
+    if (map->texture == kNone || primitive.attributes.uv_set(map->uv.set) != kNone) continue;
+    node.fail("the material reads TEXCOORD_" + std::to_string(map->uv.set) + ", which is not there",
+              "texture coordinates for the material's textures");
   }
 }
 

@@ -33,6 +33,7 @@ Scene SceneMaker::make() {
   }
   for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) add_node(place);
   check_the_rest();
+  bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
   if (!timeline.node_camera) scene_.camera = camera_seeing(bounds_of(scene_));
   if (!moves()) timeline = Timeline{};
@@ -123,12 +124,26 @@ void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t in
   }
 }
 
+/// Sets that are read: the first two whether maps read them or not, and up to the last that a map reads.
+size_t SceneMaker::uv_sets_of(const Primitive& primitive) const {
+  size_t sets = 2;
+  if (primitive.material != kNone) {
+    const MaterialSource& m = document_.materials[primitive.material];
+    for (const TextureInfo* map :
+         {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emission_map})
+      if (map->texture != kNone) sets = std::max(sets, size_t(map->uv.set) + 1);
+  }
+  return std::min(sets, primitive.attributes.uv.size());
+}
+
 SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
   Drawn*& known = drawn_of_primitive_[{mesh, index}];
   if (known) return *known;
   const Primitive& p = document_.meshes[mesh].primitives[index];
   const Attributes& a = p.attributes;
-  std::vector<uint32_t> key{a.position, a.normal, a.color, a.uv[0], a.uv[1], p.indices, uint32_t(p.mode)};
+  const size_t uv_sets = uv_sets_of(p);
+  std::vector<uint32_t> key{a.position, a.normal, a.color, p.indices, uint32_t(p.mode), uint32_t(uv_sets)};
+  key.insert(key.end(), a.uv.begin(), a.uv.begin() + ptrdiff_t(uv_sets));
   key.insert(key.end(), a.joints.begin(), a.joints.end());
   key.insert(key.end(), a.weights.begin(), a.weights.end());
   key.push_back(uint32_t(a.joints.size()));
@@ -138,7 +153,7 @@ SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
   known = &drawn;  // elements of a map stay where they are
   if (!is_new) return drawn;
   drawn.pointer = pointer_to("meshes", mesh, "primitives", index);
-  drawn.geometry = read_geometry(accessors_, p, drawn.pointer);
+  drawn.geometry = read_geometry(accessors_, p, uv_sets, drawn.pointer);
   drawn.geometry.mesh.name = document_.meshes[mesh].name;
   drawn.reach = reach_of(drawn.geometry.mesh);
   return drawn;
@@ -173,7 +188,8 @@ uint32_t SceneMaker::add_posed_mesh(const NodeSource& node, uint32_t place, Draw
     posed.skin = scene_skin(node.skin);
     check_joints(document_, shape, timeline.skins[*posed.skin], drawn.pointer);
   }
-  accessors_.take((uint64_t(mesh.vertex_count()) * 14 + mesh.indices.size()) * 4, drawn.pointer);
+  const size_t floats = 12 + 2 * mesh.more_uv.size();
+  accessors_.take((uint64_t(mesh.vertex_count()) * floats + mesh.indices.size()) * 4, drawn.pointer);
   scene_.meshes.push_back(mesh);
   timeline.posed.push_back(std::move(posed));
   return timeline.posed.back().mesh;

@@ -45,6 +45,7 @@ class SceneMaker {
   Drawn& drawn_of(uint32_t mesh, size_t index);
   uint32_t scene_skin(uint32_t skin);
   void check_instances(uint32_t place, uint64_t more) const;
+  size_t uv_sets_of(const Primitive& primitive) const;
   const AnimationSource* animation() const;
   bool moves() const;
   void check_the_rest();

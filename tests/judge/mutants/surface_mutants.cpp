@@ -135,6 +135,39 @@ void handedness_lost(Scene& s, Pipeline&) {
   }
 }
 
+/// What both are given: all faces that are seen are backs, of materials some of which are double-sided.
+void show_backs(Scene& s, Pipeline& p) {
+  add_bumps(s, p);
+  for (size_t i = 0; i < s.materials.size(); ++i) s.materials[i].double_sided = i % 3 != 2;
+  p.geometry.front_face = FrontFace::cw;
+  p.geometry.cull_face = CullFace::back;
+}
+void backs_not_turned(Scene& s, Pipeline& p) {
+  const auto nothing = uint32_t(s.meshes.size());
+  s.meshes.emplace_back();
+  for (Instance& i : s.instances)
+    if (!s.materials[i.material].double_sided) i.mesh = nothing;
+  for (Material& m : s.materials) m.double_sided = false;
+  p.geometry.cull_face = CullFace::none;
+}
+void backs_culled(Scene& s, Pipeline&) {
+  for (size_t i = 0; i < s.materials.size(); i += 3) s.materials[i].double_sided = false;
+}
+/// The same with maps that read the second set of texture coordinates.
+void use_second_uv(Scene& s, Pipeline& p) {
+  add_bumps(s, p);
+  for (Mesh& mesh : s.meshes) {
+    mesh.more_uv = {{mesh.uv[1], mesh.uv[0]}};
+    for (float& v : mesh.more_uv[0][1]) v = 0.3f - 1.5f * v;
+  }
+  for (Material& m : s.materials)
+    for (TextureSlot* map : maps_of(m)) map->uv_set = 1;
+}
+void first_uv(Scene& s, Pipeline&) {
+  for (Material& m : s.materials)
+    for (TextureSlot* map : maps_of(m)) map->uv_set = 0;
+}
+
 void points_unlimited(Scene&, Pipeline& p) { p.light_volumes.point = LightExtent::unbounded; }
 void spots_unlimited(Scene&, Pipeline& p) { p.light_volumes.spot = LightExtent::unbounded; }
 void extents_exchanged(Scene&, Pipeline& p) { std::swap(p.light_volumes.point, p.light_volumes.spot); }
@@ -192,6 +225,9 @@ constexpr Mutant kMutants[] = {
     {"ten-bit normals stored about 512", kNone, ten_bits, float_normals, stored_about_512},
     {"ten-bit normals of eight bits", kNone, ten_bits, float_normals, stored_in_8_bits},
     {"ten-bit normals not made unit", Latitude::stated_rules, ten_bits_on_curves, other_normal_length, nullptr},
+    {"backs' normals not turned", kNone, show_backs, backs_not_turned, nullptr},
+    {"double-sided backs culled", kNone, show_backs, backs_culled, nullptr},
+    {"maps read at the first texture coordinates", kNone, use_second_uv, first_uv, nullptr},
     {"point lights' extent ignored", kNone, mix_extents, points_unlimited, nullptr},
     {"spot lights' extent ignored", kNone, mix_extents, spots_unlimited, nullptr},
     {"extents of points and spots exchanged", kNone, mix_extents, extents_exchanged, nullptr},

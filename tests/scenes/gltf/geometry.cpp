@@ -103,7 +103,7 @@ TEST_CASE("a primitive without normals is flat: a triangle's own normal at corne
   CHECK(mesh.normal[2] == std::vector<float>{1, 1, 1, 0, 0, 0});
   CHECK(mesh.normal[1] == std::vector<float>{0, 0, 0, 1, 1, 1});
   CHECK(mesh.uv[0] == std::vector<float>{0, 1, 0, 0, 1, 1});
-  CHECK(mesh.uv1[1] == std::vector<float>{0, 0, 1, 0, 1, 0});
+  CHECK(mesh.more_uv.at(0)[1] == std::vector<float>{0, 0, 1, 0, 1, 0});
 }
 
 TEST_CASE("vertex colours have three or four components, floats or normalized integers") {
