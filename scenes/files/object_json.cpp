@@ -140,13 +140,17 @@ void ObjectReader::read_materials(const json::Node& list) {
 void ObjectReader::read_objects(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
   for (size_t i = 0; i < count; ++i) read_object(list.element(i));
+}
+
+void ObjectReader::bake_texture_coordinates() {
   uv_sources_.resize(scene_.materials.size());
   uint64_t bytes = 0;
   bake_uv(scene_, uv_sources_, [&](uint64_t more) {
     bytes += more;
     if (bytes > limits_.geometry_bytes)
-      list.fail("the meshes with texture coordinates of their own for each material are over the limit",
-                "fewer materials that transform texture coordinates", ErrorKind::limit);
+      throw Error(ErrorKind::limit, path_ + ": /objects",
+                  "the meshes with texture coordinates of their own for each material are over the limit",
+                  "fewer materials that transform texture coordinates");
   });
 }
 

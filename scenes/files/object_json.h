@@ -31,6 +31,8 @@ class ObjectReader {
   void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
   void read_materials(const json::Node& list);
   void read_objects(const json::Node& list);
+  /// After the last object.
+  void bake_texture_coordinates();
 
  private:
   /// A mesh that an object draws, with the material that its file gives it, if any.

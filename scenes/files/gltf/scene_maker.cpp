@@ -63,6 +63,16 @@ void SceneMaker::add_node(uint32_t place) {
   scene_.timeline.node_camera = NodeCamera{place, lens.clip_from_view};
 }
 
+namespace {
+
+/// Whether a target moves texture coordinates or colours, which poses leave as they are.
+bool has_unread_target(const Primitive& primitive) {
+  return std::any_of(primitive.targets.begin(), primitive.targets.end(),
+                     [](const Attributes& target) { return target.color != kNone || !target.uv.empty(); });
+}
+
+}  // namespace
+
 SceneMaker::Parts SceneMaker::parts_of(const MeshSource& mesh) const {
   Parts parts;
   for (size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -72,7 +82,7 @@ SceneMaker::Parts SceneMaker::parts_of(const MeshSource& mesh) const {
     else if (primitive.attributes.position == kNone)
       ++parts.without_positions;
     else if (!materials_.is_invisible(primitive.material))
-      parts.drawn.push_back(i);
+      parts.drawn.push_back(i), parts.with_unread_targets += has_unread_target(primitive) ? 1 : 0;
   }
   return parts;
 }
@@ -85,6 +95,7 @@ void SceneMaker::add_mesh(uint32_t place, const NodeSource& node) {
   points_ += parts.points;
   lines_ += parts.lines;
   without_positions_ += parts.without_positions;
+  with_unread_targets_ += parts.with_unread_targets;
   for (const size_t primitive : parts.drawn) add_primitive(place, node, primitive);
 }
 
@@ -220,6 +231,8 @@ void SceneMaker::add_notes() {
   note(points_, "primitive of points is", "primitives of points are", " not drawn, because only triangles are drawn");
   note(lines_, "primitive of lines is", "primitives of lines are", " not drawn, because only triangles are drawn");
   note(without_positions_, "primitive has", "primitives have", " no POSITION and no triangles to draw");
+  note(with_unread_targets_, "primitive has", "primitives have",
+       " morph targets of texture coordinates or colours, which keep their values");
   note(ignored_copies_, "node has", "nodes have",
        " EXT_mesh_gpu_instancing, which is ignored: Only a mesh without a skin is copied");
   note(std::max<uint64_t>(cameras_, 1) - 1, "camera is", "cameras are",

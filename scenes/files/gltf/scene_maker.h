@@ -32,7 +32,7 @@ class SceneMaker {
   /// What of a mesh's primitives is drawn, by index, and how many are not.
   struct Parts {
     std::vector<size_t> drawn;
-    uint64_t points = 0, lines = 0, without_positions = 0;
+    uint64_t points = 0, lines = 0, without_positions = 0, with_unread_targets = 0;
   };
 
   void add_node(uint32_t place);
@@ -63,7 +63,7 @@ class SceneMaker {
   std::map<uint32_t, const Channel*> weight_channels_;  ///< by node
   std::map<uint32_t, uint32_t> skins_;                  ///< of the document, to those of the timeline
   std::map<uint32_t, Parts> parts_;                     ///< by mesh of the document
-  uint64_t points_ = 0, lines_ = 0, without_positions_ = 0, ignored_copies_ = 0, cameras_ = 0;
+  uint64_t points_ = 0, lines_ = 0, without_positions_ = 0, with_unread_targets_ = 0, ignored_copies_ = 0, cameras_ = 0;
 };
 
 }  // namespace trueshade::gltf

@@ -140,6 +140,10 @@ TEST_CASE("posed meshes keep the coordinates that were baked") {
   CHECK(before == Floats{0, 0, 2, 0, 0, 3});
   set_time(scene, 1.0);
   CHECK(side_by_side(scene.meshes[0].uv) == before);
+  CHECK(scene.notes.empty());
+  const Scene moved = load_gltf(with_materials({color("")}, R"(, "targets": [{"TEXCOORD_0": 1}])"));
+  REQUIRE(moved.notes.size() == 1);
+  CHECK_STARTS_WITH(moved.notes[0], "1 primitive has morph targets of texture coordinates or colours");
 }
 
 TEST_CASE("copies of meshes for their texture coordinates are counted as geometry") {
