@@ -53,7 +53,6 @@ struct Material {
 
 /// The maps of a material: colour, specular, normal, metallic-roughness, emission, occlusion.
 inline constexpr size_t kMaterialMaps = 6;
-static_assert(kMaxUvSets == kMaterialMaps);
 template <class M>  // Material, const or not
 auto maps_of(M& m) {
   return std::array{&m.color_map,    &m.specular_map, &m.normal_map, &m.metallic_roughness_map,

@@ -58,7 +58,7 @@ struct Sampler {
   bool operator==(const Sampler&) const = default;
 };
 
-inline constexpr size_t kMaxUvSets = 6;  ///< of a mesh: one for each map of a material
+inline constexpr size_t kMaxUvSets = 6;  ///< of a mesh: one for each map of a material (kMaterialMaps)
 
 /// A texture as a material uses it.
 struct TextureSlot {

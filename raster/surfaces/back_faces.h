@@ -1,7 +1,6 @@
 #pragma once
 #include "raster/surfaces/surfaces.h"
 #include "raster/triangles/triangle_setup.h"
-#include "raster/view.h"
 
 namespace trueshade {
 

@@ -8,6 +8,8 @@
 namespace trueshade {
 namespace {
 
+static_assert(kMaxUvSets == kMaterialMaps);
+
 using Sources = std::vector<UvSource>;  ///< of the sets of a mesh, in order
 
 /// The distinct sources of a material's maps. One that has no maps leaves set 0.

@@ -161,6 +161,8 @@ void call_placements(Bytes& out) {
   out.put(turned(kPlacement.rotation, {0.5, 0.5, 0.1, 0.7}));
   out.put(turn_about(1, 0.7));
   out.put(unit(glm::dvec4(0.1, 0.2, 0.3, 0.4)));
+  for (const float z : {-1e-30f, 1e-30f})  // a determinant that is no normal float
+    out.put(mirrors(glm::mat4x3(glm::vec3(1e-10f, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, z), glm::vec3(0))));
 }
 
 void call_camera(Bytes& out) {
@@ -196,6 +198,7 @@ void call_textures(Bytes& out) {
 
 void call_shininess(Bytes& out) {
   for (const float roughness : {1e-40f, 0.1f, 0.3f, 0.77f, 1.0f}) out.put(shininess_of_roughness(roughness));
+  for (const TextureSlot* map : maps_of(scene_of_all().materials[0])) out.put(map->used());
 }
 
 void call_builtin(Bytes& out) {
@@ -210,13 +213,15 @@ void call_mesh(Bytes& out) {
   out.put(mesh.triangle_count());
   out.put(mesh.has_uv());
   out.put(mesh.has_color());
+  for (size_t set = 0; set < kMaxUvSets; ++set)
+    for (const auto& stream : mesh.uv_set(set)) out.put(stream);
 }
 
 constexpr Row kRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world product view_axis", call_camera},
-    {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color", call_mesh},
-    {"scenes/placement.h", "world_from_object copied turned turn_about unit", call_placements},
+    {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color uv_set", call_mesh},
+    {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
     {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
      call_textures},
     {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property empty", call_tracks},
@@ -226,7 +231,7 @@ constexpr Row kRows[] = {
     {"scenes/scene.h", "scene_hash triangle_count masked textured has_maps", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
     {"scenes/scene.h", "set_time", call_set_time},
-    {"scenes/scene.h", "shininess_of_roughness", call_shininess},
+    {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},
 };
 
 }  // namespace
@@ -243,6 +248,8 @@ void Bytes::put(const Scene& scene) {
     for (const auto& stream : mesh.position) put(stream);
     for (const auto& stream : mesh.normal) put(stream);
     for (const auto& stream : mesh.uv) put(stream);
+    for (const UvStreams& set : mesh.more_uv)
+      for (const auto& stream : set) put(stream);
     for (const auto& stream : mesh.color) put(stream);
     put(mesh.indices);
   }

@@ -189,6 +189,17 @@ constexpr Field kFields[] = {
     {"sampler.border", [](Frame32& f, float x) { map_floor(f).border = glm::vec4(x, x, 0.0f, 1.0f); }},
     {"sampler.border.a", [](Frame32& f, float x) { map_floor(f).border.a = x; }},
     {"mesh.uv", [](Frame32& f, float x) { map_floor(f), f.scene.meshes[1].uv[0][0] = x; }},
+    {"mesh.more_uv",
+     [](Frame32& f, float x) {
+       map_floor(f);
+       Mesh& floor = f.scene.meshes[1];
+       floor.more_uv = {floor.uv, floor.uv};
+       floor.more_uv[1][1][0] = x;
+       Material& m = f.scene.materials[1];
+       m.normal_map = m.color_map;
+       m.color_map.uv_set = 1, m.normal_map.uv_set = 2;
+       m.double_sided = true;
+     }},
     {"texel",
      [](Frame32& f, float x) {
        map_floor(f);
