@@ -14,8 +14,6 @@ TextureSlot slot_of(int32_t texture, const MapSource& map) {
   TextureSlot slot;
   slot.texture = texture;
   if (map.clamp) slot.sampler.wrap.fill(Wrap::clamp_to_edge);
-  slot.transform.offset = map.offset;
-  slot.transform.scale = map.scale;
   return slot;
 }
 
@@ -60,7 +58,20 @@ void set_metal(const MtlDocument& document, const MtlMaterial& from, ObjPictures
                                      from.map_pr ? *from.map_pr : *from.map_pm);
 }
 
+/// Where the map of an option's offset and scale is read.
+UvSource source_of(const MapSource* map) { return map ? UvSource{0, {map->offset, map->scale}} : UvSource(); }
+
+const MapSource* first_of(const std::optional<MapSource>& a, const std::optional<MapSource>& b) {
+  return a ? &*a : pointer(b);
+}
+
 }  // namespace
+
+UvSources uv_sources_of(const MtlMaterial& m) {
+  return {
+      source_of(first_of(m.map_kd, m.map_d)),  source_of(pointer(m.map_ks)), source_of(first_of(m.norm, m.map_bump)),
+      source_of(first_of(m.map_pr, m.map_pm)), source_of(pointer(m.map_ke)), {}};
+}
 
 Material material_of(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures) {
   const FpScope fp;

@@ -45,6 +45,9 @@ class Libraries {
     if (known < 0) {
       Material material = made(index);
       known = int32_t(scene_.materials.size());
+      const auto found = index < 0 ? defined_.end() : defined_.find(document_.material_names[size_t(index)]);
+      uv_sources_.resize(scene_.materials.size());
+      uv_sources_.push_back(found == defined_.end() ? UvSources() : uv_sources_of(*found->second.material));
       scene_.materials.push_back(std::move(material));
     }
     return uint32_t(known);
@@ -71,6 +74,8 @@ class Libraries {
     if (count > 0) scene_.notes.push_back(std::to_string(count) + ' ' + (count == 1 ? one : many) + rest);
   }
 
+  std::vector<UvSources>& uv_sources() { return uv_sources_; }
+
  private:
   struct Defined {
     const MtlDocument* document;
@@ -94,7 +99,8 @@ class Libraries {
   ObjPictures pictures_;
   std::vector<std::unique_ptr<MtlDocument>> documents_;
   std::map<std::string, Defined> defined_;
-  std::vector<int32_t> drawn_;  ///< by index in the document + 1
+  std::vector<int32_t> drawn_;         ///< by index in the document + 1
+  std::vector<UvSources> uv_sources_;  ///< by index in the scene
   static constexpr uint64_t kMostNamed = 8;
   uint64_t mirrors_ = 0, undefined_ = 0;
   std::string undefined_names_;
@@ -121,6 +127,8 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
     scene.meshes.push_back(std::move(part.mesh));
     scene.instances.push_back(instance);
   }
+  libraries.uv_sources().resize(scene.materials.size());
+  bake_uv(scene, libraries.uv_sources(), [](uint64_t) {});  // no mesh is drawn twice, so none is copied
   libraries.add_note(document.points, "statement of points (p) is", "statements of points (p) are",
                      " not drawn, because only faces are drawn");
   libraries.add_note(document.lines, "statement of lines (l) is", "statements of lines (l) are",

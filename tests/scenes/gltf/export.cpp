@@ -94,8 +94,7 @@ class RandomScene {
     s.sampler.mip_filter = scene_.textures[size_t(s.texture)].levels.size() > 1 ? MipFilter(below(3)) : MipFilter::none;
     if (below(2) == 0) s.sampler.lod_bias = number(-3, 3), s.sampler.lod_min = -1.5f, s.sampler.lod_max = number(2, 9);
     if (below(2) == 0) s.sampler.border = {number(0, 2), 0.0f, number(0, 1), number(0, 1)};
-    s.uv_set = uint8_t(below(2));
-    if (below(2) == 0) s.transform = {{number(-2, 2), 0.0f}, {number(-3, 3), number(0, 9)}, number(-4, 4)};
+    s.uv_set = uint8_t(below(kMaxUvSets));
     return s;
   }
 
@@ -132,7 +131,9 @@ class RandomScene {
     fill(m.position, -3, 3);
     fill(m.normal, -1, 1);
     if (below(2) == 0) fill(m.uv, -2, 2);
-    if (below(2) == 0) fill(m.uv1, -2, 2);
+    m.more_uv.resize(below(kMaxUvSets));
+    for (UvStreams& set : m.more_uv)
+      if (below(2) == 0) fill(set, -2, 2);
     if (below(2) == 0) fill(m.color, 0, below(2) == 0 ? 1 : 7);
     for (float& alpha : m.color[3]) alpha = std::min(alpha, 1.0f);
     for (uint32_t i = 0; kind > 1 && i < 3 * (1 + below(9)); ++i) m.indices.push_back(below(vertices));
@@ -144,6 +145,7 @@ class RandomScene {
     Instance i{below(4), below(4), glm::mat4x3(1.0f)};
     if (below(4) > 0)
       for (int c = 0; c < 4; ++c) i.world_from_object[c] = three(-2, 2);
+    i.mirrored = below(3) == 0;
     return i;
   }
 

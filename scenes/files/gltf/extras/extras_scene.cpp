@@ -32,6 +32,7 @@ class ExtrasSceneMaker {
       if (node.matrix) instance.world_from_object = glm::mat4x3(*node.matrix);
       scene_.instances.push_back(instance);
     }
+    for (const uint32_t mirrored : extras_.mirrored) scene_.instances[mirrored].mirrored = true;
     check_timeline(scene_, document_.file + ": /extras/trueshade");
     add_reaches();
     return std::move(scene_);
@@ -43,13 +44,16 @@ class ExtrasSceneMaker {
     if (extras_.meshes[i] != kNone) {
       const MeshSource& source = document_.meshes[extras_.meshes[i]];
       const Primitive& primitive = source.primitives[0];
-      mesh = read_geometry(accessors_, primitive, pointer_to("meshes", extras_.meshes[i], "primitives", 0)).mesh;
+      mesh = read_geometry(accessors_, primitive, std::min(primitive.attributes.uv.size(), kMaxUvSets),
+                           pointer_to("meshes", extras_.meshes[i], "primitives", 0))
+                 .mesh;
       mesh.name = source.name;
       if (primitive.mode == Mode::points) mesh.indices.clear();
     }
     if (!extras_.uv_sets.empty()) {
       if ((extras_.uv_sets[i] & 1u) == 0) mesh.uv = {};
-      if ((extras_.uv_sets[i] & 2u) == 0) mesh.uv1 = {};
+      for (size_t k = 0; k < mesh.more_uv.size(); ++k)
+        if ((extras_.uv_sets[i] >> (k + 1) & 1u) == 0) mesh.more_uv[k] = {};
     }
     if (!extras_.colors.empty() && extras_.colors[i] != kNone)
       for (uint32_t k = 0; k < 4; ++k) mesh.color[k] = accessors_.floats(extras_.colors[i], k);

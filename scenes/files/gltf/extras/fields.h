@@ -41,9 +41,6 @@ inline constexpr auto kMapFields = [](auto& f, auto& map) {
   f("lod_max", map.slot.sampler.lod_max, absent.slot.sampler.lod_max);
   f("border", map.slot.sampler.border, absent.slot.sampler.border);
   f("uv_set", map.uv_set, 0u);
-  f("uv_offset", map.slot.transform.offset, absent.slot.transform.offset);
-  f("uv_scale", map.slot.transform.scale, absent.slot.transform.scale);
-  f("uv_rotation_rad", map.slot.transform.rotation_rad, absent.slot.transform.rotation_rad);
 };
 
 inline constexpr auto kMaterialFields = [](auto& f, auto& extras) {
@@ -191,6 +188,7 @@ inline constexpr auto kSceneFields = [](auto& f, auto& extras) {
   f("meshes", extras.meshes, std::vector<uint32_t>());
   f("instances", extras.instances, std::vector<uint32_t>());
   f("colors", extras.colors, std::vector<uint32_t>());
+  f("mirrored", extras.mirrored, std::vector<uint32_t>());
   f("uv_sets", extras.uv_sets, std::vector<uint32_t>());
   f.object("timeline", extras.scene.timeline, kTimelineFields);
   f.object("hierarchy", extras, kHierarchyFields);

@@ -29,7 +29,7 @@ class IndexCheck {
            {&m.color_map, &m.specular_map, &m.normal_map, &m.metallic_roughness_map, &m.emission_map, &m.occlusion_map})
         if (*map) {
           below((*map)->texture, extras_.textures.size(), "materials", "texture");
-          below((*map)->uv_set, 2, "materials", "set of texture coordinates");
+          below((*map)->uv_set, kMaxUvSets, "materials", "set of texture coordinates");
         }
   }
 
@@ -74,6 +74,8 @@ class IndexCheck {
       below(extras_.instances[i], extras_.meshes.size(), "instances", "mesh");
       below(extras_.instances[i + 1], extras_.materials.size(), "instances", "material");
     }
+    for (const uint32_t mirrored : extras_.mirrored)
+      below(mirrored, extras_.instances.size() / 2, "mirrored", "instance");
   }
 
   void check(const TextureExtras& texture) const {

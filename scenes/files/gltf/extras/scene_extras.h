@@ -54,8 +54,9 @@ struct SceneExtras {
   std::vector<uint32_t> meshes;     ///< of each mesh of the scene, the document's mesh; kNone: it has no vertices
   std::vector<uint32_t> instances;  ///< mesh and material of each instance
   std::vector<uint32_t> colors;  ///< of each mesh, an accessor of its colours where glTF has no room for them, or kNone
-  std::vector<uint32_t> uv_sets;  ///< of each mesh, a bit a set of texture coordinates that it has
-  std::vector<NodeExtras> nodes;  ///< of the timeline
+  std::vector<uint32_t> mirrored;  ///< instances whose front is the other face
+  std::vector<uint32_t> uv_sets;   ///< of each mesh, a bit a set of texture coordinates that it has
+  std::vector<NodeExtras> nodes;   ///< of the timeline
 };
 
 /// Reads and checks the member: keys, types, and that all indices are in range. Empty where the document has none.

@@ -121,15 +121,6 @@ class MaterialWriter {
     if (!slot.used()) return {};
     std::string text = std::string(",\"") + name + "\":{\"index\":" + std::to_string(texture(slot)) + more;
     if (slot.uv_set != 0) text += ",\"texCoord\":" + std::to_string(int(slot.uv_set));
-    if (slot.transform != UvTransform()) {
-      out_.glb.use("KHR_texture_transform");
-      const UvTransform& t = slot.transform;
-      append_json(text += ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":",
-                  std::span<const float>(&t.offset.x, 2));
-      append_json(text += ",\"scale\":", std::span<const float>(&t.scale.x, 2));
-      append_json(text += ",\"rotation\":", t.rotation_rad);
-      text += "}}";
-    }
     return text + '}';
   }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 
 #include "scenes/files/gltf/extras/field_writer.h"
 #include "scenes/files/gltf/writing/scene_writer.h"
@@ -51,9 +52,11 @@ class MeshWriter {
     std::vector<uint32_t> sets;
     for (size_t i = 0; i < scene_.meshes.size(); ++i) {
       const Mesh& mesh = scene_.meshes[i];
-      sets.push_back(uint32_t(mesh.has_uv()) | uint32_t(!mesh.uv1[0].empty()) << 1);
-      padding_[i] &= uint8_t(~sets.back());
-      if (!mesh.uv1[0].empty() && !mesh.has_uv()) padding_[i] |= 1;  // sets are numbered from 0 on
+      uint32_t there = 0;
+      for (size_t set = 0; set < kMaxUvSets; ++set) there |= uint32_t(!mesh.uv_set(set)[0].empty()) << set;
+      sets.push_back(there);
+      const uint32_t numbered = std::bit_ceil((there | padding_[i]) + 1) - 1;  // sets are numbered from 0 on
+      padding_[i] = uint8_t(numbered & ~there);
       any = any || padding_[i] != 0;
     }
     if (any) out_.extras.uv_sets = std::move(sets);
@@ -65,14 +68,13 @@ class MeshWriter {
     if (mesh.vertex_count() == 0) return {};
     std::string text = "\"attributes\":{\"POSITION\":" + std::to_string(out_.glb.accessor(mesh.position, true)) +
                        ",\"NORMAL\":" + std::to_string(out_.glb.accessor(mesh.normal, false));
-    const auto uv = [&](const char* name, const std::array<std::vector<float>, 2>& streams, uint8_t bit) {
-      if (streams[0].empty() && (padding_[index] & bit) == 0) return;
+    for (size_t set = 0; set < kMaxUvSets; ++set) {
+      const UvStreams& streams = mesh.uv_set(set);
+      if (streams[0].empty() && (padding_[index] >> set & 1) == 0) continue;
       const uint32_t accessor =
           streams[0].empty() ? out_.glb.zeros(mesh.vertex_count()) : out_.glb.accessor(streams, false);
-      text += std::string(",\"") + name + "\":" + std::to_string(accessor);
-    };
-    uv("TEXCOORD_0", mesh.uv, 1);
-    uv("TEXCOORD_1", mesh.uv1, 2);
+      text += ",\"TEXCOORD_" + std::to_string(set) + "\":" + std::to_string(accessor);
+    }
     if (mesh.has_color()) text += ",\"COLOR_0\":" + std::to_string(colors(mesh, index));
     text += '}';
     if (mesh.indices.empty()) return text + ",\"mode\":0";
@@ -113,6 +115,7 @@ class MeshWriter {
       append_json(text += text.empty() ? "\"matrix\":" : ",\"matrix\":", std::span<const float>(values));
     }
     out_.glb.add("nodes", '{' + text + '}');
+    if (instance.mirrored) out_.extras.mirrored.push_back(uint32_t(out_.extras.instances.size() / 2));
     out_.extras.instances.insert(out_.extras.instances.end(), {instance.mesh, instance.material});
   }
 
