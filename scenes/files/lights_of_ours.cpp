@@ -15,7 +15,7 @@ constexpr double kLeastGain = 0.7, kMostGain = 5.0;  // of the lights on white a
 constexpr double kLightDistance = 2.2;               // of all but ambient light, in radii of the bounds
 
 constexpr double kGroundReflectance = 0.34;
-constexpr glm::dvec3 kAmbient(0.17, 0.18, 0.2);
+constexpr glm::dvec3 kSoftLight(0.17, 0.18, 0.2);
 
 double luminance(const glm::dvec3& color) { return (0.2126 * color.x + 0.7152 * color.y) + 0.0722 * color.z; }
 
@@ -79,7 +79,7 @@ void add_lights_of_ours(Scene& scene) {
   add_lamp(scene, bounds, {0.5, 0.9, -1.0}, glm::dvec3(0.6, 0.57, 0.52) * gain);
   Light ambient;
   ambient.type = LightType::ambient;
-  ambient.color = glm::vec3(kAmbient * gain);
+  ambient.color = glm::vec3(kSoftLight * gain);
   scene.lights.push_back(ambient);
   scene.clear = {0.02f, 0.02f, 0.03f, 1.0f};
   scene.lights_of_ours = true;
@@ -107,7 +107,7 @@ void add_ground(Scene& scene) {
   const double farthest = std::sqrt(dot(to_centre, to_centre)) + radius;
   scene.camera.far = std::max(scene.camera.far, float(std::min(1.01 * farthest, kMost)));
   const float grey = float(kGroundReflectance / gain_of(scene));
-  scene.clear = glm::vec4(glm::vec3(kAmbient * kGroundReflectance), 1.0f);  // as the ground is where no lamp reaches
+  scene.clear = glm::vec4(glm::vec3(kSoftLight * kGroundReflectance), 1.0f);  // as the ground is where no lamp reaches
   Instance instance;
   instance.mesh = uint32_t(scene.meshes.size());
   instance.material = uint32_t(scene.materials.size());
