@@ -24,6 +24,7 @@ void write_glsl(const GlslFilesOptions& options) {
   const Pipeline pipeline = pipeline_of(chosen, Scene{});
   oracle::GlslOptions judge;
   judge.maps = judge.specular_maps = judge.normal_maps = judge.more_uv = judge.double_sided = options.maps;
+  judge.metal_maps = judge.emission_maps = judge.occlusion_maps = judge.unlit = options.maps;
   judge.transparent = pipeline.transparency.mode != TransparencyMode::none;
   const oracle::GlslShaders shaders = oracle::shaders_of(pipeline, judge);
   std::error_code error;

@@ -63,7 +63,8 @@ Real specular_of(const LightModel& model, Real shininess, const Vector& n, const
   Real cosine = 0;
   if (model.specular == Specular::phong) {
     const Real twice = 2 * std::clamp(n_l, Real(0), Real(1));
-    cosine = std::clamp(dot(Vector{twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]}, v), Real(0), Real(1));
+    cosine =
+        std::clamp(dot(Vector{twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]}, v), Real(0), Real(1));
   } else {
     cosine = std::max(Real(0), dot(n, unit({l[0] + v[0], l[1] + v[1], l[2] + v[2]})));
     if (model.renormalize) cosine = std::min(cosine, Real(1));
@@ -101,10 +102,11 @@ LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& mod
   if (model.viewer == Viewer::local) view = unit(difference(vector_of(scene.camera.eye), position));
   const bool own = reads_specular_plane(model), last = model.order == TermOrder::albedo_last;
   const Real shininess = own ? Real(surface.shininess) : Real(model.shininess);
+  const Real arriving = model.emission ? Real(surface.ambient_share) : 1;
   Vector sum{}, size{};
   for (size_t k = 0; k < 3; ++k) {
     if (model.emission) sum[k] = surface.emission[k];
-    sum[k] += Real(model.global_ambient[int(k)]) * (last ? 1 : Real(surface.albedo[k]));
+    sum[k] += Real(model.global_ambient[int(k)]) * (last ? 1 : Real(surface.albedo[k])) * arriving;
     size[k] = sum[k];
   }
   LitSum out;
@@ -112,8 +114,8 @@ LitSum lit_sum(const Surface& surface, const Scene& scene, const LightModel& mod
     Vector color = vector_of(light.color);
     for (Real& c : color) c *= Real(model.damping);
     if (light.type == LightType::ambient) {
-      for (size_t k = 0; k < 3; ++k) sum[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
-      for (size_t k = 0; k < 3; ++k) size[k] += (last ? 1 : Real(surface.albedo[k])) * color[k];
+      for (size_t k = 0; k < 3; ++k) sum[k] += (last ? 1 : Real(surface.albedo[k])) * color[k] * arriving;
+      for (size_t k = 0; k < 3; ++k) size[k] += (last ? 1 : Real(surface.albedo[k])) * color[k] * arriving;
       continue;
     }
     Vector to_light{};

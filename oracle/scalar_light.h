@@ -11,6 +11,7 @@ struct Surface {
   std::array<double, 3> position{}, normal{}, albedo{};
   std::array<double, 3> specular{}, emission{};  ///< where the model reads them
   double shininess = 0;
+  double ambient_share = 1;  ///< what arrives of ambient light, where the model reads emission
 };
 
 /// Sum of the lights as real numbers: docs/arithmetic.md section 8 without its roundings.

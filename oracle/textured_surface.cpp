@@ -93,6 +93,50 @@ SurfaceColor surface_color(const Scene& scene, const GBufferState& planes, const
   return out;
 }
 
+namespace {
+
+/// The texel of a map at a pixel; white where the slot is empty.
+TexelValue map_texel(const Scene& scene, const GBufferState& planes, const TextureSlot& slot, const DrawnTriangle& t,
+                     int x, int y, bool& certain) {
+  if (!slot.used()) return {1, 1, 1, 1};
+  const Texture& texture = scene.textures[size_t(slot.texture)];
+  const TexturePlace p = texture_place(t, planes.uv.interpolation, x, y, slot.uv_set);
+  const size_t u = uv_index(slot.uv_set);
+  const double u_off = value_at(t, u, planes.uv.interpolation, x, y).ulp,
+               v_off = value_at(t, u + 1, planes.uv.interpolation, x, y).ulp;
+  certain = certain && certain_lookup(texture, slot.sampler, p, u_off, v_off);
+  return filtered(texture, slot.sampler, p.u, p.v, level_of_detail(texture, slot.sampler, p));
+}
+
+}  // namespace
+
+MaterialSurface material_surface(const Scene& scene, const Pipeline& pipeline, const DrawnTriangle& t, int x, int y) {
+  const LightModel& model = pipeline.light_model;
+  const Material& m = scene.materials[scene.instances[t.instance].material];
+  const SurfaceColor base = surface_color(scene, pipeline.gbuffer, t, x, y);
+  MaterialSurface out;
+  out.certain = base.certain;
+  const auto texel = [&](const TextureSlot& slot) {
+    return map_texel(scene, pipeline.gbuffer, slot, t, x, y, out.certain);
+  };
+  const bool glass_in_albedo = m.transparent && pipeline.transparency.mode == TransparencyMode::into_albedo;
+  const bool unlit = m.unlit && shows_unlit(model) && !glass_in_albedo;
+  const TexelValue gloss = texel(m.specular_map), metal = texel(m.metallic_roughness_map), glow = texel(m.emission_map),
+                   shade = texel(m.occlusion_map);
+  const Real metallic = maps_metals(model) ? Real(m.metallic) * metal[2] : 0;
+  for (size_t c = 0; c < 3; ++c) {
+    out.albedo[c] = unlit ? 0 : base.value[c] * (1 - metallic);
+    out.emission[c] = unlit ? base.value[c] : Real(m.emission[int(c)]) * glow[c];
+    out.specular[c] =
+        maps_metals(model) ? 0.04L + (base.value[c] - 0.04L) * metallic : Real(m.specular_color[int(c)]) * gloss[c];
+    if (unlit) out.specular[c] = 0;
+  }
+  out.roughness = Real(m.roughness) * (unlit ? 1 : metal[1]);
+  out.exponent = maps_metals(model) ? 2 / std::pow(std::max(out.roughness, 0.04L), 4.0L) - 2 : Real(m.shininess);
+  if (!unlit) out.ambient_share = 1 - Real(m.occlusion_strength) * (1 - shade[0]);
+  return out;
+}
+
 std::optional<bool> discarded(const Scene& scene, const GBufferState& planes, const DrawnTriangle& t, int x, int y) {
   const Material& material = scene.materials[scene.instances[t.instance].material];
   if (!material.masked()) return false;

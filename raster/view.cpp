@@ -90,6 +90,13 @@ Matrix4 clip_matrix(const Scene& scene, const Pipeline& pipeline) {
   return clip_from_world(scene.camera, double(v.width) / double(v.height), clip_range(pipeline.geometry));
 }
 
+std::vector<MaterialValues> all_material_values(const Scene& scene, const Pipeline& pipeline) {
+  std::vector<MaterialValues> values;
+  if (!reads_material_values(pipeline.light_model)) return values;
+  for (const Material& material : scene.materials) values.push_back(material_values(material, pipeline));
+  return values;
+}
+
 }  // namespace
 
 FaceStates::FaceStates(const Scene& scene, const GeometryState& state) {
@@ -166,7 +173,8 @@ View make_view(const Scene& scene, const Pipeline& pipeline, int threads, std::v
             inverse_rows(clip),
             rounded_rows(clip),
             scene_maps(scene, pipeline),
-            FaceStates(scene, pipeline.geometry)};
+            FaceStates(scene, pipeline.geometry),
+            all_material_values(scene, pipeline)};
   constexpr size_t kChunk = 256;
   const size_t instances = scene.instances.size();
   view.instances.resize(instances);

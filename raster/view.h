@@ -6,6 +6,7 @@
 
 #include "raster/textures/texture.h"
 #include "scenes/camera.h"
+#include "scenes/pipeline/material_values.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
@@ -56,6 +57,7 @@ struct InstanceTransform {
 /// The states that instances are drawn with. docs/arithmetic.md section 4.
 class FaceStates {
  public:
+  FaceStates() = default;
   FaceStates(const Scene& scene, const GeometryState& state);
 
   /// That of an instance: the pipeline's, but double-sided back faces are not culled, and a mirrored instance has the
@@ -85,6 +87,7 @@ struct View {
   std::array<float, 16> clip_from_world;     ///< row-major; for the geometry of lights
   SceneMaps maps;                            ///< what materials do with textures
   FaceStates faces;                          ///< what each instance's faces are drawn with
+  std::vector<MaterialValues> materials;     ///< one per Scene::materials; empty where the light model reads none
 };
 
 WindowTransform window_transform(const GeometryState& state, int width, int height,

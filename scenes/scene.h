@@ -34,20 +34,20 @@ struct Material {
   float normal_scale = 1.0f;        ///< of the map's x and y
   float alpha_cutoff = 0.0f;        ///< fragments with less alpha are not drawn; 0: all are
   bool transparent = false;         ///< drawn as Pipeline::transparency says, its alpha the source's when blended
-  // Kept and hashed; no stage reads them yet (scenes/pipeline/ignored_fields.cpp).
-  TextureSlot metallic_roughness_map{};  ///< G times the roughness, B times metallic
+  // What glTF has beside these.
+  TextureSlot metallic_roughness_map{};  ///< G times the roughness, B times metallic; texels at most 1
   TextureSlot emission_map{};            ///< RGB times the emission
-  TextureSlot occlusion_map{};           ///< R: the share of ambient light that arrives
+  TextureSlot occlusion_map{};           ///< R: the share of ambient light that arrives; texels at most 1
   float occlusion_strength = 1.0f;       ///< in [0, 1]: ambient light is multiplied by 1 + strength (R - 1)
   bool unlit = false;                    ///< shows its colour as it is; no light changes it (KHR_materials_unlit)
-  bool double_sided = false;             ///< its back faces are never culled, and lit with their normals turned round
+  bool double_sided = false;  ///< its back faces are never culled, and lit with their normals turned round
 
   /// Whether alpha_cutoff is above 0, by bits: a caller's flush-to-zero would take a denormal for 0.
   bool masked() const { return std::bit_cast<int32_t>(alpha_cutoff) > 0; }
-  /// Whether a map that kernels read is used, and whether any map is.
-  bool textured() const { return color_map.used() || specular_map.used() || normal_map.used(); }
-  bool has_maps() const {
-    return textured() || metallic_roughness_map.used() || emission_map.used() || occlusion_map.used();
+  /// Whether any map is used.
+  bool textured() const {
+    return color_map.used() || specular_map.used() || normal_map.used() || metallic_roughness_map.used() ||
+           emission_map.used() || occlusion_map.used();
   }
 };
 

@@ -255,7 +255,7 @@ std::string scene_hash(const Scene& scene) {
     if (scene.instances[i].mirrored) hasher.add(kMirrored + i);
   for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_more_uv(kSecondUv + i, kNextUv, scene.meshes[i]);
   const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
-                                  [](const Material& m) { return m.has_maps() || m.masked(); });
+                                  [](const Material& m) { return m.textured() || m.masked(); });
   if (plain) return hasher.hex();
   hasher.add(uint64_t(3) << 61);  // no count, and none of the above
   hasher.count(scene.textures.size());

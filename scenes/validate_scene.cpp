@@ -108,6 +108,15 @@ void check_map(const TextureSlot& slot, std::span<const float> largest, float fa
                "a smaller colour, or smaller texels");
 }
 
+/// A map whose channels are shares of one.
+void check_share_map(const TextureSlot& slot, std::span<const float> largest, const Part& part) {
+  check_map(slot, largest, 1.0f, part);
+  if (!slot.used()) return;
+  const glm::vec4& border = slot.sampler.border;
+  part.require(std::max({largest[size_t(slot.texture)], border.x, border.y, border.z}) <= 1.0f,
+               "a texel of a metallic-roughness or occlusion map is over 1", "texels in [0, 1]");
+}
+
 void check_material(const Material& material, std::span<const float> largest, const Part& part) {
   const glm::vec4& base = material.base_color;
   part.require(is_color(base), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
@@ -126,10 +135,10 @@ void check_material(const Material& material, std::span<const float> largest, co
   check_map(material.normal_map, largest, 1.0f, part);
   part.require(material.normal_scale >= -1000.0f && material.normal_scale <= 1000.0f,
                "the normal map's scale is out of range", "in [-1000, 1000]");
-  check_map(material.metallic_roughness_map, largest, 1.0f, part);
+  check_share_map(material.metallic_roughness_map, largest, part);
   const glm::vec3& emission = material.emission;
   check_map(material.emission_map, largest, std::max({emission.x, emission.y, emission.z}), part);
-  check_map(material.occlusion_map, largest, 1.0f, part);
+  check_share_map(material.occlusion_map, largest, part);
   part.require(material.occlusion_strength >= 0.0f && material.occlusion_strength <= 1.0f,
                "the occlusion map's strength is out of range", "in [0, 1]");
   part.require(material.alpha_cutoff >= 0.0f && material.alpha_cutoff <= 1.0f, "the alpha cutoff is out of range",

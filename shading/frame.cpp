@@ -103,10 +103,11 @@ int tile_for(int width, int height, int threads) {
   return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
 }
 
-Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& asked,
+Frame draw_frame(const PreparedScene& prepared, const Pipeline& given, const Execution& asked,
                  std::span<const std::string> planes, bool lit, const Progress& progress) {
   const FpScope fp;
   const Scene& scene = prepared.scene();
+  const Pipeline pipeline = without_idle_emission(scene, given);
   const FramePlan plan = plan_frame(scene, pipeline, asked, planes, lit);
   const int threads = plan.execution.threads;
   check_memory(plan, pipeline, planes);
@@ -141,7 +142,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const 
   stats.lights = scene.lights.size();
   stats.pixel_lights = stats.covered_pixels * stats.lights;
   stats.triangles = scene.triangle_count();
-  stats.gl = counted_as_gl(scene, pipeline, *tables.meshes, stats);
+  stats.gl = counted_as_gl(scene, given, *tables.meshes, stats);
   stats.total_ms = now_ms() - start;
   return frame;
 }

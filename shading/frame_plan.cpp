@@ -1,6 +1,7 @@
 #include "shading/frame_plan.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "scenes/pipeline/transparency.h"
 #include "shading/blend/clear_color.h"
@@ -18,6 +19,20 @@ PlaneSource plane_source(const std::string& name) {
 }
 
 }  // namespace
+
+Pipeline without_idle_emission(const Scene& scene, const Pipeline& pipeline) {
+  // By bits: a sum that starts from -0 may end as -0.
+  const auto is_zero = [](float x) { return std::bit_cast<uint32_t>(x) == 0; };
+  const auto fills = [&](const Material& m) {
+    return m.unlit || m.occlusion_map.used() || !is_zero(m.emission.r) || !is_zero(m.emission.g) ||
+           !is_zero(m.emission.b);
+  };
+  Pipeline drawn = pipeline;
+  if (pipeline.light_model.global_ambient == glm::vec3(0.0f) &&
+      std::none_of(scene.materials.begin(), scene.materials.end(), fills))
+    drawn.light_model.emission = false;
+  return drawn;
+}
 
 FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                      std::span<const std::string> planes, bool lit) {

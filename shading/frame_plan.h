@@ -49,6 +49,9 @@ struct FramePlan {
   bool sums() const { return light_pass == LightPass::sums; }
 };
 
+/// The pipeline without the plane of emission where no material fills it: the same bits, and less memory to go through.
+Pipeline without_idle_emission(const Scene& scene, const Pipeline& pipeline);
+
 /// `planes`: as planes_to_draw() gives them. `lit`: whether the target or a plane that shows light is wanted.
 FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                      std::span<const std::string> planes, bool lit);

@@ -15,6 +15,7 @@ trueshade_slow(20
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
   "judge:Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU"
   "judge:What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred"
+  "judge:What llvmpipe makes of maps of metal, emission and occlusion, and of unlit surfaces, is legal"
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
 trueshade_slow(10
@@ -24,6 +25,7 @@ trueshade_slow(10
   "gl:Every OpenGL design draws textured materials, and spot lights in their cones"
   "gl:Shaders written with --maps draw the same bytes as the judge's own where materials have maps of every kind"
   "judge:Our own frames of every built-in scene are explained, pixel by pixel"
+  "judge:Our own frames with maps of metal, emission and occlusion are legal, for the ideal profile and for any GPU"
   "judge:Wrong ways of drawing lights one by one are rejected light by light"
   "judge:llvmpipe's own wrong blends are rejected light by light, under its profile too"
   "shading:0, 1, 757 and 100,000 lights give one image, culled or not, under every preset and strategy"
@@ -40,6 +42,7 @@ trueshade_slow(4
   "docs: what docs/exit_codes.md shows runs"
   "docs: what docs/validation.md shows runs"
   "gl:Every OpenGL design draws glass after the lights, and the deferred ones in the colour plane"
+  "gl:Every OpenGL design draws maps of metal, emission and occlusion, and unlit surfaces"
   "gl:Every OpenGL design draws our picture under every preset"
   "gl:Planes of ten bits and of halves on llvmpipe are legal, and so is the light upon them"
   "gl:Shaders written by trueshade glsl, read back, draw the same bytes as the judge's own"

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "oracle/exact_coverage.h"
 #include "gl/driver/albedo_blend.h"
-#include "gl/emit/designs_glsl.h"
 #include "gl/driver/geometry_state.h"
 #include "gl/driver/light_tiles.h"
 #include "gl/driver/objects.h"
@@ -14,6 +12,8 @@
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/surface_uniforms.h"
 #include "gl/driver/volume_batches.h"
+#include "gl/emit/designs_glsl.h"
+#include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 
 namespace trueshade::oracle {
@@ -118,8 +118,7 @@ void GlPeer::Work::draw_surfaces(GLuint program, Surfaces which) {
   glUseProgram(program);
   constexpr int kMaterialUnit = 12;  // those below belong to planes and lights, those above to maps
   if (reads_materials(pipeline.light_model))
-    bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER,
-                 renderer.buffers().material_texels(pipeline.light_model));
+    bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER, renderer.buffers().material_texels(pipeline));
   if (options.instance_uniforms)
     renderer.buffers().draw_each_instance(program, which);
   else

@@ -97,25 +97,38 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
     const auto maps = maps_of(m);
     return std::any_of(maps.begin(), maps.end(), [](const TextureSlot* map) { return map->used() && map->uv_set > 0; });
   });
+  white_ = uploaded(white, Sampler{});
   color_ = upload(&Material::color_map, white);
-  if (any([](const Material& m) { return m.specular_map.used(); })) specular_ = upload(&Material::specular_map, white);
-  if (any([](const Material& m) { return m.normal_map.used(); })) normal_ = upload(&Material::normal_map, level);
+  const auto uploaded_if_any = [&](const TextureSlot Material::*slot, const Texture& none) {
+    return any([slot](const Material& m) { return (m.*slot).used(); }) ? upload(slot, none) : std::vector<GlTexture>();
+  };
+  specular_ = uploaded_if_any(&Material::specular_map, white);
+  normal_ = uploaded_if_any(&Material::normal_map, level);
+  metal_ = uploaded_if_any(&Material::metallic_roughness_map, white);
+  emission_ = uploaded_if_any(&Material::emission_map, white);
+  occlusion_ = uploaded_if_any(&Material::occlusion_map, white);
 }
 
 void MapTextures::bind(GLuint program, uint32_t material) const {
-  constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;  // the last that every OpenGL has
+  // Fragment shaders have 16 samplers or more, and all stages together 48 texture units or more (GL 3.3, table 6.32).
+  // Unit 16 is that of the texture coordinates behind the first set.
+  constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;
+  constexpr int kMetalUnit = 17, kEmissionUnit = 18, kOcclusionUnit = 19;
   const Material& m = scene_->materials[material];
-  bind_texture(program, "color_map", kColorUnit, GL_TEXTURE_2D, color_[material]);
+  const auto hand = [&](const std::string& map, int unit, const std::vector<GlTexture>& textures,
+                        const TextureSlot& slot) {
+    const std::string sampler = map + "_map", set = map + "_uv_set";
+    bind_texture(program, sampler.c_str(), unit, GL_TEXTURE_2D, textures.empty() ? white_ : textures[material]);
+    if (more_uv_) set_uniform(program, set.c_str(), int(slot.uv_set));
+  };
+  hand("color", kColorUnit, color_, m.color_map);
+  hand("specular", kSpecularUnit, specular_, m.specular_map);
+  if (normal()) hand("normal", kNormalUnit, normal_, m.normal_map);
+  hand("metallic_roughness", kMetalUnit, metal_, m.metallic_roughness_map);
+  hand("emission", kEmissionUnit, emission_, m.emission_map);
+  hand("occlusion", kOcclusionUnit, occlusion_, m.occlusion_map);
   set_uniform(program, "alpha_cutoff", m.alpha_cutoff);
-  if (more_uv_) {
-    set_uniform(program, "color_uv_set", int(m.color_map.uv_set));
-    set_uniform(program, "specular_uv_set", int(m.specular_map.uv_set));
-    set_uniform(program, "normal_uv_set", int(m.normal_map.uv_set));
-  }
-  if (specular()) bind_texture(program, "specular_map", kSpecularUnit, GL_TEXTURE_2D, specular_[material]);
-  if (!normal()) return;
-  bind_texture(program, "normal_map", kNormalUnit, GL_TEXTURE_2D, normal_[material]);
-  set_uniform(program, "normal_scale", m.normal_scale);
+  if (normal()) set_uniform(program, "normal_scale", m.normal_scale);
 }
 
 }  // namespace trueshade::oracle

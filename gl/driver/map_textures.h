@@ -14,14 +14,19 @@ class MapTextures {
   bool used() const { return !color_.empty(); }  ///< some material has a map or a mask
   bool specular() const { return !specular_.empty(); }
   bool normal() const { return !normal_.empty(); }
+  bool metal() const { return !metal_.empty(); }
+  bool emission() const { return !emission_.empty(); }
+  bool occlusion() const { return !occlusion_.empty(); }
   bool more_uv() const { return more_uv_; }  ///< some map reads texture coordinates beside the first set
 
-  /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 15.
+  /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 18.
   void bind(GLuint program, uint32_t material) const;
 
  private:
   const Scene* scene_;
-  std::vector<GlTexture> color_, specular_, normal_;  ///< one a material; where it has none, a texel that does nothing
+  GlTexture white_;  ///< of maps that no material has, for programs that read them all the same
+  std::vector<GlTexture> color_, specular_, normal_, metal_, emission_,
+      occlusion_;  ///< one a material; where it has none, a texel that does nothing
   bool more_uv_ = false;
 };
 

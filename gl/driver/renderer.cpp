@@ -164,7 +164,7 @@ class LightPass {
     bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
     set_uniform(program, "light_count", lights_);
     if (reads_materials(pipeline_.light_model))
-      bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_.light_model));
+      bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));
   }
 
   void set_scene_state() const {
@@ -284,7 +284,7 @@ void read_all(const Targets& t, const Pipeline& pipeline, const GlDraw& draw, Ca
 
 bool wants_rgb16f(const GBufferState& g) {
   return g.position.format == Format::rgb16f || g.normal.format == Format::rgb16f ||
-         g.albedo.format == Format::rgb16f || g.uv.format == Format::rgb16f;
+         g.albedo.format == Format::rgb16f || g.uv.format == Format::rgb16f || g.emission == Format::rgb16f;
 }
 
 }  // namespace
@@ -311,8 +311,12 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.maps = buffers_->maps().used();
   options.specular_maps = buffers_->maps().specular();
   options.normal_maps = buffers_->maps().normal();
+  options.metal_maps = buffers_->maps().metal();
+  options.emission_maps = buffers_->maps().emission();
+  options.occlusion_maps = buffers_->maps().occlusion();
   options.more_uv = buffers_->maps().more_uv();
   options.double_sided = buffers_->has_double_sided();
+  options.unlit = buffers_->has_unlit();
   options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
@@ -371,7 +375,7 @@ GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
                      draw.shift_x, draw.shift_y);
   glUseProgram(program.geometry);
   if (reads_materials(pipeline.light_model))
-    bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline.light_model));
+    bind_texture(program.geometry, "materials", 0, GL_TEXTURE_BUFFER, buffers_->material_texels(pipeline));
   const bool apart = draws_transparent(buffers_->scene(), pipeline);
   buffers_->draw_instances(apart ? Surfaces::opaque : Surfaces::all);
   if (apart && pipeline.transparency.mode == TransparencyMode::into_albedo)

@@ -342,17 +342,27 @@ GLuint SceneBuffers::light_texels(const LightModel& model) {
   return lights_.texture;
 }
 
-GLuint SceneBuffers::material_texels(const LightModel& model) {
-  if (material_layout_ == model.specular_source) return materials_.texture;
+bool SceneBuffers::has_unlit() const {
+  return std::any_of(scene_->materials.begin(), scene_->materials.end(), [](const Material& m) { return m.unlit; });
+}
+
+GLuint SceneBuffers::material_texels(const Pipeline& pipeline) {
+  const LightModel& model = pipeline.light_model;
+  if (materials_of_ && materials_of_->light_model == model && materials_of_->transparency == pipeline.transparency)
+    return materials_.texture;
   std::vector<float> records;
+  const bool glass_in_albedo = pipeline.transparency.mode == TransparencyMode::into_albedo;
   for (const Material& m : scene_->materials) {
     const float shininess = maps_metals(model) ? shininess_of_glossiness(m.roughness) : m.shininess;
-    for (const float v : {m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess, m.emission.r,
-                          m.emission.g, m.emission.b, m.metallic})
+    const bool unlit = m.unlit && shows_unlit(model) && !(m.transparent && glass_in_albedo);
+    const bool metal_map = m.metallic_roughness_map.used() && !unlit;
+    for (const float v :
+         {m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess, m.emission.r, m.emission.g,
+          m.emission.b, m.metallic, m.roughness, m.occlusion_strength, unlit ? 1.0f : 0.0f, metal_map ? 1.0f : 0.0f})
       records.push_back(v);
   }
   materials_ = make_texel_buffer(records);
-  material_layout_ = model.specular_source;
+  materials_of_ = pipeline;
   return materials_.texture;
 }
 

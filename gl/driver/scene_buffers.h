@@ -46,7 +46,7 @@ class SceneBuffers {
   bool has_double_sided() const;
   /// Every triangle of those surfaces, in submission order, by the program in use, culled as the state in force
   /// says; where there are double-sided or mirrored ones, as that of upload_instances()'s pipeline says for them; one
-  /// of GlslOptions::maps where maps() are used; texture units 11 (frames of normal maps), 13 to 15 and 16.
+  /// of GlslOptions::maps where maps() are used; texture units 11 (frames of normal maps) and 13 to 19.
   void draw_instances(Surfaces which = Surfaces::all) const;
   /// One transparent instance of them.
   void draw_transparent(uint32_t instance) const;
@@ -57,7 +57,8 @@ class SceneBuffers {
   /// Light records in the model's LightLayout; made again when the model changes.
   GLuint light_texels(const LightModel& model);
   /// Material records as material_text() reads them.
-  GLuint material_texels(const LightModel& model);
+  GLuint material_texels(const Pipeline& pipeline);
+  bool has_unlit() const;
 
  private:
   struct MeshBuffers {
@@ -82,8 +83,8 @@ class SceneBuffers {
   CullFace culled_ = CullFace::none;     ///< of the pipeline that it was made for
   FrontFace front_ = FrontFace::ccw;
   GlTexelBuffer lights_, materials_;
-  std::optional<LightModel> uploaded_;             ///< whose records lights_ holds
-  std::optional<SpecularSource> material_layout_;  ///< of what materials_ holds
+  std::optional<LightModel> uploaded_;    ///< whose records lights_ holds
+  std::optional<Pipeline> materials_of_;  ///< whose records materials_ holds
 };
 
 /// A spot light's cone as shaders read it: LightLayout says what the numbers are.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdio>
+#include <utility>
 
 namespace trueshade::oracle {
 
@@ -23,7 +24,17 @@ std::string qualifier(Interpolation interpolation) {
 constexpr size_t kMostPlanes = 8;  // GL_MAX_DRAW_BUFFERS, at least
 
 bool reads_specular_map(const LightModel& model, const GlslOptions& options) {
-  return options.specular_maps && reads_specular_plane(model) && !maps_metals(model);
+  return options.specular_maps && takes_gloss(model);
+}
+
+/// The maps that a fragment's material is made of beside its colour.
+std::vector<std::string> material_maps(const LightModel& model, const GlslOptions& options) {
+  std::vector<std::string> names;
+  if (reads_specular_map(model, options)) names.emplace_back("specular");
+  if (options.metal_maps && maps_metals(model)) names.emplace_back("metallic_roughness");
+  if (options.emission_maps && model.emission) names.emplace_back("emission");
+  if (options.occlusion_maps && model.emission) names.emplace_back("occlusion");
+  return names;
 }
 
 /// The maps whose texture coordinates have a varying each; the others share `texcoord`.
@@ -32,6 +43,9 @@ std::vector<std::string> maps_with_own_uv(const GlslOptions& options) {
   std::vector<std::string> maps{"color"};
   if (options.specular_maps) maps.emplace_back("specular");
   if (options.normal_maps) maps.emplace_back("normal");
+  if (options.metal_maps) maps.emplace_back("metallic_roughness");
+  if (options.emission_maps) maps.emplace_back("emission");
+  if (options.occlusion_maps) maps.emplace_back("occlusion");
   return maps;
 }
 
@@ -63,6 +77,18 @@ bool halves_normals(const Pipeline& pipeline) {
   return info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm;
 }
 
+/// What a texel of a map does to the material's own values.
+std::string map_text(const std::string& name, const GlslOptions& options) {
+  const std::string texel = lookup_text(name, options);
+  if (name == "specular") return "  gloss.rgb = gloss.rgb * " + texel + ".rgb;\n";
+  if (name == "emission") return "  emission.rgb = emission.rgb * " + texel + ".rgb;\n";
+  if (name == "occlusion") return "  emission.a = 1.0 + other.y * (" + texel + ".r - 1.0);\n";
+  return "  vec4 metal = " + texel +
+         ";\n  float rough = max(other.x * metal.g, 0.04);\n"
+         "  if (other.w == 1.0) gloss.a = clamp(roundEven(2.0 / ((rough * rough) * (rough * rough)) - 2.0), 1.0, "
+         "8192.0);\n  glow.a = glow.a * metal.b;\n";
+}
+
 std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& options) {
   std::string text = glsl_header(options.version, "geometry pass: stores the surface, one plane an attachment");
   text += varyings_text(pipeline, options, "in");
@@ -79,7 +105,8 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
       text += "vec4(" + normal_text(options) + (halves_normals(pipeline) ? " * 0.5 + 0.5" : "") + ", 1.0);\n";
     if (plane.name == "albedo") text += "albedo;\n";
     if (plane.name == "specular") text += "gloss;\n";
-    if (plane.name == "emission") text += "vec4(emission, 1.0);\n";
+    if (plane.name == "emission")  // another format may stand in for one without alpha
+      text += info(pipeline.gbuffer.emission).channels < 4 ? "vec4(emission.rgb, 1.0);\n" : "emission;\n";
     if (plane.name == "uv") text += "vec4(texcoord, 0.0, 1.0);\n";
     if (plane.name == "id.object") text += "ids.x;\n";
     if (plane.name == "id.material") text += "ids.y;\n";
@@ -180,8 +207,9 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
   if (options.double_sided && direction == "in") text += "uniform bool double_sided;\n";
-  if (reads_specular_map(pipeline.light_model, options) && direction == "in")
-    text += "uniform sampler2D specular_map;\n";
+  if (direction == "in")
+    for (const std::string& name : material_maps(pipeline.light_model, options))
+      text += "uniform sampler2D " + name + "_map;\n";
   if (options.normal_maps && direction == "in") text += kBentNormal;
   return text;
 }
@@ -211,14 +239,15 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
          ";\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
          (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
-         (pipeline.light_model.emission ? "  vec3 emission = texelFetch(emission_plane, pixel, 0).rgb;\n" : "") +
+         (pipeline.light_model.emission ? "  vec4 emission = texelFetch(emission_plane, pixel, 0);\n" : "") +
          surface_text(pipeline.light_model);
 }
 
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
   const int texels = LightLayout(model).texels();
   const std::string n = std::to_string(texels);
-  std::string text = std::string("lit(P, N, V, albedo.rgb") + (reads_specular_plane(model) ? ", gloss" : "");
+  std::string text = std::string("lit(P, N, V, albedo.rgb") + (reads_specular_plane(model) ? ", gloss" : "") +
+                     (model.emission ? ", emission.a" : "");
   for (int i = 0; i < texels; ++i)
     text +=
         ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i >= 2 ? ".xyz" : "");
@@ -233,15 +262,20 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
   std::string text = "  vec4 albedo = " + albedo_text(options) + ";\n";
   if (options.maps) text += "  if (albedo.a < alpha_cutoff) discard;\n";
   if (!reads_materials(model)) return text;
-  text +=
-      "  vec4 gloss = texelFetch(materials, 2 * int(ids.y) - 2);\n"
-      "  vec4 glow = texelFetch(materials, 2 * int(ids.y) - 1);\n  vec3 emission = glow.rgb;\n";
-  if (reads_specular_map(model, options))
-    text += "  gloss.rgb = gloss.rgb * " + lookup_text("specular", options) + ".rgb;\n";
+  const std::string first = std::to_string(kMaterialTexels) + " * int(ids.y) - ";
+  for (const auto& [name, at] : {std::pair("gloss", 3), std::pair("glow", 2), std::pair("other", 1)})
+    text += std::string("  vec4 ") + name + " = texelFetch(materials, " + first + std::to_string(at) + ");\n";
+  text += "  vec4 emission = vec4(glow.rgb, 1.0);  // a: the share of ambient light that arrives\n";
+  const std::string color = shows_unlit(model) && options.unlit ? "  vec3 own_color = albedo.rgb;\n" : "";
+  text += color;
+  for (const std::string& name : material_maps(model, options)) text += map_text(name, options);
   if (maps_metals(model))
     text +=
         "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
         "  albedo.rgb = albedo.rgb * (1.0 - glow.a);\n";
+  if (!color.empty())
+    text +=
+        "  if (other.z == 1.0) {\n    emission = vec4(own_color, 1.0);\n    albedo.rgb = gloss.rgb = vec3(0.0);\n  }\n";
   return text;
 }
 

@@ -19,9 +19,12 @@ struct GlslOptions {
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
-  bool normal_maps = false;   ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  // Of maps, read where the light model maps metals or adds emission: white where a material has none.
+  bool metal_maps = false, emission_maps = false, occlusion_maps = false;
   bool more_uv = false;       ///< of maps: some read texture coordinates beside the first set, from `more_uv`
   bool double_sided = false;  ///< materials may be: the uniform of that name says so, a draw each
+  bool unlit = false;         ///< some materials are unlit
   bool transparent = false;   ///< surfaces are drawn after the lights
   bool vertex_color = true;   ///< false: no mesh has any, so the base colour is the albedo
   bool ambient = true, directional = true;  ///< light types the loop knows beside point
@@ -87,15 +90,18 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
 /// The surface's colour and its normal, of any length, in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
 std::string normal_text(const GlslOptions& options);
-/// Whether fragments of surfaces read `materials`: two RGBA32F texels a material, (specular colour, shininess) and
-/// (emission, metallic); under metallic_roughness the shininess is that of the roughness.
+/// Whether fragments of surfaces read `materials`: kMaterialTexels RGBA32F texels a material, (specular colour,
+/// shininess), (emission, metallic) and (roughness, strength of the occlusion map, 1 for one that is shown unlit, 1 for
+/// one with a map of metal and roughness); under metallic_roughness the shininess is that of the roughness.
 bool reads_materials(const LightModel& model);
-/// `vec4 albedo` of a fragment, and from its material `vec4 gloss` and `vec3 emission` where the model reads them.
+inline constexpr int kMaterialTexels = 3;
+/// `vec4 albedo` of a fragment, and from its material `vec4 gloss` and `vec4 emission` where the model reads them;
+/// emission.a is the share of ambient light that arrives.
 std::string material_text(const LightModel& model, const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
-/// `vec3 lit(P, N, V, albedo, [gloss,] place, color[, k][, axis, cone][, ambient])`: what one light adds; in the order
-/// albedo_last, before the albedo.
+/// `vec3 lit(P, N, V, albedo, [gloss,] [ambient share,] place, color[, k][, axis, cone][, ambient])`: what one light
+/// adds; in the order albedo_last, before the albedo.
 std::string light_function_text(const LightModel& model, const GlslOptions& options);
 /// Samplers and uniforms that read_surface_text() reads, without those of the lights.
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);

@@ -108,9 +108,9 @@ std::string sum_text(const LightModel& m) {
 
 std::string parameters_text(const LightModel& m) {
   const LightLayout layout(m);
-  return std::string(reads_specular_plane(m) ? ", vec4 gloss" : "") + ", vec4 place, vec4 color" +
-         (layout.attenuation ? ", vec3 k" : "") + (layout.cone ? ", vec3 axis, vec3 cone" : "") +
-         (layout.ambient ? ", vec3 ambient" : "");
+  return std::string(reads_specular_plane(m) ? ", vec4 gloss" : "") + (m.emission ? ", float arriving" : "") +
+         ", vec4 place, vec4 color" + (layout.attenuation ? ", vec3 k" : "") +
+         (layout.cone ? ", vec3 axis, vec3 cone" : "") + (layout.ambient ? ", vec3 ambient" : "");
 }
 
 std::string vector_text(const glm::vec3& v) {
@@ -131,10 +131,11 @@ std::string surface_text(const LightModel& model) {
 
 std::string sum_start_text(const LightModel& model) {
   const bool ambient = model.global_ambient != glm::vec3(0.0f);
-  std::string start = model.emission ? "emission" : ambient ? "" : "vec3(0.0)";
+  std::string start = model.emission ? "emission.rgb" : ambient ? "" : "vec3(0.0)";
   if (!ambient) return start;
   if (model.emission) start += " + ";
-  return start + (model.order == TermOrder::albedo_last ? "" : "albedo.rgb * ") + vector_text(model.global_ambient);
+  return start + (model.order == TermOrder::albedo_last ? "" : "albedo.rgb * ") + vector_text(model.global_ambient) +
+         (model.emission ? " * emission.a" : "");
 }
 
 std::string target_text(const LightModel& model, const std::string& sum) {
@@ -156,7 +157,8 @@ vec3 unit(vec3 v) {
   text += "vec3 lit(vec3 P, vec3 N, vec3 V, vec3 albedo" + parameters_text(m) + ") {\n";
   if (options.ambient)
     text += std::string("  if (place.w == 0.0) return ") +
-            (m.order == TermOrder::albedo_last ? "color.rgb;\n" : "albedo * color.rgb;\n");
+            (m.order == TermOrder::albedo_last ? "color.rgb" : "albedo * color.rgb") +
+            (m.emission ? " * arriving;\n" : ";\n");
   text += "  vec3 D = place.xyz - P;\n";
   if (options.directional) text += "  if (place.w == 1.0) D = place.xyz;\n";
   text += "  float d2 = dot(D, D);\n  float r = d2 > 0.0 ? inversesqrt(d2) : 0.0;\n";

@@ -1,5 +1,6 @@
 #include "gl/emit/state_list.h"
 
+#include <utility>
 #include <vector>
 
 #include "gl/emit/post_glsl.h"
@@ -180,6 +181,15 @@ std::string maps(const GlslOptions& options) {
   std::vector<std::string> lines;
   if (options.maps) lines = {"color_map: sampler2D, a white texel where the material has none", "alpha_cutoff: float"};
   if (options.specular_maps) lines.emplace_back("specular_map: sampler2D, a white texel where the material has none");
+  if (options.metal_maps)
+    lines.emplace_back(
+        "metallic_roughness_map: sampler2D, a white texel where the material has none; in light models with metallic "
+        "and rough materials");
+  for (const auto& [there, name] :
+       {std::pair(options.emission_maps, "emission_map"), std::pair(options.occlusion_maps, "occlusion_map")})
+    if (there)
+      lines.push_back(std::string(name) +
+                      ": sampler2D, a white texel where the material has none; in light models with emission");
   if (options.normal_maps) {
     lines.emplace_back("normal_map: sampler2D, a texel 0.5, 0.5, 1 where the material has none; normal_scale: float");
     lines.emplace_back(
@@ -210,6 +220,11 @@ std::string geometry_draws(const GlslOptions& options) {
 std::string uniforms(const Pipeline& pipeline) {
   std::vector<std::string> lines{"lights: samplerBuffer over GL_RGBA32F, light_layout says what a light is",
                                  "light_count: int", "eye: vec3, the camera's position in the world"};
+  if (reads_materials(pipeline.light_model))
+    lines.push_back(
+        "materials: samplerBuffer over GL_RGBA32F, in shaders that draw surfaces; three texels a material: specular "
+        "colour, shininess (with metallic and rough materials that of the roughness); emission, metallic; roughness, "
+        "strength of the occlusion map, 1 where the material is unlit, 1 where it has a metallic_roughness_map");
   if (pipeline.gbuffer.position_from_depth) {
     lines.push_back("depth_plane: sampler2D, the depth attachment");
     lines.push_back("world_from_clip: mat4, inverse of projection * view in double, rounded to float once");

@@ -68,7 +68,7 @@ LightTerm LightSum::operator()(const Light& light) const {
   if (light.type == LightType::ambient) {
     const bool last = model_.order == TermOrder::albedo_last;
     for (size_t k = 0; k < 3; ++k)
-      t.color[k] = last ? color_of(light, k) : product(a_, surface_.albedo[k], color_of(light, k));
+      t.color[k] = arriving(last ? color_of(light, k) : product(a_, surface_.albedo[k], color_of(light, k)));
     return t;
   }
   Bounded3 to_light;
@@ -103,7 +103,8 @@ LightTerm LightSum::operator()(const Light& light) const {
 
 bool LightSum::for_lanes(LanePixel& px) const {
   const double s = shininess();
-  if (shines_ && (view_undefined_ || !(s >= 1 && s <= 8192) || s != std::nearbyint(s))) return false;
+  if (shines_ && (view_undefined_ || !(s >= 1 && s <= 8192) || s != std::nearbyint(s) || shininess_error() > 0))
+    return false;
   const bool last = model_.order == TermOrder::albedo_last;
   px.position = surface_.position, px.normal = normal_, px.view = view_;
   for (size_t k = 0; k < 3; ++k) {
@@ -116,8 +117,8 @@ bool LightSum::for_lanes(LanePixel& px) const {
 
 Bounded LightSum::start(size_t k) const {
   const Bounded given{double(model_.global_ambient[int(k)]), 0};
-  const Bounded share =
-      given.value == 0 || model_.order == TermOrder::albedo_last ? given : product(a_, surface_.albedo[k], given);
+  const Bounded share = arriving(
+      given.value == 0 || model_.order == TermOrder::albedo_last ? given : product(a_, surface_.albedo[k], given));
   if (!model_.emission) return share;
   return given.value == 0 ? surface_.emission[k] : sum(a_, surface_.emission[k], share);
 }
@@ -130,6 +131,24 @@ Bounded LightSum::specular_color(size_t k) const {
 Bounded LightSum::color_of(const Light& light, size_t k) const {
   const Bounded color{double(light.color[int(k)]), 0};
   return model_.damping == 1.0f ? color : product(a_, color, {double(model_.damping), 0});
+}
+
+Bounded LightSum::arriving(const Bounded& ambient) const {
+  const Bounded& share = surface_.ambient_share;
+  if (!model_.emission || ambient.value == 0 || (share.value == 1 && share.error == 0)) return ambient;
+  return product(a_, ambient, share);
+}
+
+Bounded LightSum::power_of(double low, double value, double high) const {
+  const double s = shininess(), error = shininess_error();
+  Bounded all = power(a_, low, value, high, s);
+  if (error == 0) return all;
+  // A power is monotone in its exponent, so the ends hold what lies between them.
+  for (const double end : {std::max(1.0, s - error), s + error}) {
+    const Bounded at_end = power(a_, low, value, high, end);
+    all.error = std::max({all.error, at_end.high() - all.value, all.value - at_end.low()});
+  }
+  return all;
 }
 
 bool LightSum::inside_extent(const Bounded& d, const Light& light, LightTerm& t) const {
@@ -270,10 +289,10 @@ Bounded LightSum::specular_of(const Bounded3& to_light, const Bounded& n_l, bool
   }
   if (!exact_ && s == 0 && low <= 0 && model_.specular == Specular::blinn_phong && !reads_specular_plane(model_))
     undefined = true;
-  const Bounded power_of = power(a_, low, value, high, s);
-  if (!model_.specular_masked || !adds_unlit_ || n_l.low() > 0) return power_of;
+  const Bounded shine = power_of(low, value, high);
+  if (!model_.specular_masked || !adds_unlit_ || n_l.low() > 0) return shine;
   if (n_l.high() <= 0) return {};
-  return {n_l.value > 0 ? power_of.value : 0, power_of.high()};
+  return {n_l.value > 0 ? shine.value : 0, shine.high()};
 }
 
 Bounded LightSum::half_cosine(const Bounded3& to_light, bool& undefined) const {

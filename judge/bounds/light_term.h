@@ -37,9 +37,14 @@ class LightSum {
  private:
   bool is_tinted() const { return shines_ && model_.specular_source == SpecularSource::albedo; }
   double shininess() const { return reads_specular_plane(model_) ? surface_.shininess : double(model_.shininess); }
+  double shininess_error() const { return reads_specular_plane(model_) ? surface_.shininess_error : 0; }
   Bounded specular_color(size_t k) const;
 
   Bounded color_of(const Light& light, size_t k) const;
+  Bounded arriving(const Bounded& ambient) const;  ///< what a surface gets of ambient light
+
+  /// x^shininess for 0 <= low <= value <= high: of every shininess that the surface may have.
+  Bounded power_of(double low, double value, double high) const;
 
   /// False where the light's extent surely leaves the pixel out; sets either_way and dark where it may.
   bool inside_extent(const Bounded& d, const Light& light, LightTerm& t) const;

@@ -16,8 +16,9 @@ namespace trueshade::oracle {
 struct ShadedSurface {
   Bounded3 position, normal;
   std::array<Bounded, 4> albedo;
-  Bounded3 specular{}, emission{};  ///< where the model reads them
-  double shininess = 0;
+  Bounded3 specular{}, emission{};            ///< where the model reads them
+  double shininess = 0, shininess_error = 0;  ///< an integer; any one within the error, where a map leaves several
+  Bounded ambient_share{1, 0};                ///< what arrives of ambient light, where the model reads emission
 };
 
 /// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.

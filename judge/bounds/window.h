@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "judge/bounds/level_hulls.h"
 #include "judge/bounds/profile.h"
 #include "oracle/exact_coverage.h"
 #include "scenes/scene.h"
@@ -75,6 +76,7 @@ class Projector {
   const Profile& profile() const { return profile_; }
   const Pipeline& pipeline() const { return pipeline_; }
   const Scene& scene() const { return scene_; }
+  LevelHulls& level_hulls() const { return level_hulls_; }  ///< of the scene's textures
   int width() const { return pipeline_.width; }
   int height() const { return pipeline_.height; }
 
@@ -110,6 +112,7 @@ class Projector {
   Pair window_reach_{};
   Matrix4 clip_from_world_;
   std::vector<InstanceMatrix> matrices_;
+  mutable LevelHulls level_hulls_;
   double z_scale_, z_offset_;
 };
 

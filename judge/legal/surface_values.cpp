@@ -17,7 +17,12 @@ SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& 
     return map_texel(projector, slot, *piece_, *point_, values_, x, y);
   };
   texel_ = texel(material_->color_map);
-  if (reads_specular_plane(model_) && !maps_metals(model_)) gloss_ = texel(material_->specular_map);
+  const bool glass_in_albedo =
+      material_->transparent && projector.pipeline().transparency.mode == TransparencyMode::into_albedo;
+  unlit_ = material_->unlit && shows_unlit(model_) && !glass_in_albedo;
+  if (!unlit_ && takes_gloss(model_)) gloss_ = texel(material_->specular_map);
+  if (!unlit_ && maps_metals(model_)) metal_ = texel(material_->metallic_roughness_map);
+  if (!unlit_ && model_.emission) glow_ = texel(material_->emission_map), shade_ = texel(material_->occlusion_map);
   const auto bumps = texel(material_->normal_map);
   if (!bumps) return;
   bend(*bumps, possible.instance, possible.triangle);
@@ -80,27 +85,70 @@ Range SurfaceValues::base_color(int k, Interpolation interpolation) const {
   return tinted(range, double(material_->base_color[k]));
 }
 
-Range SurfaceValues::albedo(const Range& base) const {
-  return maps_metals(model_) ? tinted(base, double(1.0f - material_->metallic)) : base;
+double SurfaceValues::roundoff() const { return std::max(projector_.profile().arithmetic.roundoff, 0x1p-24); }
+
+Range SurfaceValues::metallic() const {
+  const double given = double(material_->metallic);
+  return metal_ ? product({given, given, given}, (*metal_)[2], projector_.profile()) : Range{given, given, given};
 }
 
-/// The material's times the map's, or 0.04 (1 - metallic) + base metallic, of four roundings at most.
+Range SurfaceValues::albedo(const Range& base) const {
+  if (unlit_) return {};
+  if (!maps_metals(model_)) return base;
+  if (!metal_) return tinted(base, double(1.0f - material_->metallic));
+  const Range m = metallic();
+  return product(base, {1 - m.value, 1 - m.high - roundoff(), 1 - m.low + roundoff()}, projector_.profile());
+}
+
+/// The material's times the map's, or 0.04 (1 - metallic) + base metallic, of four roundings at most and that of a
+/// looked-up metallic. Both factors of the latter are in every term once, so its extremes are at the corners.
 Range SurfaceValues::specular(const Range& base, int k) const {
-  const double given = double(material_->specular_color[k]);
+  if (unlit_) return {};
+  const double given = double(material_->specular_color[k]), least = double(0.04f);
   if (gloss_) return product({given, given, given}, (*gloss_)[size_t(k)], projector_.profile());
   if (!maps_metals(model_)) return {given, given, given};
-  if (material_->metallic == 0.0f) return {double(0.04f), double(0.04f), double(0.04f)};
-  const double metallic = double(material_->metallic), rest = double(0.04f) * (1 - metallic);
-  const double v =
-      4 * std::max(projector_.profile().arithmetic.roundoff, 0x1p-24) * (rest + std::fabs(base.high) * metallic) +
-      kSmallestFloat;
-  return {rest + base.value * metallic, rest + base.low * metallic - v, rest + base.high * metallic + v};
+  if (material_->metallic == 0.0f) return {least, least, least};
+  const Range m = metallic();
+  const auto mixed = [&](double b, double share) { return least * (1 - share) + b * share; };
+  const double corners[] = {mixed(base.low, m.low), mixed(base.low, m.high), mixed(base.high, m.low),
+                            mixed(base.high, m.high)};
+  const double v = 4 * roundoff() * (least * (1 - m.low) + std::fabs(base.high) * m.high) + kSmallestFloat;
+  return {mixed(base.value, m.value), *std::min_element(std::begin(corners), std::end(corners)) - v,
+          *std::max_element(std::begin(corners), std::end(corners)) + v};
 }
 
-double SurfaceValues::shininess() const {
-  if (!maps_metals(model_)) return double(material_->shininess);
-  const double r = std::max(double(material_->roughness), 0.04);
-  return std::clamp(std::rint(2 / std::pow(r, 4) - 2), 1.0, 8192.0);
+Range SurfaceValues::shininess() const {
+  if (!maps_metals(model_))
+    return {double(material_->shininess), double(material_->shininess), double(material_->shininess)};
+  const auto integer = [](double exponent) { return std::clamp(std::rint(exponent), 1.0, 8192.0); };
+  const double given = double(material_->roughness);
+  if (!metal_) {
+    const double s = integer(2 / std::pow(std::max(given, 0.04), 4) - 2);
+    return {s, s, s};
+  }
+  const Arithmetic& a = projector_.profile().arithmetic;
+  const auto exponent = [&](double roughness) {
+    const Bounded r{std::max(roughness, 0.04), 0x1p-24 * 0.04}, r2 = product(a, r, r);
+    return difference(a, quotient(a, {2, 0}, product(a, r2, r2)), {2, 0});
+  };
+  const Range r = product({given, given, given}, (*metal_)[1], projector_.profile());
+  return {integer(2 / std::pow(std::max(r.value, 0.04), 4) - 2), integer(exponent(r.high).low()),
+          integer(exponent(r.low).high())};
+}
+
+Range SurfaceValues::emission(const Range& base, int k) const {
+  if (unlit_) return base;
+  const double e = double(material_->emission[k]);
+  return glow_ ? product({e, e, e}, (*glow_)[size_t(k)], projector_.profile()) : Range{e, e, e};
+}
+
+/// 1 + strength (texel - 1): three roundings of numbers up to 1.
+Range SurfaceValues::ambient_share() const {
+  if (!shade_) return {1, 1, 1};
+  const double strength = double(material_->occlusion_strength), v = 3 * roundoff();
+  const auto share = [&](double texel) { return 1 + strength * (texel - 1); };
+  const Range& r = (*shade_)[0];
+  return {share(r.value), share(r.low) - v, share(r.high) + v};
 }
 
 /// Times a number of the material's: one more product.
@@ -134,10 +182,13 @@ ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& g)
     const Range base = values.base_color(int(k), g.albedo.interpolation);
     s.albedo[k] = bounded(values.albedo(base));
     s.specular[k] = bounded(values.specular(base, int(k)));
-    s.emission[k] = {double(values.material().emission[int(k)]), 0};
+    s.emission[k] = bounded(values.emission(base, int(k)));
   }
   s.albedo[3] = bounded(values.base_color(3, g.albedo.interpolation));
-  s.shininess = values.shininess();
+  const Range shininess = values.shininess();
+  s.shininess = shininess.value;
+  s.shininess_error = std::max(shininess.high - shininess.value, shininess.value - shininess.low);
+  s.ambient_share = bounded(values.ambient_share());
   return s;
 }
 

@@ -16,10 +16,15 @@ class SurfaceValues {
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
   bool bounded() const { return point_->bounded(); }
-  // Which channels come from a lookup: the colour's, the specular colour's, the normal's.
-  bool textured() const { return texel_.has_value(); }
+  // Which channels come from a lookup: the albedo's, the specular colour's, the shininess, the emission's, the share of
+  // ambient light, the normal's.
+  bool textured() const { return texel_ || metal_; }
   bool glossy() const { return maps_metals(model_) ? textured() : gloss_.has_value(); }
+  bool rough() const { return metal_.has_value(); }
+  bool glowing() const { return unlit_ ? texel_.has_value() : glow_.has_value(); }
+  bool shaded() const { return shade_.has_value(); }
   bool bumpy() const { return bent_.has_value(); }
+  bool looked_up() const { return textured() || glossy() || glowing() || shaded() || bumpy(); }
   const Material& material() const { return *material_; }
 
   Range depth() const;                                               ///< as the depth buffer may hold it
@@ -28,11 +33,15 @@ class SurfaceValues {
   Range base_color(int k, Interpolation interpolation) const;  ///< vertex colour times texel times base colour
   Range albedo(const Range& base) const;                       ///< of the base colour: less what is metal
   Range specular(const Range& base, int k) const;
-  double shininess() const;
+  Range shininess() const;  ///< integers: any one between the ends
+  Range emission(const Range& base, int k) const;
+  Range ambient_share() const;  ///< what arrives of ambient light
 
  private:
   Range tinted(const Range& r, double tint) const;
   void bend(const std::array<Range, 4>& bumps, uint32_t instance, uint32_t triangle);
+  Range metallic() const;
+  double roundoff() const;
 
   const Projector& projector_;
   const LightModel& model_;
@@ -41,7 +50,8 @@ class SurfaceValues {
   const Piece* piece_;
   std::optional<SurfacePoint> point_;
   TriangleValues values_;
-  std::optional<std::array<Range, 4>> texel_, gloss_;
+  bool unlit_ = false;
+  std::optional<std::array<Range, 4>> texel_, gloss_, metal_, glow_, shade_;  ///< of the maps that are read
   std::optional<std::array<Range, 3>> bent_;
 
   /// Whether the triangle may show its front, its back, or either: what becomes of a double-sided material's normal.

@@ -55,8 +55,16 @@ struct TexelSource {
   const Texture& texture;
   const Sampler& sampler;
   const Sampling& rules;
+  LevelHulls* hulls;
   bool encoded = false;
   double codes = 0;
+
+  LevelReading reading(size_t level) const {
+    const bool border = sampler.wrap[0] == Wrap::clamp_to_border || sampler.wrap[1] == Wrap::clamp_to_border;
+    const glm::vec4& b = sampler.border;
+    const std::array<float, 4> color = border ? std::array{b.r, b.g, b.b, b.a} : std::array<float, 4>{};
+    return {&texture, level, encoded, border, codes, color};
+  }
 
   TexelValue at(size_t level, long long i, long long j) const {
     TexelValue t = wrapped_texel(texture, sampler, level, i, j);
@@ -96,9 +104,18 @@ Ranges mixed(const Ranges& a, const Ranges& b, double weight) {
 /// All texels of a level, and the border if it may be read.
 Ranges whole_level(const TexelSource& texels, size_t level) {
   Ranges r = nothing();
+  if (texels.hulls != nullptr)
+    if (const auto kept = texels.hulls->find(texels.reading(level))) {
+      for (size_t c = 0; c < 4; ++c) r[c] = {0, (*kept)[c][0], (*kept)[c][1]};
+      return r;
+    }
   const TextureLevel& l = texels.texture.levels[level];
   for (long long j = -1; j <= l.height; ++j)
     for (long long i = -1; i <= l.width; ++i) include(r, texels.at(level, i, j));
+  if (texels.hulls == nullptr) return r;
+  LevelHulls::Hull hull;
+  for (size_t c = 0; c < 4; ++c) hull[c] = {r[c].low, r[c].high};
+  texels.hulls->keep(texels.reading(level), hull);
   return r;
 }
 
@@ -273,22 +290,22 @@ Ranges filtered_range(const TexelSource& texels, const Interval& lod, const Text
 }  // namespace
 
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const TextureSample& at,
-                                 const Profile& profile) {
+                                 const Profile& profile, LevelHulls* hulls) {
   const Sampling& rules = profile.sampling;
   const Interval lod = lod_range(texture, s, at, rules);
   const bool srgb = texture.format == TextureFormat::srgb8_a8;
   int steps = 0;
   Ranges r;
   if (!srgb || (rules.srgb_codes == 0 && !rules.mesa_decode)) {
-    r = filtered_range({texture, s, rules}, lod, at, profile, steps);
+    r = filtered_range({texture, s, rules, hulls}, lod, at, profile, steps);
   } else {
     // Filters weigh texels by what is not negative: all of them low, or all high.
-    r = filtered_range({texture, s, rules, false, -rules.srgb_codes}, lod, at, profile, steps);
-    include(r, filtered_range({texture, s, rules, false, rules.srgb_codes}, lod, at, profile, steps));
+    r = filtered_range({texture, s, rules, hulls, false, -rules.srgb_codes}, lod, at, profile, steps);
+    include(r, filtered_range({texture, s, rules, hulls, false, rules.srgb_codes}, lod, at, profile, steps));
   }
   const double off = rules.lerp_codes * steps / 255;
   if (srgb && rules.decodes_late) {
-    Ranges late = filtered_range({texture, s, rules, true}, lod, at, profile, steps);
+    Ranges late = filtered_range({texture, s, rules, hulls, true}, lod, at, profile, steps);
     for (size_t c = 0; c < 4; ++c) {
       const double more = off + (c < 3 ? rules.srgb_codes / 255 : 0);
       late[c] = {0, late[c].low - more, late[c].high + more};

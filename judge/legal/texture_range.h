@@ -3,6 +3,7 @@
 // (docs/gl_rules.md sections 5 and 9). The class TEX.
 #include <array>
 
+#include "judge/bounds/level_hulls.h"
 #include "judge/legal/surface.h"
 #include "oracle/texture_lookup.h"
 
@@ -20,7 +21,8 @@ TextureSample texture_sample(const Piece& piece, const std::array<std::array<dou
                              const Range& u, const Range& v, double x, double y);
 
 /// RGBA of a lookup: nominal value and hull, over the places of the sample and what Profile::sampling leaves open.
+/// `hulls` keeps what is found of whole levels for other lookups. Never changes a value.
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& sampler, const TextureSample& sample,
-                                 const Profile& profile);
+                                 const Profile& profile, LevelHulls* hulls = nullptr);
 
 }  // namespace trueshade::oracle

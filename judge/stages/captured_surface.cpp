@@ -4,11 +4,22 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "oracle/exact_coverage.h"
 #include "judge/legal/surface.h"
+#include "oracle/exact_coverage.h"
 #include "oracle/scalar_renderer.h"
 
 namespace trueshade::oracle {
+
+namespace {
+
+/// Whether any surface has emission, or holds off ambient light: else nothing depends on the plane.
+bool emits(const Scene& scene, const LightModel& model) {
+  return model.emission && std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+           return m.unlit || m.emission != glm::vec3(0.0f) || m.occlusion_map.used();
+         });
+}
+
+}  // namespace
 
 CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                  const Capture& capture)
@@ -18,7 +29,7 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
       albedo_(required(capture, "albedo")),
       object_(plane_of(capture, pipeline, "id.object")),
       specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
-      emission_(pipeline.light_model.emission ? required(capture, "emission") : PlaneView{}),
+      emission_(emits(scene, pipeline.light_model) ? required(capture, "emission") : PlaneView{}),
       viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
   if (pipeline.gbuffer.position_from_depth) {
     depth_ = required(capture, "depth");
@@ -27,6 +38,11 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
     position_ = required(capture, "position");
     depth_ = plane_of(capture, pipeline, "depth");
   }
+  const bool shaded = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                  [](const Material& m) { return m.occlusion_map.used(); });
+  if (emission_ && shaded && info(pipeline.gbuffer.emission).channels > 3 && emission_.channels < 4)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane emission", "has no share of ambient light",
+                "capture it as emission.A");
   if (!object_ && !depth_)
     throw Error(ErrorKind::bad_input, capture.name, "does not say where a surface is", "capture id.object or depth");
 }
@@ -67,6 +83,7 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
     if (emission_) s.emission[size_t(k)] = fetched(emission_, x, y, k);
   }
   if (specular_) s.shininess = specular_.stored(x, y, 3);
+  if (emission_ && emission_.channels > 3) s.ambient_share = fetched(emission_, x, y, 3);
   if (!position_) s.position = position_from_depth(x, y);
   return s;
 }

@@ -3,11 +3,11 @@
 
 #include "core/error.h"
 #include "core/threads/parallel_for.h"
+#include "judge/legal/patch.h"
 #include "judge/legal/possible_surfaces.h"
+#include "judge/legal/surface_values.h"
 #include "judge/stages/judge.h"
 #include "judge/stages/judge_transparency.h"
-#include "judge/legal/patch.h"
-#include "judge/legal/surface_values.h"
 #include "judge/stages/tally.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -157,26 +157,29 @@ class GBufferJudge {
         if (!layered) judge_channel(p.view, p.name, k, k < 3 ? surface.albedo(base) : base, stored, surface.textured());
       }
     }
-    constant_planes(surface, x, y_top, pixel, m);
+    if (specular_ && specular_.channels > 3)
+      judge_shininess(surface.shininess(), specular_.stored(x, y_top, 3), pixel, surface.rough(), m);
+    for (int k = 0; k < 4 && emission_; ++k) {
+      if (k >= emission_.channels) continue;
+      const Range range = k < 3 ? surface.emission(surface.base_color(k, pipeline_.gbuffer.albedo.interpolation), k)
+                          : info(pipeline_.gbuffer.emission).channels > 3 ? surface.ambient_share()
+                                                                          : Range{1, 1, 1};  // another format stands in
+      judge_channel(emission_, "emission", k, range, emission_.stored(x, y_top, k),
+                    k < 3 ? surface.glowing() : surface.shaded());
+    }
     return m;
   }
 
-  /// What the material alone decides: the shininess and the emission.
-  void constant_planes(const SurfaceValues& surface, int x, int y_top, uint32_t pixel, Match& m) const {
-    if (specular_ && specular_.channels > 3) {
-      const double s = surface.shininess();
-      m.channel_is(specular_, "specular", 3, {s, s, s}, specular_.stored(x, y_top, 3), pixel, profile_);
-    }
-    for (int k = 0; k < 3 && emission_; ++k) {
-      const double e = double(surface.material().emission[k]);
-      m.channel_is(emission_, "emission", k, {e, e, e}, emission_.stored(x, y_top, k), pixel, profile_);
-    }
+  /// An integer of the range.
+  void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Match& m) const {
+    if (!looked_up) return m.channel_is(specular_, "specular", 3, range, stored, pixel, profile_);
+    m.lookup_is(specular_, "specular", 3, range, stored, pixel, profile_);
+    if (stored != std::nearbyint(stored)) m.note("specular", 3, {range.value, range.low, range.high}, stored, 1);
   }
 
   /// Possible surfaces that may be seen, the nominal one first.
   std::vector<const PossibleSurface*> legal_surfaces(std::span<const PossibleSurface> all,
-                                                     const PossibleSurface*& nominal,
-                                                     bool& certain) const;
+                                                     const PossibleSurface*& nominal, bool& certain) const;
   void judge_pixel(int x, int y_top, RowTally& row) const;
   PixelClass class_of(const Match& m, bool bounded, const PossibleSurface* seen, const PossibleSurface* nominal) const;
 
@@ -204,8 +207,7 @@ bool ruled_out(const Projector& p, const PossibleSurface& earlier, const Possibl
 }
 
 std::vector<const PossibleSurface*> GBufferJudge::legal_surfaces(std::span<const PossibleSurface> all,
-                                                                 const PossibleSurface*& nominal,
-                                                                 bool& certain) const {
+                                                                 const PossibleSurface*& nominal, bool& certain) const {
   const DepthFunc func = pipeline_.geometry.depth_func;
   const bool last_wins = func == DepthFunc::lequal || func == DepthFunc::gequal;
   std::vector<const PossibleSurface*> legal;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "judge/stages/captured_surface.h"
 #include "judge/legal/patch.h"
+#include "judge/stages/captured_surface.h"
 #include "judge/stages/tally.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -105,7 +105,7 @@ bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& fro
 
 void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& layer) const {
   const Interpolation how = pipeline_.gbuffer.albedo.interpolation;
-  layer.looked_up = values.textured() || values.glossy() || values.bumpy();
+  layer.looked_up = values.looked_up();
   layer.undefined = !values.bounded();
   if (!lights_) {
     for (int k = 0; k < 4; ++k) {

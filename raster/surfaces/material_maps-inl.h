@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <optional>
 
 #include "raster/surfaces/normal_maps-inl.h"
 #include "raster/surfaces/surfaces.h"
@@ -44,7 +45,7 @@ class MapTexels {
  public:
   HWY_INLINE MapTexels(const MaterialMaps& maps, const UvPoint* at, const M64* mine)
       : same_texels_(maps.same_texels), at_(at), mine_(mine) {
-    find(maps.color ? *maps.color : maps.specular ? *maps.specular : *maps.normal);
+    find(first_of(maps));
   }
 
   HWY_NOINLINE void read(const TextureView& texture, uint32_t channels, V32 rgba[kVectors][4]) {
@@ -53,6 +54,12 @@ class MapTexels {
   }
 
  private:
+  static const TextureView& first_of(const MaterialMaps& maps) {
+    for (const auto* map : {&maps.color, &maps.specular, &maps.metallic_roughness, &maps.emission, &maps.occlusion})
+      if (*map) return **map;
+    return *maps.normal;
+  }
+
   HWY_NOINLINE void find(const TextureView& texture) {
     MipChoice mip[kVectors];
     const UvPoint* const at = at_ + texture.uv_set * kVectors;
@@ -68,9 +75,39 @@ class MapTexels {
   TextureReader reader_[kVectors];
 };
 
+/// Keeps channels of texels in planes: channel c in plane `first` + c.
+template <int kVectors>
+HWY_INLINE void keep_texels(const V32 rgba[kVectors][4], uint32_t channels, const M64* mine, const int* pixel,
+                            int first, SurfaceTile& out) {
+  const D32 df;
+  for (int h = 0; h < kVectors; ++h)
+    for (int c = 0; c < 3; ++c) {
+      if ((channels >> c & 1) == 0) continue;
+      float* const plane = out.plane[first + c] + pixel[h];
+      hn::Store(hn::IfThenElse(float_mask(mine[h]), rgba[h][c], hn::Load(df, plane)), df, plane);
+    }
+}
+
+/// Keeps the texels of the maps that surface_planes-inl.h multiplies by the material's own values.
+template <int kVectors>
+HWY_NOINLINE void keep_values(const MaterialMaps& maps, MapTexels<kVectors>& texels, const M64* mine, const int* pixel,
+                              SurfaceTile& out) {
+  constexpr uint32_t kRedBit = 1, kGreenBlueBits = 6;
+  V32 rgba[kVectors][4];
+  const auto keep = [&](const std::optional<TextureView>& map, uint32_t channels, int first) {
+    if (!map) return;
+    texels.read(*map, channels, rgba);
+    keep_texels<kVectors>(rgba, channels, mine, pixel, first, out);
+  };
+  keep(maps.specular, kRgbBits, kSpecular);
+  keep(maps.metallic_roughness, kGreenBlueBits, kSpecular);
+  keep(maps.emission, kRgbBits, kEmission);
+  keep(maps.occlusion, kRedBit, kOcclusion);
+}
+
 /// Applies the maps of one material to the lanes `mine` of kVectors vectors, each from a pixel on: the colour is
-/// multiplied by the texel, the normal is bent, and the specular plane receives its texel, which surface_planes-inl.h
-/// multiplies by the material's own colour. `frames(h, uv_set, normal)` gives the bump frames of vector h.
+/// multiplied by the texel, the normal is bent, and the planes of the material receive the texels of the other maps.
+/// `frames(h, uv_set, normal)` gives the bump frames of vector h.
 template <int kVectors, class Frames>
 inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const M64* mine, const int* pixel,
                            const Frames& frames, SurfaceTile& out) {
@@ -86,14 +123,7 @@ inline void apply_material(const MaterialMaps& maps, const UvPoint* at, const M6
         hn::Store(hn::IfThenElse(float_mask(mine[h]), hn::Mul(there, rgba[h][c]), there), df, albedo);
       }
   }
-  if (maps.specular) {
-    texels.read(*maps.specular, kRgbBits, rgba);
-    for (int h = 0; h < kVectors; ++h)
-      for (int c = 0; c < 3; ++c) {
-        float* const specular = out.plane[kSpecular + c] + pixel[h];
-        hn::Store(hn::IfThenElse(float_mask(mine[h]), rgba[h][c], hn::Load(df, specular)), df, specular);
-      }
-  }
+  if (maps.values) keep_values<kVectors>(maps, texels, mine, pixel, out);
   if (!maps.normal) return;
   texels.read(*maps.normal, kRgbBits, rgba);
   for (int h = 0; h < kVectors; ++h) {
@@ -131,7 +161,7 @@ inline void apply_maps(const SceneMaps& maps, UvPoint* at, const M64* owned, con
       here |= lane_bits(d, mine[h]) << h * lanes;
     }
     const MaterialMaps& its = maps.material[first - 1];
-    if (its.any()) apply_material<kVectors>(its, at, mine, pixel, frames, out);
+    if (its.any) apply_material<kVectors>(its, at, mine, pixel, frames, out);
     undone &= ~here;
   }
 }

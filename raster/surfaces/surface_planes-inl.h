@@ -11,10 +11,10 @@
 
 #include <bit>
 #include <cmath>
-#include <vector>
 
 #include "core/simd/lane_bits-inl.h"
 #include "core/simd/store-inl.h"
+#include "raster/surfaces/material_values-inl.h"
 #include "raster/surfaces/surface_task.h"
 #include "scenes/scene.h"
 
@@ -47,67 +47,6 @@ inline void rebuild_positions(const SurfaceTask& task) {
   }
 }
 
-/// What a light model reads of a material beside its base colour.
-struct MaterialValues {
-  float specular[4];  // colour and shininess
-  float emission[3];
-  float metallic;     // 0 where the model maps no metals
-  bool specular_map;  // its texel is in the specular plane already
-};
-
-inline MaterialValues material_values(const Material& m, const LightModel& model) {
-  const bool metals = maps_metals(model);
-  const float shininess = metals ? shininess_of_roughness(m.roughness) : m.shininess;
-  return {{m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess},
-          {m.emission.r, m.emission.g, m.emission.b},
-          metals ? m.metallic : 0.0f,
-          false};
-}
-
-/// Applies a material to one pixel (docs/arithmetic.md section 7). `albedo` comes multiplied by the base colour and is
-/// read and written. `specular` is read too where it holds a texel.
-inline void apply_values(const MaterialValues& m, const LightModel& model, float albedo[4], float specular[4],
-                         float emission[3]) {
-  for (int c = 0; c < 3 && model.emission; ++c) emission[c] = m.emission[c];
-  if (!maps_metals(model)) {
-    for (int c = 0; c < 4 && reads_specular_plane(model); ++c)
-      specular[c] = m.specular_map && c < 3 ? m.specular[c] * specular[c] : m.specular[c];
-    return;
-  }
-  for (int c = 0; c < 3; ++c) {
-    specular[c] = 0.04f * (1.0f - m.metallic) + albedo[c] * m.metallic;
-    albedo[c] = albedo[c] * (1.0f - m.metallic);
-  }
-  specular[3] = m.specular[3];
-}
-
-/// Whether a material does more to a pixel than to multiply its albedo.
-inline bool fills_planes(const LightModel& model) {
-  return model.emission || reads_specular_plane(model) || maps_metals(model);
-}
-
-inline void fill_material_planes(const MaterialValues& m, const LightModel& model, int i, SurfaceTile& out) {
-  float albedo[4] = {}, specular[4] = {}, emission[3] = {};
-  for (int c = 0; c < 4; ++c) albedo[c] = out.plane[kAlbedo + c][i], specular[c] = out.plane[kSpecular + c][i];
-  apply_values(m, model, albedo, specular, emission);
-  for (int c = 0; c < 4; ++c) out.plane[kAlbedo + c][i] = albedo[c];
-  for (int c = 0; c < 4 && reads_specular_plane(model); ++c) out.plane[kSpecular + c][i] = specular[c];
-  for (int c = 0; c < 3 && model.emission; ++c) out.plane[kEmission + c][i] = emission[c];
-}
-
-/// The values of all materials, where the light model reads any.
-inline std::vector<MaterialValues> all_material_values(const SurfaceTask& task) {
-  std::vector<MaterialValues> values;
-  if (!fills_planes(task.model)) return values;
-  const SceneMaps& maps = task.in.view.maps;
-  const std::vector<Material>& materials = task.in.scene.materials;
-  for (size_t m = 0; m < materials.size(); ++m) {
-    values.push_back(material_values(materials[m], task.model));
-    values.back().specular_map = maps.textured() && maps.material[m].specular.has_value();
-  }
-  return values;
-}
-
 /// Calls run(index + 1, mask of its pixels) for each material of the vector of pixels that begins at i.
 template <class Run>
 HWY_INLINE void for_each_material(const SurfaceTile& out, int i, Run&& run) {
@@ -122,24 +61,42 @@ HWY_INLINE void for_each_material(const SurfaceTile& out, int i, Run&& run) {
   }
 }
 
+/// Reads or writes `count` planes from `first` on, of a vector of pixels that begins at i.
+HWY_INLINE void load_planes(const SurfaceTile& from, int first, int count, int i, VF* values) {
+  for (int c = 0; c < count; ++c) values[c] = hn::Load(DF(), from.plane[first + c] + i);
+}
+template <class M>
+HWY_INLINE void store_planes_where(M mine, const VF* values, int first, int count, int i, SurfaceTile& to) {
+  const DF d;
+  for (int c = 0; c < count; ++c) {
+    float* const plane = to.plane[first + c] + i;
+    hn::Store(hn::IfThenElse(mine, values[c], hn::Load(d, plane)), d, plane);
+  }
+}
+
 /// Multiplies the albedo by the materials' colours and fills the planes that materials fill.
 inline void apply_materials(const SurfaceTask& task) {
   const DF d;
-  const int lanes = int(hn::Lanes(d));
+  const LightModel& model = task.model;
+  const bool glossy = reads_specular_plane(model), emits = model.emission;
+  const bool has_values = reads_material_values(model);
   SurfaceTile& out = task.out;
-  const std::vector<MaterialValues> values = all_material_values(task);
   const Material* const list = task.in.scene.materials.data();
-  for (int i = 0; i < task.pixels(); i += lanes) {
+  const MaterialValues* const values = task.in.view.materials.data();
+  for (int i = 0; i < task.pixels(); i += int(hn::Lanes(d)))
     for_each_material(out, i, [&](uint32_t material, auto mine) {
-      for (int c = 0; c < 4; ++c) {
-        float* const plane = out.plane[kAlbedo + c] + i;
-        const VF there = hn::Load(d, plane), colored = hn::Mul(there, hn::Set(d, list[material - 1].base_color[c]));
-        hn::Store(hn::IfThenElse(mine, colored, there), d, plane);
+      MaterialVectors px;
+      load_planes(out, kAlbedo, 4, i, px.albedo);
+      for (int c = 0; c < 4; ++c) px.albedo[c] = hn::Mul(px.albedo[c], hn::Set(d, list[material - 1].base_color[c]));
+      if (has_values) {
+        load_planes(out, kSpecular, 4, i, px.specular);
+        load_planes(out, kEmission, 4, i, px.emission);
+        apply_values(values[material - 1], model, px);
       }
+      store_planes_where(mine, px.albedo, kAlbedo, 4, i, out);
+      if (glossy) store_planes_where(mine, px.specular, kSpecular, 4, i, out);
+      if (emits) store_planes_where(mine, px.emission, kEmission, 4, i, out);
     });
-    for (int k = i; k < i + lanes && !values.empty(); ++k)
-      if (out.covered[k] != 0) fill_material_planes(values[out.material[k] - 1], task.model, k, out);
-  }
 }
 
 /// What reading back gives after storing x in channel c of the plane that begins at stream `first`. Fixed-point planes
@@ -178,7 +135,7 @@ inline void store_interpolated(const SurfaceTask& task) {
 inline void store_materials(const SurfaceTask& task) {
   store_planes(task, kAlbedo, 4, task.planes.albedo.format);
   if (reads_specular_plane(task.model)) store_planes(task, kSpecular, 4, task.planes.specular);
-  if (task.model.emission) store_planes(task, kEmission, 3, task.planes.emission);
+  if (task.model.emission) store_planes(task, kEmission, 4, task.planes.emission);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -16,8 +16,15 @@ inline constexpr int kAllStreams = kStreams + 2 * (int(kMaxUvSets) - 1);
 /// The stream of u of a set of texture coordinates; that of v follows.
 constexpr int uv_stream(int set) { return set == 0 ? int(kUv) : kStreams + 2 * (set - 1); }
 
-/// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess, emission.
-enum MaterialPlane : int { kSpecular = kStreams, kEmission = kStreams + 4, kPlanes = kStreams + 7 };
+/// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess; emission and
+/// the share of ambient light that arrives. Until the material is applied they hold texels of its maps.
+enum MaterialPlane : int {
+  kSpecular = kStreams,
+  kShininess = kSpecular + 3,
+  kEmission = kSpecular + 4,
+  kOcclusion = kEmission + 3,
+  kPlanes = kEmission + 4
+};
 
 /// Whether the uv planes of a tile are filled where no map reads texture coordinates.
 enum class UvPlanes : uint8_t { omitted, filled };
@@ -26,7 +33,7 @@ enum class UvPlanes : uint8_t { omitted, filled };
 struct SurfaceTile {
   alignas(64) int32_t covered[kMaxTilePixels];  ///< -1 with a surface, 0 without; the others mean nothing there
   /// world position, world normal, albedo RGBA, uv; then, where the light model reads them, specular RGB and shininess,
-  /// emission RGB
+  /// emission RGB and the share of ambient light
   alignas(64) float plane[kPlanes][kMaxTilePixels];
   alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
   int covered_pixels;

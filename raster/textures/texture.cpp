@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/simd/dispatch.h"
+#include "scenes/pipeline/material_values.h"
 
 namespace trueshade {
 void look_up(const TextureView& texture, std::span<const TexturePoint> points, std::span<std::array<float, 4>> out) {
@@ -22,35 +23,61 @@ TextureView view_of(const Texture& texture, const Sampler& sampler, uint8_t uv_s
   return view;
 }
 
-// Whether lookups in two textures go to the same texels of the same levels.
-static bool read_alike(const std::optional<TextureView>& a, const std::optional<TextureView>& b) {
-  if (!a || !b) return true;
-  return a->sampler == b->sampler && a->uv_set == b->uv_set && a->levels == b->levels &&
-         a->level[0].width == b->level[0].width && a->level[0].height == b->level[0].height &&
-         bytes_per_texel(a->format) == bytes_per_texel(b->format);
+namespace {
+
+/// Whether lookups in two textures go to the same texels of the same levels.
+bool read_alike(const TextureView& a, const TextureView& b) {
+  return a.sampler == b.sampler && a.uv_set == b.uv_set && a.levels == b.levels &&
+         a.level[0].width == b.level[0].width && a.level[0].height == b.level[0].height &&
+         bytes_per_texel(a.format) == bytes_per_texel(b.format);
 }
 
+MaterialMaps material_maps(const Scene& scene, const Material& m, const Pipeline& pipeline) {
+  const auto view = [&](const TextureSlot& slot, bool read) -> std::optional<TextureView> {
+    if (!read || !slot.used()) return std::nullopt;
+    return view_of(scene.textures[size_t(slot.texture)], slot.sampler, slot.uv_set);
+  };
+  const MaterialValues values = material_values(m, pipeline);
+  return {.color = view(m.color_map, true),
+          .normal = view(m.normal_map, true),
+          .specular = view(m.specular_map, values.specular_map),
+          .metallic_roughness = view(m.metallic_roughness_map, values.metallic_roughness_map),
+          .emission = view(m.emission_map, values.emission_map),
+          .occlusion = view(m.occlusion_map, values.occlusion_map),
+          .normal_scale = m.normal_scale,
+          .base_alpha = m.base_color.a,
+          .alpha_cutoff = m.alpha_cutoff};
+}
+
+/// Sets what is known of all maps of a material.
+void compare_maps(MaterialMaps& maps) {
+  const TextureView* first = nullptr;
+  for (const std::optional<TextureView>* map :
+       {&maps.color, &maps.specular, &maps.normal, &maps.metallic_roughness, &maps.emission, &maps.occlusion}) {
+    if (!*map) continue;
+    if (first == nullptr) first = &**map;
+    maps.same_texels = maps.same_texels && read_alike(*first, **map);
+    maps.uv_sets = std::max(maps.uv_sets, int((*map)->uv_set) + 1);
+  }
+  maps.values = maps.specular || maps.metallic_roughness || maps.emission || maps.occlusion;
+  maps.any = first != nullptr;
+}
+
+}  // namespace
+
 SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
-  const bool specular =
-      reads_specular_plane(pipeline.light_model) && pipeline.light_model.specular_source == SpecularSource::material;
   SceneMaps maps{{}, pipeline.gbuffer.uv.interpolation, pipeline.gbuffer.albedo.interpolation};
   if (std::none_of(scene.materials.begin(), scene.materials.end(),
                    [](const Material& m) { return m.textured() || m.masked(); }))
     return maps;
+  bool any = false;
   for (const Material& m : scene.materials) {
-    const auto view = [&](const TextureSlot& slot) -> std::optional<TextureView> {
-      if (!slot.used()) return std::nullopt;
-      return view_of(scene.textures[size_t(slot.texture)], slot.sampler, slot.uv_set);
-    };
-    maps.material.push_back({view(m.color_map), view(m.normal_map), specular ? view(m.specular_map) : std::nullopt,
-                             m.normal_scale, m.base_color.a, m.alpha_cutoff});
-    MaterialMaps& made = maps.material.back();
-    made.same_texels = read_alike(made.color, made.normal) && read_alike(made.color, made.specular) &&
-                       read_alike(made.normal, made.specular);
-    for (const std::optional<TextureView>* map : {&made.color, &made.normal, &made.specular})
-      if (*map) made.uv_sets = std::max(made.uv_sets, int((*map)->uv_set) + 1);
+    MaterialMaps& made = maps.material.emplace_back(material_maps(scene, m, pipeline));
+    compare_maps(made);
+    any = any || made.any || m.masked();
     maps.uv_sets = std::max(maps.uv_sets, made.uv_sets);
   }
+  if (!any) maps.material.clear();
   return maps;
 }
 }  // namespace trueshade

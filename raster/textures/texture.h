@@ -29,17 +29,18 @@ TextureView view_of(const Texture& texture, const Sampler& sampler, uint8_t uv_s
 /// What a material does with textures. Absent maps are not read.
 struct MaterialMaps {
   std::optional<TextureView> color, normal;
-  std::optional<TextureView> specular;  ///< where the light model reads the material's specular colour
+  std::optional<TextureView> specular, metallic_roughness, emission, occlusion;  ///< where MaterialValues has them read
   float normal_scale;
   float base_alpha, alpha_cutoff;  ///< cutoff 0: no test
-  bool same_texels = false;        ///< all maps read the same texels of the same levels
+  bool values = false;             ///< any map is there that surface_planes-inl.h multiplies by the material's values
+  bool any = false;                ///< any map is there
+  bool same_texels = true;         ///< all maps read the same texels of the same levels
   int uv_sets = 1;                 ///< one more than the last that a map reads
-  bool any() const { return color || specular || normal; }
 };
 
 /// The maps of all materials, made once a frame.
 struct SceneMaps {
-  std::vector<MaterialMaps> material;  ///< one per Scene::materials; empty where none has a map or a mask
+  std::vector<MaterialMaps> material;  ///< one per Scene::materials; empty where none has a map that is read, or a mask
   Interpolation uv_how, albedo_how;    ///< of texture coordinates and of vertex colours
   int uv_sets = 1;                     ///< one more than the last that a map reads
   bool textured() const { return !material.empty(); }

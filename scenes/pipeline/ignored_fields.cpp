@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fp_env.h"
+#include "scenes/pipeline/material_values.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -21,10 +22,6 @@ bool reads_attenuation(Falloff falloff) { return falloff == Falloff::quadratic |
 
 bool is_bounded(const Light& light, const LightVolumes& volumes) {
   return (light.type == LightType::spot ? volumes.spot : volumes.point) != LightExtent::unbounded;
-}
-
-bool reads_materials_gloss(const LightModel& model) {
-  return reads_specular_plane(model) && model.specular_source == SpecularSource::material;
 }
 
 bool blends_transparent(const Material& material, const Pipeline& pipeline) {
@@ -64,22 +61,22 @@ constexpr Field<Light> kLightFields[] = {
 
 constexpr std::string_view kGlossReason = "The light model does not take specular colour and shininess from materials";
 constexpr std::string_view kMetalReason = "The light model has no metallic-roughness materials";
+constexpr std::string_view kEmissionReason = "The light model adds no emission";
 
 const Material& plain() {
   static const Material material;
   return material;
 }
 
-constexpr std::string_view kUnreadMap = "No stage reads this map";
 
 constexpr Field<Material> kMaterialFields[] = {
     {"specular_color", kGlossReason, [](const Material& m) { return m.specular_color != plain().specular_color; },
-     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
+     [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
     {"shininess", kGlossReason, [](const Material& m) { return m.shininess != plain().shininess; },
-     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
+     [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
     {"specular_map", kGlossReason, [](const Material& m) { return m.specular_map.used(); },
-     [](const Material&, const Pipeline& p) { return reads_materials_gloss(p.light_model); }},
-    {"emission", "The light model adds no emission", [](const Material& m) { return m.emission != glm::vec3(0.0f); },
+     [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
+    {"emission", kEmissionReason, [](const Material& m) { return m.emission != glm::vec3(0.0f); },
      [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
     {"metallic", kMetalReason, [](const Material& m) { return m.metallic != plain().metallic; },
      [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
@@ -90,14 +87,18 @@ constexpr Field<Material> kMaterialFields[] = {
     {"normal_scale", "The material has no normal_map",
      [](const Material& m) { return m.normal_scale != plain().normal_scale; },
      [](const Material& m, const Pipeline&) { return m.normal_map.used(); }},
-    {"metallic_roughness_map", kUnreadMap, [](const Material& m) { return m.metallic_roughness_map.used(); },
-     [](const Material&, const Pipeline&) { return false; }},
-    {"emission_map", kUnreadMap, [](const Material& m) { return m.emission_map.used(); },
-     [](const Material&, const Pipeline&) { return false; }},
-    {"occlusion_map", kUnreadMap, [](const Material& m) { return m.occlusion_map.used(); },
-     [](const Material&, const Pipeline&) { return false; }},
-    {"unlit", "Every surface is lit", [](const Material& m) { return m.unlit; },
-     [](const Material&, const Pipeline&) { return false; }},
+    {"metallic_roughness_map", kMetalReason, [](const Material& m) { return m.metallic_roughness_map.used(); },
+     [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
+    {"emission_map", kEmissionReason, [](const Material& m) { return m.emission_map.used(); },
+     [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
+    {"occlusion_map", "The light model adds no emission, and the plane of both is not there",
+     [](const Material& m) { return m.occlusion_map.used(); },
+     [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
+    {"occlusion_strength", "The material has no occlusion_map",
+     [](const Material& m) { return m.occlusion_strength != plain().occlusion_strength; },
+     [](const Material& m, const Pipeline&) { return m.occlusion_map.used(); }},
+    {"unlit", "The pipeline lights every surface that is drawn like this one",
+     [](const Material& m) { return m.unlit; }, [](const Material& m, const Pipeline& p) { return drawn_unlit(m, p); }},
     {"transparent", "The transparency of the pipeline is 'none', so the material is drawn as an opaque one",
      [](const Material& m) { return m.transparent; },
      [](const Material&, const Pipeline& p) { return p.transparency.mode != TransparencyMode::none; }},
@@ -118,20 +119,37 @@ void append_ignored(std::string_view of, const Field<T> (&fields)[kFields], std:
   }
 }
 
-bool lacks_uv_of_maps(const Mesh& mesh, const Material& m) {
-  const auto lacks = [&](const TextureSlot& slot) { return slot.used() && mesh.uv_set(slot.uv_set)[0].empty(); };
-  return lacks(m.color_map) || lacks(m.specular_map) || lacks(m.normal_map);
+/// Whether a map that is read has no texture coordinates in the mesh.
+bool lacks_uv_of_maps(const Mesh& mesh, const Material& m, const Pipeline& pipeline) {
+  const MaterialValues v = material_values(m, pipeline);
+  const auto lacks = [&](const TextureSlot& slot, bool read) {
+    return read && slot.used() && mesh.uv_set(slot.uv_set)[0].empty();
+  };
+  return lacks(m.color_map, true) || lacks(m.normal_map, true) || lacks(m.specular_map, v.specular_map) ||
+         lacks(m.metallic_roughness_map, v.metallic_roughness_map) || lacks(m.emission_map, v.emission_map) ||
+         lacks(m.occlusion_map, v.occlusion_map);
 }
 
 /// Takes the maps of materials whose meshes have no texture coordinates as one field.
-void append_maps_without_uv(const Scene& scene, std::vector<IgnoredField>& ignored) {
+void append_maps_without_uv(const Scene& scene, const Pipeline& pipeline, std::vector<IgnoredField>& ignored) {
   std::vector<bool> lacks_uv(scene.materials.size(), false);
   for (const Instance& instance : scene.instances)
-    if (lacks_uv_of_maps(scene.meshes[instance.mesh], scene.materials[instance.material]))
+    if (lacks_uv_of_maps(scene.meshes[instance.mesh], scene.materials[instance.material], pipeline))
       lacks_uv[instance.material] = true;
   const auto count = std::count(lacks_uv.begin(), lacks_uv.end(), true);
   if (count > 0)
     ignored.push_back({"material", "maps", "A mesh has no texture coordinates, so its maps are read at u = v = 0 alone",
+                       uint64_t(count)});
+}
+
+/// Occlusion maps that are read, and hold nothing off.
+void append_needless_occlusion(const Scene& scene, const Pipeline& pipeline, std::vector<IgnoredField>& ignored) {
+  if (!pipeline.light_model.emission || has_ambient_light(scene, pipeline.light_model)) return;
+  const auto count = std::count_if(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& m) { return m.occlusion_map.used(); });
+  if (count > 0)
+    ignored.push_back({"material", "occlusion_map",
+                       "It holds off ambient light alone, and neither the light model nor a light has any",
                        uint64_t(count)});
 }
 
@@ -155,7 +173,8 @@ std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pip
   if (has_lights_of_ours(scene))
     std::erase_if(ignored, [&](const IgnoredField& field) { return is_other_description(field, pipeline); });
   append_ignored<Material>("material", kMaterialFields, scene.materials, pipeline, ignored);
-  append_maps_without_uv(scene, ignored);
+  append_needless_occlusion(scene, pipeline, ignored);
+  append_maps_without_uv(scene, pipeline, ignored);
   return ignored;
 }
 

@@ -41,7 +41,7 @@ enum class SpecularSource : uint8_t {
   albedo,              ///< the albedo, as for the diffuse term; shininess of the model
   material,            ///< Material::specular_color and shininess
   metallic_roughness,  ///< mix(0.04, base colour, metallic) and 2 / max(roughness, 0.04)^4 - 2 as an integer from 1 to
-                       ///< 8192; the albedo is the base colour times (1 - metallic)
+                       ///< 8192; the albedo is the base colour times (1 - metallic). The map multiplies both numbers
 };
 
 enum class Viewer : uint8_t {
@@ -71,7 +71,7 @@ struct LightModel {
   Specular specular = Specular::blinn_phong;
   SpecularSource specular_source = SpecularSource::model;
   Viewer viewer = Viewer::local;
-  bool emission = false;           ///< the sum starts from Material::emission, read from the plane `emission`
+  bool emission = false;           ///< the sum starts from the plane `emission`, of Material::emission and its map
   glm::vec3 global_ambient{0.0f};  ///< and from albedo times this; each in [0, 1e18]
   float damping = 1.0f;            ///< multiplies the colour of every light; in [0, 1e18]
   bool clamp_result = false;       ///< the sum and alpha are clamped to [0, 1] before they are stored
@@ -81,6 +81,17 @@ struct LightModel {
 /// Whether surfaces carry their own specular colour and shininess.
 constexpr bool reads_specular_plane(const LightModel& model) {
   return model.specular != Specular::none && model.specular_source >= SpecularSource::material;
+}
+
+/// Whether the model reads specular colour, specular map and shininess of materials.
+constexpr bool takes_gloss(const LightModel& model) {
+  return reads_specular_plane(model) && model.specular_source == SpecularSource::material;
+}
+
+/// Whether a surface can show its colour whatever the lights: the colour is its emission, and it reflects nothing.
+constexpr bool shows_unlit(const LightModel& model) {
+  return model.emission && model.order != TermOrder::albedo_last &&
+         (model.specular == Specular::none || model.specular_source != SpecularSource::model);
 }
 
 /// Whether the albedo is the base colour times (1 - metallic).

@@ -75,8 +75,9 @@ struct PlaneState {
 
 /// The planes the light pass reads, in the formats that round them. position, uv: kPositionFormats; normal:
 /// kNormalFormats; albedo: kAlbedoFormats. Ids are r32ui. The planes `specular` (RGB the specular colour, A the
-/// shininess; kSpecularFormats) and `emission` (kEmissionFormats) exist where the light model reads them; they hold
-/// what the material makes of the pixel.
+/// shininess; kSpecularFormats) and `emission` (RGB the emission, A the share of ambient light that arrives, 1 in
+/// formats without alpha; kEmissionFormats) exist where the light model reads them; they hold what the material makes
+/// of the pixel.
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
   Format specular = Format::rgba32f, emission = Format::rgba32f;

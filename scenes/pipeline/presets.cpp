@@ -55,6 +55,7 @@ Preset punctual() {
   p.light_model.falloff = Falloff::inverse_square;
   p.light_model.cone = Cone::squared_penumbra;
   p.light_model.specular_source = SpecularSource::metallic_roughness;
+  p.light_model.emission = true;
   p.target = Format::rgba16f;
   return {"punctual",
           "glTF 2.0 extension KHR_lights_punctual (range and cone attenuation, candela and lux), metallic-roughness "

@@ -33,6 +33,7 @@ HWY_INLINE VF inverse_length(VF l2) {
 struct PixelVector {
   MF covered;
   VF p[3], n[3], v[3], albedo[3];
+  VF occlusion;    ///< the share of ambient light that arrives, where the model has the plane `emission`
   VF specular[3];  ///< colour; with `exponents`, where surfaces have their own
   SurfaceExponents exponents;
 };
@@ -78,6 +79,7 @@ struct LightTerms {
       out.n[c] = hn::Load(d, s.plane[kNormal + c] + i);
       out.albedo[c] = hn::Load(d, s.plane[kAlbedo + c] + i);
     }
+    if (model.emission) out.occlusion = hn::Load(d, s.plane[kOcclusion] + i);
     if (form.shape.specular != Specular::none) look(out);
     if (form.shape.renormalize) {
       const VF unit = inverse_length(dot3(out.n, out.n));
@@ -86,9 +88,9 @@ struct LightTerms {
     for (int c = 0; c < 3; ++c)
       out.specular[c] = has_gloss() ? hn::Load(d, s.plane[kSpecular + c] + i) : hn::Set(d, model.specular_color[c]);
     if (has_gloss())
-      out.exponents = surface_exponents(hn::Load(d, s.plane[kSpecular + 3] + i), out.covered,
-                                        form.shape.specular == Specular::blinn_phong ? PowerBase::square_if_even
-                                                                                     : PowerBase::cosine);
+      out.exponents = surface_exponents(
+          hn::Load(d, s.plane[kSpecular + 3] + i), out.covered,
+          form.shape.specular == Specular::blinn_phong ? PowerBase::square_if_even : PowerBase::cosine);
     return out;
   }
 
@@ -256,7 +258,7 @@ struct LightTerms {
     if (model.emission) sum = hn::Load(d, s.plane[kEmission + k] + i);
     if (model.global_ambient == glm::vec3(0.0f)) return sum;
     const VF given = hn::Set(d, model.global_ambient[k]);
-    const VF share = model.order == TermOrder::albedo_last ? given : hn::Mul(px.albedo[k], given);
+    const VF share = occluded(px, model.order == TermOrder::albedo_last ? given : hn::Mul(px.albedo[k], given));
     return model.emission ? hn::Add(sum, share) : share;
   }
 
@@ -294,6 +296,11 @@ struct LightTerms {
       return rounded_power<-1>(x, exponent);
   }
 
+  /// What arrives of ambient light.
+  HWY_INLINE VF occluded(const PixelVector& px, VF light) const {
+    return model.emission ? hn::Mul(light, px.occlusion) : light;
+  }
+
   HWY_INLINE LightTerm ambient(const PixelVector& px, const LightRow& light) const {
     const DF d;
     LightTerm out;
@@ -301,7 +308,7 @@ struct LightTerms {
     out.lit = hn::Lt(hn::Zero(d), hn::Zero(d));
     for (int k = 0; k < 3; ++k) {
       const VF color = hn::Set(d, light.color[k]);
-      out.color[k] = form.shape.order == TermOrder::albedo_last ? color : hn::Mul(px.albedo[k], color);
+      out.color[k] = occluded(px, form.shape.order == TermOrder::albedo_last ? color : hn::Mul(px.albedo[k], color));
     }
     return out;
   }

@@ -69,7 +69,7 @@ void store_material_plane(std::string_view name, const SurfaceTile& surface, con
                           const TileRect& rect, HalfRound half_round, Image& plane) {
   TexelSource source;
   if (name == "emission") {
-    source = planes_of(surface, kEmission, model.emission ? 3 : 0);
+    source = planes_of(surface, kEmission, model.emission ? 4 : 0);
   } else if (reads_specular_plane(model)) {
     source = planes_of(surface, kSpecular, 4);
   } else {

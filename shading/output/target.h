@@ -20,7 +20,8 @@ void store_aov(std::string_view name, const VisibilityTile& visible, const Surfa
                const TileRect& rect, HalfRound half_round, Image& plane);
 
 /// `specular`: the specular colour that the light model reads of each surface, its own plane, the albedo, or the
-/// model's, and as alpha the shininess; `emission`: what the model reads of it, alpha 1.
+/// model's, and as alpha the shininess; `emission`: what the model reads of it, and as alpha the share of ambient light
+/// that arrives.
 void store_material_plane(std::string_view name, const SurfaceTile& surface, const LightModel& model,
                           const TileRect& rect, HalfRound half_round, Image& plane);
 

@@ -68,6 +68,32 @@ TEST_CASE("What lights and materials state and the pipeline ignores is named onc
   CHECK(has(outcome.err, "note: 2 lights state cone_deg, which is ignored: The light model has no cone"));
 }
 
+TEST_CASE("Maps of materials and unlit surfaces that a pipeline does not read are named with the reason") {
+  const ScratchFolder folder;
+  const auto scene = [](const char* light) {
+    return std::string(R"({"version": 1, "camera": {"eye": [0, 1, 5]},
+      "textures": [{"name": "t", "pattern": {"type": "checker", "format": "rgba8"}}],
+      "materials": [{"name": "m", "color": [1, 1, 1], "metallic_roughness_map": {"texture": "t"},
+                     "emission_map": {"texture": "t"}, "occlusion_map": {"texture": "t"}},
+                    {"name": "u", "color": [1, 1, 1], "unlit": true, "occlusion_strength": 0.5}],
+      "objects": [{"mesh": "plane", "material": "m"}, {"mesh": "plane", "material": "u"}], "lights": [)") +
+           light + "]}";
+  };
+  const auto ignored = [&](const char* light, const char* preset) {
+    folder.write("s.json", scene(light));
+    std::string fields;
+    const Outcome outcome = drawn(folder, {"--json", "--preset", preset});
+    const auto json = nlohmann::json::parse(outcome.out);
+    for (const auto& field : json["ignored"]) fields += field["field"].get<std::string>() + ' ';
+    return fields;
+  };
+  const char *lamp = R"({"type": "point", "position": [0, 3, 0]})", *sky = R"({"type": "ambient", "color": [1, 1, 1]})";
+  CHECK(ignored(lamp, "many-lights") == "metallic_roughness_map emission_map occlusion_map occlusion_strength unlit ");
+  CHECK(ignored(lamp, "punctual") == "occlusion_strength occlusion_map ");  // glTF has no ambient light
+  CHECK(ignored(sky, "punctual") == "occlusion_strength ");
+  CHECK(ignored(sky, "gl-fixed") == "metallic_roughness_map occlusion_strength ");
+}
+
 TEST_CASE("A pipeline that reads what a scene states leaves nothing to note, and built-in scenes are quiet") {
   const ScratchFolder folder;
   folder.write("s.json", R"({"version": 1, "objects": [{"mesh": "cube"}],
@@ -76,7 +102,8 @@ TEST_CASE("A pipeline that reads what a scene states leaves nothing to note, and
   CHECK_FALSE(has(drawn(folder, {"--hash"}).err, "range"));
   CHECK(drawn(folder, {"--hash", "--preset", "punctual"}).err.empty());
   CHECK(has(drawn(folder, {"--hash", "--preset", "gl-fixed"}).err, "1 light states range"));
-  CHECK_FALSE(has(drawn(folder, {"--hash", "--preset", "redsdk"}).err, "ignored"));  // the extents of the lights read the range
+  CHECK_FALSE(
+      has(drawn(folder, {"--hash", "--preset", "redsdk"}).err, "ignored"));  // the extents of the lights read the range
   for (const char* preset : {"many-lights", "touchdesigner", "gl-fixed", "punctual", "light-volumes"}) {
     INFO(preset);
     CHECK(run_command({"render", "builtin:circle", "--size", "8x8", "--hash", "--preset", preset}).err.empty());

@@ -101,7 +101,6 @@ void call_hash(Bytes& out) {
   for (const Material& material : scene_of_all().materials) {
     out.put(material.masked());
     out.put(material.textured());
-    out.put(material.has_maps());
   }
 }
 
@@ -228,7 +227,7 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/transparency.h", "draws_transparent",
      [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},
     {"scenes/scene.h", "load_scene Image", call_load},
-    {"scenes/scene.h", "scene_hash triangle_count masked textured has_maps", call_hash},
+    {"scenes/scene.h", "scene_hash triangle_count masked textured", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
     {"scenes/scene.h", "set_time", call_set_time},
     {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},
@@ -259,7 +258,12 @@ void Bytes::put(const Scene& scene) {
   }
   for (const Texture& texture : scene.textures)
     for (const TextureLevel& level : texture.levels) put(level.bytes);
-  put(scene.instances);
+  for (const Instance& instance : scene.instances) {  // field by field, as lights
+    put(instance.mesh);
+    put(instance.material);
+    put(instance.world_from_object);
+    put(instance.mirrored);
+  }
   for (const Light& light : scene.lights) put_light(light);
   put(scene.clear);
   put(scene.camera.eye);

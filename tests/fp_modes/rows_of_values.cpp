@@ -150,6 +150,8 @@ void call_light_model(Bytes& out) {
     out.put(preset.pipeline.light_model.shininess);
     out.put(reads_specular_plane(preset.pipeline.light_model));
     out.put(maps_metals(preset.pipeline.light_model));
+    out.put(takes_gloss(preset.pipeline.light_model));
+    out.put(shows_unlit(preset.pipeline.light_model));
     out.put(preset_pipeline(preset.name)->light_model.specular_color.x);
   }
   Scene scene;
@@ -187,7 +189,7 @@ constexpr Row kRows[] = {
     {"core/sha256.h", "Sha256 update hex", call_sha},
     {"core/simd/simd_target.h", "simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
-    {"scenes/pipeline/light_model.h", "reads_specular_plane maps_metals", call_light_model},
+    {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
     {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes", call_pipeline},

@@ -81,6 +81,24 @@ TEST_CASE("Every OpenGL design draws textured materials, and spot lights in thei
   check_presets(builtin_scene("lecture,lights=8"), TransparencyMode::after_lights);
 }
 
+TEST_CASE("Every OpenGL design draws maps of metal, emission and occlusion, and unlit surfaces") {
+  Scene scene = builtin_scene("lecture,lights=5");
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    Material& m = scene.materials[i];
+    m.metallic = 0.8f, m.roughness = 0.9f;
+    m.emission = {0.1f, 0.05f, 0.2f};
+    m.metallic_roughness_map = m.emission_map = m.occlusion_map = m.color_map;
+    m.unlit = i % 3 == 2;
+  }
+  Light sky;
+  sky.type = LightType::ambient;
+  sky.color = {0.1f, 0.2f, 0.1f};
+  scene.lights.push_back(sky);
+  for (const char* name : {"punctual", "gl-fixed"})
+    for (const Preset& preset : presets())
+      if (preset.name == name) check_designs(scene, preset, std::span(kTiles).subspan(1));
+}
+
 TEST_CASE("Every OpenGL design knows ambient and directional lights, and eyes inside a light's range") {
   Scene scene = builtin_scene("city,objects=100,lights=8");
   Light ambient, sun, near;

@@ -80,9 +80,14 @@ TEST_CASE(
     m.color_map.texture = 0;
     m.normal_map.texture = m.specular_map.texture = 1;
     m.specular_map.uv_set = 1, m.normal_map.uv_set = 2;
+    m.metallic_roughness_map.texture = m.emission_map.texture = 1;  // no occlusion map: the files read one all the same
+    m.emission_map.uv_set = 2;
+    m.metallic = m.roughness = 0.9f;
+    m.emission = glm::vec3(0.1f);
   }
   for (Mesh& mesh : scene.meshes) mesh.more_uv = {{{mesh.position[1], mesh.position[0]}}, {{mesh.uv[1], mesh.uv[0]}}};
   scene.materials[0].double_sided = true;
+  scene.materials[0].unlit = true;
   for (size_t i = 0; i < scene.materials.size(); i += 2) {
     scene.materials[i].base_color.a = 0.5f;
     scene.materials[i].transparent = true;
@@ -111,6 +116,8 @@ TEST_CASE(
     from_files.shader_options.maps = from_files.shader_options.specular_maps = true;
     from_files.shader_options.normal_maps = from_files.shader_options.transparent = true;
     from_files.shader_options.more_uv = from_files.shader_options.double_sided = true;
+    from_files.shader_options.metal_maps = from_files.shader_options.emission_maps = true;
+    from_files.shader_options.occlusion_maps = from_files.shader_options.unlit = true;
     const Capture theirs = renderer.draw(pipeline, from_files).capture, ours = renderer.draw(pipeline).capture;
     INFO(preset.name << ", " << name_of(strategy));
     CHECK(theirs.color.texels == ours.color.texels);

@@ -127,7 +127,7 @@ class ListedRenderer {
     for (size_t i = 0; i < planes_.size(); ++i) CHECK(glGetFragDataLocation(p, planes_[i].output.c_str()) == GLint(i));
     glUseProgram(p);
     if (reads_materials(pipeline_.light_model))
-      bind_texture(p, "materials", 0, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_.light_model));
+      bind_texture(p, "materials", 0, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));
     glBindFramebuffer(GL_FRAMEBUFFER, geometry_.framebuffer);
     set(state);
     buffers_.draw_instances(which);
@@ -140,7 +140,7 @@ class ListedRenderer {
     bind_texture(p, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
     set_uniform(p, "light_count", int(scene_.lights.size()));
     if (reads_materials(pipeline_.light_model))
-      bind_texture(p, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_.light_model));
+      bind_texture(p, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));
     return p;
   }
 

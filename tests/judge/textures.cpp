@@ -7,9 +7,9 @@
 #include "gl/driver/renderer.h"
 #include "judge/legal/texture_range.h"
 #include "judge/stages/validate.h"
+#include "scenes/builtin/texture_pattern.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/shapes.h"
-#include "scenes/builtin/texture_pattern.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"
@@ -128,6 +128,93 @@ TEST_CASE("What llvmpipe makes of textures is legal: every format, wrap and filt
   }
   CHECK(pixels > 12 * 10000);
   CHECK(tex > 0);
+}
+
+/// The room with maps of metal and roughness, emission and occlusion, one of its surfaces unlit by turns, under ambient
+/// light, and a pipeline that reads all of these.
+Scene metal_room(int variant) {
+  Scene scene = textured_room(variant);
+  scene.spec = "metal room " + std::to_string(variant);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    Material& m = scene.materials[i];
+    const auto slot = [&](size_t texture) {
+      TextureSlot out = scene.materials[texture % 3].color_map;
+      out.sampler.wrap = m.color_map.sampler.wrap;
+      return out;
+    };
+    m.metallic = 0.9f, m.roughness = 0.8f, m.occlusion_strength = 0.75f;
+    m.emission = {0.3f, 0.1f, 0.5f};
+    if (variant % 4 != 3) m.metallic_roughness_map = slot(i + 1);
+    if (variant % 5 != 4) m.emission_map = slot(i + 2);
+    if (variant % 3 != 2) m.occlusion_map = slot(i + size_t(variant));
+    m.unlit = i == size_t(variant) % 6;
+  }
+  Light sky;
+  sky.type = LightType::ambient;
+  sky.color = {0.2f, 0.3f, 0.4f};
+  scene.lights.push_back(sky);
+  return scene;
+}
+
+Pipeline metal_pipeline(int variant) {
+  Pipeline pipeline = *preset_pipeline(variant % 2 == 0 ? "punctual" : "gl-fixed");
+  if (variant % 4 == 1) pipeline.light_model.specular_source = SpecularSource::metallic_roughness;
+  if (variant % 8 == 6) pipeline.gbuffer.emission = Format::rgba8, pipeline.gbuffer.specular = Format::rgba16f;
+  if (variant % 8 == 4) pipeline.gbuffer.emission = Format::rgb16f;
+  constexpr Strategy kLoops[] = {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_loop,
+                                 Strategy::forward_multipass};
+  pipeline.strategy = kLoops[variant % 4];
+  pipeline.width = 120, pipeline.height = 90;
+  return pipeline;
+}
+
+TEST_CASE(
+    "Our own frames with maps of metal, emission and occlusion are legal, for the ideal profile and for any GPU") {
+  for (int variant = 0; variant < 12; ++variant) {
+    const Scene scene = metal_room(variant);
+    const Pipeline pipeline = metal_pipeline(variant);
+    const Capture capture = captured(scene, pipeline);
+    for (const char* profile : {"ideal", "unknown"}) {
+      const Verdict v = judged(scene, pipeline, capture, profile, 8);
+      INFO(variant << verdict_json(v));
+      CHECK(v.violations() == 0);
+    }
+  }
+}
+
+TEST_CASE("What llvmpipe makes of maps of metal, emission and occlusion, and of unlit surfaces, is legal") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  for (int variant = 0; variant < 12; ++variant) {
+    const Scene scene = metal_room(variant);
+    const Pipeline pipeline = metal_pipeline(variant);
+    GlRenderer renderer(*context, scene);
+    const Capture capture = renderer.draw(pipeline).capture;
+    const Verdict v = judged(scene, pipeline, capture, "unknown", context->info().subpixel_bits);
+    INFO(variant << verdict_json(v));
+    CHECK(v.violations() == 0);
+    CHECK(v.stages[0].covered > 5000);
+  }
+}
+
+TEST_CASE("A shininess that is no integer, and a share of ambient light that is not there, are violations") {
+  const Scene scene = metal_room(0);
+  const Pipeline pipeline = metal_pipeline(0);
+  const auto violations = [&](const char* plane, int channel, auto&& change) {
+    Capture wrong = captured(scene, pipeline);
+    for (NamedImage& p : wrong.planes)
+      for (int y = 0; y < p.image.height && p.name == plane; ++y)
+        for (int x = 0; x < p.image.width; ++x) {
+          float number = float(p.image.value(x, y, channel));
+          number = change(number);
+          std::memcpy(p.image.texels.data() + p.image.row_bytes() * size_t(y) + size_t(4 * (4 * x + channel)), &number,
+                      sizeof number);
+        }
+    return judged(scene, pipeline, wrong, "unknown", 8).violations();
+  };
+  CHECK(violations("specular", 3, [](float s) { return s; }) == 0);
+  CHECK(violations("specular", 3, [](float s) { return s + 0.5f; }) > 5000);
+  CHECK(violations("emission", 3, [](float) { return 1.0f; }) > 1000);
 }
 
 TEST_CASE("Wrong lookups are violations: another wrap, another filter, a shifted texture, a mask not applied") {

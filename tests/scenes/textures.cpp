@@ -141,9 +141,8 @@ TEST_CASE("maps say at which coordinates they are read, and materials what glTF'
   CHECK(m.occlusion_strength == 0.5f);
   CHECK(m.unlit);
   CHECK(m.double_sided);
-  CHECK(m.has_maps());
-  CHECK(!m.textured());
-  CHECK(!plain.has_maps());
+  CHECK(m.textured());
+  CHECK(!plain.textured());
   CHECK(scene.textures[0].levels.size() == 2);
   const auto map = [](const std::string& more) {
     return refusal(textures(R"({"name": "t", "file": "two.tex"})", material(more)));

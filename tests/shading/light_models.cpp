@@ -1,5 +1,5 @@
-// Every term of scenes/pipeline/light_model.h against the naive loop, bit for bit, and against the scalar twin within its
-// roundings; the kernels compiled for the usual models against the general one.
+// Every term of scenes/pipeline/light_model.h against the naive loop, bit for bit, and against the scalar twin within
+// its roundings; the kernels compiled for the usual models against the general one.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -46,6 +46,8 @@ Scene mixed_sheets(Random& random) {
   Scene scene = sheet(random);
   const float shininess[] = {0, 7, 32, 8192}, roughness[] = {1, 0.5f, 0.3f, 0.05f};
   scene.materials.resize(4);
+  scene.textures = {{"occlusion", TextureFormat::rgba32f, {{1, 1, {}}}}};
+  append_texel(TextureFormat::rgba32f, {kOcclusionTexel, 0.5f, 0.5f, 1.0f}, scene.textures[0].levels[0].bytes);
   for (size_t i = 0; i < 4; ++i) {
     Material& m = scene.materials[i];
     m.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
@@ -53,6 +55,8 @@ Scene mixed_sheets(Random& random) {
     m.shininess = shininess[i];
     m.metallic = i == 0 ? 0.0f : between(random, 0, 1);
     m.roughness = roughness[i];
+    if (i % 2 == 0) m.occlusion_map.texture = 0;
+    m.occlusion_strength = between(random, 0, 1);
     Instance instance;
     instance.material = uint32_t(i);
     instance.world_from_object[3] = {0.13f * float(i), -0.07f * float(i), 0.05f * float(i)};
@@ -93,6 +97,8 @@ Pixel through_planes(const Result& result, const Result& plain, const GBufferSta
     p.emission[k] = as_stored(planes.emission, planes.half_round, p.emission[k]);
   }
   p.specular[3] = as_stored(planes.specular, planes.half_round, p.specular[3]);
+  const bool has_alpha = info(planes.emission).channels > 3;
+  p.ambient_share = has_alpha ? as_stored(planes.emission, planes.half_round, p.ambient_share) : 1.0f;
   return p;
 }
 
@@ -117,6 +123,8 @@ std::array<size_t, 3> unlike_through_planes(const Scene& scene, const Pipeline& 
       const Pixel p = through_planes(result, plain, pipeline.gbuffer, x, y);
       for (int k = 0; k < 4; ++k) unlike[0] += held(frame.aovs[0].image, x, y, k) != p.specular[k];
       for (int k = 0; k < 3; ++k) unlike[1] += held(frame.aovs[1].image, x, y, k) != p.emission[k];
+      if (info(pipeline.gbuffer.emission).channels > 3)
+        unlike[1] += held(frame.aovs[1].image, x, y, 3) != p.ambient_share;
       const std::array<float, 4> expected = naive_sum(scene, pipeline.light_model, p);
       unlike[2] += std::memcmp(expected.data(), result.frame.color.texel(x, y), sizeof expected) != 0;
     }
@@ -258,6 +266,7 @@ TEST_CASE("the light sums of all models are the real numbers' to within the boun
           surface.specular[k] = double(p.specular[k]);
           surface.emission[k] = double(p.emission[k]);
         }
+        surface.ambient_share = double(p.ambient_share);
         surface.shininess = double(p.specular[3]);
         const oracle::LitSum real = oracle::lit_sum(surface, scene, m);
         if (real.nearest_threshold < 1e-5) continue;  // a rounding may put it on the other side

@@ -104,6 +104,7 @@ Pixel Result::pixel(int x, int y) const {
   const double r = std::max(double(m.roughness), 0.04);
   out.specular[3] = metals ? float(std::clamp(std::nearbyint(2 / (r * r * (r * r)) - 2), 1.0, 8192.0)) : m.shininess;
   for (int k = 0; k < 3; ++k) out.emission[k] = m.emission[k];
+  if (m.occlusion_map.used()) out.ambient_share = 1.0f + m.occlusion_strength * (kOcclusionTexel - 1.0f);
   return out;
 }
 

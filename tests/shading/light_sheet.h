@@ -12,6 +12,9 @@ namespace trueshade {
 using Random = std::mt19937_64;
 float between(Random& random, double low, double high);
 
+/// Red of every occlusion map.
+inline constexpr float kOcclusionTexel = 0.3f;
+
 /// A bumpy sheet across the view, x and y in [-2, 2].
 Scene sheet(Random& random);
 

@@ -153,7 +153,8 @@ void add_light(const Light& light, const LightModel& m, const Pixel& p, Vec n, V
   if (light.type == LightType::ambient) {
     for (int k = 0; k < 3; ++k) {
       const float color = light.color[k] * m.damping;
-      sum[k] = sum[k] + (m.order == TermOrder::albedo_last ? color : p.albedo[k] * color);
+      const float shown = m.order == TermOrder::albedo_last ? color : p.albedo[k] * color;
+      sum[k] = sum[k] + (m.emission ? shown * p.ambient_share : shown);
     }
     return;
   }
@@ -197,7 +198,8 @@ std::array<float, 4> naive_sum(const Scene& scene, const LightModel& m, const Pi
   const bool last = m.order == TermOrder::albedo_last;
   float sum[3] = {0, 0, 0};
   for (int k = 0; k < 3; ++k) {
-    const float share = last ? m.global_ambient[k] : p.albedo[k] * m.global_ambient[k];
+    float share = last ? m.global_ambient[k] : p.albedo[k] * m.global_ambient[k];
+    if (m.emission) share = share * p.ambient_share;
     if (m.emission) sum[k] = p.emission[k];
     if (m.global_ambient != glm::vec3(0.0f)) sum[k] = m.emission ? sum[k] + share : share;
   }

@@ -26,6 +26,7 @@ struct Pixel {
   float albedo[4];
   float specular[4];  ///< colour and shininess; where the model reads them, as emission
   float emission[3];
+  float ambient_share = 1.0f;  ///< of ambient light, what arrives, where the model reads emission
 };
 
 /// Colour and alpha of the pixel before the store.

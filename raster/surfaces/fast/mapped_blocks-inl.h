@@ -52,7 +52,7 @@ struct MappedBlocks {
       uint32_t pixels = 0;
       for (; i < seen.parts && seen.part[i].block == block; ++i) {
         const SeenPart& part = seen.part[i];
-        if (!maps_of(part.triangle).any()) continue;
+        if (!maps_of(part.triangle).any) continue;
         // The pieces of a clipped triangle have taken its pixels.
         if (part.pixels == 0 || id_clipped(visible.id[block * kBlockPixels + std::countr_zero(part.pixels)])) {
           map_clipped(block, part.triangle);
@@ -71,7 +71,7 @@ struct MappedBlocks {
       for (uint32_t bits = seen.covered[block]; bits != 0; bits &= bits - 1) {
         const int k = std::countr_zero(bits);
         const SeenTriangle triangle{seen.triangle[block * kBlockPixels + k], seen.corners[block * kBlockPixels + k]};
-        if (!maps_of(triangle).any()) continue;
+        if (!maps_of(triangle).any) continue;
         const int64_t at = triangle_at(triangle);
         int64_t* const of = batch.next(pixels != 0, at);
         of[k] = at;

@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// All that a material without maps makes of pixels without vertex colours: one value a plane, as stored.
 struct MaterialTexel {
-  static constexpr int kMost = 11;
+  static constexpr int kMost = 12;
   uint32_t material = 0;  ///< index + 1
   int planes = 0;
   int plane[kMost];  ///< albedo first
@@ -30,22 +30,22 @@ struct MaterialTexel {
   void set(const SurfaceTask& task, uint32_t index_plus_1) {
     const Material& m = task.in.scene.materials[index_plus_1 - 1];
     const LightModel& model = task.model;
-    float albedo[4] = {}, specular[4] = {}, emission[3] = {};
-    for (int c = 0; c < 4; ++c) albedo[c] = 1.0f * m.base_color[c];
-    if (fills_planes(model)) apply_values(material_values(m, model), model, albedo, specular, emission);
+    MaterialVectors px{};
+    for (int c = 0; c < 4; ++c) px.albedo[c] = hn::Set(DF(), 1.0f * m.base_color[c]);
+    if (reads_material_values(model)) apply_values(task.in.view.materials[index_plus_1 - 1], model, px);
     material = index_plus_1;
     planes = 0;
-    add(task, kAlbedo, 4, albedo, task.planes.albedo.format);
-    if (reads_specular_plane(model)) add(task, kSpecular, 4, specular, task.planes.specular);
-    if (model.emission) add(task, kEmission, 3, emission, task.planes.emission);
+    add(task, kAlbedo, 4, px.albedo, task.planes.albedo.format);
+    if (reads_specular_plane(model)) add(task, kSpecular, 4, px.specular, task.planes.specular);
+    if (model.emission) add(task, kEmission, 4, px.emission, task.planes.emission);
   }
 
  private:
-  void add(const SurfaceTask& task, int first, int count, const float* from, Format format) {
+  void add(const SurfaceTask& task, int first, int count, const VF* from, Format format) {
     for (int c = 0; c < count; ++c) {
       plane[planes] = first + c;
-      value[planes++] = hn::GetLane(
-          stored_in_plane(hn::Set(DF(), from[c]), first, format, c, task.planes.half_round, task.in.view.profile));
+      value[planes++] =
+          hn::GetLane(stored_in_plane(from[c], first, format, c, task.planes.half_round, task.in.view.profile));
     }
   }
 };

@@ -17,7 +17,7 @@ struct Extension {
   bool drawn;
 };
 constexpr Extension kExtensions[] = {{"KHR_lights_punctual", true},    {"KHR_texture_transform", true},
-                                     {"KHR_materials_unlit", false},   {"KHR_materials_emissive_strength", true},
+                                     {"KHR_materials_unlit", true},    {"KHR_materials_emissive_strength", true},
                                      {"KHR_mesh_quantization", true},  {"EXT_mesh_gpu_instancing", true},
                                      {"EXT_meshopt_compression", true}};
 

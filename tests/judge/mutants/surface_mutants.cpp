@@ -167,6 +167,32 @@ void first_uv(Scene& s, Pipeline&) {
   for (Material& m : s.materials)
     for (TextureSlot* map : maps_of(m)) map->uv_set = 0;
 }
+void metal_exchanged(Scene& s, Pipeline&) {
+  each_map(s, &Material::metallic_roughness_map, [](Texel t) { return Texel{t[0], t[2], t[1], t[3]}; });
+}
+void no_metal_map(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.metallic_roughness_map = {};
+}
+void metal_from_srgb(Scene& s, Pipeline&) { from_srgb(s, &Material::metallic_roughness_map); }
+void no_emission_map(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.emission_map = {};
+}
+void emission_from_srgb(Scene& s, Pipeline&) { from_srgb(s, &Material::emission_map); }
+void emission_alone(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.emission = glm::vec3(1.0f);
+}
+void no_occlusion(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.occlusion_map = {};
+}
+void full_occlusion(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.occlusion_strength = 1.0f;
+}
+void occlusion_of_green(Scene& s, Pipeline&) {
+  each_map(s, &Material::occlusion_map, [](Texel t) { return Texel{t[1], t[1], t[2], t[3]}; });
+}
+void nothing_unlit(Scene& s, Pipeline&) {
+  for (Material& m : s.materials) m.unlit = false;
+}
 
 void points_unlimited(Scene&, Pipeline& p) { p.light_volumes.point = LightExtent::unbounded; }
 void spots_unlimited(Scene&, Pipeline& p) { p.light_volumes.spot = LightExtent::unbounded; }
@@ -221,6 +247,16 @@ constexpr Mutant kMutants[] = {
     {"specular map ignored", kNone, add_bumps, no_gloss, nullptr},
     {"specular map read as sRGB", kNone, add_bumps, gloss_from_srgb, nullptr},
     {"normal and specular map exchanged", kNone, add_bumps, maps_exchanged, nullptr},
+    {"metallic and roughness exchanged", kNone, add_metal, metal_exchanged, nullptr},
+    {"metallic-roughness map ignored", kNone, add_metal, no_metal_map, nullptr},
+    {"metallic-roughness map read as sRGB", kNone, add_metal, metal_from_srgb, nullptr},
+    {"emission map ignored", kNone, add_metal, no_emission_map, nullptr},
+    {"emission map read as sRGB", kNone, add_metal, emission_from_srgb, nullptr},
+    {"emission map without the emission", kNone, add_metal, emission_alone, nullptr},
+    {"occlusion map ignored", kNone, add_metal, no_occlusion, nullptr},
+    {"occlusion's strength ignored", kNone, add_metal, full_occlusion, nullptr},
+    {"occlusion of green", kNone, add_metal, occlusion_of_green, nullptr},
+    {"unlit surfaces lit", kNone, add_metal, nothing_unlit, nullptr},
     {"ten-bit normals stored as n", kNone, ten_bits, float_normals, stored_whole},
     {"ten-bit normals stored about 512", kNone, ten_bits, float_normals, stored_about_512},
     {"ten-bit normals of eight bits", kNone, ten_bits, float_normals, stored_in_8_bits},
@@ -268,6 +304,31 @@ void add_bumps(Scene& scene, Pipeline& pipeline) {
   if (model.order == TermOrder::albedo_last) return;
   model.specular_source = SpecularSource::material;
   if (model.specular == Specular::none) model.specular = Specular::blinn_phong;
+}
+
+void add_metal(Scene& scene, Pipeline& pipeline) {
+  add_texture_coordinates(scene);
+  const size_t first = scene.textures.size();
+  for (const int side : {8, 5, 6}) {  // a texture a map, so that each can be changed alone
+    scene.textures.push_back(bumps(TextureFormat::rgba8, side, 12, uint32_t(side)));
+    scene.textures.push_back(bumps(TextureFormat::rgba16f, side + 1, 4, uint32_t(2 * side)));
+  }
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    Material& m = scene.materials[i];
+    m.metallic = 0.8f, m.roughness = 0.9f, m.occlusion_strength = 0.7f;
+    m.emission = {0.2f, 0.05f, 0.3f};
+    m.metallic_roughness_map = slot_of(first + i % 2, i % 2 == 0);
+    m.emission_map = slot_of(first + 2 + i % 2, i % 2 == 1);
+    m.occlusion_map = slot_of(first + 4 + i % 2, i % 2 == 0);
+    m.unlit = i % 4 == 3 || (scene.materials.size() < 4 && i == 0);
+  }
+  Light sky;
+  sky.type = LightType::ambient;
+  sky.color = {0.3f, 0.4f, 0.5f};
+  scene.lights.push_back(sky);
+  LightModel& model = pipeline.light_model;
+  model.specular_source = SpecularSource::metallic_roughness;
+  model.emission = true;
 }
 
 void mix_extents(Scene& scene, Pipeline& pipeline) {

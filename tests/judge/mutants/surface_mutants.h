@@ -11,11 +11,15 @@ void add_texture_coordinates(Scene& scene);
 /// coordinates run left on every other one; the specular colour the material's, where the light model lets it be.
 void add_bumps(Scene& scene, Pipeline& pipeline);
 
+/// Maps of metal and roughness, emission and occlusion for every surface, some of them unlit, under ambient light and a
+/// light model that reads all of these.
+void add_metal(Scene& scene, Pipeline& pipeline);
+
 /// Half the lamps spots; points end at their range, spots do not, and nothing else ends either; of deferred-volumes
 /// points are drawn as boxes and spots end at their range.
 void mix_extents(Scene& scene, Pipeline& pipeline);
 
-/// Twenty-one of them, each with a base.
+/// Thirty-one of them, each with a base.
 std::span<const Mutant> surface_mutants();
 
 }  // namespace trueshade::oracle

@@ -77,7 +77,7 @@ class RandomScene {
     t.format = TextureFormat(below(4));
     TextureLevel level{int(1 + below(9)), int(1 + below(9)), {}};
     for (int i = 0; i < level.width * level.height; ++i)
-      append_texel(t.format, {number(0, 1), number(0, 1), number(0, 1), number(0, 1)}, level.bytes);
+      append_texel(t.format, {number(0, 0.9), number(0, 0.9), number(0, 0.9), number(0, 0.9)}, level.bytes);
     t.levels.push_back(std::move(level));
     if (below(3) > 0) build_mip_chain(t);
     if (below(3) == 0 && t.levels.size() > 1) t.levels.back().bytes[0] ^= 1;  // levels of one's own
@@ -93,7 +93,7 @@ class RandomScene {
     s.sampler.min_filter = Filter(below(2));
     s.sampler.mip_filter = scene_.textures[size_t(s.texture)].levels.size() > 1 ? MipFilter(below(3)) : MipFilter::none;
     if (below(2) == 0) s.sampler.lod_bias = number(-3, 3), s.sampler.lod_min = -1.5f, s.sampler.lod_max = number(2, 9);
-    if (below(2) == 0) s.sampler.border = {number(0, 2), 0.0f, number(0, 1), number(0, 1)};
+    if (below(2) == 0) s.sampler.border = {number(0, 1), 0.0f, number(0, 1), number(0, 1)};
     s.uv_set = uint8_t(below(kMaxUvSets));
     return s;
   }
@@ -212,7 +212,7 @@ class RandomScene {
       t.instances.push_back({i, 0, copy, reach_of(scene_.meshes[scene_.instances[i].mesh])});
     }
     for (uint32_t i = 0; i < scene_.materials.size(); ++i)
-      if (!scene_.materials[i].has_maps()) t.materials.push_back({i, track(4, 0, 1)});
+      if (!scene_.materials[i].textured()) t.materials.push_back({i, track(4, 0, 1)});
     t.lights.push_back({1, LightProperty::color, track(3, 0, 2)});
     t.lights.push_back({1, LightProperty::intensity, track(1, 0, 2)});
     t.lights.push_back({1, LightProperty::position, track(3, -2, 2)});

@@ -78,6 +78,14 @@ struct Peer {
     return out;
   }
 
+  /// A corner whose texture coordinates the options -s and -o of the material's picture have changed.
+  PeerCorner moved(PeerCorner corner, int material) const {
+    if (material < 0) return corner;
+    const tinyobj::texture_option_t& option = materials[size_t(material)].diffuse_texopt;
+    for (int k = 0; k < 2; ++k) corner.uv[k] = option.origin_offset[k] + option.scale[k] * corner.uv[k];
+    return corner;
+  }
+
   /// Polygons as fans, which they are here where they are convex. `concave` counts polygons that are left out.
   ByMaterial corners() const {
     ByMaterial out;
@@ -88,7 +96,7 @@ struct Peer {
         std::vector<PeerCorner>& to = out[id < 0 ? "" : materials[size_t(id)].name];
         const size_t count = size_t(shape.mesh.num_face_vertices[face]);
         for (size_t i = 2; i < count; ++i)
-          for (const size_t k : {size_t(0), i - 1, i}) to.push_back(corner(shape.mesh.indices[first + k]));
+          for (const size_t k : {size_t(0), i - 1, i}) to.push_back(moved(corner(shape.mesh.indices[first + k]), id));
         first += count;
       }
     }

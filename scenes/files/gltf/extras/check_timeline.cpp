@@ -22,7 +22,7 @@ class TimelineCheck {
     for (const MaterialMotion& motion : t_.materials) {
       below(motion.material, scene_.materials.size(), "material");
       check(motion.color);
-      require(!scene_.materials[motion.material].has_maps(), "a material with maps moves", "one without");
+      require(!scene_.materials[motion.material].textured(), "a material with maps moves", "one without");
     }
     for (const LightMotion& motion : t_.lights) {
       below(motion.light, scene_.lights.size(), "light");
