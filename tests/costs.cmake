@@ -11,6 +11,7 @@ trueshade_slow(40
   "judge:What llvmpipe draws is explained under every preset and strategy, by its profile and by any GPU's"
   "judge:Wrong renderers are rejected wherever they leave the legal sets")
 trueshade_slow(20
+  "judge:Both sides and every set of texture coordinates in our own frames are explained, wrong ones are not"
   "cli:what OpenGL draws here is explained, pixel by pixel"
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
   "judge:Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU"
@@ -19,6 +20,7 @@ trueshade_slow(20
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
 trueshade_slow(10
+  "judge:What llvmpipe makes of both sides, mirrored instances and further texture coordinates is legal"
   "cli:frames take what is predicted, within a fifth, and are refused where that is over the cap"
   "docs: what docs/tutorial.md shows runs"
   "gl:A tile lists every light that lights one of its pixels, and few that light none"
