@@ -1,6 +1,6 @@
 # find_package(trueshade [COMPONENTS image_io]): trueshade::shading draws frames; trueshade::image_io reads and writes files.
 include(CMakeFindDependencyMacro)
-foreach(dependency Threads glm hwy nlohmann_json ZLIB meshoptimizer)
+foreach(dependency Threads glm TBB hwy nlohmann_json ZLIB meshoptimizer)
   find_dependency(${dependency})
 endforeach()
 include(${CMAKE_CURRENT_LIST_DIR}/trueshadeTargets.cmake)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <new>
-#include <system_error>
 #include <thread>
 
 #if defined(__x86_64__)
@@ -40,7 +38,7 @@ constexpr std::chrono::microseconds kLookForWork{100}, kLookForEnd{2000};
 
 }  // namespace
 
-// Never destroyed: its threads may look in while the process ends.
+// Never destroyed: TBB's threads may look in while the process ends.
 ThreadPool& ThreadPool::shared() {
   static ThreadPool& pool = *new ThreadPool;
   return pool;
@@ -58,39 +56,13 @@ void ThreadPool::Loop::work() {
 
 void ThreadPool::rouse(int helpers) {
   ++news_;
+  helpers = threads_.make_room(helpers);
   // Counted once: threads that leave for want of work while others are still being asked for are not replaced.
   for (int missing = helpers - serving_; missing > 0; --missing) {
     ++serving_;
-    if (call_helper()) continue;
+    if (threads_.call([](void* pool) { static_cast<ThreadPool*>(pool)->serve(); }, this)) continue;
     --serving_;
     return;
-  }
-}
-
-bool ThreadPool::call_helper() {
-  const std::lock_guard lock(parking_);
-  if (called_ < parked_) {
-    ++called_;
-    wake_.notify_one();
-    return true;
-  }
-  try {
-    std::thread([this] { live(); }).detach();
-  } catch (const std::system_error&) {  // the system's limit on threads, or no memory for a stack
-    return false;
-  } catch (const std::bad_alloc&) {
-    return false;
-  }
-  return true;
-}
-
-void ThreadPool::live() {
-  while (true) {
-    serve();
-    std::unique_lock lock(parking_);
-    ++parked_;
-    wake_.wait(lock, [this] { return called_ > 0; });
-    --called_, --parked_;
   }
 }
 

@@ -271,11 +271,15 @@ TEST_CASE("threads that the system does not start are done without, and a librar
         std::to_string(processes) + "; exec \"" TRUESHADE_COMMAND "\" " + arguments + "' >out 2>err";
     return WEXITSTATUS(std::system(line.c_str()));
   };
-  CHECK(run("render builtin:cornell --size 300x300 --hash --threads 8", 1) == 0);
-  std::ifstream out(folder.path("out"));
+  const std::string hash = run_command({"render", "builtin:cornell", "--size", "300x300", "--hash"}).out;
   std::string line;
-  REQUIRE(std::getline(out, line));
-  CHECK(run_command({"render", "builtin:cornell", "--size", "300x300", "--hash"}).out == line + "\n");
+  for (int processes = 1; processes <= 9; ++processes) {
+    CAPTURE(processes);
+    CHECK(run("render builtin:cornell --size 300x300 --hash --threads 8", processes) == 0);
+    std::ifstream out(folder.path("out"));
+    REQUIRE(std::getline(out, line));
+    CHECK(hash == line + "\n");
+  }
   for (int processes = 1; processes <= 4; ++processes) {  // the library's initializers need more
     CAPTURE(processes);
     CHECK(run("info x.exr", processes) == 6);
