@@ -92,29 +92,34 @@ inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const 
   }
 }
 
-/// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes. `uv_sets`:
-/// those of which the piece has attributes.
-template <class Frames>
-HWY_INLINE void map_piece(const ClippedPiece& piece, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
-                          int uv_sets, const Frames& frames, SurfaceTile& out) {
+/// Sets the derivatives of a piece's texture coordinates, of one set.
+HWY_INLINE void set_piece_slopes(const ClippedPiece& piece, const Barycentrics& w, int set, Interpolation how,
+                                 UvPoint& uv) {
   const D64 d;
   EdgeSlopes edge;
+  V64 corner[2][3];
   for (int k = 0; k < 3; ++k) {
     edge.along_x[k] = hn::Set(d, double(piece.setup.sx[k]));
     edge.along_y[k] = hn::Set(d, double(piece.setup.sy[k]));
     edge.u[k] = hn::Set(d, piece.u[k]);
+    for (int c = 0; c < 2; ++c) corner[c][k] = hn::Set(d, piece.attribute[uv_stream(set) + c][k]);
   }
+  set_uv_slopes(w, edge, how, corner, uv);
+}
+
+/// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes.
+template <class Frames>
+HWY_INLINE void map_piece(const ClippedPiece& piece, const Barycentrics& w, M64 owned, int at, const SceneMaps& maps,
+                          const Frames& frames, SurfaceTile& out) {
+  const D64 d;
   UvPoint uv[kMaxUvSets];
-  for (int set = 0; set < uv_sets; ++set) {
-    V64 corner[2][3];
-    for (int c = 0; c < 2; ++c) {
+  for (int set = 0; set < maps.uv_sets; ++set) {
+    for (int c = 0; c < 2 && set > 0; ++c) {
       const int stream = uv_stream(set) + c;
-      const double* const value = piece.attribute[stream];
-      for (int k = 0; k < 3; ++k) corner[c][k] = hn::Set(d, value[k]);
-      if (set == 0) continue;
-      uv[set].uv[c] = hn::PromoteTo(d, triangle_attribute(w, maps.uv_how, value, piece.provoking[stream]));
+      uv[set].uv[c] =
+          hn::PromoteTo(d, triangle_attribute(w, maps.uv_how, piece.attribute[stream], piece.provoking[stream]));
     }
-    set_uv_slopes(w, edge, maps.uv_how, corner, uv[set]);
+    set_piece_slopes(piece, w, set, maps.uv_how, uv[set]);
   }
   apply_maps(maps, uv, &owned, &at, frames, out);
 }
@@ -134,7 +139,7 @@ inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece
   }
   for (uint32_t lanes = piece.turned ? lane_bits(D64(), owned) : 0; lanes != 0; lanes &= lanes - 1)
     turn_normal(task.out, at + std::countr_zero(lanes));
-  if (maps.textured()) map_piece(piece, w, owned, at, maps, maps.uv_sets, PixelFrames{task.work, at}, task.out);
+  if (maps.textured()) map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at}, task.out);
 }
 
 /// The pixels of clipped triangle `id` among those of the vector that begins at pixel `at`: each is of the first piece

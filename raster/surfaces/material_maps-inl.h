@@ -46,6 +46,8 @@ class MapTexels {
   HWY_INLINE MapTexels(const MaterialMaps& maps, const UvPoint* at, const M64* mine)
       : same_texels_(maps.same_texels), at_(at), mine_(mine) {
     find(first_of(maps));
+    if (!same_texels_ || !maps.normal) return;
+    for (int h = 0; h < kVectors; ++h) reader_[h].prefetch(*maps.normal);
   }
 
   HWY_NOINLINE void read(const TextureView& texture, uint32_t channels, V32 rgba[kVectors][4]) {
@@ -64,7 +66,10 @@ class MapTexels {
     MipChoice mip[kVectors];
     const UvPoint* const at = at_ + texture.uv_set * kVectors;
     choose_mips<kVectors>(texture, at, mip);
-    for (int h = 0; h < kVectors; ++h) reader_[h].set(texture, mip[h], at[h].uv, mine_[h]);
+    for (int h = 0; h < kVectors; ++h) {
+      reader_[h].set(texture, mip[h], at[h].uv, mine_[h]);
+      reader_[h].prefetch(texture);
+    }
     found_ = &texture;
   }
 

@@ -98,13 +98,11 @@ HWY_INLINE AxisTexels axis_texels(Wrap wrap, V64 coordinate, V64 n, V64 inverse,
 /// The level that each lane reads: its sides and their rounded reciprocals.
 struct LevelSides {
   V64 width, height, inverse_width, inverse_height;
-  bool one_level;  ///< all lanes read the level `first`
-  int first;
 
-  HWY_INLINE LevelSides(const TextureView& texture, V64 level) : first(int(hn::GetLane(level))) {
+  HWY_INLINE LevelSides(const TextureView& texture, V64 level) {
     const D64 d;
-    one_level = hn::AllTrue(d, hn::Eq(level, hn::Set(d, double(first))));
-    if (HWY_LIKELY(one_level)) {
+    const int first = int(hn::GetLane(level));
+    if (HWY_LIKELY(hn::AllTrue(d, hn::Eq(level, hn::Set(d, double(first)))))) {
       const TextureView::Level& l = texture.level[first];
       width = hn::Set(d, double(l.width)), height = hn::Set(d, double(l.height));
       inverse_width = hn::Set(d, l.inverse_width), inverse_height = hn::Set(d, l.inverse_height);

@@ -96,6 +96,8 @@ class TexelReader {
       of_[1] = of_[0];
   }
 
+  void prefetch(const TextureView&) const {}  ///< a reader may ask for what read() will read
+
   /// RGBA in f64 of the lanes in `valid`; other lanes mean nothing. A reader may leave out what `channels` lacks.
   HWY_INLINE void read(const TextureView& texture, M64 valid, uint32_t /*channels*/, V64 rgba[4]) const {
     of_[0].filter(texture, valid, rgba);

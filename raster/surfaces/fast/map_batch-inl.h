@@ -1,4 +1,4 @@
-// Blocks whose maps are applied together, and how their texture coordinates change from pixel to pixel. Included once
+// Pixels whose maps are applied together, and how their texture coordinates change from pixel to pixel. Included once
 // per SIMD target. docs/arithmetic.md section 13.
 #if defined(TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_RASTER_SURFACES_FAST_MAP_BATCH_INL_H_
@@ -30,10 +30,18 @@ struct alignas(64) MappedTriangle {
   double value[kValues];
 };
 
-/// The values of the triangles that a vector of pixels sees: of one, or of several.
+/// The values of the triangles that a vector of pixels sees: of one, of two, or of several.
 struct OneTriangle {
   const double* at;
   HWY_INLINE V64 operator()(int k) const { return hn::Set(D64(), at[k]); }
+};
+struct TwoTriangles {
+  const double *first, *second;
+  M64 of_second;
+  HWY_INLINE V64 operator()(int k) const {
+    const D64 d;
+    return hn::IfThenElse(of_second, hn::Set(d, second[k]), hn::Set(d, first[k]));
+  }
 };
 struct SeveralTriangles {
   using DI = hn::RebindToSigned<D64>;
@@ -72,71 +80,99 @@ HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3& norm
   return bump_frame({vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3)}, normal);
 }
 
-/// Blocks whose maps are applied at once: one block alone would wait for its own quotients and sums.
-struct MapBatch {
-  static constexpr int kBlocks = kHalves <= 2 ? 2 : 1, kVectors = kBlocks * kHalves;
-  static constexpr int64_t kNone = -1;
-  const SceneMaps& maps;
-  const std::vector<MappedTriangle>& triangle;
-  SurfaceTile& out;
-  int count = 0;
-  alignas(64) int64_t
-      triangle_at[kBlocks * kBlockPixels] = {};  ///< where each pixel's triangle begins among all values
-  int64_t first[kVectors] = {};                  ///< the triangle of a vector; none where there are several
-  M64 owned[kVectors] = {};
-  UvPoint uv[kVectors] = {};
-  int pixel[kVectors] = {};  ///< the first
+/// Vectors of pixels whose maps are applied at once: one vector alone would wait for its own quotients and sums. A
+/// triangle is named by where its values begin among those of all.
+class MapBatch {
+ public:
+  MapBatch(const SceneMaps& maps, const std::vector<MappedTriangle>& triangle, SurfaceTile& out)
+      : maps_(maps), triangle_(triangle), out_(out) {}
 
-  /// The triangles of the next block's pixels, for the caller to set; before any is set, all become `at`.
-  HWY_INLINE int64_t* next(bool begun, int64_t at) {
-    int64_t* const to = triangle_at + count * kBlockPixels;
-    if (!begun) std::fill_n(to, kBlockPixels, at);
-    return to;
-  }
-
-  /// Calls use(values) with the values of the triangles that a vector sees; those of several are gathered.
-  template <class Use>
-  HWY_INLINE auto with_triangles(int h, const Use& use) const {
-    const double* const values = triangle[0].value;
-    if (first[h] != kNone) return use(OneTriangle{values + first[h]});
-    return use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), triangle_at + h * kHalf)});
-  }
-
-  /// Adds the block whose triangles were set by next(), if it has pixels.
-  void add(const BlockPosition& where, uint32_t pixels) {
-    if (pixels == 0) return;
-    const D64 d;
-    const SeveralTriangles::DI di;
+  /// Adds the pixels of a block, a bit each, whose triangles are given.
+  void add_block(const BlockPosition& where, uint32_t pixels, const int64_t* triangles) {
     for (int part = 0; part < kHalves; ++part) {
-      const int h = count * kHalves + part;
       const uint32_t bits = pixels >> part * kHalf & kHalfBits;
-      owned[h] = lane_mask(d, bits);
-      pixel[h] = where.at + part * kHalf;
-      const int64_t* const at = triangle_at + h * kHalf;
-      const auto all = hn::Load(di, at);
-      const auto beside = [&](int64_t triangle) { return hn::Ne(all, hn::Set(di, triangle)); };
-      first[h] = at[bits != 0 ? std::countr_zero(bits) : 0];
-      const auto others = beside(first[h]);
-      if ((lane_bits(di, others) & bits) != 0) first[h] = kNone;
-      with_triangles(h,
-                     [&](const auto& triangle) { set_slopes(triangle, where.column(part), where.row(part), uv[h]); });
+      if (bits == 0) continue;
+      set_triangles(triangles + part * kHalf, bits);
+      UvPoint& uv = uv_[count_];
+      const V64 column = where.column(part), row = where.row(part);
+      with_triangles(count_, [&](const auto& triangle) { set_slopes(triangle, column, row, uv); });
+      add(where.at + part * kHalf, lane_mask(D64(), bits));
     }
-    if (++count == kBlocks) finish();
   }
 
-  /// Applies the maps of the blocks that were added.
+  /// Adds the pixels `mine` of a piece of a clipped triangle, in a vector that begins at pixel `first`.
+  HWY_INLINE void add_piece(int first, M64 mine, const UvPoint& slopes, int64_t triangle) {
+    kind_[count_] = {triangle, triangle};
+    uv_[count_] = slopes;
+    add(first, mine);
+  }
+
+  /// Applies the maps of what was added.
   HWY_INLINE void finish() {
-    if (count == 0) return;
-    for (int h = count * kHalves; h < kVectors; ++h) {  // unused
-      owned[h] = lane_mask(D64(), 0);
-      pixel[h] = pixel[0], uv[h] = uv[0];
+    if (count_ == 0) return;
+    for (int h = count_; h < kVectors; ++h) {  // unused
+      owned_[h] = lane_mask(D64(), 0);
+      pixel_[h] = pixel_[0], uv_[h] = uv_[0];
     }
     const auto frames = [&](int h, int, const Vector3& normal) {
-      return with_triangles(h, [&](const auto& triangle) { return bump_frame_at(triangle, normal); });
+      BumpFrame frame;
+      with_triangles(h, [&](const auto& triangle) { frame = bump_frame_at(triangle, normal); });
+      return frame;
     };
-    apply_maps<kVectors>(maps, uv, owned, pixel, frames, out);
-    count = 0;
+    apply_maps<kVectors>(maps_, uv_, owned_, pixel_, frames, out_);
+    count_ = 0;
   }
+
+ private:
+  static constexpr int kVectors = 4;
+  static constexpr int64_t kMany = -1;
+  struct Kind {
+    int64_t first, second;  ///< the same for one triangle; the second is kMany for three or more
+  };
+
+  void add(int first, M64 mine) {
+    pixel_[count_] = first, owned_[count_] = mine;
+    if (++count_ == kVectors) finish();
+  }
+
+  /// Sets the triangles of the next vector, of whose lanes those in `bits` have one.
+  HWY_INLINE void set_triangles(const int64_t* at, uint32_t bits) {
+    const SeveralTriangles::DI d;
+    const auto all = hn::LoadU(d, at);
+    const auto beside = [&](int64_t triangle) { return lane_bits(d, hn::Ne(all, hn::Set(d, triangle))) & bits; };
+    const int64_t first = at[std::countr_zero(bits)];
+    const uint32_t others = beside(first);
+    kind_[count_] = {first, first};
+    if (others == 0) return;
+    const int64_t second = at[std::countr_zero(others)];
+    kind_[count_].second = second;
+    of_second_[count_] = lane_mask(D64(), others);
+    if ((beside(second) & others) == 0) return;
+    kind_[count_].second = kMany;
+    const auto mine = lane_mask(d, bits);
+    hn::Store(hn::IfThenElse(mine, all, hn::Set(d, first)), d, at_[count_]);
+  }
+
+  /// Calls use(values) with the values of the triangles that a vector sees; those of many are gathered.
+  template <class Use>
+  HWY_INLINE void with_triangles(int h, const Use& use) const {
+    const double* const values = triangle_[0].value;
+    const auto [first, second] = kind_[h];
+    if (first == second) return use(OneTriangle{values + first});
+    if (second != kMany) return use(TwoTriangles{values + first, values + second, of_second_[h]});
+    use(SeveralTriangles{values, hn::Load(SeveralTriangles::DI(), at_[h])});
+  }
+
+  const SceneMaps& maps_;
+  const std::vector<MappedTriangle>& triangle_;
+  SurfaceTile& out_;
+  int count_ = 0;
+  Kind kind_[kVectors] = {};
+  M64 of_second_[kVectors] = {};
+  alignas(64) int64_t at_[kVectors][kHalf] = {};  ///< the triangle of each lane, where there are many
+  M64 owned_[kVectors] = {};
+  UvPoint uv_[kVectors] = {};
+  int pixel_[kVectors] = {};  ///< the first
 };
 
 }  // namespace trueshade::HWY_NAMESPACE

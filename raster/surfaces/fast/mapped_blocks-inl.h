@@ -47,6 +47,7 @@ struct MappedBlocks {
   void run() {
     mapped.triangle.clear();
     mapped.piece.clear();
+    alignas(64) int64_t of[kBlockPixels] = {};
     for (uint32_t i = 0; i < seen.parts;) {
       const uint16_t block = seen.part[i].block;
       uint32_t pixels = 0;
@@ -59,11 +60,13 @@ struct MappedBlocks {
           continue;
         }
         const int64_t at = triangle_at(part.triangle);
-        int64_t* const of = batch.next(pixels != 0, at);
-        for (uint32_t bits = part.pixels; bits != 0 && pixels != 0; bits &= bits - 1) of[std::countr_zero(bits)] = at;
+        if (pixels == 0)
+          std::fill_n(of, kBlockPixels, at);
+        else
+          for (uint32_t bits = part.pixels; bits != 0; bits &= bits - 1) of[std::countr_zero(bits)] = at;
         pixels |= part.pixels;
       }
-      batch.add(BlockPosition(block, blocks), pixels);
+      batch.add_block(BlockPosition(block, blocks), pixels, of);
     }
     for (uint32_t i = 0; i < seen.crowds; ++i) {
       const uint16_t block = seen.crowded[i];
@@ -72,12 +75,10 @@ struct MappedBlocks {
         const int k = std::countr_zero(bits);
         const SeenTriangle triangle{seen.triangle[block * kBlockPixels + k], seen.corners[block * kBlockPixels + k]};
         if (!maps_of(triangle).any) continue;
-        const int64_t at = triangle_at(triangle);
-        int64_t* const of = batch.next(pixels != 0, at);
-        of[k] = at;
+        of[k] = triangle_at(triangle);
         pixels |= 1u << k;
       }
-      batch.add(BlockPosition(block, blocks), pixels);
+      batch.add_block(BlockPosition(block, blocks), pixels, of);
     }
     batch.finish();
     for (uint32_t i = 0; i < listed; ++i) seen.first_part[seen.chain[i]] = VisibleTriangles::kNoPart;
@@ -100,6 +101,10 @@ struct MappedBlocks {
     return int64_t(index) * MappedTriangle::kValues;
   }
 
+  static void put(const Vector3& of, double* to) {
+    to[0] = hn::GetLane(of.x), to[1] = hn::GetLane(of.y), to[2] = hn::GetLane(of.z);
+  }
+
   HWY_NOINLINE void add_triangle(SeenTriangle triangle) {
     const TriangleInBlocks set_up(seen, triangle, wanted);
     double* const value = mapped.triangle.emplace_back().value;
@@ -119,10 +124,7 @@ struct MappedBlocks {
     }
     if (!maps_of(triangle).normal) return;
     const TangentFrame frame = frame_of(triangle);
-    const auto put = [&](int at, const Vector3& of) {
-      value[at] = hn::GetLane(of.x), value[at + 1] = hn::GetLane(of.y), value[at + 2] = hn::GetLane(of.z);
-    };
-    put(MappedTriangle::kFrame, frame.u), put(MappedTriangle::kFrame + 3, frame.v);
+    put(frame.u, value + MappedTriangle::kFrame), put(frame.v, value + MappedTriangle::kFrame + 3);
     constexpr uint32_t kNormalBits = 7u << kNormalValue;
     if ((set_up.constant & kNormalBits) != kNormalBits) return;
     const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
@@ -131,7 +133,7 @@ struct MappedBlocks {
       return hn::Set(D64(), double(turned ? -straight : straight));
     };
     const BumpFrame bump = bump_frame(frame, {normal(0), normal(1), normal(2)});
-    put(MappedTriangle::kBumpFrame, bump.t), put(MappedTriangle::kBumpFrame + 3, bump.b);
+    put(bump.t, value + MappedTriangle::kBumpFrame), put(bump.b, value + MappedTriangle::kBumpFrame + 3);
     value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
   }
 
@@ -159,7 +161,7 @@ struct MappedBlocks {
         for (int c = 0; c < 2; ++c) value[kUv + c][k] = vertex_at(seen.record.data(), of.vertex[k]).value[kUvValue + c];
       add_clipped_pieces(in, rect, &coordinates, 1, id, value, mapped.piece);
     }
-    const TangentFrame frame = frame_of(triangle);
+    const int64_t frame = clipped_frame(triangle);
     const BlockPosition where(block, blocks);
     for (int h = 0; h < kHalves; ++h) {
       const int at = where.at + h * kHalf;
@@ -172,12 +174,26 @@ struct MappedBlocks {
         piece.edges_at(px, py, e);
         const uint32_t owned = undecided & lane_bits(d, piece.covers(e));
         if (owned == 0) continue;
-        map_piece(
-            piece, piece.weights(e), lane_mask(d, owned), at, in.view.maps, 1,
-            [&](int, int, const Vector3& normal) { return bump_frame(frame, normal); }, out);
+        UvPoint slopes{};
+        set_piece_slopes(piece, piece.weights(e), 0, in.view.maps.uv_how, slopes);
+        batch.add_piece(at, lane_mask(d, owned), slopes, frame);
         undecided &= ~owned;
       }
     }
+  }
+
+  /// Where the values of a clipped triangle begin, of which the frame alone is set.
+  int64_t clipped_frame(SeenTriangle triangle) {
+    uint16_t& index = seen.first_part[triangle.index];
+    if (index == VisibleTriangles::kNoPart) {
+      index = uint16_t(mapped.triangle.size());
+      seen.chain[listed++] = triangle.index;
+      double* const value = mapped.triangle.emplace_back().value;
+      const TangentFrame frame = frame_of(triangle);
+      put(frame.u, value + MappedTriangle::kFrame), put(frame.v, value + MappedTriangle::kFrame + 3);
+      value[MappedTriangle::kOneNormal] = 0.0;
+    }
+    return int64_t(index) * MappedTriangle::kValues;
   }
 };
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 
 #include "core/srgb.h"
@@ -56,12 +57,28 @@ struct TexelQuadsOf {
   }
 
  private:
-  /// The quads of one level, a vector of words a row.
+  using DU = QuadPositions::DU;
+  using VU = QuadPositions::VU;
+
+  /// The quads of each lane's level, a vector of words a row.
   static HWY_INLINE void fetch(const TextureView& texture, const QuadPositions& at, Words row[2]) {
-    if (HWY_UNLIKELY(!at.together))
-      return at.adjoining ? fetch_levels(texture, at, row) : fetch_apart(texture, at, row);
-    const uint8_t* const bytes = texture.level[at.first].bytes;
-    pairs(row, [&](int j, size_t lane) { return bytes + at.offset[j][0][lane]; });
+    if (HWY_UNLIKELY(!at.adjoining)) return fetch_apart(texture, at, row);
+    if (HWY_LIKELY(at.one_level)) {
+      const uint8_t* const bytes = texture.level[at.first].bytes;
+      return pairs(row, [&](int j, size_t lane) { return bytes + at.offset[j][0][lane]; });
+    }
+    alignas(64) uint64_t address[2][kMostLanes];
+    const VU first = first_texels(texture, at.level);
+    for (int j = 0; j < 2; ++j) hn::Store(hn::Add(first, hn::Load(DU(), at.offset[j][0])), DU(), address[j]);
+    pairs(row, [&](int j, size_t lane) { return reinterpret_cast<const uint8_t*>(address[j][lane]); });
+  }
+
+  /// The address of the first texel of each lane's level.
+  static HWY_INLINE VU first_texels(const TextureView& texture, VU level) {
+    using Level = TextureView::Level;
+    static_assert(sizeof(Level) == 32 && offsetof(Level, bytes) == 0 && sizeof(Level::bytes) == sizeof(uint64_t));
+    const auto offset = hn::BitCast(hn::RebindToSigned<DU>(), hn::ShiftLeft<5>(level));
+    return hn::GatherOffset(DU(), reinterpret_cast<const uint64_t*>(texture.level), offset);
   }
 
   /// The filtered texels in f64, of the channels wanted.
@@ -81,16 +98,13 @@ struct TexelQuadsOf {
     if ((channels & kAlphaBit) != 0) value[3] = filtered(unorm<3>(row[0]), unorm<3>(row[1]), at);
   }
 
-  /// The same where lanes read several levels.
-  static HWY_NOINLINE void fetch_levels(const TextureView& texture, const QuadPositions& at, Words row[2]) {
-    pairs(row, [&](int j, size_t lane) { return texture.level[at.level[lane]].bytes + at.offset[j][0][lane]; });
-  }
-
   /// The same where a right texel does not lie behind its left one.
   static HWY_NOINLINE void fetch_apart(const TextureView& texture, const QuadPositions& at, Words row[2]) {
+    alignas(64) uint64_t level[kMostLanes];
+    hn::Store(at.level, DU(), level);
     alignas(64) uint32_t word[2][2 * kLanes];
     for (int i = 0; i < kLanes; ++i) {
-      const uint8_t* const bytes = texture.level[at.level[i]].bytes;
+      const uint8_t* const bytes = texture.level[level[i]].bytes;
       for (int j = 0; j < 2; ++j)
         for (int k = 0; k < 2; ++k) std::memcpy(&word[j][k * kLanes + i], bytes + at.offset[j][k][i], 4);
     }
@@ -212,6 +226,13 @@ class QuadReader : public TexelReader {
     of_[0].set(texture, read.level[0], read);
     part_ = read.part, blends_ = read.blends;
     if (blends_) of_[1].set(texture, read.level[1], read);
+  }
+
+  /// Asks for the memory that read() of a texture will read.
+  HWY_INLINE void prefetch(const TextureView& texture) const {
+    if (!reads_quads(texture)) return;
+    of_[0].prefetch(texture);
+    if (blends_) of_[1].prefetch(texture);
   }
 
   HWY_INLINE void read(const TextureView& texture, M64 valid, uint32_t channels, V64 rgba[4]) const {
