@@ -46,8 +46,15 @@ HWY_INLINE bool hidden_draw(const VisibilityTile& tile, int blocks, const Listed
   return hidden_blocks(tile, blocks, {draw.x0, draw.y0, draw.x1, draw.y1}, draw.near);
 }
 
-/// Nearest clusters first and last those of unknown depth, large ones near the eye that much of the rest hides: by 256
-/// steps of depth, which is order enough. In memory of the thread, until its next call.
+/// Whether the alpha test may leave holes in a cluster.
+HWY_INLINE bool is_masked(const TileDraws& in, const ClusterDraw& draw) {
+  const SceneMaps& maps = in.view.maps;
+  return maps.textured() && maps.material[in.scene.instances[draw.instance].material].alpha_cutoff != 0.0f;
+}
+
+/// Nearest clusters first, by 256 steps of depth, which is order enough; then those of unknown depth, large ones near
+/// the eye that much of the rest hides. Behind all these come masked ones in the same order: they hide little, and each
+/// of their fragments that is hidden already needs no alpha test. In memory of the thread, until its next call.
 inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& rect) {
   constexpr int kSteps = 256;
   constexpr size_t kAhead = 48;
@@ -65,15 +72,19 @@ inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& 
     if (near[i] > -std::numeric_limits<float>::infinity()) low = std::min(low, near[i]);
   }
   const float scale = high > low ? float(kSteps - 2) / (high - low) : 0.0f;
-  const auto step = [&](float z) { return z >= low ? std::min(int((z - low) * scale), kSteps - 2) : kSteps - 1; };
-  uint32_t next[kSteps + 1] = {};
-  for (size_t i = 0; i < count; ++i) ++next[step(near[i]) + 1];
-  for (int k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
+  const auto step = [&](size_t i) {
+    const float z = near[i];
+    const int of_depth = z >= low ? std::min(int((z - low) * scale), kSteps - 2) : kSteps - 1;
+    return is_masked(in, draws[list[i]]) ? kSteps + of_depth : of_depth;
+  };
+  uint32_t next[2 * kSteps + 1] = {};
+  for (size_t i = 0; i < count; ++i) ++next[step(i) + 1];
+  for (int k = 1; k <= 2 * kSteps; ++k) next[k] += next[k - 1];
   thread_local std::vector<ListedDraw> listed;
   listed.resize(std::max(listed.size(), count));
   ListedDraw* const order = listed.data();
   for (size_t i = 0; i < count; ++i)
-    order[next[step(near[i])]++] = ListedDraw(draws[list[i]], uint32_t(i), rect, in.view.window);
+    order[next[step(i)]++] = ListedDraw(draws[list[i]], uint32_t(i), rect, in.view.window);
   return {order, count};
 }
 
