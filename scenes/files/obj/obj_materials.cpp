@@ -67,6 +67,14 @@ const MapSource* first_of(const std::optional<MapSource>& a, const std::optional
 
 }  // namespace
 
+std::vector<const MapSource*> maps_of(const MtlMaterial& m) {
+  std::vector<const MapSource*> maps;
+  for (const auto* map : {&m.map_d, &m.map_kd, m.illum >= 2 ? &m.map_ks : nullptr, m.norm ? &m.norm : &m.map_bump,
+                          &m.map_pr, &m.map_pm, &m.map_ke})
+    if (map && *map) maps.push_back(&**map);
+  return maps;
+}
+
 UvSources uv_sources_of(const MtlMaterial& m) {
   return {
       source_of(first_of(m.map_kd, m.map_d)),  source_of(pointer(m.map_ks)), source_of(first_of(m.norm, m.map_bump)),

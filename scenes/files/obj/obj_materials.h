@@ -10,6 +10,9 @@ namespace trueshade::obj {
 /// scene. docs/obj.md has the rules.
 Material material_of(const MtlDocument& document, const MtlMaterial& from, ObjPictures& pictures);
 
+/// The pictures that material_of() asks for.
+std::vector<const MapSource*> maps_of(const MtlMaterial& material);
+
 /// What its maps read.
 UvSources uv_sources_of(const MtlMaterial& material);
 

@@ -3,17 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/memory_cap.h"
+#include "core/threads/parallel_for.h"
 #include "scenes/trig.h"
 
 namespace trueshade::obj {
 namespace {
 
+constexpr size_t kTogether = 8;  ///< pictures that are decoded at a time, each within its share of what may be decoded
+
+/// What may be decoded of so many bytes of textures: a chain of levels adds a third at most.
+uint64_t without_levels(uint64_t bytes) { return bytes / 4 * 3; }
+
 std::string place_of(const MtlDocument& document, const MapSource& map) {
   return document.file + ": line " + std::to_string(map.line);
+}
+
+/// What fails here is left undone: decoded() tries it again when its turn comes, and says so.
+template <typename Job>
+void attempt(const Job& job) {
+  try {
+    job();
+  } catch (const std::exception&) {
+  }
 }
 
 /// Key of what is made of a picture of a library's folder.
@@ -89,12 +105,55 @@ std::string path_beside(const std::string& from, const std::string& name, const 
   return relative_path_from_uri(folder + uri, where);
 }
 
+struct ObjPictures::Task {
+  std::string path, where;
+  Bytes content;
+  Image image;
+};
+
+void ObjPictures::decode_ahead(std::span<const WantedPicture> wanted) {
+  if (!decode_) return;
+  std::vector<Task> tasks;
+  std::set<std::string> paths;
+  for (const WantedPicture& picture : wanted)
+    attempt([&] {
+      const MtlDocument& document = *picture.document;
+      Task task{key_of(document, *picture.map), place_of(document, *picture.map), {}, {}};
+      if (paths.insert(task.path).second) tasks.push_back(std::move(task));
+    });
+  uint64_t left = limits_.texture_bytes;
+  for (size_t first = 0; first < tasks.size(); first += kTogether) {
+    const std::span<Task> together(&tasks[first], std::min(kTogether, tasks.size() - first));
+    decode_some(together, without_levels(left) / kTogether);
+    for (Task& task : together) {
+      if (task.image.texels.empty()) continue;
+      left -= std::min<uint64_t>(left, task.image.texels.size());
+      ahead_.emplace(std::move(task.path), std::move(task.image));
+    }
+  }
+}
+
+void ObjPictures::decode_some(std::span<Task> tasks, uint64_t share) const {
+  for (Task& task : tasks) attempt([&] { task.content = read_(task.path, limits_.file_bytes, task.where); });
+  parallel_for(int(tasks.size()), 0, [&](int i) {
+    Task& task = tasks[size_t(i)];
+    if (task.content.empty()) return;
+    attempt([&] { task.image = decode_(task.content, task.where + ": " + task.path, share); });
+    task.content = Bytes();
+  });
+}
+
 Image ObjPictures::decoded(const MtlDocument& document, const MapSource& map) {
   const std::string where = place_of(document, map), path = path_beside(document.file, map.file, where);
   if (!decode_) throw Error(ErrorKind::bad_input, where, "this program reads no image files", "no pictures");
-  const Bytes content = read_(path, limits_.file_bytes, where);
-  // A chain of levels adds a third at most.
-  Image image = decode_(content, where + ": " + path, (limits_.texture_bytes - bytes_) / 4 * 3);
+  Image image;
+  if (const auto found = ahead_.find(path); found != ahead_.end()) {
+    image = std::move(found->second);
+    ahead_.erase(found);
+  } else {
+    const Bytes content = read_(path, limits_.file_bytes, where);
+    image = decode_(content, where + ": " + path, without_levels(limits_.texture_bytes - bytes_));
+  }
   if (image.format != Format::rgba8 && image.format != Format::rgba16f && image.format != Format::rgba32f)
     throw Error(ErrorKind::bad_input, where + ": " + path, "its texels are neither 8 bits nor half or float with RGBA",
                 "PNG, JPEG, or an EXR with R, G, B, A");
@@ -102,32 +161,41 @@ Image ObjPictures::decoded(const MtlDocument& document, const MapSource& map) {
   return image;
 }
 
-int32_t ObjPictures::add(Texture texture) {
-  require_memory(texture.levels[0].bytes.size() / 3, texture.name, "the texture");
-  build_mip_chain(texture);
-  for (const TextureLevel& level : texture.levels) bytes_ += level.bytes.size();
+int32_t ObjPictures::add(Texture texture, const std::string& where) {
+  const TextureLevel& level = texture.levels[0];
+  const uint64_t bytes = texture_bytes(level.width, level.height, texture.format, MipChain::whole);
+  if (bytes > limits_.texture_bytes - bytes_)
+    throw Error(ErrorKind::limit, where + ": " + texture.name,
+                "with this picture and its smaller levels the pictures are over the limit",
+                within_limit(limits_.texture_bytes, "bytes in all", "--max-texture-memory"));
+  require_memory(bytes - level.bytes.size(), where + ": " + texture.name, "the texture");
+  bytes_ += bytes;
   scene_.textures.push_back(std::move(texture));
   return int32_t(scene_.textures.size() - 1);
 }
 
+void ObjPictures::build_levels() {
+  parallel_for(int(scene_.textures.size()), 0, [&](int i) { build_mip_chain(scene_.textures[size_t(i)]); });
+}
+
 template <typename Make>
-int32_t ObjPictures::once(std::string key, const Make& make) {
+int32_t ObjPictures::once(const std::string& where, std::string key, const Make& make) {
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
   Texture texture = make();
   texture.name = key.substr(0, key.find('\n'));
-  return known_[std::move(key)] = add(std::move(texture));
+  return known_[std::move(key)] = add(std::move(texture), where);
 }
 
 int32_t ObjPictures::colors(const MtlDocument& document, const MapSource& map) {
-  return once(key_of(document, map) + "\ncolors",
+  return once(place_of(document, map), key_of(document, map) + "\ncolors",
               [&] { return texture_of(decoded(document, map), TextureFormat::srgb8_a8); });
 }
 
 /// The second picture's codes; both have 8 bits a channel.
 int32_t ObjPictures::colors_with_alpha(const MtlDocument& document, const MapSource* map, const MapSource& alpha) {
   const std::string colors = map ? key_of(document, *map) : "";
-  return once(colors + "\nalpha of " + key_of(document, alpha), [&] {
+  return once(place_of(document, alpha), colors + "\nalpha of " + key_of(document, alpha), [&] {
     const auto codes = [&](const MapSource& source) {
       Image image = decoded(document, source);
       if (image.format != Format::rgba8)
@@ -137,10 +205,8 @@ int32_t ObjPictures::colors_with_alpha(const MtlDocument& document, const MapSou
     };
     const Image opacity = codes(alpha);
     Image image = opacity;
-    if (map)
-      image = codes(*map);
-    else
-      std::fill(image.texels.begin(), image.texels.end(), uint8_t(255));
+    if (map && colors != key_of(document, alpha)) image = codes(*map);
+    if (!map) std::fill(image.texels.begin(), image.texels.end(), uint8_t(255));
     int channel = 0;
     for (size_t i = 3; i < opacity.texels.size(); i += 4)
       if (opacity.texels[i] < 255) channel = 3;
@@ -158,29 +224,32 @@ int32_t ObjPictures::normals(const MtlDocument& document, const MapSource& map, 
   Image image = decoded(document, map);
   scaled = may_be_heights && image.format == Format::rgba8 && is_grey(image);
   if (scaled) heights_to_normals(image, map.bump);
-  return once(scaled ? as_heights : path + "\nnormals",
+  return once(place_of(document, map), scaled ? as_heights : path + "\nnormals",
               [&] { return texture_of(std::move(image), TextureFormat::rgba8); });
 }
 
 int32_t ObjPictures::metallic_roughness(const MtlDocument& document, const MapSource* roughness,
                                         const MapSource* metallic) {
   const auto key = [&](const MapSource* map) { return map ? key_of(document, *map) : std::string(); };
-  return once(key(roughness) + "\nroughness, metalness of " + key(metallic), [&] {
-    Image images[2];
-    const MapSource* const maps[] = {roughness, metallic};
-    for (int i = 0; i < 2; ++i) {
-      if (maps[i]) images[i] = decoded(document, *maps[i]);
-      if (maps[i] && images[i].format != Format::rgba8)
-        throw Error(ErrorKind::bad_input, place_of(document, *maps[i]), "the picture is of floats", "8 bits a channel");
-    }
-    const Image& larger = images[roughness ? 0 : 1];
-    Image out(larger.width, larger.height, Format::rgba8);
-    std::fill(out.texels.begin(), out.texels.end(), uint8_t(255));
-    for (int i = 0; i < 2; ++i)
-      for (int y = 0; maps[i] && y < out.height; ++y)
-        for (int x = 0; x < out.width; ++x) out.texel(x, y)[1 + i] = code_at(images[i], 0, x, y, out.width, out.height);
-    return texture_of(std::move(out), TextureFormat::rgba8);
-  });
+  return once(place_of(document, roughness ? *roughness : *metallic),
+              key(roughness) + "\nroughness, metalness of " + key(metallic), [&] {
+                Image images[2];
+                const MapSource* const maps[] = {roughness, metallic};
+                for (int i = 0; i < 2; ++i) {
+                  if (maps[i]) images[i] = decoded(document, *maps[i]);
+                  if (maps[i] && images[i].format != Format::rgba8)
+                    throw Error(ErrorKind::bad_input, place_of(document, *maps[i]), "the picture is of floats",
+                                "8 bits a channel");
+                }
+                const Image& larger = images[roughness ? 0 : 1];
+                Image out(larger.width, larger.height, Format::rgba8);
+                std::fill(out.texels.begin(), out.texels.end(), uint8_t(255));
+                for (int i = 0; i < 2; ++i)
+                  for (int y = 0; maps[i] && y < out.height; ++y)
+                    for (int x = 0; x < out.width; ++x)
+                      out.texel(x, y)[1 + i] = code_at(images[i], 0, x, y, out.width, out.height);
+                return texture_of(std::move(out), TextureFormat::rgba8);
+              });
 }
 
 }  // namespace trueshade::obj

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -17,6 +18,12 @@ using FileReader = std::function<Bytes(const std::string& relative, uint64_t lim
 /// hold none. Error(bad_input) as relative_path_from_uri() has them.
 std::string path_beside(const std::string& from, const std::string& name, const std::string& where);
 
+/// A picture that a material will ask for.
+struct WantedPicture {
+  const MtlDocument* document;
+  const MapSource* map;
+};
+
 /// The pictures of materials as textures of a scene, each with its smaller levels. The first row of a texture is the
 /// bottom of its picture, where v = 0. Borrows all it is given.
 class ObjPictures {
@@ -24,7 +31,12 @@ class ObjPictures {
   ObjPictures(const FileReader& read, const ImageDecoder& decode, const SceneLimits& limits, Scene& scene)
       : read_(read), decode_(decode), limits_(limits), scene_(scene) {}
 
-  /// Index of a texture. Errors: bad_input with the line of the statement, limit over limits.texture_bytes, io.
+  /// Reads pictures and decodes them by all cores, for the functions below. What fails is left to them to try again, so
+  /// that the error is that of the first picture in the order of use, however many cores there are.
+  void decode_ahead(std::span<const WantedPicture> wanted);
+
+  /// Index of a texture, which has its first level alone before build_levels(). Errors: bad_input with the line of the
+  /// statement, limit over limits.texture_bytes, io.
   int32_t colors(const MtlDocument& document, const MapSource& map);
 
   /// The same, its alpha from a second picture: that one's alpha, or its red where it has no alpha below 1. The second
@@ -39,11 +51,17 @@ class ObjPictures {
   /// Roughness in green, metalness in blue: each the red of its picture, 1 where there is none.
   int32_t metallic_roughness(const MtlDocument& document, const MapSource* roughness, const MapSource* metallic);
 
+  /// The smaller levels of all textures, by all cores. Once, last.
+  void build_levels();
+
  private:
+  struct Task;
+
+  void decode_some(std::span<Task> tasks, uint64_t share) const;
   Image decoded(const MtlDocument& document, const MapSource& map);
-  int32_t add(Texture texture);
+  int32_t add(Texture texture, const std::string& where);
   template <typename Make>
-  int32_t once(std::string key, const Make& make);
+  int32_t once(const std::string& where, std::string key, const Make& make);
 
   const FileReader& read_;
   const ImageDecoder& decode_;
@@ -51,6 +69,7 @@ class ObjPictures {
   Scene& scene_;
   uint64_t bytes_ = 0;  ///< of all textures, with their levels
   std::map<std::string, int32_t> known_;
+  std::map<std::string, Image> ahead_;  ///< decoded before they are asked for, by path
 };
 
 }  // namespace trueshade::obj

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "core/error.h"
 #include "core/file_ending.h"
@@ -38,6 +39,21 @@ class Libraries {
     }
     drawn_.resize(document.material_names.size() + 1, -1);
   }
+
+  /// Decodes the pictures of the materials that parts are drawn in, by all cores.
+  void decode_pictures(std::span<const ObjPart> parts) {
+    std::vector<WantedPicture> wanted;
+    std::set<int32_t> seen;
+    for (const ObjPart& part : parts) {
+      if (part.material < 0 || !seen.insert(part.material).second) continue;
+      const auto found = defined_.find(document_.material_names[size_t(part.material)]);
+      if (found == defined_.end()) continue;
+      for (const MapSource* map : maps_of(*found->second.material)) wanted.push_back({found->second.document, map});
+    }
+    pictures_.decode_ahead(wanted);
+  }
+
+  void build_levels() { pictures_.build_levels(); }
 
   /// Index in the scene of one of the document's materials; below 0 stands for none.
   uint32_t material(int32_t index) {
@@ -119,6 +135,7 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
   obj::ObjDocument document = obj::read_obj(file, path, limits);
   obj::Libraries libraries(document, limits, decode, read, scene);
   std::vector<obj::ObjPart> parts = obj::parts_of(document, missing_normals, limits);
+  libraries.decode_pictures(parts);
   for (obj::ObjPart& part : parts) {
     Instance instance;
     instance.mesh = uint32_t(scene.meshes.size());
@@ -127,6 +144,7 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
     scene.meshes.push_back(std::move(part.mesh));
     scene.instances.push_back(instance);
   }
+  libraries.build_levels();
   libraries.uv_sources().resize(scene.materials.size());
   bake_uv(scene, libraries.uv_sources(), [](uint64_t) {});  // no mesh is drawn twice, so none is copied
   libraries.add_note(document.points, "statement of points (p) is", "statements of points (p) are",

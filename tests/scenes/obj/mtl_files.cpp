@@ -1,4 +1,6 @@
+#include <atomic>
 #include <map>
+#include <stdexcept>
 
 #include "scenes/files/obj/obj_scene.h"
 #include "scenes/files/obj/read_mtl.h"
@@ -13,6 +15,8 @@ constexpr std::string_view kTriangle = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\
 struct Files {
   std::map<std::string, std::string> files;
   std::string obj{kTriangle};
+  SceneLimits limits{};
+  ImageDecoder decode = decoded;
 
   Scene read() const {
     const auto file = [&](const std::string& name, uint64_t, const std::string& where) {
@@ -20,13 +24,13 @@ struct Files {
       if (found == files.end()) throw Error(ErrorKind::io, where + ": " + name, "there is none", "one");
       return Bytes(found->second.begin(), found->second.end());
     };
-    return scene_from_obj(Bytes(obj.begin(), obj.end()), "m.obj", {}, decoded, MissingNormals::flat, file);
+    return scene_from_obj(Bytes(obj.begin(), obj.end()), "m.obj", limits, decode, MissingNormals::flat, file);
   }
 
-  /// "WxH" and then a code for each texel's R, G, B, A, rows from the top.
+  /// "WxH" and then a code for each texel's R, G, B, A, rows from the top. Called by many threads.
   static Image decoded(std::span<const uint8_t> content, const std::string&, uint64_t) {
     Image image(content[0] - '0', content[1] - '0', Format::rgba8);
-    REQUIRE(content.size() == 2 + image.texels.size());
+    if (content.size() != 2 + image.texels.size()) throw std::logic_error("a picture of another size");
     std::copy(content.begin() + 2, content.end(), image.texels.begin());
     return image;
   }
@@ -108,6 +112,68 @@ TEST_CASE("MTL: a picture is read once for all that read it alike") {
   CHECK(m.base_color == glm::vec4(1.0f));
   CHECK(m.specular_color == glm::vec3(1.0f));
   CHECK(m.emission == glm::vec3(1.0f));
+}
+
+/// Files of materials that are drawn one after another, each with a picture of its own.
+Files with_pictures(int count) {
+  Files files;
+  files.obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < count; ++i) {
+    const std::string name = std::to_string(i);
+    files.obj += "usemtl " + name + "\nf 1 2 3\n";
+    files.files["a.mtl"] += "newmtl " + name + "\nmap_Kd " + name + ".png\nmap_d " + name + ".png\n";
+    files.files[name + ".png"] = column({{i, 20, 30, 255}, {i, 50, 60, 0}});
+  }
+  return files;
+}
+
+TEST_CASE("MTL: pictures are decoded by all cores, once each, in the order of their use") {
+  Files files = with_pictures(40);
+  std::atomic<int> decoded = 0;
+  files.decode = [&](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
+    ++decoded;
+    return Files::decoded(content, where, most);
+  };
+  const Scene scene = files.read();
+  CHECK(decoded == 40);
+  REQUIRE(scene.textures.size() == 40);
+  for (size_t i = 0; i < 40; ++i) {
+    CHECK(scene.textures[i].name == std::to_string(i) + ".png");
+    CHECK(scene.materials[i].color_map.texture == int32_t(i));
+    CHECK(scene.textures[i].levels.size() == 2);
+    CHECK(texel(scene, scene.materials[i].color_map, 0) == std::array{int(i), 50, 60, 0});
+  }
+}
+
+TEST_CASE("MTL: of pictures that cannot be decoded the first in use is named") {
+  for (const int first : {0, 3, 7, 8, 21}) {
+    Files files = with_pictures(24);
+    for (const int broken : {first, first + 1, 23})
+      if (broken % 2 == 0)
+        files.files.erase(std::to_string(broken) + ".png");
+      else
+        files.files[std::to_string(broken) + ".png"] = "broken";
+    files.decode = [](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
+      if (content[0] == 'b') throw Error(ErrorKind::bad_input, where, "it is broken", "a whole one");
+      return Files::decoded(content, where, most);
+    };
+    const std::string name = std::to_string(first) + ".png", line = std::to_string(3 * first + 3);
+    CHECK(error_of(first % 2 == 0 ? ErrorKind::io : ErrorKind::bad_input, [&] { files.read(); }) ==
+          "a.mtl: line " + line + ": " + name +
+              (first % 2 == 0 ? ": there is none (one)" : ": it is broken (a whole one)"));
+  }
+}
+
+TEST_CASE("MTL: pictures and their smaller levels are held to the limit, narrow ones too") {
+  // A column of 2 texels has 8 bytes, and its level of 1 another 4: half as many again, where a square has a third.
+  Files files = with_pictures(4);
+  files.limits.texture_bytes = 48;
+  CHECK(files.read().textures.size() == 4);
+  files.limits.texture_bytes = 47;
+  const std::string message = error_of(ErrorKind::limit, [&] { files.read(); });
+  CHECK_STARTS_WITH(message,
+                    "a.mtl: line 12: 3.png: with this picture and its smaller levels the pictures are over the limit");
+  CHECK_THAT(message, Catch::Matchers::Contains("--max-texture-memory"));
 }
 
 TEST_CASE("MTL: map_d gives the colours their alpha, and masks") {
