@@ -97,6 +97,7 @@ void Sha256::block(const uint8_t* data) {
 }
 
 void Sha256::update(const void* data, size_t bytes) {
+  if (bytes == 0) return;  // of an empty list the address may be null, which memcpy takes for no length
   const auto* next = static_cast<const uint8_t*>(data);
   size_t filled = size_t(bytes_ % 64);
   bytes_ += bytes;

@@ -44,5 +44,13 @@ TEST_CASE("SHA-256 does not depend on how its input is cut into pieces") {
   }
 }
 
+TEST_CASE("SHA-256 takes an empty piece that has no address") {
+  Sha256 hash;
+  hash.update("ab", 2);
+  hash.update(nullptr, 0);
+  hash.update("c", 1);
+  CHECK(hash.hex() == sha256("abc"));
+}
+
 }  // namespace
 }  // namespace trueshade

@@ -1,11 +1,10 @@
 #include "tests/fuzz/targets.h"
 
-#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 
-#include "core/error.h"
 #include "core/image_files/exr_layout.h"
 #include "core/image_files/jpeg_pixels.h"
 #include "core/image_files/png_header.h"
@@ -13,47 +12,20 @@
 #include "core/picture_kind.h"
 #include "scenes/files/gltf/data_uri.h"
 #include "scenes/files/gltf/gltf_scene.h"
+#include "scenes/files/gltf/writing/glb_scene.h"
 #include "scenes/files/light_buffers.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/files/scene_files.h"
 #include "scenes/files/scene_json.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
+#include "tests/fuzz/promises.h"
 
 namespace trueshade::fuzz {
 namespace {
 
-using Bytes = std::span<const uint8_t>;
-
 constexpr uint64_t kMostBytes = uint64_t(8) << 20;
 constexpr int kMostSide = 512;
-
-/// Limits under which an input takes milliseconds.
-SceneLimits small_limits() {
-  SceneLimits limits;
-  limits.lights = limits.instances = limits.nodes = 2000;
-  limits.file_bytes = limits.json_bytes = limits.texture_bytes = limits.buffer_bytes = limits.geometry_bytes =
-      kMostBytes;
-  return limits;
-}
-
-std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-void promise(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
-
-/// A refusal is one line.
-template <typename Job>
-void read(Job job) {
-  try {
-    job();
-  } catch (const Error& error) {
-    promise(std::string_view(error.what()).ends_with(")"), "an error says what to do");
-  }
-}
 
 /// A file in an empty folder, so that nothing but the bytes is read.
 const std::string& path_of(const char* name) {
@@ -80,20 +52,50 @@ Image decode(Bytes content, const std::string& where, uint64_t) {
   return Image(1, 1, Format::rgba8);
 }
 
-/// A scene that was read is in range, and stays so at any time or says so.
-void check_scene(Scene scene) {
-  scene.spec = "scene";
-  validate(scene, small_limits());
-  read([&] { set_time(scene, 0.25); });
-  read([&] { set_time(scene, 1e5); });
-}
-
 void run_gltf(Bytes bytes) {
   read([&] { check_scene(scene_from_gltf(bytes, path_of("s.gltf"), small_limits(), decode)); });
 }
 
 void run_glb(Bytes bytes) {
   read([&] { check_scene(scene_from_gltf(bytes, path_of("s.glb"), small_limits(), decode)); });
+}
+
+/// Codes as they are, behind what PNG files begin with and the size: what export writes where the test encodes.
+std::vector<uint8_t> stored_picture(const Image& image) {
+  std::vector<uint8_t> bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  bytes.resize(16);
+  std::memcpy(&bytes[8], &image.width, 4);
+  std::memcpy(&bytes[12], &image.height, 4);
+  bytes.insert(bytes.end(), image.texels.begin(), image.texels.end());
+  return bytes;
+}
+
+Image loaded_picture(Bytes content, const std::string&, uint64_t) {
+  int32_t sides[2] = {};
+  promise(content.size() >= 16, "a written picture has a size");
+  std::memcpy(sides, &content[8], sizeof sides);
+  Image image(sides[0], sides[1], Format::rgba8);
+  promise(content.size() == 16 + image.texels.size(), "a written picture is whole");
+  std::copy(content.begin() + 16, content.end(), image.texels.begin());
+  return image;
+}
+
+/// What was read is written as a file that is read as the same.
+void run_exported(Bytes bytes) {
+  read([&] {
+    const std::string& path = path_of("e.gltf");
+    Scene scene = scene_from_gltf(bytes, path, small_limits(), decode);
+    scene.spec = "scene";
+    validate(scene, small_limits());
+    const GlbFile file = glb_of_scene(scene, stored_picture);
+    try {
+      const Scene again = scene_from_gltf(file.bytes, path, {}, loaded_picture);
+      promise(scene_hash(again) == scene_hash(scene), "an exported scene is the scene");
+    } catch (const Error& error) {
+      promise(false, error.what());
+    }
+    check_scene(std::move(scene));
+  });
 }
 
 /// But for scenes with our two large meshes, which are made in a tenth of a second, and in more than one under
@@ -162,12 +164,37 @@ void run_csv(Bytes bytes) {
   read([&] { promise(samples_from_csv(text_of(bytes), "l.csv", 1000).size() <= 1000, "samples are limited"); });
 }
 
-constexpr Target kTargets[] = {
-    {"gltf", run_gltf}, {"glb", run_glb},       {"scene_json", run_scene}, {"pipeline_json", run_pipeline},
-    {"ply", run_ply},   {"ply_gz", run_ply_gz}, {"uri", run_uri},          {"png", run_png},
-    {"jpeg", run_jpeg}, {"exr", run_exr},       {"csv", run_csv}};
+constexpr Target kTargets[] = {{"gltf", run_gltf},
+                               {"glb", run_glb},
+                               {"exported", run_exported},
+                               {"scene_json", run_scene},
+                               {"pipeline_json", run_pipeline},
+                               {"ply", run_ply},
+                               {"ply_gz", run_ply_gz},
+                               {"obj", run_obj},
+                               {"mtl", run_mtl},
+                               {"uri", run_uri},
+                               {"png", run_png},
+                               {"jpeg", run_jpeg},
+                               {"exr", run_exr},
+                               {"csv", run_csv}};
 
 }  // namespace
+
+SceneLimits small_limits() {
+  SceneLimits limits;
+  limits.lights = limits.instances = limits.nodes = 2000;
+  limits.file_bytes = limits.json_bytes = limits.texture_bytes = limits.buffer_bytes = limits.geometry_bytes =
+      kMostBytes;
+  return limits;
+}
+
+void check_scene(Scene scene) {
+  scene.spec = "scene";
+  validate(scene, small_limits());
+  read([&] { set_time(scene, 0.25); });
+  read([&] { set_time(scene, 1e5); });
+}
 
 std::span<const Target> targets() { return kTargets; }
 

@@ -39,6 +39,17 @@ void make_unit(Track& track, const Accessors& accessors, uint32_t accessor) {
   }
 }
 
+/// Times without data are all 0. Of such steps the last is kept, which holds from 0 on: times of a track ascend.
+template <typename AnyTrack>
+void keep_one_of_equal_times(AnyTrack& track, size_t values_a_step) {
+  if (track.times.size() < 2 || track.times.back() > track.times.front()) return;
+  const auto keep_last = [](auto& list, size_t count) {
+    if (!list.empty()) list.erase(list.begin(), list.end() - ptrdiff_t(count));
+  };
+  keep_last(track.times, 1);
+  for (auto* values : {&track.values, &track.arriving, &track.leaving}) keep_last(*values, values_a_step);
+}
+
 }  // namespace
 
 Track track_of(Accessors& accessors, const AnimationSource& animation, const Channel& channel) {
@@ -56,9 +67,11 @@ Track track_of(Accessors& accessors, const AnimationSource& animation, const Cha
   } else {
     track.values = std::move(values);
   }
-  if (channel.path != Path::rotation) return track;
-  if (track.between == Between::linear) track.between = Between::slerp;
-  make_unit(track, accessors, sampler.output);
+  if (channel.path == Path::rotation) {
+    if (track.between == Between::linear) track.between = Between::slerp;
+    make_unit(track, accessors, sampler.output);
+  }
+  keep_one_of_equal_times(track, 1);
   return track;
 }
 
@@ -70,14 +83,12 @@ WeightTrack weight_track_of(Accessors& accessors, const AnimationSource& animati
   const std::vector<double> values = accessors.doubles(sampler.output, 0);
   const size_t parts = sampler.between == Between::cubic ? 3 : 1;
   track.count = uint32_t(values.size() / (track.times.size() * parts));
-  if (parts == 1) {
-    track.values = values;
-    return track;
-  }
-  for (size_t i = 0; i < values.size(); ++i) {
+  if (parts == 1) track.values = values;
+  for (size_t i = 0; parts == 3 && i < values.size(); ++i) {
     const size_t part = i / track.count % 3;
     (part == 0 ? track.arriving : part == 1 ? track.values : track.leaving).push_back(values[i]);
   }
+  keep_one_of_equal_times(track, track.count);
   return track;
 }
 

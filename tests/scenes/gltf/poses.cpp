@@ -2,6 +2,7 @@
 
 #include "../expect_error.h"
 #include "asset.h"
+#include "round_trip.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -55,6 +56,30 @@ TEST_CASE("translations and scales move by steps, lines and splines") {
     CHECK(p.y == float(4.0 * s * (1.0 - s) * (1.0 - s)));
   }
   CHECK(at_time(cubic, 3.0)[3] == glm::vec3(5, 0, 0));
+}
+
+TEST_CASE("of steps whose times have no data, and so are all 0, the last is kept: times of a track ascend") {
+  for (const bool cubic : {false, true}) {
+    Asset asset;
+    asset.accessor(kTriangle, "VEC3");
+    asset.accessor(R"("componentType": 5126, "count": 2, "type": "SCALAR")");
+    asset.accessor(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9}, "VEC3");
+    asset.accessor(std::vector<float>{1, 2, 3, 4, 5, 6}, "VEC3");
+    Scene scene = load_gltf(asset.gltf(
+        one_primitive(R"("attributes": {"POSITION": 0})", "",
+                      R"("animations": [{"samplers": [{"input": 1, "output": )" + std::string(cubic ? "2" : "3") +
+                          R"(, "interpolation": ")" + (cubic ? "CUBICSPLINE" : "LINEAR") +
+                          R"("}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])")));
+    const Track& track = *scene.timeline.node_motions.at(0).motion.position;
+    CHECK(track.times == std::vector<double>{0.0});
+    CHECK(track.values == std::vector<glm::dvec4>{{4, 5, 6, 0}});
+    CHECK(track.arriving.size() == (cubic ? 1 : 0));
+    CHECK(track.leaving == (cubic ? std::vector<glm::dvec4>{{7, 8, 9, 0}} : std::vector<glm::dvec4>{}));
+    set_time(scene, 2.0);
+    CHECK(scene.instances.at(0).world_from_object[3] == glm::vec3(4, 5, 6));
+    const Scene again = written_and_loaded(scene);
+    CHECK(scene_hash(again) == scene_hash(scene));
+  }
 }
 
 TEST_CASE("rotations turn at even speed along the shorter arc") {
