@@ -46,6 +46,21 @@ class PeakMemory {
 };
 
 bool is_gl(const std::string& peer) { return peer == "gl" || peer.starts_with("gl="); }
+/// The designs of the peer gl=DESIGN+DESIGN; none for gl, which is every design. Error(usage) for a name of none.
+std::vector<std::string> designs_from_text(const std::string& peer) {
+  std::vector<std::string> designs;
+  if (peer == "gl") return designs;
+  const std::span<const std::string_view> known = gl_design_names();
+  for (size_t begin = peer.find('=') + 1; begin <= peer.size();) {
+    const size_t end = std::min(peer.find('+', begin), peer.size());
+    designs.push_back(peer.substr(begin, end - begin));
+    if (!known.empty() && std::find(known.begin(), known.end(), designs.back()) == known.end())
+      throw usage("--against gl", "OpenGL is not drawn by '" + designs.back() + "'", "one of: " + joined(known));
+    begin = end + 1;
+  }
+  return designs;
+}
+
 bool is_variant(const std::string& peer) { return !is_gl(peer) && peer.find('=') != std::string::npos; }
 
 std::vector<std::unique_ptr<Peers>> peers_of(const BenchOptions& options, const Scene& scene,
@@ -164,6 +179,8 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
 }  // namespace
 
 void bench(const BenchOptions& options) {
+  for (const std::string& peer : options.against)
+    if (is_gl(peer)) designs_from_text(peer);
   const bool json_printed = options.json_file == "-";
   for (const std::string& spec : options.scenes) check_pipeline(options_of(options, spec));
   for (const auto& file : {options.json_file, options.report})

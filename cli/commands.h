@@ -7,6 +7,10 @@
 
 namespace trueshade {
 
+/// Carries a command out, and returns the exit code. The program `trueshade` has every command (every_command.cpp),
+/// `trueshade-picture` only `render` (picture_command.cpp); each has its own scene_of_options().
+int execute(const Command& command);
+
 // The subcommands. Each writes its files, then its answer to standard output, and throws Error where it cannot.
 void render(const RenderOptions& options);
 void print_info(const InfoOptions& options);

@@ -3,7 +3,7 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "core/numeric_profile.h"
-#include "judge/bounds/profile.h"
+#include "judge/bounds/profile_names.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -31,7 +31,7 @@ std::vector<Section> sections() {
   static_assert(std::size(kWhose) == std::size(kProfileNames));
   for (size_t i = 0; i < std::size(kProfileNames); ++i) profiles.entries.emplace_back(kProfileNames[i], kWhose[i]);
   Section drivers{"driver_profiles", "Profiles that validate holds a driver to (--profile)", {}};
-  for (const std::string_view name : oracle::profile_names()) drivers.entries.emplace_back(name, "");
+  for (const std::string_view name : oracle::kDriverProfileNames) drivers.entries.emplace_back(name, "");
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};

@@ -105,23 +105,12 @@ void install_handlers() {
 /// Called before the initializers of the libraries, which may run out of memory as well.
 __attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = install_handlers;
 
-constexpr int kViolation = 1;
-
-int execute(const Command& command) {
+void cap_memory(const Command& command) {
   std::visit(
       [](const auto& options) {
         if constexpr (requires { options.limits; }) set_memory_cap(options.limits.memory);
       },
       command);
-  if (const auto* options = std::get_if<RenderOptions>(&command)) render(*options);
-  if (const auto* options = std::get_if<InfoOptions>(&command)) print_info(*options);
-  if (const auto* options = std::get_if<ListOptions>(&command)) print_list(*options);
-  if (const auto* options = std::get_if<GlslFilesOptions>(&command)) write_glsl(*options);
-  if (const auto* options = std::get_if<ExportOptions>(&command)) export_scene(*options);
-  if (const auto* options = std::get_if<BenchOptions>(&command)) bench(*options);
-  if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
-  if (const auto* options = std::get_if<PrintText>(&command)) print(options->text);
-  return 0;
 }
 
 }  // namespace
@@ -132,7 +121,9 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return trueshade::execute(trueshade::command_from_arguments(count, arguments));
+    const trueshade::Command command = trueshade::command_from_arguments(count, arguments);
+    trueshade::cap_memory(command);
+    return trueshade::execute(command);
   } catch (...) {
     return trueshade::exit_code_of(std::current_exception());
   }

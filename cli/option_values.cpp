@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "bench/peers.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -133,31 +132,18 @@ std::vector<std::string> peers_from_text(const std::string& list) {
     const std::string name = list.substr(begin, end - begin);
     if (std::find(names.begin(), names.end(), name) != names.end())
       throw usage("--against", "peer '" + name + "' is named twice", "name it once");
-    if (name.starts_with("gl="))
-      designs_from_text(name);
-    else if (name.find('=') != std::string::npos)
+    if (name.starts_with("gl=")) {
+      // bench(), which knows the designs, checks their names.
+    } else if (name.find('=') != std::string::npos) {
       variant_from_text(name);
-    else if (name != "gl" && name != "embree")
+    } else if (name != "gl" && name != "embree") {
       throw usage("--against", "there is no peer '" + name + "'",
                   "any of, with commas: gl gl=DESIGN+DESIGN embree " + kVariantForms);
+    }
     names.push_back(name);
     begin = end + 1;
   }
   return names;
-}
-
-std::vector<std::string> designs_from_text(const std::string& peer) {
-  std::vector<std::string> designs;
-  if (peer == "gl") return designs;
-  const std::span<const std::string_view> known = gl_design_names();
-  for (size_t begin = peer.find('=') + 1; begin <= peer.size();) {
-    const size_t end = std::min(peer.find('+', begin), peer.size());
-    designs.push_back(peer.substr(begin, end - begin));
-    if (!known.empty() && std::find(known.begin(), known.end(), designs.back()) == known.end())
-      throw usage("--against gl", "OpenGL is not drawn by '" + designs.back() + "'", "one of: " + joined(known));
-    begin = end + 1;
-  }
-  return designs;
 }
 
 Variant variant_from_text(const std::string& text) {

@@ -22,11 +22,8 @@ PngEncoding encoding_from_text(const std::string& text);
 Strategy strategy_from_text(const std::string& option, const std::string& text);
 /// The names of a list. With `depth` comes `Z`: two channels of a file for one name.
 std::vector<std::string> aovs_from_text(const std::string& option, const std::string& list);
-/// Names of peers: gl, embree, or ours drawn otherwise, KEY=VALUE.
+/// Names of peers: gl, gl=DESIGN+DESIGN, embree, or ours drawn otherwise, KEY=VALUE. Names of designs are not checked.
 std::vector<std::string> peers_from_text(const std::string& list);
-
-/// Of the peer gl=DESIGN+DESIGN...; of gl, none: every design.
-std::vector<std::string> designs_from_text(const std::string& peer);
 
 /// How a variant of the bench draws what is timed: one option of render in another way.
 struct Variant {

@@ -9,7 +9,7 @@
 #include "cli/version.h"
 #include "core/error.h"
 #include "core/file_ending.h"
-#include "judge/bounds/profile.h"
+#include "judge/bounds/profile_names.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -223,7 +223,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   add_value(command, "--image", "FILE", options.image_file,
                       "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
   add_value(command, "--profile", "NAME", options.held_to,
-      "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::profile_names()));
+      "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::kDriverProfileNames));
   add_value(command, "--subpixel-bits", "COUNT", texts.subpixel_bits,
       "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   add_values(command, "--save", "FILE", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
@@ -250,9 +250,9 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
     throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
   if (options.driver && !options.gbuffer_file.empty())
     throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
-  if (options.held_to && !oracle::profile_named(*options.held_to))
-    throw usage("--profile", "there is no profile '" + *options.held_to + "'",
-                "one of: " + joined(oracle::profile_names()));
+  constexpr auto& kProfiles = oracle::kDriverProfileNames;
+  if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
+    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(kProfiles));
   if (options.gbuffer_file.empty() && !options.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   for (const std::string& path : options.saved)

@@ -7,8 +7,8 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
+#include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
-#include "scenes/files/scene_files.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame_memory.h"
 
@@ -30,13 +30,6 @@ void check_pipeline(const PipelineOptions& options) {
   } else if (options.pipeline_file) {
     json::parse(text_of(*options.pipeline_file), *options.pipeline_file);
   }
-}
-
-Scene scene_of_options(const std::string& spec, const Limits& limits) {
-  return load_scene(spec, limits,
-                    [&limits](std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
-                      return decode_image(content, where, most_bytes, limits.expansion);
-                    });
 }
 
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,

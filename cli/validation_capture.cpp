@@ -12,7 +12,7 @@
 #include "core/image_files/image_io.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
-#include "scenes/files/scene_files.h"
+#include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
 namespace {

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trueshade)
 set_target_properties(trueshade_flags PROPERTIES EXPORT_NAME flags)
 
-install(TARGETS trueshade_flags trueshade_core trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade)
+install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade)
 install(TARGETS trueshade_image_files trueshade_image_io EXPORT trueshade_image_io)
 install(TARGETS trueshade)
 install(TARGETS trueshade_image_io_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade)

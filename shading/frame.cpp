@@ -98,11 +98,6 @@ PreparedScene::~PreparedScene() = default;
 void PreparedScene::update() { cluster_posed_meshes(*scene_, *clusters_); }
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
-int tile_for(int width, int height, int threads) {
-  const auto tiles = [](int side) { return uint64_t(side + 63) / 64; };
-  return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
-}
-
 Frame draw_frame(const PreparedScene& prepared, const Pipeline& given, const Execution& asked,
                  std::span<const std::string> planes, bool lit, const Progress& progress) {
   const FpScope fp;

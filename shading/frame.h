@@ -101,10 +101,6 @@ class PreparedScene {
   std::unique_ptr<ClusteredScene> clusters_;
 };
 
-/// The side of tiles that is drawn with where none is asked for: 64 pixels, or 32 where that leaves fewer than 8 tiles
-/// for a thread. `threads` as in Execution.
-int tile_for(int width, int height, int threads);
-
 /// Called now and then with the tiles done and the tiles in all, from any one thread at a time.
 using Progress = std::function<void(int done, int total)>;
 

@@ -54,7 +54,7 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
   // Sums that are stored as they are in fixed point need only have the right codes.
   const bool codes = info(pipeline.target).number_class == NumberClass::unorm && !draws_unlike;
   plan.shortcuts = {.culling = execution.light_culling, .compiled = execution.compiled_models};
-  if (codes && execution.settled_sums) plan.shortcuts.codes = pipeline.target;
+  if (codes && execution.bounded_codes) plan.shortcuts.codes = pipeline.target;
   for (const std::string& name : planes) plan.planes.push_back(plane_source(name));
   return plan;
 }

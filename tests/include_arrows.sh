@@ -1,6 +1,7 @@
 #!/bin/bash
-# Fails on an #include that tests/include_arrows.txt does not allow. Also holds libraries to their places: OpenImageIO in
-# core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
+# Fails on an #include that tests/include_arrows.txt does not allow, and on arrows that make a circle. Also holds libraries
+# to their places: OpenImageIO in core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in
+# cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 status=0
@@ -23,6 +24,15 @@ while read -r folder included where; do
   [[ ${arrows[$folder]} == *" $included "* ]] || fail "$folder may not include from $included" "$where"
 done < <(sources core scenes raster shading oracle judge gl bench cli | xargs grep -nE '^ *# *include "' |
   sed -nE 's|^(([^:]*)/[^/:]*:[0-9]+): *# *include "(([^"]*)/)?[^/"]*".*|\2 \4 \1|p')
+
+# unit FOLDER: the folder; of a `fast` or `bounded` folder that the folder above calls, the folder above.
+unit() {
+  local above=${1%/*}
+  if [[ $1 =~ /(fast|bounded)$ && ${arrows[$above]} == *" $1 "* ]]; then echo "$above"; else echo "$1"; fi
+}
+circle=$(for folder in "${!arrows[@]}"; do
+  for target in ${arrows[$folder]}; do echo "$(unit "$folder") $(unit "$target")"; done
+done | tsort 2>&1 >/dev/null) || fail 'these folders include each other' "$circle"
 
 # only_in PATTERN FILES: a library's headers are included by these files only.
 only_in() {

@@ -1,12 +1,8 @@
 #include "judge/bounds/profile.h"
 
-#include <array>
-
 namespace trueshade::oracle {
 
 namespace {
-
-constexpr std::array<std::string_view, 4> kNames = {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"};
 
 /// D3D11.3 functional spec: 3.4.1 and 15.16 (snapping, planes from snapped vertices), 3.2.2 (half toward zero), 3.2.3
 /// (unorm within 0.6), 3.1 (+ - * within half an ulp... of any order; division and roots within 1).
@@ -73,13 +69,10 @@ Profile ideal() {
 
 }  // namespace
 
-std::span<const std::string_view> profile_names() { return kNames; }
-
 std::optional<Profile> profile_named(std::string_view name) {
-  if (name == kNames[0]) return Profile{};
-  if (name == kNames[1]) return d3d_class();
-  if (name == kNames[2]) return llvmpipe();
-  if (name == kNames[3]) return ideal();
+  if (name == "unknown") return Profile{};
+  for (const Profile& profile : {d3d_class(), llvmpipe(), ideal()})
+    if (name == profile.name) return profile;
   return std::nullopt;
 }
 

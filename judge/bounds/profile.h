@@ -3,11 +3,11 @@
 // profile allows fewer values; `unknown` allows whatever OpenGL allows.
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "judge/bounds/bounded.h"
+#include "judge/bounds/profile_names.h"
 
 namespace trueshade::oracle {
 
@@ -68,9 +68,8 @@ struct Profile {
   Arithmetic arithmetic;
 };
 
-/// Names: unknown, d3d-class, mesa-llvmpipe-22.3, ideal. Nothing for others.
+/// Of a name in kDriverProfileNames; nothing for others.
 std::optional<Profile> profile_named(std::string_view name);
-std::span<const std::string_view> profile_names();
 
 /// Ideal's half mode follows the pipeline; the others' is their own.
 const char* text(SnapRule rule);

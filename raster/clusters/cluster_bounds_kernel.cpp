@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/clusters/cluster_bounds.h"
-#include "raster/triangles/lanes-inl.h"
-#include "raster/triangles/vertex_stage-inl.h"
+#include "raster/fixed_point.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

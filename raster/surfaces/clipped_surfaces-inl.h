@@ -13,13 +13,13 @@
 #include <bit>
 #include <vector>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/back_faces.h"
-#include "raster/surfaces/interpolate-inl.h"
 #include "raster/surfaces/material_maps-inl.h"
 #include "raster/surfaces/surface_task.h"
 #include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/triangles/lanes-inl.h"
+#include "raster/triangles/interpolate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

@@ -11,10 +11,10 @@
 #include <bit>
 #include <optional>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/normal_maps-inl.h"
 #include "raster/surfaces/surfaces.h"
 #include "raster/textures/texture-inl.h"
-#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

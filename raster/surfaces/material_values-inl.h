@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include "core/simd/lanes-inl.h"
 #include "core/simd/store-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/material_values.h"
 

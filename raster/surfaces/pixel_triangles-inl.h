@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
-#include "raster/surfaces/interpolate-inl.h"
 #include "raster/surfaces/surfaces.h"
+#include "raster/triangles/interpolate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

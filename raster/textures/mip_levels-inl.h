@@ -11,8 +11,8 @@
 
 #include <algorithm>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/textures/texture.h"
-#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

@@ -9,9 +9,9 @@
 
 #include <hwy/highway.h>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/textures/mip_levels-inl.h"
 #include "raster/textures/texture.h"
-#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

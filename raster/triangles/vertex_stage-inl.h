@@ -11,6 +11,7 @@
 
 #include <limits>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/clusters/clusters.h"
 #include "raster/fixed_point.h"
 #include "raster/triangles/snap.h"
@@ -19,13 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D64 = hn::ScalableTag<double>;  // a lane is a vertex, a triangle or a pixel; lanes never meet
-using D32 = hn::Rebind<float, D64>;   // as many floats
-using I32 = hn::Rebind<int32_t, D64>;
-using U32 = hn::Rebind<uint32_t, D64>;
-using V64 = hn::Vec<D64>;
-using V32 = hn::Vec<D32>;
 
 /// Row `m` of an affine transform: ((m0 x + m1 y) + m2 z) + m3.
 template <class V>

@@ -9,9 +9,9 @@
 
 #include <hwy/highway.h>
 
-#include "raster/surfaces/interpolate-inl.h"
 #include "raster/textures/texture-inl.h"
 #include "raster/triangles/clipped_fan.h"
+#include "raster/triangles/interpolate-inl.h"
 #include "raster/triangles/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-#include "raster/triangles/lanes-inl.h"
+#include "core/simd/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/triangles/vertex_stage-inl.h"
 #include "raster/visibility/visibility.h"

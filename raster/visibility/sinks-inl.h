@@ -17,8 +17,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/triangles/depth_plane-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/triangles/vertex_stage-inl.h"
 #include "raster/visibility/alpha_test-inl.h"

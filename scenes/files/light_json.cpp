@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "scenes/builtin/light_generators.h"
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/light_buffers.h"
-#include "scenes/files/scene_files.h"
 #include "scenes/files/steps_json.h"
 #include "scenes/trig.h"
 

@@ -2,8 +2,8 @@
 #include <string>
 #include <string_view>
 
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/load_ply.h"
-#include "scenes/files/scene_files.h"
 
 namespace trueshade {
 

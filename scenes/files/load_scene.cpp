@@ -4,11 +4,11 @@
 #include "core/file_ending.h"
 #include "core/fp_env.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/files/gltf/gltf_scene.h"
-#include "scenes/files/lights_of_ours.h"
+#include "scenes/files/gltf_scene.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/files/obj/obj_scene.h"
 #include "scenes/files/scene_json.h"
+#include "scenes/lights_of_ours.h"
 #include "scenes/scene.h"
 #include "scenes/scene_defaults.h"
 

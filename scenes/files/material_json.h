@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
-#include "scenes/files/baked_uv.h"
-#include "scenes/files/scene_files.h"
+#include "scenes/baked_uv.h"
+#include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
 

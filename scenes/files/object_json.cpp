@@ -8,7 +8,7 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/files/gltf/gltf_geometry.h"
-#include "scenes/files/gltf/gltf_scene.h"
+#include "scenes/files/gltf_scene.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/files/obj/obj_scene.h"
 #include "scenes/shapes.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <tuple>
 
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/load_ply.h"
 #include "scenes/files/material_json.h"
-#include "scenes/files/scene_files.h"
 #include "scenes/files/steps_json.h"
 #include "scenes/scene.h"
 

@@ -139,8 +139,12 @@ struct Execution {
   bool compiled_models = true;   ///< light kernels compiled for the usual models; otherwise the general one for all
   bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
   bool fast_geometry = true;     ///< special paths for usual triangles and surfaces; otherwise the general ones for all
-  bool settled_sums = true;      ///< codes by bounds, where these settle them: of single lights' terms, and of sums
+  bool bounded_codes = true;     ///< codes of a light's term and of sums by bounds on them, where one code is possible
 };
+
+/// The side of tiles that a frame is drawn with where Execution::tile is 0: 64 pixels, or 32 if there are fewer than 8
+/// tiles of 64 pixels for each thread. `threads` as in Execution.
+int tile_for(int width, int height, int threads);
 
 /// Throws Error(usage) naming the field and its range.
 void validate(const Pipeline& pipeline);

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/threads/parallel_for.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -154,6 +155,11 @@ void validate(const Pipeline& pipeline) {
   require_enumerator(pipeline.view, ImageView::overdraw, "view");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
+}
+
+int tile_for(int width, int height, int threads) {
+  const auto tiles = [](int side) { return uint64_t(side + 63) / 64; };
+  return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
 }
 
 void validate(const Execution& execution) {

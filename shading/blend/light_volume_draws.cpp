@@ -46,7 +46,7 @@ LightVolumeDraws light_volume_draws(std::span<const Light> lights, const Pipelin
           .first_base = multipass,
           .culling = execution.light_culling,
           .compiled = execution.compiled_models,
-          .bounded_codes = execution.settled_sums};
+          .bounded_codes = execution.bounded_codes};
 }
 
 int start_outlines(std::span<const Light> lights, const Pipeline& pipeline, const LightMeshes& meshes, const View& view,

@@ -11,7 +11,6 @@
 #include "raster/tile.h"
 #include "raster/view.h"
 #include "raster/visibility/visibility.h"
-#include "shading/frame.h"
 #include "shading/output/texels.h"
 
 namespace trueshade {

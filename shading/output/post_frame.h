@@ -1,5 +1,7 @@
 #pragma once
-#include "shading/frame.h"
+#include "core/image.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
 
 namespace trueshade {
 

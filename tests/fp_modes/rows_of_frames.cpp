@@ -62,8 +62,9 @@ void call_aovs(Bytes& out) {
     out.put(name);
     out.put(is_aov_name(name));
   }
-  out.put(tile_for(800, 600, 2));
 }
+
+void call_tiles(Bytes& out) { out.put(tile_for(800, 600, 2)); }
 
 /// Numbers that no file holds exactly, and denormals.
 const Frame& drawn() {
@@ -121,7 +122,8 @@ constexpr Row kRows[] = {
     {"core/image_files/image_io.h", "read_planes decode_image read_image_info check_writable write_file", call_reading},
     {"shading/frame.h", "render_frame", call_frames},
     {"shading/frame.h", "PreparedScene scene clusters update", call_prepared},
-    {"shading/frame.h", "aov_names is_aov_name tile_for", call_aovs},
+    {"shading/frame.h", "aov_names is_aov_name", call_aovs},
+    {"scenes/pipeline/pipeline.h", "tile_for", call_tiles},
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "scenes/files/lights_of_ours.h"
+#include "scenes/lights_of_ours.h"
 #include "scenes/scene.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"

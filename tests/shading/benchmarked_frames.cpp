@@ -15,7 +15,7 @@ TEST_CASE("Frames of 800x800 have their hash by every fast path and by none", "[
   const std::string_view narrow = targets.size() > 1 ? targets[targets.size() - 2] : targets.front();  // not scalar
   Execution fast, plain;
   plain.threads = 3, plain.tile = 48, plain.simd = narrow, plain.shuffle_tiles = true;
-  plain.compiled_models = plain.fast_geometry = plain.settled_sums = false;
+  plain.compiled_models = plain.fast_geometry = plain.bounded_codes = false;
   std::string loaded;
   Scene scene;
   std::optional<PreparedScene> prepared;

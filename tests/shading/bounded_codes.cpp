@@ -23,7 +23,7 @@ Pipeline blending_pipeline(std::string_view preset, Format target) {
 
 void check_ways(const Scene& scene, const Pipeline& p) {
   const PreparedScene prepared(scene);
-  const Frame terms = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
+  const Frame terms = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCounts);
   for (const std::string_view simd : simd_targets()) {
     INFO(simd);
     const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCounts);
@@ -68,7 +68,7 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
     albedo[k] = float((code[k] + 0.5) / 255.0 / most);
     if (albedo[k] > 1.0f) code[k] -= 1, albedo[k] = float((code[k] + 0.5) / 255.0 / most);
   }
-  const Image terms = with_albedo(albedo, Format::rgba8, {.settled_sums = false});
+  const Image terms = with_albedo(albedo, Format::rgba8, {.bounded_codes = false});
   int low = 0, high = 0;
   for (int y = 0; y < terms.height; ++y)
     for (int x = 0; x < terms.width; ++x)

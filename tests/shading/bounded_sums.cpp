@@ -59,7 +59,7 @@ TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights 
     if (i % 5 == 2) p.light_model.viewer = Viewer::infinite;
     if (i % 5 == 3) p.light_model.order = TermOrder::factored;
     const PreparedScene prepared(scene);
-    const Frame sums = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
+    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCounts);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
       const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCounts);
@@ -98,14 +98,14 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
     if (i % 11 == 5) p.light_model.global_ambient = glm::vec3(0.1f);
     if (i % 13 == 6) p.light_model.specular_color = {0.0f, 0.5f, 4.0f};
     const PreparedScene prepared(scene);
-    const Frame sums = render_frame(prepared, p, {.light_culling = false, .settled_sums = false}, kCounts);
+    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCounts);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
       const Frame bounded = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCounts);
       CHECK(image_hash(bounded.color) == image_hash(sums.color));
       CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
       CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
-      const Frame added = render_frame(prepared, p, {.simd = simd, .settled_sums = false}, kCounts);
+      const Frame added = render_frame(prepared, p, {.simd = simd, .bounded_codes = false}, kCounts);
       otherwise += bounded.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
       ++frames;
     }
@@ -144,7 +144,7 @@ TEST_CASE("So are codes of sums that lie on the edge between two of them, all ov
     const int code = int(255.0 * (none + 0.5 * (one - none)));
     REQUIRE(one > none);
     const auto albedo = float(((code + 0.5) / 255.0 - none) / (one - none));
-    const Image sums = with_albedo(albedo, Format::rgba8, {.settled_sums = false});
+    const Image sums = with_albedo(albedo, Format::rgba8, {.bounded_codes = false});
     int low = 0, high = 0;
     for (int y = 0; y < sums.height; ++y)
       for (int x = 0; x < sums.width; ++x) {

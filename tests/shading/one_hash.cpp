@@ -60,7 +60,7 @@ Way way(const Choice& c, const std::vector<std::string_view>& targets) {
   Way out;
   out.execution = {kThreads[c[0]], kTiles[c[1]], targets[size_t(c[2])], c[4] == 0, c[5] == 0, c[6] == 1, c[7] == 0};
   out.execution.fast_geometry = c[8] == 0;
-  out.execution.settled_sums = c[9] == 0;
+  out.execution.bounded_codes = c[9] == 0;
   out.host = kHosts[c[3]];
   return out;
 }
@@ -107,8 +107,8 @@ void check(const PreparedScene& scene, const GoldenFrame& golden, const Way& way
                     << ", " << way.execution.simd << ", light culling " << way.execution.light_culling
                     << ", geometry culling " << way.execution.geometry_culling << ", shuffled "
                     << way.execution.shuffle_tiles << ", compiled models " << way.execution.compiled_models
-                    << ", fast geometry " << way.execution.fast_geometry << ", settled sums "
-                    << way.execution.settled_sums << ", host " << int(way.host));
+                    << ", fast geometry " << way.execution.fast_geometry << ", bounded codes "
+                    << way.execution.bounded_codes << ", host " << int(way.host));
   CHECK(image_hash(frame.color) == golden.hash);
 }
 

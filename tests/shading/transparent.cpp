@@ -210,7 +210,7 @@ TEST_CASE("Frames with transparent surfaces are one image, whatever draws them")
     };
     check({.threads = 1, .tile = 8, .light_culling = false});
     check({.threads = 3, .tile = 16, .geometry_culling = false, .shuffle_tiles = true});
-    check({.tile = 32, .compiled_models = false, .fast_geometry = false, .settled_sums = false});
+    check({.tile = 32, .compiled_models = false, .fast_geometry = false, .bounded_codes = false});
     check({.tile = 48, .compiled_models = false});
     for (const std::string_view simd : simd_targets()) check({.tile = 32, .simd = simd});
   }

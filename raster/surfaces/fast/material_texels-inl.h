@@ -11,9 +11,9 @@
 
 #include <bit>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/surface_planes-inl.h"
 #include "raster/surfaces/surface_task.h"
-#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

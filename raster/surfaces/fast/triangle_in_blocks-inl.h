@@ -11,11 +11,11 @@
 
 #include <bit>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/fast/visible_triangles-inl.h"
-#include "raster/surfaces/interpolate-inl.h"
 #include "raster/surfaces/surfaces.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/triangles/lanes-inl.h"
+#include "raster/triangles/interpolate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

@@ -14,10 +14,10 @@
 #include <bit>
 #include <cstring>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/fast/visible_triangles.h"
 #include "raster/surfaces/surfaces.h"
 #include "raster/surfaces/world_vertices-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();

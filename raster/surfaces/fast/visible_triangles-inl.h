@@ -14,9 +14,9 @@
 #include <bit>
 #include <cstring>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/surfaces/fast/used_vertices-inl.h"
 #include "raster/surfaces/surfaces.h"
-#include "raster/triangles/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {

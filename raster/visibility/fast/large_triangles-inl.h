@@ -18,8 +18,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/visibility/hierarchical_depth-inl.h"
 #include "raster/visibility/sinks-inl.h"

@@ -11,9 +11,9 @@
 
 #include <bit>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/triangles/edge_rule-inl.h"
 #include "raster/triangles/edge_vectors-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/triangle_setup.h"
 #include "raster/visibility/fast/fragment_list-inl.h"
 #include "raster/visibility/fast/triangle_filter-inl.h"

@@ -17,7 +17,7 @@
 
 #include <bit>
 
-#include "raster/triangles/lanes-inl.h"
+#include "core/simd/lanes-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
 #include "raster/visibility/hierarchical_depth-inl.h"
 #include "raster/visibility/visibility.h"

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/gltf/document.h"
-#include "scenes/files/scene_files.h"
 #include "scenes/scene.h"
 
 namespace trueshade::gltf {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/files/scene_files.h"
+#include "scenes/files/content/scene_files.h"
 
 namespace trueshade::gltf {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/files/baked_uv.h"
+#include "scenes/baked_uv.h"
 #include "scenes/files/gltf/glb.h"
 #include "scenes/json/json_value.h"
 #include "scenes/light.h"

@@ -2,8 +2,8 @@
 #include <span>
 #include <string>
 
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/gltf/document.h"
-#include "scenes/files/scene_files.h"
 
 namespace trueshade::gltf {
 

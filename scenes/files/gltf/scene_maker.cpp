@@ -7,7 +7,7 @@
 #include "scenes/files/gltf/instancing.h"
 #include "scenes/files/gltf/lights_and_cameras.h"
 #include "scenes/files/gltf/skins.h"
-#include "scenes/files/lights_of_ours.h"
+#include "scenes/lights_of_ours.h"
 #include "scenes/scene_defaults.h"
 
 namespace trueshade::gltf {

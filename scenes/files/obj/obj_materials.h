@@ -1,5 +1,5 @@
 #pragma once
-#include "scenes/files/baked_uv.h"
+#include "scenes/baked_uv.h"
 #include "scenes/files/obj/mtl_document.h"
 #include "scenes/files/obj/obj_pictures.h"
 #include "scenes/scene.h"

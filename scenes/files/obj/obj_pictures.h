@@ -4,8 +4,8 @@
 #include <string>
 #include <tuple>
 
+#include "scenes/files/content/scene_files.h"
 #include "scenes/files/obj/mtl_document.h"
-#include "scenes/files/scene_files.h"
 #include "scenes/scene.h"
 
 namespace trueshade::obj {

@@ -7,6 +7,7 @@
 
 #include "scenes/files/obj/statements.h"
 #include "scenes/texture.h"
+#include "scenes/uv_transform.h"
 
 namespace trueshade::obj {
 namespace {

@@ -16,7 +16,7 @@
 #include <limits>
 #include <span>
 
-#include "raster/triangles/lanes-inl.h"
+#include "core/simd/lanes-inl.h"
 #include "shading/light/lists/light_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();

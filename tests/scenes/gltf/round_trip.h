@@ -1,8 +1,8 @@
 #pragma once
 #include <cstring>
 
-#include "scenes/files/gltf/gltf_scene.h"
 #include "scenes/files/gltf/writing/glb_scene.h"
+#include "scenes/files/gltf_scene.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {

@@ -1,4 +1,4 @@
-#include "scenes/files/gltf/gltf_scene.h"
+#include "scenes/files/gltf_scene.h"
 
 #include "core/file_ending.h"
 #include "core/fp_env.h"

@@ -1,4 +1,4 @@
-#include "scenes/files/lights_of_ours.h"
+#include "scenes/lights_of_ours.h"
 
 #include <algorithm>
 

@@ -1,18 +1,18 @@
 // The rules of interpolation: weights, attributes and their derivatives at vectors of pixels. This file defines what an
 // attribute is at a pixel. Included once per SIMD target. docs/arithmetic.md section 5.
-#if defined(TRUESHADE_RASTER_SURFACES_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRUESHADE_RASTER_SURFACES_INTERPOLATE_INL_H_
-#undef TRUESHADE_RASTER_SURFACES_INTERPOLATE_INL_H_
+#if defined(TRUESHADE_RASTER_TRIANGLES_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_RASTER_TRIANGLES_INTERPOLATE_INL_H_
+#undef TRUESHADE_RASTER_TRIANGLES_INTERPOLATE_INL_H_
 #else
-#define TRUESHADE_RASTER_SURFACES_INTERPOLATE_INL_H_
+#define TRUESHADE_RASTER_TRIANGLES_INTERPOLATE_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
 #include <algorithm>
 
+#include "core/simd/lanes-inl.h"
 #include "raster/textures/mip_levels-inl.h"
-#include "raster/triangles/lanes-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
 #include "scenes/pipeline/pipeline.h"
 

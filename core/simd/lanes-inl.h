@@ -1,10 +1,11 @@
-// Masks from bits, and halves as wholes: a vector of floats is as long as two of doubles, but where there is one lane.
-// Included once per SIMD target.
-#if defined(TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
-#undef TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
+// The vectors that geometry is computed in, and what all kernels do with their lanes: masks from bits, lanes moved to the
+// front, lanes stored, two vectors of floats as one. A whole vector of floats has as many lanes as two of doubles, except
+// that it has one lane where a vector of doubles has one. Included once per SIMD target.
+#if defined(TRUESHADE_CORE_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_CORE_SIMD_LANES_INL_H_
+#undef TRUESHADE_CORE_SIMD_LANES_INL_H_
 #else
-#define TRUESHADE_RASTER_TRIANGLES_LANES_INL_H_
+#define TRUESHADE_CORE_SIMD_LANES_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -14,12 +15,17 @@
 
 #include "core/simd/front_order.h"
 #include "core/simd/lane_bits-inl.h"
-#include "raster/triangles/vertex_stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+using D64 = hn::ScalableTag<double>;  // a lane is a vertex, a triangle or a pixel; lanes never meet
+using D32 = hn::Rebind<float, D64>;   // as many floats
+using I32 = hn::Rebind<int32_t, D64>;
+using U32 = hn::Rebind<uint32_t, D64>;
+using V64 = hn::Vec<D64>;
+using V32 = hn::Vec<D32>;
 using DWF = hn::ScalableTag<float>;  // whole vectors
 using VWF = hn::Vec<DWF>;
 using M64 = hn::Mask<D64>;

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/memory_cap.h"
-#include "scenes/files/scene_files.h"
+#include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
 namespace {

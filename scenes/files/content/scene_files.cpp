@@ -1,4 +1,4 @@
-#include "scenes/files/scene_files.h"
+#include "scenes/files/content/scene_files.h"
 
 #include <fcntl.h>
 #include <linux/openat2.h>

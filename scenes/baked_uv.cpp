@@ -1,4 +1,4 @@
-#include "scenes/files/baked_uv.h"
+#include "scenes/baked_uv.h"
 
 #include <algorithm>
 #include <map>
