@@ -5,13 +5,14 @@
 
 namespace trueshade {
 
-/// A scene of which everything moves a little: no frame is the one before, whatever a renderer remembers of that. The
-/// camera, the lights and the objects go round circles, the camera's of 1 %, lights' of 2 % and objects' of 0.2 % of
-/// the scene's radius, each light and object from an angle of its own; directional lights swing by about 3 degrees.
-/// Meshes stay. Borrows the scene, and leaves it where it was.
+/// Moves everything in a scene a little from step to step, so that a renderer cannot reuse the previous frame. The
+/// camera, each light and each object go round a circle: the radius of the camera's circle is 1 % of the scene's
+/// radius, that of a light's 2 %, that of an object's 0.2 %. The lights and the objects start at different angles.
+/// Directional lights swing by about 3 degrees. Meshes keep their shapes. The class borrows the scene; the destructor
+/// puts everything back.
 class MovingScene {
  public:
-  static constexpr int kSteps = 64;  ///< once round
+  static constexpr int kSteps = 64;  ///< steps of a full circle
 
   explicit MovingScene(Scene& scene);
   ~MovingScene();

@@ -9,8 +9,9 @@
 namespace trueshade {
 namespace {
 
-/// By Gauss's elimination with the largest pivot of a column. A matrix counts as singular where its determinant is
-/// below 1e-12 of the product of its columns' largest elements, or is no number.
+/// Computes the determinant by Gaussian elimination with column pivoting. The matrix counts as singular if the
+/// determinant's magnitude is not above 1e-12 times p, where p is the product of each column's largest magnitude. A
+/// determinant that is NaN counts as singular too.
 bool is_singular(const std::array<float, 16>& column_major) {
   std::array<std::array<double, 4>, 4> m{};
   double determinant = 1.0, scale = 1.0;

@@ -3,7 +3,7 @@
 
 namespace trueshade {
 
-/// Whether a file's name ends so, in small letters or capitals. `ending` is in small letters.
+/// Whether a file's name ends with `ending`, which is in small letters; the name may have capitals there.
 constexpr bool has_ending(std::string_view name, std::string_view ending) {
   if (name.size() < ending.size()) return false;
   name.remove_prefix(name.size() - ending.size());

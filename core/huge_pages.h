@@ -10,8 +10,8 @@
 
 namespace trueshade {
 
-/// Allocates arrays of many megabytes where the system may back them by large pages, so that what is read here and
-/// there waits for no page tables. All begin with a cache line.
+/// An allocator for arrays of many megabytes that are read at scattered places. It asks the system for large pages,
+/// with which such reads seldom wait for page tables. Every array begins at a cache line.
 template <class T>
 struct HugePages {
   using value_type = T;

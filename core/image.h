@@ -23,9 +23,9 @@ struct Image {
   uint8_t* texel(int x, int y) { return texels.data() + offset(x, y); }  ///< y counts from the top
   const uint8_t* texel(int x, int y) const { return texels.data() + offset(x, y); }
 
-  /// Bits of one channel as they are stored, in the lowest places. y from the top.
+  /// The stored bits of one channel, as the lowest bits of the word. y counts from the top.
   uint32_t code(int x, int y, int channel) const;
-  /// Replaces them; `bits` has none above the channel's.
+  /// Replaces the stored bits of one channel. The bits above the channel's are 0.
   void set_code(int x, int y, int channel, uint32_t bits);
 
   /// Value of one channel, as a float: unorm RN(code / largest), sRGB decoded to linear, floats of any size as they

@@ -8,9 +8,9 @@ namespace trueshade {
 
 /// The first character of a text that is not empty.
 struct FirstCharacter {
-  size_t bytes;   ///< 1 where they are no UTF-8
+  size_t bytes;   ///< 1 where the text is no UTF-8
   bool is_utf8;   ///< RFC 3629, section 4
-  bool is_shown;  ///< it shows as itself, and does nothing else to a terminal or to the order of what stands beside it
+  bool is_shown;  ///< a terminal shows the character and does nothing else, such as reordering the text beside it
   uint32_t code;  ///< the code point, where is_utf8
 };
 FirstCharacter first_character(std::string_view text);

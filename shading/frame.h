@@ -15,9 +15,10 @@
 
 namespace trueshade {
 
-/// What OpenGL would do for the frame, whatever we do: the costs that strategies are compared by. N: pixels with a
-/// surface; overdraw is counted apart, as fragments. L: lights. P: pixels with a surface under light geometry, once for
-/// each time it is drawn there. planes: those of the G-buffer that the light pass reads.
+/// The work that OpenGL would do for the frame, by which strategies are compared; how we draw does not matter. N is the
+/// number of pixels with a surface (FrameStats counts overdraw as fragments), L that of lights. P is the number of
+/// pixels with a surface under light geometry, each counted as often as geometry is drawn there. `planes` are the
+/// planes of the G-buffer that the light pass reads.
 struct GlCounts {
   uint64_t light_pixels = 0;            ///< P; deferred-loop: N
   uint64_t material_computations = 0;   ///< forward: N L; deferred-volumes: P; deferred-loop: N L
@@ -50,14 +51,14 @@ struct FrameStats {
   uint64_t triangles = 0;              ///< submitted, over all instances
   uint64_t lights = 0;
 
-  GlCounts gl;  ///< of deferred-volumes with Execution::count_as_gl alone whole: P has to be counted
+  GlCounts gl;  ///< for deferred-volumes complete only with Execution::count_as_gl: P has to be counted separately
 
   uint64_t clusters_drawn = 0;     ///< cluster x tile pairs whose triangles were set up
   uint64_t triangles_tested = 0;   ///< set up, over all tiles
   uint64_t fragments = 0;          ///< covered samples before the depth test
   uint64_t tile_pixel_lights = 0;  ///< covered pixels times lights in the tile's list; of many lights, its region's
   uint64_t evaluated_pixel_lights = 0;           ///< lanes the light kernel computed a contribution for
-  uint64_t lights_tested = 0;                    ///< lights held against the bounds of a tile or of a region
+  uint64_t lights_tested = 0;                    ///< tests of a light against the bounds of a tile or of a region
   StageTimes core_ms;                            ///< of the tiles, summed over threads
   double total_ms = 0;                           ///< wall time of the frame
   double before_tiles_ms = 0;                    ///< wall time: view, bins, light tables
@@ -90,7 +91,7 @@ class PreparedScene {
   ~PreparedScene();
   PreparedScene(PreparedScene&&) noexcept;
 
-  /// Splits those meshes again that set_time() has posed since. Frames drawn without it show the pose before.
+  /// Splits those meshes again that set_time() has posed since the last call. Without it, frames show the old pose.
   void update();
 
   const Scene& scene() const { return *scene_; }

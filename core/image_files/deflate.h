@@ -11,8 +11,8 @@ namespace trueshade {
 /// Makes parts of a compressed stream (RFC 1951). Parts in turn are one stream, and each can be made by itself: none
 /// refers to bytes of another. Equal bytes give equal parts on every machine. One thread at a time.
 ///
-/// For planes of city, libdeflate's fastest level took about twice the time and made 3 % fewer bytes: it tries every byte
-/// of noise, and takes long repetitions byte by byte.
+/// For planes of city, libdeflate's fastest level took about twice the time and made 3 % fewer bytes: it tries every
+/// byte of noise, and takes long repetitions byte by byte.
 class Deflater {
  public:
   enum class Part : uint8_t {
@@ -20,7 +20,7 @@ class Deflater {
     last,   ///< ends the stream
   };
 
-  /// Appends a part to `out`: at most 0.1 % and 32 bytes more than there are in `bytes`, which are fewer than 2^32.
+  /// Appends a part to `out`. `bytes` are fewer than 2^32; the part is at most 0.1 % and 32 bytes longer.
   void append(std::span<const uint8_t> bytes, Part part, std::vector<uint8_t>& out);
 
  private:

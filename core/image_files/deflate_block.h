@@ -19,7 +19,7 @@ class BitWriter {
  public:
   explicit BitWriter(std::vector<uint8_t>& out) : out_(&out), end_(out.data() + out.size()) {}
 
-  /// To be called before so many bytes are written: put() and flush() do not look whether there is room.
+  /// Makes room for `bytes` more bytes. put() and flush() do not check that there is room.
   void make_room(size_t bytes) {
     const size_t written = size_t(end_ - out_->data());
     out_->resize(written + bytes + sizeof waiting_);
@@ -31,7 +31,7 @@ class BitWriter {
     waiting_ |= value << count_;
     count_ += bits;
   }
-  /// Writes whole bytes, and keeps up to 7 bits.
+  /// Writes the whole bytes that have come together; up to 7 bits wait for the next flush().
   void flush() {
     std::memcpy(end_, &waiting_, sizeof waiting_);
     end_ += count_ / 8;
@@ -43,7 +43,7 @@ class BitWriter {
     count_ = count_ > 0 ? 8 : 0;
     flush();
   }
-  /// Whole bytes, after fill_byte().
+  /// Appends whole bytes; fill_byte() comes before.
   void copy(std::span<const uint8_t> bytes) { end_ = std::copy(bytes.begin(), bytes.end(), end_); }
   /// Ends the last byte and takes back the room that was not needed.
   void finish() {
@@ -54,13 +54,13 @@ class BitWriter {
 
  private:
   std::vector<uint8_t>* out_;
-  uint8_t* end_;  ///< of what is written
+  uint8_t* end_;  ///< the end of the bytes that are written
   uint64_t waiting_ = 0;
   int count_ = 0;
 };
 
-/// Writes one block (RFC 1951, section 3.2) of bytes that `found` describes: with a code of its own, or stored where
-/// that is shorter. No bytes give an empty stored block.
+/// Writes one block (RFC 1951, section 3.2) of the bytes that `found` describes. The block has a prefix code made for
+/// these bytes, or holds the bytes as they are, if that is shorter. No bytes give an empty block of the second kind.
 void write_block(std::span<const uint8_t> bytes, std::span<const Repetition> found, bool last, BitWriter& out);
 
 }  // namespace trueshade

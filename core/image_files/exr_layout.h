@@ -6,13 +6,14 @@
 
 namespace trueshade {
 
-/// What the header of an EXR says of its size.
+/// The size of an EXR image as the header of the file states it.
 struct ExrLayout {
   int width = 0, height = 0;  ///< of the data window
-  size_t pixel_bytes = 0;     ///< of all channels
+  size_t pixel_bytes = 0;     ///< bytes of a pixel, all channels together
 };
 
-/// Reads the header of an EXR before OpenEXR does, which takes each length in it for memory that it needs.
+/// Reads the header of an EXR and checks its lengths. OpenEXR, which reads the header after that, allocates as much
+/// memory as a length says before it finds that the file is shorter.
 /// Error(bad_input) naming `where` and the byte: no EXR of version 2; a length beyond the file; several parts; deep
 /// pixels; subsampled channels; an offset table beyond the file. Error(limit): over 65536 pixels a side or 1024
 /// channels.

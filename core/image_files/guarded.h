@@ -7,7 +7,8 @@
 
 namespace trueshade {
 
-/// What `job` returns, with an exception of OpenImageIO's own made one of ours. Running out of memory stays that.
+/// Returns what `job` returns. An exception of OpenImageIO's is turned into Error(io); Error and std::bad_alloc pass as
+/// they are.
 template <typename Job>
 auto guarded(const std::string& path, Job job) {
   try {

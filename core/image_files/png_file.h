@@ -7,9 +7,10 @@
 
 namespace trueshade {
 
-/// The image as a PNG: IHDR, the tag of its codes, the metadata as text, IDAT, IEND. The file comes in pieces that follow
-/// each other. Every row is filtered by Up, and all rows are one zlib stream, whose parts are made on all threads at once.
-/// Error(usage) naming `where` for metadata that a PNG cannot name.
+/// Encodes an image as a PNG. The result is the file in pieces, which follow each other. The chunks are IHDR, the tag
+/// that says what the codes mean (png_codes.h), one text a metadata entry, IDAT and IEND. Every row is filtered by Up.
+/// All rows form one zlib stream, whose parts are compressed on all threads at once. Error(usage) naming `where` for a
+/// metadata key that a PNG cannot hold.
 std::vector<std::vector<uint8_t>> png_file(const std::string& where, const Image& image, const Metadata& metadata,
                                            const ImageFileOptions& options);
 

@@ -5,8 +5,8 @@
 
 namespace trueshade {
 
-/// Bytes that stand for themselves, and behind them bytes that repeat those `distance` bytes before them. A length of 0
-/// has no repetition.
+/// Some literal bytes, then `length` bytes that repeat the bytes `distance` places earlier. A length of 0 means that no
+/// repetition follows.
 struct Repetition {
   uint32_t literals;
   uint16_t length;    ///< 3 to 258, or 0
@@ -16,8 +16,8 @@ struct Repetition {
 /// Finds repetitions in a run of bytes, front to back, as LZ77 does (J. Ziv and A. Lempel, 1977).
 ///
 /// A table remembers where each of some 8000 hashes of four bytes was seen last, and that place alone is tried. Where
-/// nothing repeats, more and more bytes are passed over between two tries. A search is therefore bounded by the number of
-/// bytes, and long repetitions cost next to nothing.
+/// nothing repeats, more and more bytes are passed over between two tries. A search is therefore bounded by the number
+/// of bytes, and long repetitions cost next to nothing.
 class RepetitionFinder {
  public:
   RepetitionFinder() : last_seen_(size_t(1) << kHashBits) {}

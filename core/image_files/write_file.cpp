@@ -141,7 +141,9 @@ class Temporary {
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
       if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail(path, "create a file in its folder", errno);
     }
-    flock(descriptor_, LOCK_EX | LOCK_NB);  // nobody else has it; where there are no locks, the process's number serves
+    // The lock keeps remove_abandoned() of other processes from this file, also of processes that do not see this one's
+    // number. Nobody else has opened the file, so the lock is free. Without locks the process number has to do.
+    flock(descriptor_, LOCK_EX | LOCK_NB);
   }
   ~Temporary() {
     if (descriptor_ >= 0) close(descriptor_);

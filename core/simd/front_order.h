@@ -4,8 +4,9 @@
 
 namespace trueshade {
 
-/// For each set of lanes, a bit each, all lanes in the order: those of the set ascending, then the others. Rows below
-/// 16 begin with an order of four lanes.
+/// The order that moves the lanes of a set to the front. A set of up to eight lanes has a bit for each lane. The row of
+/// a set has the numbers of its lanes, ascending, and then those of the other lanes. Vectors of four lanes read the
+/// first four numbers of the rows below 16.
 using FrontOrder = std::array<std::array<int32_t, 8>, 256>;
 
 constexpr FrontOrder front_order() {

@@ -1,6 +1,6 @@
-// The vectors that geometry is computed in, and what all kernels do with their lanes: masks from bits, lanes moved to the
-// front, lanes stored, two vectors of floats as one. A whole vector of floats has as many lanes as two of doubles, except
-// that it has one lane where a vector of doubles has one. Included once per SIMD target.
+// The vectors that geometry is computed in, and what all kernels do with their lanes: masks from bits, lanes moved to
+// the front, lanes stored, two vectors of floats as one. A whole vector of floats has as many lanes as two of doubles,
+// except that it has one lane where a vector of doubles has one. Included once per SIMD target.
 #if defined(TRUESHADE_CORE_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_CORE_SIMD_LANES_INL_H_
 #undef TRUESHADE_CORE_SIMD_LANES_INL_H_
@@ -55,16 +55,16 @@ HWY_INLINE V clamped(V v, V low, V high) {
   return lesser(greater(v, low), high);
 }
 
-/// The lowest `count` of 32 bits, or all.
+/// A word whose lowest `count` bits are set; all 32 if `count` is larger.
 HWY_INLINE uint32_t first_bits(int count) { return uint32_t((uint64_t(1) << std::min(count, 32)) - 1); }
 
-/// Bits of [first, last] that fall into a vector of `lanes` starting at `from`, counted from there.
+/// The lanes of a vector that have numbers in [first, last], a bit each. Lane 0 has the number `from`.
 HWY_INLINE uint32_t range_bits(int first, int last, int from, int lanes) {
   const int low = std::max(first - from, 0), high = std::min(last - from, lanes - 1);
   return low > high ? 0u : (2u << high) - (1u << low);
 }
 
-/// The mask of a vector's lanes from the lowest bits.
+/// The mask in which lane k is set if bit k is.
 template <class D>
 HWY_INLINE hn::Mask<D> lane_mask(D d, uint32_t bits) {
   uint8_t bytes[8] = {};
@@ -77,8 +77,9 @@ HWY_INLINE hn::Mask<D32> float_mask(M64 mask) {
   return hn::Gt(hn::DemoteTo(D32(), hn::IfThenElseZero(mask, hn::Set(D64(), 1.0))), hn::Zero(D32()));
 }
 
-/// Moves some lanes of vectors to the front, given by bits or as a mask too; what follows them means nothing. Where a
-/// table can do it, it does: Highway's Compress copies its own onto the stack for each vector under g++ 12.
+/// Moves chosen lanes of vectors to the front. The lanes are chosen by bits, or by bits and a mask; the lanes behind
+/// them are unspecified. Vectors of up to 8 lanes use kFrontOrder instead of Highway's Compress, whose table g++ 12
+/// copies onto the stack for each vector.
 template <class D, bool kByMask = (hn::MaxLanes(D()) > 8)>
 class FrontLanes {
  public:
@@ -103,7 +104,7 @@ class FrontLanes<D, false> {
   decltype(hn::IndicesFromVec(D(), hn::Zero(I()))) order_;
 };
 
-/// Sixteen 16-bit words, found by vectors of indices below 16; other indices find anything.
+/// A table of sixteen 16-bit words, read by vectors of indices below 16. The word of any other index is unspecified.
 class SixteenWords {
   using D = hn::ScalableTag<int16_t>;
   using V = hn::Vec<D>;
@@ -139,7 +140,7 @@ class SixteenWords {
 #endif
 };
 
-/// Two vectors of floats as one; the lower where that is whole.
+/// Joins two half vectors of floats to one; where `lower` is a whole vector already, it is the result.
 template <class D, class V>
 HWY_INLINE hn::Vec<D> joined(D d, V lower, [[maybe_unused]] V upper) {
   if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(hn::DFromV<V>()))

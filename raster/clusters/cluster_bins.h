@@ -17,10 +17,10 @@ struct ClusterBins {
   std::vector<uint32_t> list;      ///< into `draws`, ascending in each tile
   // Scratch, kept from frame to frame like the rest.
   std::vector<uint32_t> row;        ///< instances that may be seen
-  std::vector<uint64_t> row_first;  ///< clusters of those before each, and of all
+  std::vector<uint64_t> row_first;  ///< clusters of the instances of `row` before each; last, of all of them
   struct Piece {
     std::vector<ClusterDraw> draws;
-    std::vector<uint64_t> next;  ///< of each tile: how many of them, then where in `list` they go
+    std::vector<uint64_t> next;  ///< for each tile: the number of its clusters, later their next place in `list`
     uint64_t first;              ///< of `draws` among all
   };
   std::vector<Piece> piece;

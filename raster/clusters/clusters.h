@@ -26,7 +26,7 @@ struct ClusterBoxes {
   std::array<std::vector<float>, 3> center, half_size;  ///< half sizes rounded up
 };
 
-/// One number of 16 vertices.
+/// One component of an attribute, of 16 vertices.
 struct alignas(64) VertexLine {
   float value[16];
 };
@@ -35,8 +35,8 @@ struct ClusteredMesh {
   std::vector<Cluster> clusters;
   ClusterBoxes boxes;                         ///< of each cluster, then of the mesh
   std::array<HugeVector<float>, 3> position;  ///< object space, a cluster's vertices side by side
-  /// Of each 16 vertices `surface_lines` lines side by side: normal x, y, z in object space and, where the mesh has
-  /// colours, r, g, b, a. What is read of a cluster lies in one place, not at one place of seven streams.
+  /// Each 16 vertices have `surface_lines` lines side by side: normal x, y, z in object space and, if the mesh has
+  /// colours, r, g, b, a. So the attributes of a cluster are read from one place in memory instead of from seven.
   HugeVector<VertexLine> surface;
   int surface_lines;
   HugeVector<uint32_t> vertex;                ///< the mesh's vertex that each of them is

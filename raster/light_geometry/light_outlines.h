@@ -11,7 +11,7 @@
 
 namespace trueshade {
 
-/// What the rasterization of a light's geometry covers.
+/// The shape that a light's rasterized geometry covers.
 enum class OutlineKind : uint8_t {
   nothing,
   everywhere,  ///< the whole window, as many times as `layers` says
@@ -47,7 +47,7 @@ struct LightOutlines {
 /// State of the draws of light geometry.
 GeometryState light_geometry_state(const Pipeline& pipeline);
 
-/// Makes outlines in tasks that need nothing of each other. Its memory is kept, as that of the outlines is.
+/// Makes outlines in independent tasks. Memory is kept for the next frame, here and in the outlines.
 class OutlineTasks {
  public:
   OutlineTasks();
@@ -75,12 +75,12 @@ struct TileEdge {
   int32_t at, across, up;
 };
 
-/// What a polygon covers of a tile, or of a part of it.
+/// How a polygon covers a tile, or a part of one.
 enum class Cover : uint8_t {
   none,
   all,
-  edges,  ///< what is inside all of some edges
-  masks   ///< what a mask a block says, bit k its pixel k: the edges are too long for 32 bits
+  edges,  ///< the pixels inside all of some edges
+  masks   ///< the pixels k of each block whose bit k its mask has: the edges are too long for 32 bits
 };
 
 /// Coverage of a tile by the polygon of a light. Appends the edges that cross the tile to `edges`, or the masks of the

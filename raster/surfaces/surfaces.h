@@ -16,8 +16,9 @@ inline constexpr int kAllStreams = kStreams + 2 * (int(kMaxUvSets) - 1);
 /// The stream of u of a set of texture coordinates; that of v follows.
 constexpr int uv_stream(int set) { return set == 0 ? int(kUv) : kStreams + 2 * (set - 1); }
 
-/// Planes that the material makes of the pixel, after those of the streams: specular colour and shininess; emission and
-/// the share of ambient light that arrives. Until the material is applied they hold texels of its maps.
+/// Planes that a pixel's material fills, behind the planes of the streams: specular colour and shininess, then emission
+/// and the share of ambient light that arrives. While a tile is resolved, they first hold the texels that were looked
+/// up in the material's maps; then the material's factors are applied to these in place.
 enum MaterialPlane : int {
   kSpecular = kStreams,
   kShininess = kSpecular + 3,

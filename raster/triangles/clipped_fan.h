@@ -19,12 +19,12 @@ struct ClippedFan {
   Piece piece[kMax];
   int count = 0;
   int facing = 0;       ///< sign of the sum of the areas; 0: nothing is drawn
-  bool folded = false;  ///< some piece has the other sign
+  bool folded = false;  ///< the area of some piece has the opposite sign
 };
 
-/// Clips and snaps. Coordinates come out relative to the sample (origin_x, origin_y), in 1/256 pixel. The calling
-/// thread keeps the last few triangles, clipped, as each tile asks for them again; what comes out does not depend on
-/// that.
+/// Clips a triangle and snaps the corners. Coordinates are relative to the sample (origin_x, origin_y), in 1/256 pixel.
+/// Each tile asks for the same triangle again, so the calling thread keeps the last few clipped polygons; the result
+/// does not depend on that.
 ClippedFan clipped_fan(const ClipVertex v[3], const WindowTransform& t, int64_t origin_x, int64_t origin_y);
 
 }  // namespace trueshade

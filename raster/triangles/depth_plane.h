@@ -14,8 +14,8 @@ struct DepthPlane {
     return {z0, (z1 - z0) / area, (z2 - z0) / area, z0 < low ? z0 : low, z0 > high ? z0 : high};
   }
 
-  /// Clamped to a range too. A clamp to the hull of the corners and then to the range is one to the hull's ends in the
-  /// range.
+  /// The plane whose depths are clamped to [least, most] as well. To clamp to the corners' range and then to [least,
+  /// most] is to clamp once, to the corners' range with its ends clamped.
   DepthPlane in_range(double least, double most) const {
     return {z0, g1, g2, clamped(low, least, most), clamped(high, least, most)};
   }

@@ -32,12 +32,12 @@ struct TriangleSetup {
   }
 };
 
-/// Whether a triangle shows its front whose area, in the window as it is shown, is positive (counter-clockwise) or not.
+/// Whether a triangle shows its front. `counter_clockwise`: which way its corners go in the window as it is shown.
 constexpr bool is_front(const GeometryState& state, bool counter_clockwise) {
   return counter_clockwise == (state.front_face == FrontFace::ccw);
 }
 
-/// Whether face culling drops it.
+/// Whether face culling drops a triangle whose corners go that way.
 constexpr bool culled(const GeometryState& state, bool counter_clockwise) {
   if (state.cull_face == CullFace::none) return false;
   if (state.cull_face == CullFace::front_and_back) return true;

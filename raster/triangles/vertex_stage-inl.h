@@ -36,7 +36,7 @@ struct WindowBox {
   double near;
 };
 
-/// The same a lane a vertex, as vectors of vertices come.
+/// A WindowBox in the making: each lane has the bounds of every n-th vertex, n being the number of lanes.
 class VertexBox {
  public:
   HWY_INLINE VertexBox()

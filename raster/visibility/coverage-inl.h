@@ -86,8 +86,9 @@ inline void draw_window_triangle(const WindowTriangle& triangle, const GeometryS
   }
 }
 
-/// A fan in which snapping has turned over a piece: a pixel belongs to the polygon if the pieces that cover it, counted
-/// with their signs, leave the polygon's own; the first piece of that sign gives its depth.
+/// Covers a folded fan: snapping has turned over one of its pieces. The pieces that cover a sample are counted with the
+/// signs of their areas. The polygon covers the sample if the sum has the sign of the polygon's area; the first piece
+/// of that sign gives the depth.
 template <class Sink>
 inline void cover_folded_fan(const ClipVertex v[3], const ClippedFan& fan, const WindowTransform& t,
                              const GeometryState& state, const TileRect& rect, Sink& sink) {

@@ -22,7 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A cluster of a tile's list, as the tile asks for it. Copies, so that they lie in the order in which they are drawn.
+/// What a tile reads of a listed cluster before it draws the cluster. These are copies, which lie in memory in the
+/// order in which the clusters are drawn.
 struct ListedDraw {
   uint32_t position, instance, cluster;
   float near;              ///< what the depth test compares: no fragment is nearer
@@ -41,7 +42,7 @@ struct ListedDraw {
   ListedDraw() = default;
 };
 
-/// Whether the tile hides a cluster, by what its bounds say: before any of its vertices is touched.
+/// Whether the tile hides all of a cluster's bounds. If so, the cluster's vertices need not be read.
 HWY_INLINE bool hidden_draw(const VisibilityTile& tile, int blocks, const ListedDraw& draw) {
   return hidden_blocks(tile, blocks, {draw.x0, draw.y0, draw.x1, draw.y1}, draw.near);
 }
@@ -52,9 +53,10 @@ HWY_INLINE bool is_masked(const TileDraws& in, const ClusterDraw& draw) {
   return maps.textured() && maps.material[in.scene.instances[draw.instance].material].alpha_cutoff != 0.0f;
 }
 
-/// Nearest clusters first, by 256 steps of depth, which is order enough; then those of unknown depth, large ones near
-/// the eye that much of the rest hides. Behind all these come masked ones in the same order: they hide little, and each
-/// of their fragments that is hidden already needs no alpha test. In memory of the thread, until its next call.
+/// The listed clusters from the nearest to the farthest, sorted by 256 steps of depth. Then come those of unknown
+/// depth: they are large and near the eye, and the others hide much of them. Masked clusters come behind all these, in
+/// the same order: they hide little, and their fragments that are hidden by then need no alpha test. The result stays
+/// until the thread's next call.
 inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& rect) {
   constexpr int kSteps = 256;
   constexpr size_t kAhead = 48;
@@ -88,7 +90,7 @@ inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& 
   return {order, count};
 }
 
-/// Asks memory for what is read of an instance.
+/// Prefetches what drawing a cluster reads of its instance.
 HWY_INLINE void fetch_instance(const TileDraws& in, const ListedDraw& draw) {
   hwy::Prefetch(&in.scene.instances[draw.instance]);
   const InstanceTransform& transform = in.view.instances[draw.instance];
@@ -96,12 +98,13 @@ HWY_INLINE void fetch_instance(const TileDraws& in, const ListedDraw& draw) {
   hwy::Prefetch(transform.clip[3] + 3);
 }
 
-/// For the header, through which a cluster's streams are found.
+/// Prefetches the cluster's header, which tells where its streams are.
 HWY_INLINE void fetch_header(const TileDraws& in, const ListedDraw& draw) {
   hwy::Prefetch(&in.clusters.meshes[in.scene.instances[draw.instance].mesh].clusters[draw.cluster]);
 }
 
-/// For the streams, all that the largest cluster has: how many lines each has is not foreseen.
+/// Prefetches the streams of a cluster, as many lines as the largest cluster has: a loop over the cluster's own number
+/// of lines would end by a mispredicted branch.
 HWY_INLINE void fetch_streams(const TileDraws& in, const ListedDraw& draw) {
   constexpr size_t kLine = 64;
   const ClusteredMesh& mesh = in.clusters.meshes[in.scene.instances[draw.instance].mesh];
@@ -113,8 +116,8 @@ HWY_INLINE void fetch_streams(const TileDraws& in, const ListedDraw& draw) {
     for (size_t i = 0; i < kClusterTriangles; i += kLine) hwy::Prefetch(stream.data() + cluster.first_triangle + i);
 }
 
-/// Visits the clusters that their bounds do not hide, nearest first, each once what it needs was asked for some time
-/// ago.
+/// Visits the clusters whose bounds the tile does not hide, the nearest first. What a visit reads is prefetched some
+/// clusters ahead.
 template <class Visit>
 HWY_INLINE void for_each_visible(const TileDraws& in, const TileRect& rect, const VisibilityTile& tile, bool cull,
                                  const Visit& visit) {

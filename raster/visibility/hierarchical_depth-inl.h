@@ -26,7 +26,8 @@ struct BlockBox {
   int count() const { return (x1 - x0 + 1) * (y1 - y0 + 1); }
 };
 
-/// The columns of blocks, a vector at a time, of a box: all of a tile where a vector holds them.
+/// The columns of blocks that a box spans, a vector at a time. Where a vector holds a whole row of a tile's blocks, the
+/// columns are always that row.
 class VectorColumns {
   static constexpr int kLanes = int(hn::MaxLanes(hn::ScalableTag<float>()));
   static constexpr bool kWhole = kLanes >= kMaxTile / kBlockSize;
@@ -37,9 +38,9 @@ class VectorColumns {
   const int first, end;
 };
 
-/// Whether every block of a box, in a tile of `blocks` a side, is already nearer than `near`. Several rows at a time,
-/// the last again where there are fewer: how many there are cannot be predicted, and a branch missed costs as much as
-/// all.
+/// Whether all that every block of a box holds is nearer than `near`. The tile has `blocks` blocks a side. Several rows
+/// of blocks are looked at together, the last one repeatedly where there are fewer: a branch on their number would be
+/// mispredicted often, which costs as much as looking at all of them.
 HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near) {
   const hn::ScalableTag<float> d;
   constexpr int kLanes = int(hn::MaxLanes(d)), kRows = kLanes == 16 ? 8 : 4;
@@ -57,13 +58,14 @@ HWY_INLINE bool hidden_blocks(const VisibilityTile& tile, int blocks, const Bloc
   return true;
 }
 
-/// Those of a tile's blocks in a box that are not nearer than some depth: a bit a column for each row.
+/// The blocks in a box of a tile that do not hide some depth: for each row of blocks a word, in which bit k is column
+/// k.
 struct VisibleBlocks {
-  alignas(64) uint16_t row[32] = {};  ///< of 16, as vectors read them
-  bool all = true;                    ///< all of the box
+  alignas(64) uint16_t row[32] = {};  ///< a tile has 16; vectors read beyond them
+  bool all = true;                    ///< whether no block of the box hides the depth
 };
 
-/// Finds them in a tile of `blocks` a side, four rows at a time like the above; false if there are none.
+/// Finds the visible blocks of a tile of `blocks` blocks a side, four rows at a time; false if there are none.
 HWY_INLINE bool find_visible_blocks(const VisibilityTile& tile, int blocks, const BlockBox& box, float near,
                                     VisibleBlocks& out) {
   const hn::ScalableTag<float> d;
@@ -86,7 +88,7 @@ HWY_INLINE bool find_visible_blocks(const VisibilityTile& tile, int blocks, cons
   return any != 0;
 }
 
-/// What the depth test compares for a bound from below.
+/// A lower bound of depths as the depth test compares it: clamped, and rounded to the format.
 HWY_INLINE float near_bound(double near, const WindowTransform& t) {
   return t.depth.stored(std::min(std::max(float(near), t.depth_low), t.depth_high));
 }

@@ -12,11 +12,12 @@
 
 namespace trueshade {
 
-/// What the corners of a visible triangle are: its vertices, or those of a clipped triangle's fan.
+/// Where the corners of a visible triangle come from: they are vertices of the mesh, or, if the triangle needed
+/// clipping, corners of the clipped polygon's fan.
 enum class Corners : uint32_t { vertices, clipped };
 
-// What is seen in a pixel: position in the tile's list, triangle of the cluster, and its corners. 0 is nothing. Ids
-// ascend in the order of submission.
+// The id of the triangle that is seen in a pixel: its cluster's position in the tile's list, its number in the cluster,
+// and the kind of its corners. No triangle has the id 0. Ids ascend in the order of submission.
 constexpr uint32_t visible_id(uint32_t position, uint32_t triangle, Corners corners) {
   return ((position + 1) << 8) | (triangle << 1) | uint32_t(corners);
 }
@@ -61,17 +62,20 @@ void clip_corners(const TileDraws& in, uint32_t position, uint32_t triangle, Cli
 void draw_visibility(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                      RasterCounts& counts);
 
-/// The same upon what `out` holds: depths of surfaces drawn before, with 0 as their id.
+/// Draws the listed clusters as draw_visibility() does, but into what `out` holds: depths of surfaces that are drawn
+/// already, whose ids are 0.
 void draw_visibility_upon(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& out,
                           RasterCounts& counts);
 
-/// The fragments that the state's depth test lets through against `visible`, whose depths stay: by pixel, then in order
-/// of submission. `culling`: as in draw_visibility(), which has drawn `visible`, perhaps from another list.
+/// Finds the fragments that pass the state's depth test against the depths of `visible`, which do not change. They come
+/// by pixel, then in order of submission. draw_visibility() has drawn `visible`, perhaps from another list, and says
+/// what `culling` means.
 void passing_fragments(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
                        std::vector<DepthFragment>& out);
 
-/// The fragments that a depth test with EQUAL lets through at pixels where that is another set than the visible one
-/// alone: by pixel, then in order of submission. `culling`: as in draw_visibility(), which has drawn `visible`.
+/// Finds the fragments that pass a depth test with EQUAL against `visible`, at those pixels where they are not just the
+/// visible fragment. They come by pixel, then in order of submission. draw_visibility() has drawn `visible`, and says
+/// what `culling` means.
 void fragments_at_equal_depth(const TileDraws& in, const TileRect& rect, bool culling, VisibilityTile& visible,
                               std::vector<DepthFragment>& out);
 

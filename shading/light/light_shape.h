@@ -19,7 +19,7 @@ struct LightShape {
   bool operator==(const LightShape&) const = default;
 };
 
-/// Whether a model has an exponent of its own; surfaces have the others.
+/// Whether a model states the exponent of its specular term. The other models take it from each surface.
 inline bool has_exponent(const LightModel& m) { return m.specular != Specular::none && !reads_specular_plane(m); }
 
 /// The shape of a model, whose exponent is read when the kernel runs.
@@ -55,7 +55,7 @@ struct AnyShape {
   static constexpr bool compiled = false;
 };
 
-/// What the light term of any model is computed by.
+/// The shape by which the general kernel computes the light term of any model.
 inline AnyShape any_shape(const LightModel& model) { return {shape_of(model)}; }
 
 }  // namespace trueshade

@@ -42,11 +42,11 @@ struct alignas(64) LightRow {
 /// A frame's lights in scene order, and the viewer they have in common.
 struct LightTable {
   HugeVector<LightRow> row;
-  std::vector<float> position[3], cut2;  ///< of the rows again, NaN for a light without a position; padded to full
+  std::vector<float> position[3], cut2;  ///< copied from the rows; NaN for a light without a position; padded to full
                                          ///< vectors with lights that reach nothing
   bool cones = false;  ///< some light's kind is `coned`
   float eye[3], view_axis[3];
-  uint64_t version = 0;  ///< another one wherever lights differ, of all tables; 0: empty
+  uint64_t version = 0;  ///< tables of the process with different lights have different versions; 0: empty
 
   // What LightTableUpdate made the rows of.
   std::vector<Light> made_of;
@@ -70,8 +70,8 @@ LightTable make_light_table(std::span<const Light> lights, const LightModel& mod
 void make_light_table(std::span<const Light> lights, const LightModel& model, const Camera& camera, int threads,
                       LightTable& out);
 
-/// The same, bounded by the lights' extents, in tasks that need nothing of each other. Rows of a table that this made
-/// stay where lights are the same as then, byte for byte.
+/// Makes a table bounded by the lights' extents, in independent tasks. `table` may be one that this class made before:
+/// the rows of lights that have not changed since, byte for byte, are kept.
 class LightTableUpdate {
  public:
   LightTableUpdate(std::span<const Light> lights, const LightModel& model, const LightVolumes& volumes,
@@ -83,8 +83,8 @@ class LightTableUpdate {
  private:
   std::span<const Light> lights_;
   LightTable& table_;
-  size_t kept_;       // rows that may stay
-  uint64_t version_;  // of them
+  size_t kept_;       // rows of the table that may be kept
+  uint64_t version_;  // of the table that they are in
   std::atomic<bool> changed_;
 };
 

@@ -40,12 +40,13 @@ struct PixelVector {
 
 /// What one light does to a vector of pixels.
 struct LightTerm {
-  MF adds;      ///< pixels whose sums it changes; `color` means nothing elsewhere
-  MF lit;       ///< pixels it is in range of and that face it
+  MF adds;      ///< pixels whose sums the light changes; `color` is unspecified elsewhere
+  MF lit;       ///< pixels that are in the light's range and face it
   VF color[3];  ///< what it adds
 };
 
-/// A light on its way through the formulas: the steps of several are interleaved, so that none waits for itself.
+/// The intermediate values of one light's term. The steps of several lights are interleaved, so that none of them has
+/// to wait for its own previous result.
 struct LightChain {
   const LightRow* light;
   VF to_light[3];  ///< D, then L

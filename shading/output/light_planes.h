@@ -16,10 +16,10 @@ namespace trueshade {
 /// The i of a plane `light.<i>`, written without leading zeros; nothing for other names.
 std::optional<size_t> light_of_plane(std::string_view name);
 
-/// What each of some lights alone adds to the pixels that the strategy draws it on, as often as it draws it there: the
-/// planes `light.<i>`, rgb32f. Their f32 sums in index order, from what pixels hold before any light, are bit for bit
-/// what a loop over all lights comes to before it is stored, and what draws leave that are added into floats, where
-/// none lights a pixel twice (docs/views.md).
+/// The planes `light.<i>`, rgb32f: what a single light adds to each pixel, as often as the strategy draws the light
+/// there. Their f32 sums in index order, from what pixels hold before any light, are bit for bit what a loop over all
+/// lights comes to before it is stored, and what draws leave that are added into floats, where none lights a pixel
+/// twice (docs/views.md).
 class LightPlanes {
  public:
   LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,

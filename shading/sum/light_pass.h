@@ -13,7 +13,7 @@
 namespace trueshade {
 
 struct LightCounts {
-  uint64_t tested = 0;           ///< lights held against the bounds of a tile or of a region
+  uint64_t tested = 0;           ///< tests of a light against the bounds of a tile or of a region
   uint64_t tile_pairs = 0;       ///< covered pixels times lights in the tile's list
   uint64_t evaluated_pairs = 0;  ///< lanes a contribution was computed for
   uint64_t lit_pairs = 0;        ///< covered pixel and light with falloff > 0 and N.L > 0
@@ -33,11 +33,11 @@ struct LightLists {
   TileLights tile, region;
 };
 
-/// What a light pass may spare itself. None of it changes a bit of what is stored.
+/// Work that a light pass may leave out. No shortcut changes a bit of what is stored.
 struct LightShortcuts {
   bool culling = true;          ///< leave out lights that are proved to add nothing, by tile, by region and by vector
   bool compiled = true;         ///< use the kernel compiled for the model's shape, where there is one
-  std::optional<Format> codes = std::nullopt;  ///< sums need only have the right codes in this format of fixed point
+  std::optional<Format> codes = std::nullopt;  ///< only the sums' codes in this fixed-point format have to be right
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha

@@ -13,8 +13,8 @@ struct LightClusterBoxes {
   size_t count = 0;
 };
 
-/// Neighbours along a curve through space, padded with lights that reach nothing: what is read of a cluster lies
-/// together.
+/// Sixteen lights that are neighbours along a curve through space, padded with lights that reach nothing. The numbers
+/// that are read of a cluster lie together in memory.
 struct alignas(64) LightCluster {
   static constexpr size_t kLights = 16;
   float position[3][kLights], cut2[kLights];
@@ -27,8 +27,9 @@ struct SortedLight {
   uint32_t light;
 };
 
-/// Many lights so that those near a box are found without looking at them all: along the curve, 16 to a cluster, and 16
-/// clusters to a parent. Empty for lights so few that looking at them all is quicker.
+/// A frame's lights in a tree, in which the lights near a box are found without testing each light. The lights are
+/// sorted along a curve through space; 16 neighbours form a cluster, 16 clusters a parent. Below kFewest lights the
+/// tree is empty, because testing each light is quicker.
 struct LightClusters {
   static constexpr size_t kFewest = 4096, kMembers = LightCluster::kLights;
   std::vector<uint32_t> unbounded;    ///< lights that end nowhere, ascending
@@ -42,14 +43,15 @@ struct LightClusters {
   bool empty() const { return cluster.empty(); }
 };
 
-/// Lights side by side, in any order. By plain pointers: no bound is checked light by light.
+/// Lights in any order, an array for each number. These are plain pointers, because a checked access for each light
+/// would be slow.
 struct LightStreams {
   float *position[3], *cut2;
   uint32_t* light;  ///< of the table
   size_t count = 0;
 };
 
-/// Memory of such, with room for a vector more.
+/// The memory of LightStreams; there is room for one vector more than asked for.
 class StreamMemory {
  public:
   void make_room(LightStreams& streams, size_t more) {
@@ -81,7 +83,7 @@ struct FoundLights {
 };
 
 LightClusters make_light_clusters(const LightTable& lights, int threads);
-/// The same in the memory of any other table's. Those of a table that has not changed stay as they are.
+/// Makes the clusters in the memory of `out`. If `out` was made of the same version of the table, it stays as it is.
 void make_light_clusters(const LightTable& lights, int threads, LightClusters& out);
 
 }  // namespace trueshade

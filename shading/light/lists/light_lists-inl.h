@@ -42,11 +42,11 @@ inline uint64_t sum_of(const uint32_t* plane, int pixels) {
   return total;
 }
 
-/// What may keep a light from a region's pixels.
+/// The reasons for which a light may be left out of a region.
 struct RegionCull {
-  bool distance;  ///< all of it is out of its reach
-  bool cone;      ///< or out of its cone
-  bool facing;    ///< all normals point away: the model adds nothing then
+  bool distance;  ///< the light reaches no point of the region's bounds
+  bool cone;      ///< the bounds lie outside the light's cone
+  bool facing;    ///< all normals point away from the light, and the model adds nothing to such pixels
 };
 inline RegionBounds bounds_of(RegionCull cull) {
   return cull.facing ? RegionBounds::positions_and_normals : RegionBounds::positions;

@@ -33,11 +33,11 @@ struct BoundedLights {
   float most_color = 0.0f;          ///< the largest of theirs
 };
 
-/// Quadratic lights of some pixels, by what of them may matter.
+/// The quadratic lights that light some pixels, by whether their specular terms may matter.
 struct LightsByGloss {
   std::vector<uint32_t> matte, shiny;  ///< those whose specular term does not count, and all others that light
   std::vector<uint64_t> matte_bits, shiny_bits;  ///< the same
-  float left_out = 0.0f;                         ///< what has been left out of any pixel comes to at most this
+  float left_out = 0.0f;                         ///< bound of what the terms left out add up to at any pixel
 };
 
 /// Pixels of a tile in groups for which the same lights matter.
@@ -57,7 +57,7 @@ constexpr float kMostProvenFalloff = 0x1p16f, kMostProvenColor = 0x1p20f, kMostP
 
 constexpr float kMostWindowColor = 0x1p6f;
 
-/// Lights of a sum that are added up before they are added to it.
+/// How many lights are added up to a part before the part is added to the sum.
 inline constexpr size_t kSumPart = 32;
 
 /// The shape whose sums section 16 bounds: Blinn-Phong not masked, 1 / (1 + k1 d + k2 d^2), shininess 32.
