@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
@@ -29,12 +31,16 @@ std::string about_image(const std::string& path, uint64_t most_expansion) {
 
 std::string about_scene(const std::string& spec, const Limits& limits) {
   const Scene scene = scene_of_options(spec, limits);
-  const char* const kTypes[] = {"ambient", "directional", "point", "spot"};
-  size_t lights[4] = {};
-  for (const Light& light : scene.lights) ++lights[size_t(light.type)];
+  constexpr std::pair<LightType, const char*> kTypes[] = {{LightType::ambient, "ambient"},
+                                                          {LightType::directional, "directional"},
+                                                          {LightType::point, "point"},
+                                                          {LightType::spot, "spot"}};
   std::string kinds;
-  for (size_t type = 0; type < 4; ++type)
-    if (lights[type] != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(lights[type]) + ' ' + kTypes[type];
+  for (const auto& [type, name] : kTypes) {
+    const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(),
+                                      [type = type](const Light& light) { return light.type == type; });
+    if (lights != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(lights) + ' ' + name;
+  }
   size_t vertices = 0, stored = 0;
   for (const Mesh& mesh : scene.meshes) {
     vertices += mesh.vertex_count();

@@ -1,4 +1,6 @@
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
@@ -20,16 +22,19 @@ struct Section {
 std::vector<Section> sections() {
   Section scenes{"scenes", "Scenes (render builtin:NAME)", {}}, rows{"presets", "Presets (--preset)", {}};
   Section strategies{"strategies", "Strategies (--strategy)", {}};
-  constexpr std::string_view kAbout[] = {"every object once a light, added to the target after each",
-                                         "every object once, all lights summed in float32, one store",
-                                         "G-buffer, then each light's geometry, blended and rounded light by light",
-                                         "G-buffer, then all lights summed in float32, one store"};
-  for (size_t i = 0; i < std::size(kStrategyNames); ++i) strategies.entries.emplace_back(kStrategyNames[i], kAbout[i]);
+  constexpr std::pair<Strategy, const char*> kAbout[] = {
+      {Strategy::forward_multipass, "every object once a light, added to the target after each"},
+      {Strategy::forward_loop, "every object once, all lights summed in float32, one store"},
+      {Strategy::deferred_volumes, "G-buffer, then each light's geometry, blended and rounded light by light"},
+      {Strategy::deferred_loop, "G-buffer, then all lights summed in float32, one store"}};
+  static_assert(std::size(kAbout) == std::size(kStrategyNames));
+  for (const auto& [strategy, about] : kAbout) strategies.entries.emplace_back(name_of(strategy), about);
   Section profiles{"profiles", "Profiles (--profile): whose bits where OpenGL leaves a choice", {}};
-  constexpr std::string_view kWhose[] = {"our own: exact snapping, nearest stores, blending in float32",
-                                         "that driver's, on a CPU with FMA (docs/arithmetic.md section 11)"};
+  constexpr std::pair<NumericProfile, const char*> kWhose[] = {
+      {NumericProfile::ideal, "our own: exact snapping, nearest stores, blending in float32"},
+      {NumericProfile::mesa_llvmpipe_22_3, "that driver's, on a CPU with FMA (docs/arithmetic.md section 11)"}};
   static_assert(std::size(kWhose) == std::size(kProfileNames));
-  for (size_t i = 0; i < std::size(kProfileNames); ++i) profiles.entries.emplace_back(kProfileNames[i], kWhose[i]);
+  for (const auto& [profile, whose] : kWhose) profiles.entries.emplace_back(profile_name(profile), whose);
   Section drivers{"driver_profiles", "Profiles that validate holds a driver to (--profile)", {}};
   for (const std::string_view name : oracle::kDriverProfileNames) drivers.entries.emplace_back(name, "");
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};

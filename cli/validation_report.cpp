@@ -18,16 +18,30 @@ using oracle::WorstPixel;
 
 using Rgb = std::array<uint8_t, 3>;
 
-/// A colour a class, in the order of PixelClass: rare classes are the bright ones.
-constexpr std::array<Rgb, kPixelClasses> kClassColors{{{38, 44, 56},
-                                                       {66, 92, 140},
-                                                       {255, 180, 84},
-                                                       {86, 208, 255},
-                                                       {181, 132, 255},
-                                                       {120, 220, 120},
-                                                       {90, 160, 160},
-                                                       {160, 160, 160},
-                                                       {255, 40, 80}}};
+/// The colour of a class on the map. Rare classes have bright colours.
+constexpr Rgb color_of(PixelClass c) {
+  switch (c) {
+    case PixelClass::exact:
+      return {38, 44, 56};
+    case PixelClass::store_2:
+      return {66, 92, 140};
+    case PixelClass::edge:
+      return {255, 180, 84};
+    case PixelClass::depth_tie:
+      return {86, 208, 255};
+    case PixelClass::clip:
+      return {181, 132, 255};
+    case PixelClass::branch:
+      return {120, 220, 120};
+    case PixelClass::tex:
+      return {90, 160, 160};
+    case PixelClass::undefined:
+      return {160, 160, 160};
+    case PixelClass::violation:
+      return {255, 40, 80};
+  }
+  return {};  // unreachable: every enumerator returns above
+}
 
 constexpr const char* kTableStyle =
     "<style>table.wide { max-width: none; } .wide td, .wide th { padding: 5px 14px 5px 0; text-align: left; "
@@ -45,7 +59,7 @@ Image class_map(const StageVerdict& s) {
   Image map(s.width, s.height, Format::rgba8);
   const auto paint = [&](int x, int y, PixelClass c) {
     if (x < 0 || y < 0 || x >= s.width || y >= s.height) return;
-    const Rgb& rgb = kClassColors[size_t(c)];
+    const Rgb rgb = color_of(c);
     std::copy(rgb.begin(), rgb.end(), map.texel(x, y));
     map.texel(x, y)[3] = 255;
   };
@@ -60,7 +74,7 @@ Image class_map(const StageVerdict& s) {
 }
 
 std::string key(PixelClass c) {
-  const Rgb& rgb = kClassColors[size_t(c)];
+  const Rgb rgb = color_of(c);
   return "<i class=key style=\"background: rgb(" + std::to_string(rgb[0]) + ' ' + std::to_string(rgb[1]) + ' ' +
          std::to_string(rgb[2]) + ")\"></i>" + std::string(text(c));
 }

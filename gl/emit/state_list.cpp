@@ -58,9 +58,25 @@ std::string gl_name(Format format) {
 }
 
 std::string gl_name(DepthFunc func) {
-  constexpr const char* kNames[] = {"GL_NEVER",   "GL_LESS",     "GL_EQUAL",  "GL_LEQUAL",
-                                    "GL_GREATER", "GL_NOTEQUAL", "GL_GEQUAL", "GL_ALWAYS"};
-  return kNames[size_t(func)];
+  switch (func) {
+    case DepthFunc::never:
+      return "GL_NEVER";
+    case DepthFunc::less:
+      return "GL_LESS";
+    case DepthFunc::equal:
+      return "GL_EQUAL";
+    case DepthFunc::lequal:
+      return "GL_LEQUAL";
+    case DepthFunc::greater:
+      return "GL_GREATER";
+    case DepthFunc::notequal:
+      return "GL_NOTEQUAL";
+    case DepthFunc::gequal:
+      return "GL_GEQUAL";
+    case DepthFunc::always:
+      return "GL_ALWAYS";
+  }
+  return {};
 }
 
 std::string culling_call(CullFace face) {

@@ -6,9 +6,27 @@
 namespace trueshade::oracle {
 
 std::string_view text(PixelClass c) {
-  static constexpr std::string_view names[kPixelClasses] = {"EXACT",  "STORE-2", "EDGE",      "DEPTH-TIE", "CLIP",
-                                                            "BRANCH", "TEX",     "UNDEFINED", "VIOLATION"};
-  return names[size_t(c)];
+  switch (c) {
+    case PixelClass::exact:
+      return "EXACT";
+    case PixelClass::store_2:
+      return "STORE-2";
+    case PixelClass::edge:
+      return "EDGE";
+    case PixelClass::depth_tie:
+      return "DEPTH-TIE";
+    case PixelClass::clip:
+      return "CLIP";
+    case PixelClass::branch:
+      return "BRANCH";
+    case PixelClass::tex:
+      return "TEX";
+    case PixelClass::undefined:
+      return "UNDEFINED";
+    case PixelClass::violation:
+      return "VIOLATION";
+  }
+  return {};
 }
 
 bool worse(PixelClass a, PixelClass b) {

@@ -33,20 +33,19 @@ constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",    
                                          "seed", "intensity", "range", "attenuation", "drift",  "drift_s"};
 constexpr std::string_view kBuffersKeys[] = {"type", "position", "color", "falloff", "intensity", "range"};
 
-// As LightType, then those that make many; the types' steps follow.
-enum : size_t { kAmbient, kDirectional, kPoint, kSpot, kRing, kBox, kBuffers, kAmbientStep };
-constexpr json::ObjectKeys kLightJsonKeys[] = {{"ambient", kAmbientKeys},
-                                               {"directional", kDirectionalKeys},
-                                               {"point", kPointKeys},
-                                               {"spot", kSpotKeys},
-                                               {"ring", kRingKeys},
-                                               {"box", kBoxKeys},
-                                               {"buffers", kBuffersKeys},
-                                               {"ambient_step", kAmbientStepKeys},
-                                               {"directional_step", kDirectionalStepKeys},
-                                               {"point_step", kPointStepKeys},
-                                               {"spot_step", kSpotStepKeys}};
-constexpr std::string_view kTypes[] = {"ambient", "directional", "point", "spot", "ring", "box", "buffers"};
+/// A kind of light. `keys.object` is also the value of the key `type`.
+struct LightObject {
+  LightType type;
+  json::ObjectKeys keys, step_keys;
+};
+constexpr LightObject kLightObjects[] = {
+    {LightType::ambient, {"ambient", kAmbientKeys}, {"ambient_step", kAmbientStepKeys}},
+    {LightType::directional, {"directional", kDirectionalKeys}, {"directional_step", kDirectionalStepKeys}},
+    {LightType::point, {"point", kPointKeys}, {"point_step", kPointStepKeys}},
+    {LightType::spot, {"spot", kSpotKeys}, {"spot_step", kSpotStepKeys}}};
+
+/// What stands for many lights, by the value of the key `type`.
+constexpr json::ObjectKeys kRing{"ring", kRingKeys}, kBox{"box", kBoxKeys}, kBuffers{"buffers", kBuffersKeys};
 
 std::optional<glm::dvec4> read_direction(const json::Node& object) {
   const auto node = object.find("direction");
@@ -83,14 +82,14 @@ ValueReader reader_of(const LightValue& value) {
 /// Reads the values of one light into it, and what moves of it into the timeline.
 class LightReader {
  public:
-  LightReader(const json::Node& node, LightType type, Scene& scene)
+  LightReader(const json::Node& node, const LightObject& object, Scene& scene)
       : node_(node),
-        keys_(kLightJsonKeys[size_t(type)]),
-        steps_(node, kLightJsonKeys[kAmbientStep + size_t(type)]),
+        keys_(object.keys),
+        steps_(node, object.step_keys),
         index_(uint32_t(scene.lights.size())),
         light_(scene.lights.emplace_back()),
         motions_(scene.timeline.lights) {
-    light_.type = type;
+    light_.type = object.type;
   }
 
   void read() {
@@ -269,26 +268,39 @@ void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
   }
 }
 
+/// Reads one element of the list: a light, or what stands for many.
+void read_lights_of(const json::Node& node, Scene& scene, const std::string& path, const SceneLimits& limits,
+                    const ImageDecoder& decode) {
+  std::vector<std::string_view> types;
+  for (const LightObject& light : kLightObjects) types.push_back(light.keys.object);
+  types.insert(types.end(), {kRing.object, kBox.object, kBuffers.object});
+  const std::string_view type = types[node.member("type").choice(types)];
+  const auto is = [&](const json::ObjectKeys& keys) {
+    if (type != keys.object) return false;
+    node.check_keys(keys);
+    return true;
+  };
+  if (is(kRing)) return read_ring(node, scene, limits);
+  if (is(kBox)) return read_box(node, scene, limits);
+  if (is(kBuffers)) return read_buffers(node, scene, {path, decode, limits, limits.lights});
+  for (const LightObject& light : kLightObjects)
+    if (is(light.keys)) LightReader(node, light, scene).read();
+}
+
 }  // namespace
 
-std::span<const json::ObjectKeys> light_json_keys() { return kLightJsonKeys; }
+std::vector<json::ObjectKeys> light_json_keys() {
+  std::vector<json::ObjectKeys> all;
+  for (const LightObject& light : kLightObjects) all.push_back(light.keys);
+  all.insert(all.end(), {kRing, kBox, kBuffers});
+  for (const LightObject& light : kLightObjects) all.push_back(light.step_keys);
+  return all;
+}
 
 void read_lights(const json::Node& list, Scene& scene, const std::string& path, const SceneLimits& limits,
                  const ImageDecoder& decode) {
   const size_t count = list.array(0, SIZE_MAX).size();
-  for (size_t i = 0; i < count; ++i) {
-    const json::Node node = list.element(i);
-    const size_t type = node.member("type").choice(kTypes);
-    node.check_keys(kLightJsonKeys[type]);
-    if (type == kRing)
-      read_ring(node, scene, limits);
-    else if (type == kBox)
-      read_box(node, scene, limits);
-    else if (type == kBuffers)
-      read_buffers(node, scene, {path, decode, limits, limits.lights});
-    else
-      LightReader(node, LightType(type), scene).read();
-  }
+  for (size_t i = 0; i < count; ++i) read_lights_of(list.element(i), scene, path, limits, decode);
 }
 
 }  // namespace trueshade

@@ -1,6 +1,6 @@
 #pragma once
-#include <span>
 #include <string>
+#include <vector>
 
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
@@ -8,7 +8,7 @@
 namespace trueshade {
 
 /// The keys of lights, their steps and the generators of lights.
-std::span<const json::ObjectKeys> light_json_keys();
+std::vector<json::ObjectKeys> light_json_keys();
 
 /// Appends the lights of a scene's text, and what moves of them. Buffers of lights are read from the folder of `path`,
 /// pictures by `decode`. Error(limit) before more are made than `limits` allow.

@@ -13,8 +13,21 @@ enum class Encoding : uint8_t { ascii, little_endian, big_endian };
 enum class Type : uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 constexpr size_t bytes_of(Type type) {
-  constexpr size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[size_t(type)];
+  switch (type) {
+    case Type::int8:
+    case Type::uint8:
+      return 1;
+    case Type::int16:
+    case Type::uint16:
+      return 2;
+    case Type::int32:
+    case Type::uint32:
+    case Type::float32:
+      return 4;
+    case Type::float64:
+      return 8;
+  }
+  return 0;  // unreachable: every enumerator returns above
 }
 
 constexpr bool is_integer(Type type) { return type < Type::float32; }

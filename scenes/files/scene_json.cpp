@@ -73,7 +73,8 @@ void read_camera(const json::Node& node, Scene& scene) {
 std::span<const json::ObjectKeys> scene_object_keys() {
   static const std::vector<json::ObjectKeys> all = [] {
     std::vector<json::ObjectKeys> keys(std::begin(kSceneJsonKeys), std::end(kSceneJsonKeys));
-    for (const auto& part : {object_json_keys(), light_json_keys()}) keys.insert(keys.end(), part.begin(), part.end());
+    for (const json::ObjectKeys& object : object_json_keys()) keys.push_back(object);
+    for (const json::ObjectKeys& light : light_json_keys()) keys.push_back(light);
     return keys;
   }();
   return all;

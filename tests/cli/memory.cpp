@@ -1,7 +1,6 @@
 // Memory: what would take too much is refused before it is taken, in one line that names the option; what is drawn
 // stays below the cap; and where the system gives none, the command ends in order.
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/gzipped.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -57,20 +57,6 @@ void check_refused_early(const Arguments& arguments, const ScratchFolder& folder
   check_refused(run.outcome, exit_code, about);
   CAPTURE(run.mib);
   CHECK(run.mib < mib_of_start() + 256);
-}
-
-std::string gzipped(const std::string& content) {
-  z_stream stream{};
-  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY) == Z_OK);
-  std::string out(deflateBound(&stream, uLong(content.size())), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = uInt(content.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = uInt(out.size());
-  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 std::string word(uint32_t value) {

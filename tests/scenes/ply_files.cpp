@@ -1,11 +1,10 @@
-#include <zlib.h>
-
 #include <bit>
 #include <cstring>
 
 #include "expect_error.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/scene.h"
+#include "tests/gzipped.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -69,20 +68,6 @@ std::string binary_quad(bool big_endian) {
   return out;
 }
 
-std::string gzip(std::string_view text) {
-  z_stream stream{};
-  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY) == Z_OK);
-  std::string out(deflateBound(&stream, uLong(text.size())) + 32, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = uInt(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = uInt(out.size());
-  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
-
 TEST_CASE("a text file's square becomes a fan of two triangles with flat normals") {
   const Mesh mesh = read(kQuad);
   CHECK(mesh.triangle_count() == 2);
@@ -135,7 +120,7 @@ TEST_CASE("a file cut at any byte is refused") {
     CHECK_STARTS_WITH(refusal(binary.substr(0, binary.size() - 1)), "m.ply: byte ");
     CHECK_STARTS_WITH(refusal(binary + "x"), "m.ply: byte ");
   }
-  const std::string packed = gzip(kQuad);
+  const std::string packed = gzipped(kQuad);
   for (size_t size = 0; size < packed.size(); ++size)
     error_of(ErrorKind::bad_input,
              [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", SceneLimits{.file_bytes = 1 << 20}, MissingNormals::flat); });
@@ -196,14 +181,14 @@ TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
 }
 
 TEST_CASE("a compressed file is unpacked, up to the limit and not beyond") {
-  const Bytes packed = bytes_of(gzip(kQuad));
+  const Bytes packed = bytes_of(gzipped(kQuad));
   CHECK(mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size()}, MissingNormals::flat).triangle_count() == 2);
   error_of(ErrorKind::limit, [&] { mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size() - 1}, MissingNormals::flat); });
-  const Bytes bomb = bytes_of(gzip(std::string(32 << 20, ' ')));
+  const Bytes bomb = bytes_of(gzipped(std::string(32 << 20, ' ')));
   CHECK(bomb.size() < 40000);
   error_of(ErrorKind::limit, [&] { gunzipped(bomb, SceneLimits{.file_bytes = 1 << 20}, "bomb.ply.gz"); });
   error_of(ErrorKind::bad_input, [&] { gunzipped(bytes_of("no gzip at all"), SceneLimits{.file_bytes = 1 << 20}, "x.gz"); });
-  const std::string two = gzip("ab") + gzip("cd");
+  const std::string two = gzipped("ab") + gzipped("cd");
   CHECK(gunzipped(bytes_of(two), SceneLimits{.file_bytes = 100}, "two.gz") == bytes_of("abcd"));
 }
 

@@ -30,8 +30,23 @@ constexpr uint32_t bytes_of(Component c) {
 }
 
 constexpr uint32_t components_of(Shape shape) {
-  constexpr uint32_t kCounts[] = {1, 2, 3, 4, 4, 9, 16, 1};
-  return kCounts[size_t(shape)];
+  switch (shape) {
+    case Shape::vec2:
+      return 2;
+    case Shape::vec3:
+      return 3;
+    case Shape::vec4:
+    case Shape::mat2:
+      return 4;
+    case Shape::mat3:
+      return 9;
+    case Shape::mat4:
+      return 16;
+    case Shape::scalar:
+    case Shape::unknown:
+      return 1;
+  }
+  return 0;  // unreachable: every enumerator returns above
 }
 
 /// Rows, and columns, of a matrix.

@@ -106,7 +106,7 @@ class Libraries {
       mirrors_ += found->second.material->illum >= 3 && found->second.material->illum <= 9;
       return material_of(*found->second.document, *found->second.material, pictures_);
     }
-    if (++undefined_ <= kMostNamed) undefined_names_ += (undefined_ == 1 ? "" : ", ") + printable(name);
+    if (++undefined_ <= kMostNamed) undefined_names_ += (undefined_ == 1 ? "" : ", ") + shown_word(name);
     return {name, kGrey};
   }
 

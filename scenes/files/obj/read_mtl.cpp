@@ -29,9 +29,9 @@ class MtlReader {
       if (keyword == "newmtl")
         begin_material();
       else if (document_.materials.empty())
-        text_.fail("'" + printable(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
+        text_.fail("'" + shown_word(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
       else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()))
-        ++document_.passed_over[printable(text_.keyword())];
+        ++document_.passed_over[shown_word(text_.keyword())];
     }
     return std::move(document_);
   }
@@ -158,7 +158,8 @@ class MtlReader {
     } else {
       text_ = before;
       if (option.starts_with('-') && option.size() > 1)
-        text_.fail("'" + printable(option) + "' is no option of a picture", "-bm -o -s -clamp, or one of MTL's others");
+        text_.fail("'" + shown_word(option) + "' is no option of a picture",
+                   "-bm -o -s -clamp, or one of MTL's others");
       return false;
     }
     ++document_.passed_over[option];

@@ -64,7 +64,7 @@ class ObjReader {
     } else if (among(kFreeForm, keyword)) {
       ++document_.free_form;
     } else if (!among(kPassedOver, keyword)) {
-      text_.fail("'" + printable(keyword) + "' is no statement of an OBJ file", "v vt vn f o g s usemtl mtllib p l");
+      text_.fail("'" + shown_word(keyword) + "' is no statement of an OBJ file", "v vt vn f o g s usemtl mtllib p l");
     }
   }
 
@@ -130,7 +130,7 @@ class ObjReader {
     int32_t number = 0;
     const auto [end, code] = std::from_chars(group.data(), group.data() + group.size(), number);
     if (code != std::errc() || end != group.data() + group.size() || number < 0)
-      text_.fail("the smoothing group is '" + printable(group) + "'", "off, or a whole number from 0 on");
+      text_.fail("the smoothing group is '" + shown_word(group) + "'", "off, or a whole number from 0 on");
     state_.smoothing = number;
   }
 
@@ -155,7 +155,7 @@ class ObjReader {
     int64_t value = 0;
     const auto [end, code] = std::from_chars(at + (*at == '+'), last, value);
     if (code != std::errc() || (end != last && *end != '/'))
-      text_.fail(std::string("the index of a ") + what + " is '" + printable({at, size_t(last - at)}) + "'",
+      text_.fail(std::string("the index of a ") + what + " is '" + shown_word({at, size_t(last - at)}) + "'",
                  "a whole number, or v/vt/vn");
     at = end;
     const int64_t from_start = value < 0 ? int64_t(count) + value + 1 : value;
@@ -176,7 +176,8 @@ class ObjReader {
       if (at == last || k == 2) break;
       ++at;  // a slash
     }
-    if (at != last || parts[0] == 0) text_.fail("the corner is '" + printable(word) + "'", "v, v/vt, v//vn or v/vt/vn");
+    if (at != last || parts[0] == 0)
+      text_.fail("the corner is '" + shown_word(word) + "'", "v, v/vt, v//vn or v/vt/vn");
     return {parts[0] - 1, parts[1] - 1, parts[2] - 1};
   }
 

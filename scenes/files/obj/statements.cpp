@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/printable_text.h"
+
 namespace trueshade::obj {
 namespace {
 
@@ -40,12 +42,7 @@ Parsed number_at(const char* first, const char* last) {
 
 }  // namespace
 
-std::string printable(std::string_view word) {
-  std::string text(word.substr(0, 40));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '?';
-  return text;
-}
+std::string shown_word(std::string_view word) { return printable(word.substr(0, 40), Lines::one); }
 
 Statements::Statements(std::span<const uint8_t> file, std::string_view where)
     : next_(reinterpret_cast<const char*>(file.data())), end_(next_ + file.size()), where_(where) {
@@ -114,7 +111,7 @@ float Statements::number(const char* what) {
   const Parsed parsed = number_at(next_, end_);
   const char* end = parsed.end;
   if (!end || !(end == end_ || is_blank(*end) || *end == '\n' || *end == '\r' || *end == '\\'))
-    fail(std::string(what) + " is '" + printable(word()) + "'", "a number from -1e18 to 1e18");
+    fail(std::string(what) + " is '" + shown_word(word()) + "'", "a number from -1e18 to 1e18");
   next_ = end;
   return parsed.value;
 }
@@ -148,7 +145,7 @@ std::string Statements::rest() {
 
 void Statements::finish() {
   if (!at_end())
-    fail("'" + printable(word()) + "' is one word too many for '" + printable(keyword_) + "'",
+    fail("'" + shown_word(word()) + "' is one word too many for '" + shown_word(keyword_) + "'",
          "what the statement takes");
 }
 

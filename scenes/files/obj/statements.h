@@ -59,7 +59,7 @@ class Statements {
   std::string_view where_, keyword_;
 };
 
-/// A word for an error: at most 40 characters, each printable.
-std::string printable(std::string_view word);
+/// A word as errors show it: at most its first 40 bytes, printable().
+std::string shown_word(std::string_view word);
 
 }  // namespace trueshade::obj

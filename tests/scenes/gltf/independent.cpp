@@ -1,11 +1,11 @@
 #include <assimp/scene.h>
-#include <tiny_gltf.h>
 
 #include <assimp/Importer.hpp>
 #include <cmath>
 
 #include "asset.h"
 #include "core/error.h"
+#include "read_by_tinygltf.h"
 #include "scenes/hierarchy.h"
 #include "scenes/trig.h"
 #include "tests/catch.hpp"
@@ -107,20 +107,6 @@ double peer_value(const tinygltf::Model& model, int accessor, size_t element, si
   return number(view, a.byteOffset + element * stride + component * size, a.componentType);
 }
 
-tinygltf::Model peer_model(const std::string& path) {
-  tinygltf::Model model;
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
-                        nullptr);
-  std::string error, warning;
-  const bool good = path.ends_with(".glb") ? loader.LoadBinaryFromFile(&model, &error, &warning, path)
-                                           : loader.LoadASCIIFromFile(&model, &error, &warning, path);
-  INFO(error);
-  REQUIRE(good);
-  return model;
-}
-
 template <size_t N>
 void check_stream(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const char* name,
                   const std::array<std::vector<float>, N>& streams) {
@@ -139,7 +125,7 @@ void check_vertex_data(const std::string& path) {
   const Scene scene = load_scene(path, {}, [](std::span<const uint8_t>, const std::string&, uint64_t) {
     return Image(1, 1, Format::rgba8);  // pictures are not compared
   });
-  const tinygltf::Model model = peer_model(path);
+  const tinygltf::Model model = read_by_tinygltf(path);
   std::vector<const tinygltf::Primitive*> primitives;
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const tinygltf::Primitive& primitive : mesh.primitives) primitives.push_back(&primitive);

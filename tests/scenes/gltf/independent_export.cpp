@@ -1,9 +1,9 @@
 #include <assimp/scene.h>
-#include <tiny_gltf.h>
 
 #include <assimp/Importer.hpp>
 #include <cmath>
 
+#include "read_by_tinygltf.h"
 #include "round_trip.h"
 #include "scenes/builtin/builtin.h"
 #include "tests/scratch_folder.h"
@@ -15,19 +15,6 @@ namespace {
 std::string written(const ScratchFolder& folder, const Scene& scene) {
   const std::vector<uint8_t> bytes = glb_of_scene(scene, stored_picture).bytes;
   return folder.write("a.glb", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
-tinygltf::Model read_by_tinygltf(const std::string& path) {
-  tinygltf::Model model;
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
-                        nullptr);
-  std::string error, warning;
-  REQUIRE(loader.LoadBinaryFromFile(&model, &error, &warning, path));
-  CHECK(error.empty());
-  CHECK(warning.empty());
-  return model;
 }
 
 size_t lights_with_place(const Scene& scene) {

@@ -29,11 +29,25 @@ double photometric_intensity(const Light& light, bool photometric) {
   return light.attenuation.z > 0.0f ? 1.0 / double(light.attenuation.z) : 1.0;
 }
 
+/// The value of KHR_lights_punctual's key `type`; ambient light has none.
+std::string name_of(LightType type) {
+  switch (type) {
+    case LightType::ambient:
+      return "";
+    case LightType::directional:
+      return "directional";
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+  }
+  return "";  // unreachable: every enumerator returns above
+}
+
 std::string punctual(const Light& light, bool photometric) {
-  constexpr const char* kTypes[] = {"", "directional", "point", "spot"};
   const double largest = std::max({light.color.x, light.color.y, light.color.z}),
                scale = largest > 0.0 ? 1.0 / largest : 1.0;
-  std::string text = std::string("{\"type\":\"") + kTypes[size_t(light.type)] + "\",\"color\":";
+  std::string text = "{\"type\":\"" + name_of(light.type) + "\",\"color\":";
   const double color[] = {std::min(light.color.x * scale, 1.0), std::min(light.color.y * scale, 1.0),
                           std::min(light.color.z * scale, 1.0)};
   append_json(text, std::span<const double>(color));
