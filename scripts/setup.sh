@@ -23,9 +23,10 @@ quietly() {
   rm -f "$log"
 }
 
-# listed_packages command|tests: the list's first part, or all of it.
+# listed_packages picture|command|tests: the list's first part, the first two, or all of it.
 listed_packages() {
   local until='^$'  # matches no line that is kept
+  [[ $1 == picture ]] && until='^# command:'
   [[ $1 == command ]] && until='^# tests:'
   sed "/$until/,\$d" "$root/scripts/packages.txt" | grep -v '^#'
 }
@@ -39,7 +40,7 @@ missing_packages() {
   done
 }
 
-# install_packages command|tests [EXTRA...]: what building the command needs, or the tests too, and what else is named.
+# install_packages picture|command|tests [EXTRA...]: what building this much needs, and what else is named.
 install_packages() {
   local -a wanted missing as_root=()
   mapfile -t wanted < <(listed_packages "$1"; printf '%s\n' "${@:2}" | grep . || true)

@@ -12,6 +12,8 @@ add_test(NAME "rules: the kernels hold no fused or estimating instruction"
                  $<TARGET_FILE:trueshade_raster> $<TARGET_FILE:trueshade_shading>)
 add_test(NAME "install: a program finds, links and runs the installed library"
          COMMAND ${rules}/consumer/run.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER} "${CMAKE_CXX_FLAGS}")
+add_test(NAME "rules: the picture is built without the packages of the whole command"
+         COMMAND ${rules}/picture_parts.sh ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
 add_test(NAME "rules: the golden frames are drawn without any fast path"
          COMMAND ${rules}/general_path/run.sh ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER} ${CMAKE_CXX_COMPILER_LAUNCHER})
 set_tests_properties("rules: the golden frames are drawn without any fast path" PROPERTIES LABELS slow)
