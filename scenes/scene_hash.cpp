@@ -254,9 +254,9 @@ std::string scene_hash(const Scene& scene) {
   for (size_t i = 0; i < scene.instances.size(); ++i)
     if (scene.instances[i].mirrored) hasher.add(kMirrored + i);
   for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_more_uv(kSecondUv + i, kNextUv, scene.meshes[i]);
-  const bool plain = std::none_of(scene.materials.begin(), scene.materials.end(),
+  const bool unmapped = std::none_of(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.textured() || m.masked(); });
-  if (plain) return hasher.hex();
+  if (unmapped) return hasher.hex();
   hasher.add(uint64_t(3) << 61);  // no count, and none of the above
   hasher.count(scene.textures.size());
   if (has_many_texels(scene))

@@ -84,7 +84,7 @@ struct TileStages {
     fetch_texels(rect, frame.out.color);
     const float* const clear = &plan.clear[0];
     if (plan.blends()) {
-      blend_tile(frame.light_draws, s.surface, tied, rect, clear, s.blend, s.color, counts.light);
+      blend_tile(frame.light_volume_draws, s.surface, tied, rect, clear, s.blend, s.color, counts.light);
     } else {
       light_tile(s.surface, rect.size, frame.tables.lights, frame.tables.clusters, frame.pipeline.light_model, clear,
                  plan.shortcuts, s.lights, s.color, counts.light);
@@ -100,7 +100,7 @@ struct TileStages {
     else
       store_target(s.color, rect, plan.target.half_round, frame.out.color);
     if (plan.blends())
-      frame.light_planes.blend(frame.light_draws, s.surface, tied, rect, s.blend, s.extra, frame.out.aovs);
+      frame.light_planes.blend(frame.light_volume_draws, s.surface, tied, rect, s.blend, s.extra, frame.out.aovs);
     else
       frame.light_planes.sum(s.surface, rect, plan.shortcuts, s.lights, s.extra, frame.out.aovs);
   }
@@ -142,8 +142,8 @@ void draw_tile(const FrameWork& frame, int tile, TileCounts& counts) {
   counts.ms = {seen - start, resolved - seen, lighted - resolved, now_ms() - lighted};
   // Counted after the clock has stopped: the frame's time is that of drawing alone.
   if (frame.plan.light_geometry)
-    counts.lit_geometry += count_lit_geometry(frame.light_draws, stages.s.surface, stages.rect, stages.s.blend.counts,
-                                              stages.s.blend.lights);
+    counts.lit_geometry += count_lit_geometry(frame.light_volume_draws, stages.s.surface, stages.rect,
+                                              stages.s.blend.counts, stages.s.blend.lights);
 }
 
 }  // namespace trueshade

@@ -21,7 +21,7 @@ struct FrameWork {
   const Pipeline& pipeline;
   const View& view;
   const FrameTables& tables;
-  const LightVolumeDraws light_draws;  ///< read where the plan blends lights
+  const LightVolumeDraws light_volume_draws;  ///< read where the plan blends lights
   const LightPlanes light_planes;
   const ViewDistance view_distance;
   const TransparentPass transparent;

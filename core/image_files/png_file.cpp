@@ -58,13 +58,13 @@ void append_metadata(std::vector<uint8_t>& file, const std::string& where, std::
   if (key.empty() || key.size() > kMostKey || !std::all_of(key.begin(), key.end(), ascii))
     throw Error(ErrorKind::usage, where, "a PNG cannot hold metadata named '" + std::string(key) + "'",
                 "name it with 1 to 79 letters of ASCII");
-  const bool plain = std::all_of(text.begin(), text.end(), [&](char c) { return ascii(c) || c == '\n'; });
+  const bool is_ascii = std::all_of(text.begin(), text.end(), [&](char c) { return ascii(c) || c == '\n'; });
   std::vector<uint8_t> data;
   append_text(data, key);
   // Behind the keyword an iTXt has its compression flag and method, a language and a translated keyword.
-  data.insert(data.end(), plain ? 1 : 5, uint8_t(0));
+  data.insert(data.end(), is_ascii ? 1 : 5, uint8_t(0));
   append_text(data, text);
-  append_chunk(file, plain ? "tEXt" : "iTXt", data);
+  append_chunk(file, is_ascii ? "tEXt" : "iTXt", data);
 }
 
 /// Rows that are compressed together. They depend on the image alone, so that every number of threads gives one file.

@@ -63,29 +63,31 @@ constexpr std::string_view kGlossReason = "The light model does not take specula
 constexpr std::string_view kMetalReason = "The light model has no metallic-roughness materials";
 constexpr std::string_view kEmissionReason = "The light model adds no emission";
 
-const Material& plain() {
+/// What a material is whose file says nothing.
+const Material& default_material() {
   static const Material material;
   return material;
 }
 
 
 constexpr Field<Material> kMaterialFields[] = {
-    {"specular_color", kGlossReason, [](const Material& m) { return m.specular_color != plain().specular_color; },
+    {"specular_color", kGlossReason,
+     [](const Material& m) { return m.specular_color != default_material().specular_color; },
      [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
-    {"shininess", kGlossReason, [](const Material& m) { return m.shininess != plain().shininess; },
+    {"shininess", kGlossReason, [](const Material& m) { return m.shininess != default_material().shininess; },
      [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
     {"specular_map", kGlossReason, [](const Material& m) { return m.specular_map.used(); },
      [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
     {"emission", kEmissionReason, [](const Material& m) { return m.emission != glm::vec3(0.0f); },
      [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
-    {"metallic", kMetalReason, [](const Material& m) { return m.metallic != plain().metallic; },
+    {"metallic", kMetalReason, [](const Material& m) { return m.metallic != default_material().metallic; },
      [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
-    {"roughness", kMetalReason, [](const Material& m) { return m.roughness != plain().roughness; },
+    {"roughness", kMetalReason, [](const Material& m) { return m.roughness != default_material().roughness; },
      [](const Material&, const Pipeline& p) {
        return maps_metals(p.light_model) && reads_specular_plane(p.light_model);
      }},
     {"normal_scale", "The material has no normal_map",
-     [](const Material& m) { return m.normal_scale != plain().normal_scale; },
+     [](const Material& m) { return m.normal_scale != default_material().normal_scale; },
      [](const Material& m, const Pipeline&) { return m.normal_map.used(); }},
     {"metallic_roughness_map", kMetalReason, [](const Material& m) { return m.metallic_roughness_map.used(); },
      [](const Material&, const Pipeline& p) { return maps_metals(p.light_model); }},
@@ -95,7 +97,7 @@ constexpr Field<Material> kMaterialFields[] = {
      [](const Material& m) { return m.occlusion_map.used(); },
      [](const Material&, const Pipeline& p) { return p.light_model.emission; }},
     {"occlusion_strength", "The material has no occlusion_map",
-     [](const Material& m) { return m.occlusion_strength != plain().occlusion_strength; },
+     [](const Material& m) { return m.occlusion_strength != default_material().occlusion_strength; },
      [](const Material& m, const Pipeline&) { return m.occlusion_map.used(); }},
     {"unlit", "The pipeline lights every surface that is drawn like this one",
      [](const Material& m) { return m.unlit; }, [](const Material& m, const Pipeline& p) { return drawn_unlit(m, p); }},

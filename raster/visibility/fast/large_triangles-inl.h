@@ -39,7 +39,7 @@ struct WholeEdges {
   using F = hn::Rebind<float, D>;
   using V = hn::Vec<D>;
   static constexpr int kLanes = int(hn::MaxLanes(D())), kParts = kBlockPixels / kLanes;
-  // Held to +-kMost at pixel (0, 0), a value keeps its sign over the tile: 63 pixels change it by less.
+  // A value clamped to +-kMost at pixel (0, 0) keeps its sign over the tile, because 63 pixels change it by less.
   static constexpr int kMostBits = kWide ? 50 : 30;
   static constexpr int64_t kMost = int64_t(1) << kMostBits, kMostSlope = (kMost >> 6) - 1;
 

@@ -46,8 +46,8 @@ struct SampleBoxes {
     rows = hn::Sub(hn::Min(hn::ShiftRight<8>(top), hn::Set(d, limit.last_y)), row);
   }
 
-  /// Those of at most side x side samples, of triangles none of whose corners is held: held ones are at the ends of the
-  /// range.
+  /// The triangles whose boxes hold at most side x side samples, and none of whose corners is clamped. A clamped corner
+  /// lies at an end of the range.
   HWY_INLINE hn::Mask<DT> upto(int side, bool any_clamped) const {
     const DT d;
     const auto few = hn::Lt(hn::Or(columns, rows), hn::Set(d, side));  // side is a power of two
