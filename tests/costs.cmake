@@ -16,6 +16,7 @@ trueshade_slow(20
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
   "judge:Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU"
   "judge:What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred"
+  "judge:Glass with maps of metal, emission and occlusion by llvmpipe is explained, and a wrong map of it is not"
   "judge:What llvmpipe makes of maps of metal, emission and occlusion, and of unlit surfaces, is legal"
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
