@@ -147,7 +147,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
   result.notes = notes_of(scene, result.pipeline);
-  check_memory(scene, result.pipeline, execution, {}, {});
+  check_memory(scene, result.pipeline, execution, {});
   const PreparedScene prepared(scene);
   OwnFrames frames(prepared, result.pipeline, execution);
   frames.draw();

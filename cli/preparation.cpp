@@ -11,6 +11,8 @@
 #include "scenes/json/json_value.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame_memory.h"
+#include "shading/output/derived_planes.h"
+#include "shading/output/target.h"
 
 namespace trueshade {
 namespace {
@@ -33,15 +35,24 @@ void check_pipeline(const PipelineOptions& options) {
 }
 
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                  std::span<const std::string> aovs, std::span<const std::string> outputs) {
-  uint64_t largest = 0;  // files are made one after the other
+                  std::span<const std::string> aovs, uint64_t more) {
+  require_memory(predicted_memory(scene, pipeline, execution, aovs) + more, scene.spec, "drawing it");
+}
+
+uint64_t file_memory(const Pipeline& pipeline, std::span<const std::string> paths,
+                     std::span<const std::string> planes) {
+  // Of the bytes that a frame has; PNG and EXR of built-in scenes keep 8 to 56 of 100.
+  constexpr uint64_t kKeptOf100 = 35;
   const auto bytes_of = [](Format format) { return uint64_t(info(format).bytes_per_texel()); };
-  for (const std::string& path : outputs) {
-    uint64_t texel = pipeline.view == ImageView::lit ? bytes_of(pipeline.target) : 4;
-    for (size_t i = 0; i < aovs.size() && has_ending(path, ".exr"); ++i) texel += 16;
-    largest = std::max(largest, texel * uint64_t(pipeline.width) * uint64_t(pipeline.height));
-  }
-  require_memory(predicted_memory(scene, pipeline, execution, aovs) + largest, scene.spec, "drawing it");
+  const uint64_t texel = pipeline.view == ImageView::lit ? bytes_of(pipeline.target) : 4,
+                 shown = 4 + 3;  // on a page: a picture of 8 bits a channel, and the page with all of them
+  uint64_t exr = texel, largest = 0;
+  for (const std::string& plane : planes) exr += bytes_of(aov_format(plane, surface_planes(pipeline)));
+  for (const std::string& path : paths)
+    largest = std::max(largest, has_ending(path, ".html")  ? 100 * std::max(shown, texel)
+                                : has_ending(path, ".exr") ? kKeptOf100 * exr
+                                                           : kKeptOf100 * texel);
+  return largest * uint64_t(pipeline.width) * uint64_t(pipeline.height) / 100;
 }
 
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {

@@ -14,10 +14,15 @@ void check_pipeline(const PipelineOptions& options);
 /// load_scene() with the pictures that files name, within the options' limits.
 Scene scene_of_options(const std::string& spec, const Limits& limits);
 
-/// Error(limit) where the frame, with what is in memory, is predicted to be over the memory cap.
-/// `outputs`: files to be written, which are made in memory.
+/// Error(limit) where the frame, with what is in memory, is predicted to be over the memory cap. `more`: bytes that are
+/// taken besides the frame's.
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                  std::span<const std::string> aovs, std::span<const std::string> outputs);
+                  std::span<const std::string> aovs, uint64_t more = 0);
+
+/// Bytes that the largest of a frame's files takes while it is made: files are made in memory, one after the other. An
+/// estimate, because how much compression helps depends on the picture; write_image() holds it to the cap. `planes`: of
+/// an EXR.
+uint64_t file_memory(const Pipeline& pipeline, std::span<const std::string> paths, std::span<const std::string> planes);
 
 /// The pipeline of all layers, each over the one before: preset, scene file, pipeline file, options. Valid.
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene);

@@ -140,7 +140,8 @@ void render(const RenderOptions& options) {
   for (const std::string& path : options.outputs) check_writable(path);
   Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
-  check_memory(scene, pipeline, execution_of(options), planes_to_render(options), options.outputs);
+  check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
+               file_memory(pipeline, options.outputs, options.aovs));
   if (options.frames) return render_frames(options, scene, pipeline);
   set_time(scene, options.time);
   RenderedFrame result = frame_at(options, scene, pipeline, options.time);

@@ -13,7 +13,7 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kPlanes[] = {"Z", "position", "normal", "albedo", "light.count", "id.object"};
+constexpr std::string_view kReportPlanes[] = {"Z", "position", "normal", "albedo", "light.count", "id.object"};
 
 std::string value_of(const std::vector<StatLine>& lines, std::string_view key) {
   return std::find_if(lines.begin(), lines.end(), [key](const StatLine& line) { return line.key == key; })->value;
@@ -50,15 +50,16 @@ std::string pictures(const RenderedFrame& result) {
   const Image& counts = plane_named(planes, "light.count");
   const uint32_t most = heat_scale(counts);
   const int threads = result.execution.threads;
-  return "<h2>G-buffer</h2>\n<div class=pictures>\n" +
-         figure(view_image(ImageView::normal, threads, planes), "Normal", "world space, (N + 1) / 2") +
-         figure(view_image(ImageView::albedo, threads, planes), "Albedo", "sRGB-encoded") +
-         figure(view_image(ImageView::depth, threads, planes), "Depth",
-                "distance along the view axis, near is bright") +
-         figure(view_image(ImageView::position, threads, planes), "Position",
-                "world x, y, z as red, green, blue, each over its extent") +
-         figure(heat_image(counts, most, threads), "Lights per pixel", "that reach and face it" + heat_ramp(most)) +
-         "</div>\n";
+  std::string html = "<h2>G-buffer</h2>\n<div class=pictures>\n";
+  // A statement each, so that no two pictures are in memory at once.
+  html += figure(view_image(ImageView::normal, threads, planes), "Normal", "world space, (N + 1) / 2");
+  html += figure(view_image(ImageView::albedo, threads, planes), "Albedo", "sRGB-encoded");
+  html +=
+      figure(view_image(ImageView::depth, threads, planes), "Depth", "distance along the view axis, near is bright");
+  html += figure(view_image(ImageView::position, threads, planes), "Position",
+                 "world x, y, z as red, green, blue, each over its extent");
+  html += figure(heat_image(counts, most, threads), "Lights per pixel", "that reach and face it" + heat_ramp(most));
+  return html + "</div>\n";
 }
 
 std::string table(const std::vector<StatLine>& lines) {
@@ -75,7 +76,7 @@ std::string about_codes(const Image& color) {
 
 }  // namespace
 
-std::span<const std::string_view> report_planes() { return kPlanes; }
+std::span<const std::string_view> report_planes() { return kReportPlanes; }
 
 std::string report_page(const RenderedFrame& result) {
   const std::vector<StatLine> lines = stat_lines(result);

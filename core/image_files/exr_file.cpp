@@ -11,13 +11,14 @@
 #include "core/error.h"
 #include "core/image_files/deflate.h"
 #include "core/image_files/exr_rows.h"
+#include "core/image_files/file_budget.h"
 #include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {
 
-constexpr int kRowsOfBlock = 16;     // rows that ZIP compresses together
-constexpr uint8_t kZip = 3;          // the number of that compression
+constexpr int kRowsOfBlock = 16;  // rows that ZIP compresses together
+constexpr uint8_t kZip = 3;       // the number of that compression
 constexpr size_t kShortName = 31, kMostName = 255;
 constexpr uint32_t kMagic = 0x01312f76, kVersion = 2;
 constexpr size_t kFlagByte = 5;  // of the file; the lower byte of the version's flags
@@ -232,11 +233,15 @@ std::vector<std::vector<uint8_t>> exr_file(const std::string& where, const Image
   const int blocks = (color.height + kRowsOfBlock - 1) / kRowsOfBlock;
   std::vector<std::vector<uint8_t>> pieces(2 + size_t(blocks));
   pieces[0] = file_header(where, color, channels, metadata, options);
+  FileBudget budget(where);
   std::atomic<int> next{0};
   const int writers = std::min(thread_count(options.threads), blocks);
   parallel_for(writers, writers, [&](int) {
     BlockWriter writer(channels, color.height);
-    for (int i = next++; i < blocks; i = next++) pieces[2 + size_t(i)] = writer.block(i);
+    for (int i = next++; i < blocks; i = next++) {
+      pieces[2 + size_t(i)] = writer.block(i);
+      budget.take(pieces[2 + size_t(i)].size());
+    }
   });
   pieces[1] = offset_table(pieces[0].size(), std::span(pieces).subspan(2));
   return pieces;

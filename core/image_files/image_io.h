@@ -31,8 +31,8 @@ struct ImageFileOptions {
 };
 
 /// Writes one picture; the ending of `path` (.png, .exr) chooses the file format. The file appears whole or not at all:
-/// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io), and Error(usage) for an ending
-/// or for names that the file format cannot hold.
+/// encoded in memory, written to a temporary beside it, fsync, rename. Errors: Error(io), Error(usage) for an ending or
+/// for names that the file format cannot hold, and Error(limit) for a file over 64 MiB that goes over the memory cap.
 ///   PNG: 8 bits a channel, 16 where the target has 10 or 16; codes that need no encoding are stored as they are, those
 ///        of 10 bits widened (RN(k * 65535 / 1023)); colours that do are sRGB-encoded (IEC 61966-2-1) or, raw, rounded to
 ///        the nearest code. Alpha is linear and unassociated, and there is none where the format has none. Display codes

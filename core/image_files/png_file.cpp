@@ -9,13 +9,14 @@
 
 #include "core/error.h"
 #include "core/image_files/deflate.h"
+#include "core/image_files/file_budget.h"
 #include "core/image_files/png_codes.h"
 #include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {
 
-constexpr uint8_t kUp = 2;                      // the filter that subtracts the byte above
+constexpr uint8_t kUp = 2;  // the filter that subtracts the byte above
 
 void append_word(std::vector<uint8_t>& bytes, uint32_t word) {
   for (const int shift : {24, 16, 8, 0}) bytes.push_back(uint8_t(word >> shift));
@@ -108,12 +109,15 @@ Band band_of(const PngCodes& codes, int first, int end, Deflater::Part part) {
 }
 
 /// The picture's IDAT chunks. The last has the checksum of the stream alone, which is known when all others are made.
-std::vector<std::vector<uint8_t>> picture_chunks(int height, const PngCodes& codes, int threads) {
+std::vector<std::vector<uint8_t>> picture_chunks(const std::string& where, int height, const PngCodes& codes,
+                                                 int threads) {
   const int rows = rows_of_band(codes.row_bytes()), count = (height + rows - 1) / rows;
   std::vector<Band> bands(static_cast<size_t>(count));
+  FileBudget budget(where);
   parallel_for(count, threads, [&](int i) {
     const int end = std::min((i + 1) * rows, height);
     bands[size_t(i)] = band_of(codes, i * rows, end, i + 1 == count ? Deflater::Part::last : Deflater::Part::inner);
+    budget.take(bands[size_t(i)].chunk.size());
   });
   uint32_t checksum = kAdlerOfNothing;
   std::vector<std::vector<uint8_t>> chunks;
@@ -139,7 +143,7 @@ std::vector<std::vector<uint8_t>> png_file(const std::string& where, const Image
   append_metadata(file, where, "Software", "trueshade");
   for (const auto& [key, text] : metadata) append_metadata(file, where, key, text);
 
-  std::vector<std::vector<uint8_t>> pieces = picture_chunks(image.height, codes, options.threads);
+  std::vector<std::vector<uint8_t>> pieces = picture_chunks(where, image.height, codes, options.threads);
   pieces.insert(pieces.begin(), std::move(file));
   append_chunk(pieces.back(), "IEND", {});
   return pieces;

@@ -3,12 +3,16 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "cli/limit_options.h"
+#include "core/error.h"
+#include "core/image_files/image_io.h"
+#include "core/memory_cap.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
@@ -165,6 +169,104 @@ TEST_CASE("frames take what is predicted, within a fifth, and are refused where 
     CAPTURE(above.outcome.err);
     CHECK(above.outcome.exit_code == 0);
     CHECK(above.mib <= peak * 1.2 + 64);
+  }
+}
+
+/// What a run is predicted to have in all, MiB: the error over a cap that nothing stays below says so.
+double predicted_mib(Arguments arguments, const ScratchFolder& folder) {
+  arguments.insert(arguments.end(), {"--max-memory", "1M"});
+  const Outcome outcome = run_command(arguments, folder.path(""));
+  check_refused(outcome, 4, "drawing it needs ");
+  double more = 0, used = 0;
+  const size_t at = outcome.err.find("drawing it needs ");
+  REQUIRE(at != std::string::npos);
+  REQUIRE(std::sscanf(outcome.err.c_str() + at, "drawing it needs %lf MiB besides the %lf MiB", &more, &used) == 2);
+  return more + used;
+}
+
+/// The prediction over what was measured; 1 where both are within 8 MiB, which is what small frames take by chance.
+double predicted_share(const Arguments& arguments, const ScratchFolder& folder) {
+  const double predicted = predicted_mib(arguments, folder);
+  const Run run = measured(arguments, folder);
+  CAPTURE(run.outcome.err);
+  REQUIRE(run.outcome.exit_code == 0);
+  std::string line;
+  for (const std::string& argument : arguments) line += argument + ' ';
+  const double share = predicted / run.mib;
+  std::printf("%s: %.0f MiB predicted, %.0f MiB measured, %.2f\n", line.c_str(), predicted, run.mib, share);
+  return std::fabs(predicted - run.mib) < 8 ? 1 : share;
+}
+
+TEST_CASE("30 frames and their files take what is predicted, within a quarter, and no more than a cap above it",
+          "[long]") {
+  const ScratchFolder folder;
+  folder.write("post.json", R"({"post": {"samples": 2, "bloom": {"strength": 1}}})");
+  std::vector<Arguments> runs;
+  const auto add = [&](const char* scene, const char* size, const Arguments& more) {
+    runs.push_back({"render", scene, "--size", size});
+    runs.back().insert(runs.back().end(), more.begin(), more.end());
+  };
+  const Arguments planes{"-o", "x.exr", "--aov", "depth,position,normal,albedo"};
+  for (const char* scene : {"builtin:cornell", "builtin:city", "builtin:lecture"}) {
+    for (const char* size : {"1500x1500", "3000x2000", "5000x4000"}) {
+      add(scene, size, {"--hash"});
+      add(scene, size, {"-o", "x.png"});
+    }
+    add(scene, "3000x2000", {"-o", "x.exr"});
+    add(scene, "2500x2000", planes);
+    add(scene, "2000x2000", {"-o", "x.html"});
+  }
+  add("builtin:city", "3000x2000", {"--target", "rgba16f", "-o", "x.exr"});
+  add("builtin:cornell", "2000x2000", {"--pipeline", "post.json", "-o", "x.png"});
+  add("builtin:city", "3000x3000", {"-o", "x.html", "-o", "x.exr", "-o", "x.png"});
+  REQUIRE(runs.size() == 30);
+  for (Arguments arguments : runs) {
+    CAPTURE(arguments);
+    const double share = predicted_share(arguments, folder);
+    CHECK(share > 0.8);
+    CHECK(share < 1.25);
+    const double cap = std::ceil(predicted_mib(arguments, folder)) + 2;
+    arguments.insert(arguments.end(), {"--max-memory", std::to_string(int(cap)) + 'M'});
+    const Run run = measured(arguments, folder);
+    CHECK(run.outcome.exit_code == 0);
+    CHECK(run.mib <= cap + 64);
+  }
+}
+
+TEST_CASE("validate takes what is predicted, within a third", "[long]") {
+  const ScratchFolder folder;
+  if (run_command({"validate", "builtin:cornell", "--size", "32x32", "--quick"}).exit_code == 7) {
+    WARN("SKIPPED: there is no OpenGL driver");
+    return;
+  }
+  for (const char* scene : {"builtin:cornell", "builtin:sphere", "builtin:city", "builtin:circle"})
+    for (const char* size : {"320x240", "640x480", "960x720"}) {
+      const Arguments arguments{"validate", scene, "--size", size, "--quick"};
+      CAPTURE(arguments);
+      const double share = predicted_share(arguments, folder);
+      CHECK(share > 0.75);
+      CHECK(share < 1.34);
+    }
+}
+
+TEST_CASE("a file that compresses worse than predicted is refused while it is made, and is not there", "[slow]") {
+  const ScratchFolder folder;
+  Image noise(3200, 3200, Format::rgba16);  // 78 MiB
+  uint32_t random = 1;
+  for (uint8_t& code : noise.texels) code = uint8_t((random = random * 1664525u + 1013904223u) >> 24);
+  for (const char* name : {"x.png", "x.exr"}) {
+    const std::string path = folder.path(name);
+    set_memory_cap(resident_memory() + (uint64_t(40) << 20));
+    try {
+      write_image(path, noise, {}, {});
+      FAIL("78 MiB of noise fit into 40");
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::limit);
+      CHECK_THAT(error.what(), Catch::Matchers::StartsWith(path + ": the file needs "));
+    }
+    CHECK(resident_memory() < memory_cap() + (uint64_t(64) << 20));
+    set_memory_cap(0);
+    CHECK(folder.entries().empty());
   }
 }
 
