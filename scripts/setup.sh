@@ -85,9 +85,12 @@ build() {
   local folder=$root/build/$1
   local -a target=()
   (($# > 1)) && target=(--target "$2")
-  # A dry run tells whether there is work, so that a second start says nothing.
-  if [[ $(ninja -C "$folder" -n "${@:2}" 2>/dev/null | tail -n 1) != *"no work to do"* ]]; then
-    say "building build/$1 on $(nproc) cores, which takes minutes the first time"
-    quietly "the build" cmake --build "$folder" --parallel "$(nproc)" "${target[@]}"
-  fi
+  # Said after two seconds, so that a start with nothing to build says nothing. (A dry run of ninja cannot tell: CMake's
+  # check of globbed folders counts as work.)
+  { sleep 2 >/dev/null && say "building build/$1 on $(nproc) cores, which takes minutes the first time"; } &
+  local teller=$!
+  trap "kill $teller 2>/dev/null || true" EXIT
+  quietly "the build" cmake --build "$folder" --parallel "$(nproc)" "${target[@]}"
+  kill "$teller" 2>/dev/null || true
+  trap - EXIT
 }
