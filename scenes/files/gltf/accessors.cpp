@@ -72,6 +72,16 @@ size_t component_offset(const Accessor& a, uint32_t component) {
 
 }  // namespace
 
+Accessors::Accessors(Buffers& buffers, const SceneLimits& limits)
+    : buffers_(buffers),
+      document_(buffers.document()),
+      left_(limits.geometry_bytes),
+      limit_(limits.geometry_bytes),
+      expansion_(limits.expansion) {
+  for (const Buffer& buffer : document_.buffers)
+    if (!buffer.fallback) buffer_bytes_ += buffer.bytes;
+}
+
 void Accessors::take(uint64_t bytes, const std::string& pointer) {
   if (bytes > left_)
     throw Error(ErrorKind::limit, document_.file + ": " + pointer,
@@ -81,12 +91,23 @@ void Accessors::take(uint64_t bytes, const std::string& pointer) {
   require_memory(bytes, document_.file + ": " + pointer, "the geometry");
 }
 
+/// A count of zeros takes a few bytes of the file, whatever it is.
+void Accessors::take_zeros(uint64_t bytes, uint32_t accessor) {
+  zeros_ += bytes;
+  if (is_expanded(zeros_, buffer_bytes_, expansion_))
+    throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("accessors", accessor),
+                "with it the accessors without a buffer view are " + std::to_string(zeros_) +
+                    " bytes and all buffers " + std::to_string(buffer_bytes_),
+                within_limit(expansion_, "times as many", "--max-expansion"));
+}
+
 template <typename Out>
 std::vector<Out> Accessors::read(uint32_t accessor, uint32_t component) {
   const Accessor& a = document_.accessors[accessor];
   if (a.shape == Shape::unknown)
     document_.fail(pointer_to("accessors", accessor, "type"), "this type is not in glTF", "SCALAR, VEC2 to MAT4");
   take(a.count * sizeof(Out), pointer_to("accessors", accessor));
+  if (a.view == kNone) take_zeros(a.count * sizeof(Out), accessor);
   std::vector<Out> out(size_t(a.count), Out(0));
   if (a.view != kNone) {
     const uint32_t stride = document_.views[a.view].stride;

@@ -8,11 +8,10 @@
 namespace trueshade::gltf {
 
 /// Values of a document's accessors: sparse ones completed, normalized ones divided. What is read is counted against
-/// limits.geometry_bytes before memory for it is taken.
+/// limits.geometry_bytes before memory for it is taken. Zeros that stand for no data are held to limits.expansion.
 class Accessors {
  public:
-  Accessors(Buffers& buffers, const SceneLimits& limits)
-      : buffers_(buffers), document_(buffers.document()), left_(limits.geometry_bytes), limit_(limits.geometry_bytes) {}
+  Accessors(Buffers& buffers, const SceneLimits& limits);
 
   /// One component of every element. Floats as they are; integers converted, normalized ones c / (2^n - 1), or
   /// max(c / (2^(n-1) - 1), -1) where signed, rounded once. Error(bad_input) for numbers that are not finite or over
@@ -37,10 +36,14 @@ class Accessors {
   std::vector<Out> read(uint32_t accessor, uint32_t component);
   template <typename Out>
   void read_sparse(uint32_t accessor, uint32_t component, std::vector<Out>& out);
+  void take_zeros(uint64_t bytes, uint32_t accessor);
 
   Buffers& buffers_;
   const Document& document_;
   uint64_t left_, limit_;
+  uint64_t expansion_;         ///< limits.expansion
+  uint64_t buffer_bytes_ = 0;  ///< of all buffers that have data
+  uint64_t zeros_ = 0;         ///< bytes that were read of accessors without a view
 };
 
 }  // namespace trueshade::gltf

@@ -50,6 +50,13 @@ void keep_one_of_equal_times(AnyTrack& track, size_t values_a_step) {
   for (auto* values : {&track.values, &track.arriving, &track.leaving}) keep_last(*values, values_a_step);
 }
 
+/// A copy of a track that a channel of the same sampler has given.
+Track copied_track(Accessors& accessors, const Track& track, uint32_t accessor) {
+  const uint64_t values = track.values.size() + track.arriving.size() + track.leaving.size();
+  accessors.take(track.times.size() * sizeof(double) + values * sizeof(glm::dvec4), pointer_to("accessors", accessor));
+  return track;
+}
+
 }  // namespace
 
 Track track_of(Accessors& accessors, const AnimationSource& animation, const Channel& channel) {
@@ -94,17 +101,22 @@ WeightTrack weight_track_of(Accessors& accessors, const AnimationSource& animati
 
 std::vector<NodeMotion> node_motions(Accessors& accessors, const AnimationSource& animation,
                                      const Hierarchy& hierarchy) {
-  std::map<uint32_t, ObjectMotion> motions;  // by place in the hierarchy
+  std::map<uint32_t, ObjectMotion> motions;                  // by place in the hierarchy
+  std::map<std::pair<uint32_t, bool>, const Track*> tracks;  // in `motions`, by sampler and whether it turns
   for (const Channel& channel : animation.channels) {
     if (channel.node == kNone || channel.path == Path::weights || channel.path == Path::unknown) continue;
     const uint32_t place = hierarchy.placed[channel.node];
     if (place == kNone) continue;
     const auto [found, is_new] = motions.try_emplace(place);
     if (is_new) found->second.rest = accessors.document().nodes[channel.node].placement;
-    Track track = track_of(accessors, animation, channel);
-    if (channel.path == Path::translation) found->second.position = std::move(track);
-    if (channel.path == Path::rotation) found->second.rotation = std::move(track);
-    if (channel.path == Path::scale) found->second.scale = std::move(track);
+    ObjectMotion& motion = found->second;
+    std::optional<Track>& track = channel.path == Path::translation ? motion.position
+                                  : channel.path == Path::rotation  ? motion.rotation
+                                                                    : motion.scale;
+    const Track*& read = tracks[{channel.sampler, channel.path == Path::rotation}];
+    track = read ? copied_track(accessors, *read, animation.samplers[channel.sampler].output)
+                 : track_of(accessors, animation, channel);
+    if (!read) read = &*track;  // no other channel moves the same, so it stays as it is
   }
   std::vector<NodeMotion> out;
   for (auto& [place, motion] : motions) out.push_back({place, std::move(motion)});

@@ -22,7 +22,8 @@ int digit_of(char c) {
 Bytes decoded(std::string_view text, const std::string& where, uint64_t limit) {
   if (text.size() % 4 != 0) refuse(where, "the length of the base64 is no multiple of 4");
   if (text.size() / 4 * 3 > limit)
-    throw Error(ErrorKind::limit, where, "the data are over the limit", within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
+    throw Error(ErrorKind::limit, where, "the data are over the limit",
+                within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
   const size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   Bytes bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -49,7 +50,8 @@ int hex_digit(char c) {
 
 Bytes percent_decoded(std::string_view text, const std::string& where, uint64_t limit) {
   if (text.size() > limit)
-    throw Error(ErrorKind::limit, where, "the data are over the limit", within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
+    throw Error(ErrorKind::limit, where, "the data are over the limit",
+                within_limit(limit, "bytes", "--max-file or --max-buffer-memory"));
   Bytes bytes;
   for (size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
@@ -70,13 +72,19 @@ Bytes percent_decoded(std::string_view text, const std::string& where, uint64_t 
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with(kScheme); }
 
+std::string_view media_type_of_uri(std::string_view uri) {
+  if (!is_data_uri(uri)) return {};
+  const std::string_view rest = uri.substr(kScheme.size());
+  return rest.substr(0, rest.find_first_of(";,"));
+}
+
 DataUri data_of_uri(std::string_view uri, const std::string& where, uint64_t limit) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) refuse(where, "the data URI has no comma");
   std::string_view head = uri.substr(kScheme.size(), comma - kScheme.size());
-  const std::string type(head.substr(0, head.find(';')));
   const std::string_view text = uri.substr(comma + 1);
-  return {type, head.ends_with(kBase64) ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
+  return {std::string(media_type_of_uri(uri)),
+          head.ends_with(kBase64) ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
 }
 
 }  // namespace trueshade::gltf

@@ -29,15 +29,29 @@ void check_media_type(const std::string& type, const std::string& where) {
 
 }  // namespace
 
-struct Pictures::Task {
+/// Bytes of a picture's file: owned ones, or those of a view.
+struct Pictures::Content {
   Bytes owned;
-  std::span<const uint8_t> content;
+  std::span<const uint8_t> bytes;
+};
+
+struct Pictures::Task {
+  Content content;
   Image image;
   bool too_large = false;  ///< for its share: it is tried again by itself
   std::exception_ptr error;
 };
 
-int32_t Pictures::texture(uint32_t image, TextureFormat format, bool has_levels) {
+uint32_t Pictures::first_with_content_of(uint32_t image) {
+  const ImageSource& source = document_.images[image];
+  const std::string_view uri = source.uri ? std::string_view(*source.uri) : std::string_view();
+  const auto [known, is_new] = first_of_.try_emplace(image);
+  if (is_new) known->second = firsts_.try_emplace({source.view, uri}, image).first->second;
+  return known->second;
+}
+
+int32_t Pictures::texture(uint32_t any_image, TextureFormat format, bool has_levels) {
+  const uint32_t image = first_with_content_of(any_image);
   const auto [found, is_new] = textures_.emplace(std::pair(image, format), int32_t(scene_.textures.size()));
   if (is_new) {
     const std::optional<std::string>& uri = document_.images[image].uri;
@@ -51,39 +65,74 @@ int32_t Pictures::texture(uint32_t image, TextureFormat format, bool has_levels)
   return found->second;
 }
 
+void Pictures::check() {
+  std::set<std::string_view> looked_for;  // many images may name one file
+  for (uint32_t i = 0; i < document_.images.size(); ++i) {
+    const std::optional<std::string>& uri = document_.images[i].uri;
+    if (!first_of_.contains(i) && uri && looked_for.insert(*uri).second) check_file(i);
+  }
+  std::map<uint32_t, std::string_view> kinds;
+  for (const Wanted& wanted : wanted_)
+    if (const auto [kind, is_new] = kinds.try_emplace(wanted.image); is_new) kind->second = check_content(wanted.image);
+  check_media_types(kinds);
+}
+
+/// What a picture is. A decoder that may make no bytes reads the header and ends there.
+std::string_view Pictures::check_content(uint32_t image) const {
+  const std::string where = place_of(image);
+  if (!decode_) throw Error(ErrorKind::bad_input, where, "this program reads no image files", "no textures");
+  const Content read = content(image);
+  check_magic(read.bytes, where);
+  try {
+    decode_(read.bytes, where, 0);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::limit) throw;
+  }
+  return picture_kind(read.bytes);
+}
+
+void Pictures::check_media_types(const std::map<uint32_t, std::string_view>& kinds) {
+  std::string first;
+  size_t others = 0;
+  for (const auto& [image, first_image] : first_of_) {
+    const ImageSource& source = document_.images[image];
+    if (!source.mime.empty()) check_media_type(source.mime, place_of(image) + "/mimeType");
+    const std::string_view kind = kinds.at(first_image), right = kind == "PNG" ? "image/png" : "image/jpeg";
+    const std::string of_uri = source.uri ? std::string(media_type_of_uri(*source.uri)) : std::string();
+    for (const std::string& type : {source.mime, of_uri}) {
+      if (type == right || (type != "image/png" && type != "image/jpeg")) continue;
+      if (first.empty())
+        first = "the media type of " + pointer_to("images", image) + " is " + type + ", and its picture is " +
+                std::string(kind) + ", which is read";
+      else
+        ++others;
+      break;
+    }
+  }
+  if (first.empty()) return;
+  if (others > 0)
+    first += "; so it is with " + std::to_string(others) + (others == 1 ? " other image" : " other images");
+  scene_.notes.push_back(first);
+}
+
 void Pictures::decode_all() {
   for (size_t first = 0; first < wanted_.size(); first += kTogether)
     decode_some(first, std::min(kTogether, wanted_.size() - first));
   parallel_for(int(wanted_.size()), 0, [&](int i) {
     if (wanted_[size_t(i)].has_levels) build_mip_chain(scene_.textures[size_t(i)]);
   });
-  std::vector<bool> is_read(document_.images.size(), false);
-  for (const Wanted& wanted : wanted_) is_read[wanted.image] = true;
-  std::set<std::string_view> checked;  // many images may name one file
-  for (uint32_t i = 0; i < document_.images.size(); ++i) {
-    const std::optional<std::string>& uri = document_.images[i].uri;
-    if (!is_read[i] && uri && checked.insert(*uri).second) check_file(i);
-  }
 }
 
 void Pictures::decode_some(size_t first, size_t count) {
   std::vector<Task> tasks(count);
-  for (size_t i = 0; i < count; ++i) {
-    const uint32_t image = wanted_[first + i].image;
-    const std::string where = place_of(image);
-    if (!decode_) throw Error(ErrorKind::bad_input, where, "this program reads no image files", "no textures");
-    tasks[i].owned = content(image, tasks[i].content);
-    if (const std::string& mime = document_.images[image].mime; !mime.empty())
-      check_media_type(mime, where + "/mimeType");
-    check_magic(tasks[i].content, where);
-  }
+  for (size_t i = 0; i < count; ++i) tasks[i].content = content(wanted_[first + i].image);
   // A chain of levels adds a third at most.
   const auto left = [this] { return (limits_.texture_bytes - std::min(limits_.texture_bytes, bytes_)) / 4 * 3; };
   const uint64_t share = left() / kTogether;
   parallel_for(int(count), 0, [&](int i) {
     Task& task = tasks[size_t(i)];
     try {
-      task.image = decode_(task.content, place_of(wanted_[first + size_t(i)].image), share);
+      task.image = decode_(task.content.bytes, place_of(wanted_[first + size_t(i)].image), share);
     } catch (const Error& error) {
       task.too_large = error.kind() == ErrorKind::limit;
       task.error = std::current_exception();
@@ -94,7 +143,7 @@ void Pictures::decode_some(size_t first, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     Task& task = tasks[i];
     if (task.too_large)
-      task.image = decode_(task.content, place_of(wanted_[first + i].image), left());
+      task.image = decode_(task.content.bytes, place_of(wanted_[first + i].image), left());
     else if (task.error)
       std::rethrow_exception(task.error);
     take(std::move(task.image), first + i);
@@ -106,11 +155,10 @@ void Pictures::take(Image image, size_t index) {
   Texture& texture = scene_.textures[index];
   const Wanted& wanted = wanted_[index];
   const bool wide = image.format == Format::rgba16;  // 16 bits a channel, which only floats keep
-  const CodeEncoding encoding =
-      texture.format == TextureFormat::srgb8_a8 ? CodeEncoding::srgb : CodeEncoding::linear;
+  const CodeEncoding encoding = texture.format == TextureFormat::srgb8_a8 ? CodeEncoding::srgb : CodeEncoding::linear;
   if (wide) texture.format = TextureFormat::rgba32f;
-  const uint64_t bytes = texture_bytes(image.width, image.height, texture.format,
-                                       wanted.has_levels ? MipChain::whole : MipChain::none);
+  const uint64_t bytes =
+      texture_bytes(image.width, image.height, texture.format, wanted.has_levels ? MipChain::whole : MipChain::none);
   bytes_ += bytes;
   if (bytes_ > limits_.texture_bytes)
     throw Error(ErrorKind::limit, place_of(wanted.image),
@@ -133,22 +181,21 @@ void Pictures::check_file(uint32_t image) const {
     folder_.check(relative_path_from_uri(uri, where), limits_.file_bytes, where);
 }
 
-/// The bytes of a picture's file: owned ones, or those of a view.
-Bytes Pictures::content(uint32_t image, std::span<const uint8_t>& view) const {
+Pictures::Content Pictures::content(uint32_t image) const {
   const ImageSource& source = document_.images[image];
   const std::string where = place_of(image);
-  Bytes owned;
+  Content out;
   if (source.view != kNone) {
     if (document_.views[source.view].stride != 0)
       throw Error(ErrorKind::bad_input, where, "the view of a picture has a stride", "a view without one");
-    view = buffers_.view(source.view);
-    return owned;
+    out.bytes = buffers_.view(source.view);
+    return out;
   }
-  owned = is_data_uri(*source.uri)
-              ? data_of_uri(*source.uri, where + "/uri", limits_.file_bytes).bytes
-              : folder_.read(relative_path_from_uri(*source.uri, where + "/uri"), limits_.file_bytes, where + "/uri");
-  view = owned;  // moving a vector leaves its elements where they are
-  return owned;
+  out.owned = is_data_uri(*source.uri) ? data_of_uri(*source.uri, where + "/uri", limits_.file_bytes).bytes
+                                       : folder_.read(relative_path_from_uri(*source.uri, where + "/uri"),
+                                                      limits_.file_bytes, where + "/uri");
+  out.bytes = out.owned;  // moving a vector leaves its elements where they are
+  return out;
 }
 
 }  // namespace trueshade::gltf

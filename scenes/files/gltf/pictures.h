@@ -21,12 +21,17 @@ class Pictures {
         decode_(decode),
         scene_(scene) {}
 
-  /// Index of a picture in Scene::textures, where it has no texels before decode_all().
+  /// Index of a picture in Scene::textures, where it has no texels before decode_all(). Images that name the same view
+  /// or the same URI are one picture.
   int32_t texture(uint32_t image, TextureFormat format, bool has_levels);
 
-  /// Error(bad_input) with the JSON pointer for a picture that is neither PNG nor JPEG, is missing or broken;
-  /// Error(limit) for pictures and their levels over limits.texture_bytes. Picture files that no
-  /// material uses are only looked for, so that a missing one is an error. The error is the same however many cores there are.
+  /// Before any picture is decoded: Error(bad_input) with the JSON pointer for a picture that is neither PNG nor JPEG,
+  /// is missing, or whose header is broken. Picture files that no material uses are only looked for, so that a missing
+  /// one is an error. Adds a note to the scene where a media type is not what the picture is.
+  void check();
+
+  /// Decodes what was checked. Error(bad_input) for a picture that is broken; Error(limit) for pictures and their
+  /// levels over limits.texture_bytes. The error is the same however many cores there are.
   void decode_all();
 
  private:
@@ -34,11 +39,15 @@ class Pictures {
     uint32_t image;
     bool has_levels;
   };
+  struct Content;
   struct Task;
 
+  uint32_t first_with_content_of(uint32_t image);
+  std::string_view check_content(uint32_t image) const;
+  void check_media_types(const std::map<uint32_t, std::string_view>& kinds);
   void decode_some(size_t first, size_t count);
   void take(Image image, size_t index);
-  Bytes content(uint32_t image, std::span<const uint8_t>& view) const;
+  Content content(uint32_t image) const;
   void check_file(uint32_t image) const;
   std::string place_of(uint32_t image) const;
 
@@ -48,9 +57,11 @@ class Pictures {
   const SceneLimits& limits_;
   const ImageDecoder& decode_;
   Scene& scene_;
-  uint64_t bytes_ = 0;                                              ///< decoded, with levels
-  std::vector<Wanted> wanted_;                                      ///< one a texture of the scene
-  std::map<std::pair<uint32_t, TextureFormat>, int32_t> textures_;  ///< by image and format
+  uint64_t bytes_ = 0;                                                ///< decoded, with levels
+  std::vector<Wanted> wanted_;                                        ///< one a texture of the scene
+  std::map<std::pair<uint32_t, TextureFormat>, int32_t> textures_;    ///< by image and format
+  std::map<std::pair<uint32_t, std::string_view>, uint32_t> firsts_;  ///< images that are asked for, by view and URI
+  std::map<uint32_t, uint32_t> first_of_;                             ///< images asked for, to those of `firsts_`
 };
 
 }  // namespace trueshade::gltf

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "scenes/files/gltf/animations.h"
 #include "scenes/files/gltf/instancing.h"
 #include "scenes/files/gltf/lights_and_cameras.h"
@@ -25,6 +26,7 @@ Scene SceneMaker::make() {
   Timeline& timeline = scene_.timeline;
   scene_.spec = document_.file;
   scene_.photometric = true;
+  prepare();
   timeline.nodes = scene_nodes(document_, hierarchy_);
   if (animation()) {
     timeline.node_motions = node_motions(accessors_, *animation(), hierarchy_);
@@ -81,22 +83,59 @@ SceneMaker::Parts SceneMaker::parts_of(const MeshSource& mesh) const {
       ++(primitive.mode == Mode::points ? parts.points : parts.lines);
     else if (primitive.attributes.position == kNone)
       ++parts.without_positions;
-    else if (!materials_.is_invisible(primitive.material))
-      parts.drawn.push_back(i), parts.with_unread_targets += has_unread_target(primitive) ? 1 : 0;
+    else if (!materials_.is_invisible(primitive.material)) {
+      parts.drawn.push_back(i);
+      parts.with_joints += primitive.attributes.joints.empty() ? 0 : 1;
+      parts.with_unread_targets += has_unread_target(primitive) ? 1 : 0;
+    }
   }
   return parts;
 }
 
-/// A mesh may have many primitives that are not drawn and many nodes: it is summarised once.
+/// Instances of the primitives that a node draws, `before` of others before them. Error(limit) with the node.
+uint64_t SceneMaker::instances_of(uint32_t place, const NodeSource& node, const Parts& parts, uint64_t before) const {
+  const uint64_t skinned = node.skin != kNone ? parts.with_joints : 0, copied = parts.drawn.size() - skinned,
+                 copies = node.copies ? count_of(accessors_, *node.copies) : 1,
+                 left = limits_.instances - before;  // none of these is over the limit
+  if (skinned > left || (copied > 0 && copies > (left - skinned) / copied))
+    throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
+                "the instances are over the limit", within_limit(limits_.instances, "", "--max-instances"));
+  return skinned + copied * copies;
+}
+
+/// What costs little is checked before geometry is read: All instances are counted, and the materials, in the order in
+/// which they are drawn, name the pictures, which are checked. A mesh may have many primitives that are not drawn and
+/// many nodes, so it is summarised once.
+void SceneMaker::prepare() {
+  uint64_t instances = 0;
+  for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) {
+    const NodeSource& node = document_.nodes[hierarchy_.nodes[place]];
+    if (node.mesh == kNone) continue;
+    const MeshSource& mesh = document_.meshes[node.mesh];
+    const auto [found, is_new] = parts_.try_emplace(node.mesh);
+    Parts& parts = found->second;
+    if (is_new) parts = parts_of(mesh);
+    for (size_t i = 0; is_new && i < parts.drawn.size(); ++i)
+      materials_.scene_material(mesh.primitives[parts.drawn[i]].material);
+    instances += instances_of(place, node, parts, instances);
+  }
+  pictures_.check();
+  require_memory(instances * (sizeof(Instance) + sizeof(NodeInstance)), document_.file + ": /nodes", "its instances");
+  scene_.instances.reserve(size_t(instances));
+  scene_.timeline.node_instances.reserve(size_t(instances));
+}
+
 void SceneMaker::add_mesh(uint32_t place, const NodeSource& node) {
-  const auto [found, is_new] = parts_.try_emplace(node.mesh);
-  if (is_new) found->second = parts_of(document_.meshes[node.mesh]);
-  const Parts& parts = found->second;
+  const Parts& parts = parts_.at(node.mesh);
   points_ += parts.points;
   lines_ += parts.lines;
   without_positions_ += parts.without_positions;
   with_unread_targets_ += parts.with_unread_targets;
-  for (const size_t primitive : parts.drawn) add_primitive(place, node, primitive);
+  const bool is_copied = node.copies && parts.drawn.size() > (node.skin != kNone ? parts.with_joints : 0);
+  const std::vector<glm::dmat4x3> copies =
+      is_copied ? matrices_of(accessors_, *node.copies, pointer_to("nodes", hierarchy_.nodes[place]))
+                : std::vector<glm::dmat4x3>{glm::dmat4x3(1.0)};
+  for (const size_t primitive : parts.drawn) add_primitive(place, node, primitive, copies);
 }
 
 void SceneMaker::add_light(uint32_t place, uint32_t light) {
@@ -107,15 +146,9 @@ void SceneMaker::add_light(uint32_t place, uint32_t light) {
   scene_.lights.push_back(light_of(document_, light));
 }
 
-void SceneMaker::check_instances(uint32_t place, uint64_t more) const {
-  if (more > limits_.instances || more + scene_.instances.size() > limits_.instances)
-    throw Error(ErrorKind::limit, document_.file + ": " + pointer_to("nodes", hierarchy_.nodes[place]),
-                "the instances are over the limit", within_limit(limits_.instances, "", "--max-instances"));
-}
-
-void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t index) {
+void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t index,
+                               std::span<const glm::dmat4x3> copies) {
   const Primitive& primitive = document_.meshes[node.mesh].primitives[index];
-  check_instances(place, node.copies ? count_of(accessors_, *node.copies) : 1);
   Drawn& drawn = drawn_of(node.mesh, index);
   const bool skinned = node.skin != kNone && !primitive.attributes.joints.empty(),
              posed = skinned || !primitive.targets.empty();
@@ -126,9 +159,6 @@ void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t in
     scene_.instances.push_back(instance);
     return;
   }
-  const std::vector<glm::dmat4x3> copies =
-      node.copies ? matrices_of(accessors_, *node.copies, pointer_to("nodes", hierarchy_.nodes[place]))
-                  : std::vector<glm::dmat4x3>{glm::dmat4x3(1.0)};
   for (const glm::dmat4x3& copy : copies) {
     scene_.timeline.node_instances.push_back({uint32_t(scene_.instances.size()), place, copy, drawn.reach});
     scene_.instances.push_back(instance);
@@ -190,9 +220,12 @@ uint32_t SceneMaker::add_posed_mesh(const NodeSource& node, uint32_t place, Draw
   }
   const RestShape& shape = timeline.shapes[*drawn.shape];
   const uint32_t index = hierarchy_.nodes[place];
-  const auto channel = weight_channels_.find(index);
-  PosedMesh posed = weighed(accessors_, index, shape.targets.size(), animation(),
-                            channel == weight_channels_.end() ? nullptr : channel->second);
+  const auto found = weight_channels_.find(index);
+  const Channel* channel = found == weight_channels_.end() ? nullptr : found->second;
+  const auto read = channel ? weights_read_.find(channel->sampler) : weights_read_.end();
+  PosedMesh posed = weighed(accessors_, index, shape.targets.size(), animation(), channel,
+                            read == weights_read_.end() ? nullptr : &*timeline.posed[read->second].motion);
+  if (posed.motion) weights_read_.try_emplace(channel->sampler, timeline.posed.size());
   posed.mesh = uint32_t(scene_.meshes.size());
   posed.shape = *drawn.shape;
   if (skinned) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,19 +33,21 @@ class SceneMaker {
   /// What of a mesh's primitives is drawn, by index, and how many are not.
   struct Parts {
     std::vector<size_t> drawn;
+    uint64_t with_joints = 0;  ///< of those that are drawn
     uint64_t points = 0, lines = 0, without_positions = 0, with_unread_targets = 0;
   };
 
+  void prepare();
+  uint64_t instances_of(uint32_t place, const NodeSource& node, const Parts& parts, uint64_t before) const;
   void add_node(uint32_t place);
   void add_mesh(uint32_t place, const NodeSource& node);
   Parts parts_of(const MeshSource& mesh) const;
   void add_light(uint32_t place, uint32_t light);
-  void add_primitive(uint32_t place, const NodeSource& node, size_t index);
+  void add_primitive(uint32_t place, const NodeSource& node, size_t index, std::span<const glm::dmat4x3> copies);
   uint32_t add_posed_mesh(const NodeSource& node, uint32_t place, Drawn& drawn, bool skinned);
   uint32_t static_mesh(Drawn& drawn);
   Drawn& drawn_of(uint32_t mesh, size_t index);
   uint32_t scene_skin(uint32_t skin);
-  void check_instances(uint32_t place, uint64_t more) const;
   size_t uv_sets_of(const Primitive& primitive) const;
   const AnimationSource* animation() const;
   bool moves() const;
@@ -61,6 +64,7 @@ class SceneMaker {
   std::map<std::vector<uint32_t>, Drawn> drawn_;  ///< by all accessors
   std::map<std::pair<uint32_t, size_t>, Drawn*> drawn_of_primitive_;
   std::map<uint32_t, const Channel*> weight_channels_;  ///< by node
+  std::map<uint32_t, size_t> weights_read_;             ///< by sampler, to those of timeline.posed with its track
   std::map<uint32_t, uint32_t> skins_;                  ///< of the document, to those of the timeline
   std::map<uint32_t, Parts> parts_;                     ///< by mesh of the document
   uint64_t points_ = 0, lines_ = 0, without_positions_ = 0, with_unread_targets_ = 0, ignored_copies_ = 0, cameras_ = 0;

@@ -33,13 +33,18 @@ void check_joints(const Document& document, const RestShape& shape, const Skin& 
 }
 
 PosedMesh weighed(Accessors& accessors, uint32_t node, size_t targets, const AnimationSource* animation,
-                  const Channel* channel) {
+                  const Channel* channel, const WeightTrack* read) {
   const Document& document = accessors.document();
   const NodeSource& from = document.nodes[node];
   PosedMesh posed{};
   posed.weights = !from.weights.empty() ? from.weights : document.meshes[from.mesh].weights;
   posed.weights.resize(targets, 0.0);
-  if (channel && targets > 0) posed.motion = weight_track_of(accessors, *animation, *channel);
+  if (!channel || targets == 0) return posed;
+  if (read) {
+    const uint64_t numbers = read->times.size() + read->values.size() + read->arriving.size() + read->leaving.size();
+    accessors.take(numbers * sizeof(double), pointer_to("nodes", node));
+  }
+  posed.motion = read ? *read : weight_track_of(accessors, *animation, *channel);
   return posed;
 }
 

@@ -13,8 +13,9 @@ Skin skin_of(Accessors& accessors, uint32_t index, const Hierarchy& hierarchy);
 /// Error(bad_input) behind `pointer` where a vertex names a joint beyond the skin's.
 void check_joints(const Document& document, const RestShape& shape, const Skin& skin, const std::string& pointer);
 
-/// How a node's mesh is posed: its weights, moved by a channel of the animation if there is one.
+/// How a node's mesh is posed: its weights, moved by a channel of the animation if there is one. `read` is the track of
+/// that channel's sampler, if it was read before.
 PosedMesh weighed(Accessors& accessors, uint32_t node, size_t targets, const AnimationSource* animation,
-                  const Channel* channel);
+                  const Channel* channel, const WeightTrack* read);
 
 }  // namespace trueshade::gltf

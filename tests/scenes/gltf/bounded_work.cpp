@@ -2,6 +2,7 @@
 
 #include "../expect_error.h"
 #include "asset.h"
+#include "core/memory_cap.h"
 
 // Small files that name much work: it stays in proportion to the file, or the file is refused.
 namespace trueshade {
@@ -95,6 +96,127 @@ TEST_CASE("copies of a mesh are counted as geometry") {
   CHECK(load_gltf(text, limits).instances.size() == 1000);
   limits.geometry_bytes = 100000;
   CHECK_STARTS_WITH(gltf_refusal(text, ErrorKind::limit, limits), ": /nodes/0: with these ");
+}
+
+/// What the process may have is less while this exists.
+struct ScopedMemoryCap {
+  explicit ScopedMemoryCap(uint64_t more) : before(memory_cap()) { set_memory_cap(resident_memory() + more); }
+  ~ScopedMemoryCap() { set_memory_cap(before); }
+  ScopedMemoryCap(const ScopedMemoryCap&) = delete;
+  ScopedMemoryCap& operator=(const ScopedMemoryCap&) = delete;
+  uint64_t before;
+};
+
+TEST_CASE("instances of nodes times primitives are counted before the first is made") {
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  const auto text = [&](size_t nodes) {
+    return asset.gltf(R"("meshes": [{"primitives": [)" + repeated(R"({"attributes": {"POSITION": 0}})", 300) +
+                      R"(]}], "nodes": [)" + repeated(R"({"mesh": 0})", nodes) + "]");
+  };
+  SceneLimits limits;
+  limits.instances = 1000;
+  CHECK(load_gltf(text(3), limits).instances.size() == 900);
+  CHECK_STARTS_WITH(gltf_refusal(text(5), ErrorKind::limit, limits), ": /nodes/3: the instances are over the limit");
+  const std::string many = text(20000);
+  const ScopedMemoryCap cap(uint64_t(200) << 20);
+  const std::string refused = gltf_refusal(many, ErrorKind::limit);
+  CHECK_STARTS_WITH(refused, ": /nodes: ");
+  CHECK(refused.find("--max-memory") != std::string::npos);
+  CHECK(resident_memory() < memory_cap());
+}
+
+TEST_CASE("zeros that stand for no data are held to the limit of expansion") {
+  Asset asset;
+  const int at = asset.view(std::vector<uint32_t>{99999999}), values = asset.view(std::vector<float>{2, 2, 2, 2});
+  asset.accessor(zeros(100000000, "VEC3"));
+  asset.accessor(zeros(100000000, "VEC4") + R"(, "sparse": {"count": 1, "indices": {"bufferView": )" +
+                 std::to_string(at) + R"(, "componentType": 5125}, "values": {"bufferView": )" +
+                 std::to_string(values) + "}}");
+  const std::string text = asset.gltf(one_primitive(R"("attributes": {"POSITION": 0, "COLOR_0": 1})"));
+  const ScopedMemoryCap cap(uint64_t(2000) << 20);  // what is allocated is less than what would be refused by this
+  const std::string refused = gltf_refusal(text, ErrorKind::limit);
+  CHECK_STARTS_WITH(
+      refused, ": /accessors/0: with it the accessors without a buffer view are 400000000 bytes and all buffers 24");
+  CHECK(refused.find("--max-expansion") != std::string::npos);
+  SceneLimits limits;
+  limits.geometry_bytes = 300000000;
+  limits.expansion = 1 << 30;
+  CHECK_STARTS_WITH(gltf_refusal(text, ErrorKind::limit, limits), ": /accessors/0: with these 400000000 bytes");
+}
+
+TEST_CASE("pictures are looked for before copies are made") {
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(zeros(3000000, "VEC3"));
+  const std::string text =
+      asset.gltf(one_primitive(R"("attributes": {"POSITION": 0})",
+                               R"("extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}})",
+                               R"("images": [{"uri": "none.png"}])"));
+  CHECK(gltf_refusal(text, ErrorKind::io).find("none.png") != std::string::npos);
+}
+
+TEST_CASE("headers of all pictures are read before the first is decoded, and images of one view are one picture") {
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
+  const std::string magic = "\x89PNG\r\n\x1a\n", whole = magic + "\2\2abcd";
+  const auto view = [&](const std::string& bytes) {
+    return std::to_string(asset.view(std::vector<char>(bytes.begin(), bytes.end())));
+  };
+  const std::string good = view(whole), broken = view(magic);
+  const auto text = [&](const std::string& last) {
+    std::string primitives, materials, textures, images;
+    for (int i = 0; i < 17; ++i) {
+      const std::string comma = i > 0 ? ", " : "", index = std::to_string(i);
+      primitives += comma + R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": )" + index + "}";
+      materials += comma + R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": )" + index + "}}}";
+      textures += comma + R"({"source": )" + index + "}";
+      images += comma + R"({"mimeType": "image/png", "bufferView": )" + (i < 16 ? good : last) + "}";
+    }
+    return asset.gltf(R"("nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" + primitives + R"(]}], "materials": [)" +
+                      materials + R"(], "textures": [)" + textures + R"(], "images": [)" + images + "]");
+  };
+  int decoded = 0;
+  const ImageDecoder decode = [&decoded](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
+    decoded += most > 0 ? 1 : 0;
+    return decode_plain(content, where, most);
+  };
+  const ScratchFolder scratch;
+  const std::string refused =
+      error_of(ErrorKind::bad_input, [&] { load_scene(scratch.write("b.gltf", text(broken)), {}, decode); });
+  CHECK(refused.find("/images/16: it is cut off") != std::string::npos);
+  CHECK(decoded == 0);
+  const Scene scene = load_scene(scratch.write("g.gltf", text(good)), {}, decode);
+  CHECK(scene.textures.size() == 1);
+  CHECK(scene.materials.size() == 17);
+  CHECK(decoded == 1);
+}
+
+TEST_CASE("channels that share a sampler read it once") {
+  constexpr size_t kSteps = 20000, kNodes = 50;
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(zeros(kSteps, "SCALAR"));
+  asset.accessor(zeros(kSteps, "VEC3"));
+  const auto text = [&](const std::string& path, const std::string& output) {
+    std::string channels;
+    for (size_t i = 0; i < kNodes; ++i)
+      channels += (i > 0 ? ", " : "") + std::string(R"({"sampler": 0, "target": {"node": )") + std::to_string(i) +
+                  R"(, "path": ")" + path + R"("}})";
+    return asset.gltf(R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}]}]}],
+      "nodes": [)" + repeated(R"({"mesh": 0})", kNodes) +
+                      R"(], "animations": [{"samplers": [{"input": 1, "output": )" + output + R"(}], "channels": [)" +
+                      channels + "]}]");
+  };
+  SceneLimits limits;
+  limits.geometry_bytes = 1000000;  // once: 640,000 bytes of translations, and of weights 320,000
+  const Scene moved = load_gltf(text("translation", "2"), limits);
+  REQUIRE(moved.timeline.node_motions.size() == kNodes);
+  CHECK(moved.timeline.node_motions.back().motion.position->times == std::vector<double>{0.0});
+  const Scene weighed = load_gltf(text("weights", "1"), limits);
+  REQUIRE(weighed.timeline.posed.size() == kNodes);
+  CHECK(weighed.timeline.posed.back().motion->values == std::vector<double>{0.0});
 }
 
 }  // namespace

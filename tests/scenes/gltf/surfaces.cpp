@@ -67,7 +67,8 @@ TEST_CASE("materials keep what the format says, and its defaults") {
 }
 
 TEST_CASE("maps know their texture, format, sampler, set and transform") {
-  const std::string lists = R"("images": [{)" + kGoodImage + R"(}, {)" + kGoodImage + R"(}],
+  const std::string lists =
+      R"("images": [{)" + kGoodImage + R"(}, {"uri": ")" + data_uri(picture(2, 1, "abcd")) + R"("}],
     "samplers": [{"magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648}, {"minFilter": 9729}],
     "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 1}, {"source": 1}])";
   const Scene scene = load_gltf(textured(
@@ -103,8 +104,7 @@ TEST_CASE("maps know their texture, format, sampler, set and transform") {
     const auto ignored = ignored_fields(of, default_pipeline(of));
     return std::count_if(ignored.begin(), ignored.end(), [&](const IgnoredField& f) { return f.field == field; });
   };
-  for (const char* field : {"metallic_roughness_map", "emission_map", "occlusion_map"})
-    CHECK(count(scene, field) == 0);
+  for (const char* field : {"metallic_roughness_map", "emission_map", "occlusion_map"}) CHECK(count(scene, field) == 0);
   Scene dark = scene;  // without the ambient light of the lights that stand in
   dark.lights.clear();
   CHECK(count(dark, "occlusion_map") == 1);
@@ -133,6 +133,23 @@ TEST_CASE("pictures come from files, views and data URIs alike") {
                         one_image(R"("mimeType": "image/png", "bufferView": )" + std::to_string(view)));
   CHECK(scene_hash(load_gltf(asset.gltf(rest))) == expected);
   CHECK(scene_hash(load_gltf(asset.glb(rest), {}, ".glb")) == expected);
+}
+
+TEST_CASE("a media type that is not what the picture is is told, by the image") {
+  const auto notes = [](const std::string& images) {
+    const std::vector<std::string> all = load_gltf(textured(kColorMap, images)).notes;
+    return all.empty() ? std::string() : all.at(0);
+  };
+  CHECK(notes(one_image(kGoodImage)).empty());
+  CHECK(notes(one_image(kGoodImage + R"(, "mimeType": "image/png")")).empty());
+  const std::string told = "the media type of /images/0 is image/jpeg, and its picture is PNG, which is read";
+  CHECK(notes(one_image(kGoodImage + R"(, "mimeType": "image/jpeg")")) == told);
+  const std::string of_uri = R"("uri": ")" + data_uri(picture(2, 1), "image/jpeg") + '"';
+  CHECK(notes(one_image(of_uri)) == told);
+  const std::string two = R"(, "normalTexture": {"index": 1})";
+  CHECK(load_gltf(textured(kColorMap + two, R"("textures": [{"source": 0}, {"source": 1}], "images": [{)" + of_uri +
+                                                R"(, "mimeType": "image/jpeg"}, {)" + of_uri + "}]"))
+            .notes.at(0) == told + "; so it is with 1 other image");
 }
 
 TEST_CASE("pictures that are neither PNG nor JPEG are refused by name") {

@@ -66,6 +66,7 @@ class ExtrasSceneMaker {
       sources.push_back(texture.levels == Levels::stored
                             ? -1
                             : pictures_.texture(texture.image, texture.format, texture.levels == Levels::filtered));
+    pictures_.check();
     pictures_.decode_all();
     for (size_t i = 0; i < extras_.textures.size(); ++i) {
       const TextureExtras& from = extras_.textures[i];
