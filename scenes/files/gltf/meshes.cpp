@@ -67,7 +67,7 @@ std::vector<uint32_t> triangles_of(Accessors& accessors, std::vector<uint32_t> c
   return triangles;
 }
 
-/// `each` values an element, an element for each corner of each triangle.
+/// `each` values an element, an element for each of `corners` in turn.
 template <typename T>
 void take_apart(std::vector<T>& values, const std::vector<uint32_t>& corners, size_t each = 1) {
   if (values.empty()) return;
@@ -111,6 +111,31 @@ void read_influences(Accessors& accessors, const Attributes& attributes, size_t 
 }
 
 }  // namespace
+
+void drop_unused_vertices(Mesh& mesh) {
+  constexpr size_t kFew = 1000;
+  const size_t vertices = mesh.vertex_count();
+  if (vertices < kFew) return;
+  std::vector<uint32_t> place(vertices, 0);  // first whether a vertex is kept, then where
+  for (const uint32_t index : mesh.indices) place[index] = 1;
+  for (const std::vector<float>& stream : mesh.position) {
+    const auto [least, most] = std::minmax_element(stream.begin(), stream.end());
+    place[size_t(least - stream.begin())] = place[size_t(most - stream.begin())] = 1;
+  }
+  std::vector<uint32_t> kept;
+  for (uint32_t v = 0; v < vertices; ++v) {
+    if (place[v] == 0) continue;
+    place[v] = uint32_t(kept.size());
+    kept.push_back(v);
+  }
+  if (kept.size() >= vertices / 4) return;
+  const auto keep = [&kept](auto& streams) {
+    for (std::vector<float>& stream : streams) take_apart(stream, kept);
+  };
+  keep(mesh.position), keep(mesh.normal), keep(mesh.uv), keep(mesh.color);
+  for (auto& set : mesh.more_uv) keep(set);
+  for (uint32_t& index : mesh.indices) index = place[index];
+}
 
 Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets, const std::string& pointer) {
   Geometry out;

@@ -195,6 +195,7 @@ SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
   if (!is_new) return drawn;
   drawn.pointer = pointer_to("meshes", mesh, "primitives", index);
   drawn.geometry = read_geometry(accessors_, p, uv_sets, drawn.pointer);
+  if (p.targets.empty() && a.joints.empty()) drop_unused_vertices(drawn.geometry.mesh);
   drawn.geometry.mesh.name = document_.meshes[mesh].name;
   drawn.reach = reach_of(drawn.geometry.mesh);
   return drawn;

@@ -3,6 +3,7 @@
 #include "../expect_error.h"
 #include "asset.h"
 #include "core/memory_cap.h"
+#include "scenes/scene_defaults.h"
 
 // Small files that name much work: it stays in proportion to the file, or the file is refused.
 namespace trueshade {
@@ -191,6 +192,55 @@ TEST_CASE("headers of all pictures are read before the first is decoded, and ima
   CHECK(scene.textures.size() == 1);
   CHECK(scene.materials.size() == 17);
   CHECK(decoded == 1);
+}
+
+TEST_CASE("a primitive that uses few vertices of a large accessor keeps these, its triangles and the bounds of all") {
+  constexpr uint32_t kVertices = 10000, kPrimitives = 20;
+  std::vector<float> positions, normals, uv;
+  for (uint32_t v = 0; v < kVertices; ++v) {
+    const float x = float(v % 100), y = float(v / 100), z = float(v * 37 % 101);
+    positions.insert(positions.end(), {x, y, z});
+    normals.insert(normals.end(), {0, 0, 1});
+    uv.insert(uv.end(), {x / 128, y / 128});
+  }
+  Asset asset;
+  asset.accessor(positions, "VEC3");
+  asset.accessor(normals, "VEC3");
+  asset.accessor(uv, "VEC2");
+  std::vector<std::vector<uint32_t>> corners;
+  std::string primitives;
+  for (uint32_t i = 0; i < kPrimitives; ++i) {
+    std::vector<uint32_t>& own = corners.emplace_back();
+    for (uint32_t k = 0; k < 6; ++k) own.push_back((7919 * (i + 1) + 4001 * k * k) % kVertices);
+    primitives += (i > 0 ? ", " : "") +
+                  std::string(R"({"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": )") +
+                  std::to_string(asset.accessor(own, "SCALAR")) + "}";
+  }
+  std::vector<uint32_t> many;
+  for (uint32_t v = 0; v < 3000; ++v) many.push_back(3 * v);
+  primitives += R"(, {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": )" +
+                std::to_string(asset.accessor(many, "SCALAR")) + "}";
+  const Scene scene =
+      load_gltf(asset.gltf(R"("nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" + primitives + "]}]"));
+  REQUIRE(scene.meshes.size() == kPrimitives + 1);
+  CHECK(scene.meshes.back().vertex_count() == kVertices);  // a third is used
+  CHECK(scene.meshes.back().indices == many);
+  for (uint32_t i = 0; i < kPrimitives; ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    CHECK(mesh.vertex_count() <= 12);
+    CHECK(mesh.normal[2] == std::vector<float>(mesh.vertex_count(), 1.0f));
+    REQUIRE(mesh.indices.size() == corners[i].size());
+    for (size_t k = 0; k < mesh.indices.size(); ++k) {
+      const uint32_t before = corners[i][k], after = mesh.indices[k];
+      for (size_t c = 0; c < 3; ++c) CHECK(mesh.position[c][after] == positions[3 * before + c]);
+      for (size_t c = 0; c < 2; ++c) CHECK(mesh.uv[c][after] == uv[2 * before + c]);
+    }
+    Scene alone = scene;  // what it does not draw still bounds it, as it did with all vertices
+    alone.instances = {scene.instances[i]};
+    const Bounds bounds = bounds_of(alone), all = bounds_of(scene);
+    CHECK(bounds.least == all.least);
+    CHECK(bounds.radius == all.radius);
+  }
 }
 
 TEST_CASE("channels that share a sampler read it once") {
