@@ -112,6 +112,60 @@ TEST_CASE("small files that would take gigabytes are refused early, by the name 
   check_refused_early({"info", "black.png"}, folder, 4, "--max-expansion");
 }
 
+/// A glTF file of a triangle that is drawn as `rest` says.
+std::string triangle_gltf(const std::string& accessors, const std::string& rest) {
+  return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}], "bufferViews": [{"buffer": 0, "byteLength": 36}], )"
+         R"("accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"})" +
+         accessors + "], " + rest + "}";
+}
+
+/// `count` elements with commas between, made by `element(i)`.
+template <typename Element>
+std::string list_of(int count, const Element& element) {
+  std::string list;
+  for (int i = 0; i < count; ++i) list += (i > 0 ? "," : "") + element(i);
+  return list;
+}
+
+TEST_CASE("glTF files that name much are refused before geometry is read and pictures are decoded") {
+  const ScratchFolder folder;
+  const std::string primitive = R"({"attributes": {"POSITION": 0}})", node = R"({"mesh": 0})";
+  const auto of_each = [](const std::string& text) { return [&text](int) { return text; }; };
+  folder.write("nodes.gltf", triangle_gltf("", R"("meshes": [{"primitives": [)" + list_of(300, of_each(primitive)) +
+                                                   R"(]}], "nodes": [)" + list_of(20000, of_each(node)) + "]"));
+  check_refused_early({"info", "nodes.gltf", "--max-memory", "200M"}, folder, 4, "--max-memory");
+  const std::string many_zeros = R"(, {"componentType": 5126, "count": 100000000, "type": "VEC3"})";
+  folder.write("zeros.gltf",
+               triangle_gltf(many_zeros, R"("meshes": [{"primitives": [{"attributes": {"POSITION": 1}}]}],)"
+                                         R"("nodes": [{"mesh": 0}])"));
+  check_refused_early({"info", "zeros.gltf"}, folder, 4, "/accessors/1");
+  folder.write("copies.gltf",
+               triangle_gltf(R"(, {"componentType": 5126, "count": 1700000, "type": "VEC3"})",
+                             R"("meshes": [{"primitives": [)" + list_of(5, of_each(primitive)) +
+                                 R"(]}], "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": )"
+                                 R"({"attributes": {"TRANSLATION": 1}}}}], "images": [{"uri": "none.png"}])"));
+  check_refused_early({"info", "copies.gltf"}, folder, 5, "none.png");
+  constexpr int kPictures = 17;
+  const std::string picture = black_png(4096);
+  for (int i = 0; i < kPictures; ++i)
+    folder.write(std::to_string(i) + ".png", i + 1 < kPictures ? picture : picture.substr(0, picture.size() / 2));
+  const auto numbered = [](const std::string& before, const std::string& after) {
+    return [before, after](int i) { return before + std::to_string(i) + after; };
+  };
+  const std::string material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": )";
+  folder.write(
+      "pictures.gltf",
+      triangle_gltf(
+          R"(, {"componentType": 5126, "count": 3, "type": "VEC2"})",
+          R"("nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" +
+              list_of(kPictures, numbered(R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": )", "}")) +
+              R"(]}], "materials": [)" + list_of(kPictures, numbered(material, "}}}")) + R"(], "textures": [)" +
+              list_of(kPictures, numbered(R"({"source": )", "}")) + R"(], "images": [)" +
+              list_of(kPictures, numbered(R"({"uri": ")", R"(.png"})")) + "]"));
+  check_refused_early({"info", "pictures.gltf"}, folder, 3, "/images/16: byte 33: a PNG chunk is longer than the file");
+}
+
 TEST_CASE("an EXR whose lengths are beyond its bytes is refused before OpenEXR sees it") {
   const ScratchFolder folder;
   const auto little = [](uint32_t value) {
