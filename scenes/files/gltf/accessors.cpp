@@ -77,18 +77,31 @@ Accessors::Accessors(Buffers& buffers, const SceneLimits& limits)
       document_(buffers.document()),
       left_(limits.geometry_bytes),
       limit_(limits.geometry_bytes),
+      left_of_plan_(limits.geometry_bytes),
       expansion_(limits.expansion) {
   for (const Buffer& buffer : document_.buffers)
     if (!buffer.fallback) buffer_bytes_ += buffer.bytes;
 }
 
-void Accessors::take(uint64_t bytes, const std::string& pointer) {
-  if (bytes > left_)
+void Accessors::check_left(uint64_t bytes, uint64_t left, const std::string& pointer) const {
+  if (bytes > left)
     throw Error(ErrorKind::limit, document_.file + ": " + pointer,
                 "with these " + std::to_string(bytes) + " bytes the geometry is over the limit",
                 within_limit(limit_, "bytes in all", "--max-geometry-memory"));
+}
+
+void Accessors::take(uint64_t bytes, const std::string& pointer) {
+  check_left(bytes, left_, pointer);
   left_ -= bytes;
   require_memory(bytes, document_.file + ": " + pointer, "the geometry");
+}
+
+void Accessors::plan(uint32_t accessor, uint32_t components) {
+  for (uint32_t k = 0; k < components; ++k) {
+    const uint64_t bytes = at(accessor).count * sizeof(float);
+    check_left(bytes, left_of_plan_, pointer_to("accessors", accessor));
+    left_of_plan_ -= bytes;
+  }
 }
 
 /// A count of zeros takes a few bytes of the file, whatever it is.

@@ -31,16 +31,21 @@ class Accessors {
   /// Error(limit) where `bytes` more would be over the limit.
   void take(uint64_t bytes, const std::string& pointer);
 
+  /// Adds up what reading so many components will take, before any is read. Error(limit) as reading them gives.
+  void plan(uint32_t accessor, uint32_t components);
+
  private:
   template <typename Out>
   std::vector<Out> read(uint32_t accessor, uint32_t component);
   template <typename Out>
   void read_sparse(uint32_t accessor, uint32_t component, std::vector<Out>& out);
+  void check_left(uint64_t bytes, uint64_t left, const std::string& pointer) const;
   void take_zeros(uint64_t bytes, uint32_t accessor);
 
   Buffers& buffers_;
   const Document& document_;
   uint64_t left_, limit_;
+  uint64_t left_of_plan_;
   uint64_t expansion_;         ///< limits.expansion
   uint64_t buffer_bytes_ = 0;  ///< of all buffers that have data
   uint64_t zeros_ = 0;         ///< bytes that were read of accessors without a view

@@ -112,6 +112,19 @@ void read_influences(Accessors& accessors, const Attributes& attributes, size_t 
 
 }  // namespace
 
+void plan_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets) {
+  const auto plan = [&accessors](uint32_t accessor, uint32_t most) {
+    if (accessor != kNone) accessors.plan(accessor, std::min(most, components_of(accessors.at(accessor).shape)));
+  };
+  const Attributes& from = primitive.attributes;
+  plan(from.position, 3), plan(from.normal, 3);
+  for (size_t set = 0; set < uv_sets; ++set) plan(from.uv_set(set), 2);
+  plan(from.color, 4);
+  for (const Attributes& target : primitive.targets) plan(target.position, 3), plan(target.normal, 3);
+  for (size_t set = 0; set < from.joints.size(); ++set) plan(from.joints[set], 4), plan(from.weights[set], 4);
+  plan(primitive.indices, 1);
+}
+
 void drop_unused_vertices(Mesh& mesh) {
   constexpr size_t kFew = 1000;
   const size_t vertices = mesh.vertex_count();

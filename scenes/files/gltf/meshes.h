@@ -21,6 +21,9 @@ constexpr bool has_triangles(Mode mode) { return mode >= Mode::triangles; }
 /// each triangle gets its own. Error(bad_input) behind `pointer` for an index beyond the vertices; Error(limit).
 Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets, const std::string& pointer);
 
+/// Adds up what read_geometry() will read of accessors. Error(limit).
+void plan_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets);
+
 /// Many primitives may share the vertices of one large accessor. Where the triangles of a mesh use less than a quarter
 /// of a thousand vertices or more, the others are dropped, but for those that lie farthest out along an axis:
 /// triangles, their order and the bounds of all vertices stay.

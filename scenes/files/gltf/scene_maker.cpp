@@ -120,6 +120,7 @@ void SceneMaker::prepare() {
     instances += instances_of(place, node, parts, instances);
   }
   pictures_.check();
+  plan_primitives();
   require_memory(instances * (sizeof(Instance) + sizeof(NodeInstance)), document_.file + ": /nodes", "its instances");
   scene_.instances.reserve(size_t(instances));
   scene_.timeline.node_instances.reserve(size_t(instances));
@@ -177,25 +178,33 @@ size_t SceneMaker::uv_sets_of(const Primitive& primitive) const {
   return std::min(sets, primitive.attributes.uv.size());
 }
 
+/// Finds what primitives share, and adds up what reading all of them takes.
+void SceneMaker::plan_primitives() {
+  for (uint32_t mesh = 0; mesh < document_.meshes.size(); ++mesh)
+    for (size_t i = 0; i < document_.meshes[mesh].primitives.size(); ++i) {
+      const Primitive& p = document_.meshes[mesh].primitives[i];
+      const Attributes& a = p.attributes;
+      if (!has_triangles(p.mode) || a.position == kNone) continue;
+      const size_t uv_sets = uv_sets_of(p);
+      std::vector<uint32_t> key{a.position, a.normal, a.color, p.indices, uint32_t(p.mode), uint32_t(uv_sets)};
+      key.insert(key.end(), a.uv.begin(), a.uv.begin() + ptrdiff_t(uv_sets));
+      key.insert(key.end(), a.joints.begin(), a.joints.end());
+      key.insert(key.end(), a.weights.begin(), a.weights.end());
+      key.push_back(uint32_t(a.joints.size()));
+      for (const Attributes& target : p.targets) key.insert(key.end(), {target.position, target.normal});
+      const auto [found, is_new] = drawn_.try_emplace(std::move(key));
+      drawn_of_primitive_[{mesh, i}] = &found->second;  // elements of a map stay where they are
+      if (is_new) plan_geometry(accessors_, p, uv_sets);
+    }
+}
+
 SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
-  Drawn*& known = drawn_of_primitive_[{mesh, index}];
-  if (known) return *known;
+  Drawn& drawn = *drawn_of_primitive_.at({mesh, index});
+  if (!drawn.pointer.empty()) return drawn;
   const Primitive& p = document_.meshes[mesh].primitives[index];
-  const Attributes& a = p.attributes;
-  const size_t uv_sets = uv_sets_of(p);
-  std::vector<uint32_t> key{a.position, a.normal, a.color, p.indices, uint32_t(p.mode), uint32_t(uv_sets)};
-  key.insert(key.end(), a.uv.begin(), a.uv.begin() + ptrdiff_t(uv_sets));
-  key.insert(key.end(), a.joints.begin(), a.joints.end());
-  key.insert(key.end(), a.weights.begin(), a.weights.end());
-  key.push_back(uint32_t(a.joints.size()));
-  for (const Attributes& target : p.targets) key.insert(key.end(), {target.position, target.normal});
-  const auto [found, is_new] = drawn_.try_emplace(std::move(key));
-  Drawn& drawn = found->second;
-  known = &drawn;  // elements of a map stay where they are
-  if (!is_new) return drawn;
   drawn.pointer = pointer_to("meshes", mesh, "primitives", index);
-  drawn.geometry = read_geometry(accessors_, p, uv_sets, drawn.pointer);
-  if (p.targets.empty() && a.joints.empty()) drop_unused_vertices(drawn.geometry.mesh);
+  drawn.geometry = read_geometry(accessors_, p, uv_sets_of(p), drawn.pointer);
+  if (p.targets.empty() && p.attributes.joints.empty()) drop_unused_vertices(drawn.geometry.mesh);
   drawn.geometry.mesh.name = document_.meshes[mesh].name;
   drawn.reach = reach_of(drawn.geometry.mesh);
   return drawn;
@@ -248,11 +257,7 @@ uint32_t SceneMaker::scene_skin(uint32_t skin) {
 
 /// What the scene does not draw is read too, so that whether a file is broken does not depend on its default scene.
 void SceneMaker::check_the_rest() {
-  for (uint32_t mesh = 0; mesh < document_.meshes.size(); ++mesh)
-    for (size_t i = 0; i < document_.meshes[mesh].primitives.size(); ++i) {
-      const Primitive& primitive = document_.meshes[mesh].primitives[i];
-      if (has_triangles(primitive.mode) && primitive.attributes.position != kNone) drawn_of(mesh, i);
-    }
+  for (const auto& [place, drawn] : drawn_of_primitive_) drawn_of(place.first, place.second);
   for (const SkinSource& skin : document_.skins)
     if (skin.inverse_bind != kNone) accessors_.matrices(skin.inverse_bind);
   pictures_.decode_all();

@@ -25,7 +25,7 @@ class SceneMaker {
   /// What a primitive's attributes and indices give, whichever meshes name them.
   struct Drawn {
     Geometry geometry;
-    std::string pointer;
+    std::string pointer;  ///< empty until it is read
     glm::dvec3 reach{0.0};
     std::optional<uint32_t> mesh, shape;  ///< in the scene, once used
   };
@@ -38,6 +38,7 @@ class SceneMaker {
   };
 
   void prepare();
+  void plan_primitives();
   uint64_t instances_of(uint32_t place, const NodeSource& node, const Parts& parts, uint64_t before) const;
   void add_node(uint32_t place);
   void add_mesh(uint32_t place, const NodeSource& node);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <ctime>
 
 #include "../expect_error.h"
@@ -144,6 +145,24 @@ TEST_CASE("zeros that stand for no data are held to the limit of expansion") {
   limits.geometry_bytes = 300000000;
   limits.expansion = 1 << 30;
   CHECK_STARTS_WITH(gltf_refusal(text, ErrorKind::limit, limits), ": /accessors/0: with these 400000000 bytes");
+}
+
+TEST_CASE("what all primitives read is added up before the first is read") {
+  Asset asset;
+  std::vector<float> positions(3000, 0.0f);
+  positions[0] = std::nanf("");
+  asset.accessor(positions, "VEC3");
+  std::string primitives;
+  for (uint32_t i = 0; i < 50; ++i)
+    primitives += (i > 0 ? ", " : "") + std::string(R"({"attributes": {"POSITION": 0}, "indices": )") +
+                  std::to_string(asset.accessor(std::vector<uint32_t>{i, i + 1, i + 2}, "SCALAR")) + "}";
+  const std::string text = asset.gltf(R"("meshes": [{"primitives": [)" + primitives + R"(]}], "nodes": [{"mesh": 0}])");
+  SceneLimits limits;
+  limits.geometry_bytes = 50 * (12000 + 12);
+  CHECK_STARTS_WITH(gltf_refusal(text, ErrorKind::bad_input, limits), ": /accessors/0: element 0 is not finite");
+  --limits.geometry_bytes;
+  CHECK_STARTS_WITH(gltf_refusal(text, ErrorKind::limit, limits),
+                    ": /accessors/50: with these 12 bytes the geometry is over the limit");
 }
 
 TEST_CASE("pictures are looked for before copies are made") {
