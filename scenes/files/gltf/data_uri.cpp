@@ -82,9 +82,9 @@ DataUri data_of_uri(std::string_view uri, const std::string& where, uint64_t lim
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) refuse(where, "the data URI has no comma");
   std::string_view head = uri.substr(kScheme.size(), comma - kScheme.size());
+  const std::string type(head.substr(0, head.find(';')));
   const std::string_view text = uri.substr(comma + 1);
-  return {std::string(media_type_of_uri(uri)),
-          head.ends_with(kBase64) ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
+  return {type, head.ends_with(kBase64) ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
 }
 
 }  // namespace trueshade::gltf
