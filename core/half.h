@@ -10,6 +10,7 @@ namespace trueshade {
 /// part. toward_zero: magnitudes from 65504 up to the largest float give 65504 (7BFF); nearest: ties to even, from
 /// 65520 on infinity. Both keep infinities, the sign of zero and denormal halves; a NaN stays one, made quiet, its top
 /// bits kept.
+/// Pixels are rounded by core/simd/store-inl.h, to the same bits.
 constexpr uint16_t half_from_float(float value, HalfRound round) {
   const uint32_t bits = std::bit_cast<uint32_t>(value);
   const uint32_t sign = (bits >> 16) & 0x8000u;

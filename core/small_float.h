@@ -7,7 +7,7 @@
 namespace trueshade {
 
 // The unsigned floats of R11F_G11F_B10F (GL 4.6 core, 2.3.4.3 and 2.3.4.4): halves without a sign, and with 6 or 5 bits
-// of fraction. `bits` is 11 or 10.
+// of fraction. `bits` is 11 or 10. Pixels are rounded by core/simd/store-inl.h, to the same bits.
 
 /// The float equal to an unsigned 11- or 10-bit one; NaN keeps its payload in the top bits.
 constexpr float float_from_unsigned(uint32_t code, int bits) { return float_from_half(uint16_t(code << (15 - bits))); }

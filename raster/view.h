@@ -12,7 +12,8 @@
 
 namespace trueshade {
 
-/// What becomes of a depth on its way into the buffer. docs/arithmetic.md sections 5 and 6.
+/// What becomes of a depth on its way into the depth buffer: polygon offset, and rounding to unorm formats such as d24.
+/// docs/arithmetic.md sections 5 and 6.
 struct DepthRule {
   float largest_code = 0.0f;         ///< of a fixed-point format; 0 for floats
   double factor = 0.0, units = 0.0;  ///< of the polygon offset m * factor + r * units

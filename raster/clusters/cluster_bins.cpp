@@ -12,7 +12,8 @@
 namespace trueshade {
 namespace {
 
-// Seen instances x clusters as one long row, to be cut into equal pieces for the threads.
+// Seen instances x clusters as one long row, to be cut into equal pieces for the threads. Frustum culling begins here:
+// of instances as wholes, and in append_seen() of their clusters.
 void make_row(const Scene& scene, const ClusteredScene& clusters, const View& view, bool culling, ClusterBins& bins) {
   constexpr size_t kFew = 16;  // clusters that are as soon looked at themselves
   bins.row.clear();

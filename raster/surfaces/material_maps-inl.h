@@ -93,7 +93,7 @@ HWY_INLINE void keep_texels(const V32 rgba[kVectors][4], uint32_t channels, cons
     }
 }
 
-/// Keeps the texels of the maps that surface_planes-inl.h multiplies by the material's own values.
+/// Keeps the texels of the maps that material_values-inl.h multiplies by the material's own values.
 template <int kVectors>
 HWY_NOINLINE void keep_values(const MaterialMaps& maps, MapTexels<kVectors>& texels, const M64* mine, const int* pixel,
                               SurfaceTile& out) {

@@ -41,7 +41,7 @@ HWY_INLINE VF falloff_of(Falloff falloff, const LightRow& light, VF distance, VF
   switch (falloff) {
     case Falloff::none:
       return one;
-    case Falloff::linear_range:  // nearer than the light's cut, and so above 0
+    case Falloff::linear_range:  // the light's cut, LightRow::cut2, is where it falls to 0
     case Falloff::linear:
       return hn::Sub(one, hn::Div(distance, hn::Set(d, light.range)));
     case Falloff::quadratic:

@@ -174,7 +174,7 @@ struct LightTerms {
       at.cosine = at_most(positive(dot3(r, px.v)), 1.0f);
       return;
     }
-    VF h[3];
+    VF h[3];  // the half vector, of any length
     for (int c = 0; c < 3; ++c) h[c] = hn::Add(at.to_light[c], px.v[c]);
     const VF h2 = dot3(h, h), t = positive(dot3(px.n, h));
     VF quotient;
@@ -252,7 +252,7 @@ struct LightTerms {
     return at.term;
   }
 
-  /// What the sum starts from, before any light.
+  /// What the sum starts from, before any light: emission and the scene's ambient light.
   HWY_INLINE VF start(const SurfaceTile& s, int i, const PixelVector& px, int k) const {
     const DF d;
     VF sum = hn::Zero(d);

@@ -59,6 +59,7 @@ struct HalfPairs {
     return hn::Or(half_bits(value[2 * w], mode), hn::ShiftLeft<16>(half_bits(value[2 * w + 1], mode)));
   }
 };
+/// r11g11b10f: red in the lowest bits.
 struct SmallFloats {
   static constexpr int kWords = 1;
   HalfRound mode;
