@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/threads/parallel_for.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -146,6 +147,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
+  fit_lights_of_ours(scene, result.pipeline.light_model);
   result.notes = notes_of(scene, result.pipeline);
   check_memory(scene, result.pipeline, execution, {});
   const PreparedScene prepared(scene);

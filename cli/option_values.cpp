@@ -52,7 +52,7 @@ Size size_from_text(const std::string& text) {
   if (!width || !height || *width < 1 || *height < 1)
     throw usage("--size", "'" + text + "' is not a size", "give WIDTHxHEIGHT in pixels, like 800x600");
   if (*width > kMaxSide || *height > kMaxSide)
-    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "render in parts");
+    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "at most 65536x65536");
   return {int(*width), int(*height)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/frame_name.h"
 #include "cli/option_values.h"
@@ -19,6 +20,7 @@ namespace {
 
 /// One file cannot hold two documents, and who wants two has mistyped a name.
 void check_named_once(const std::string& option, std::vector<std::string> files) {
+  for (std::string& file : files) file = std::filesystem::path(file).lexically_normal().string();
   std::sort(files.begin(), files.end());
   const auto twice = std::adjacent_find(files.begin(), files.end());
   if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
@@ -52,10 +54,11 @@ void check_outputs(const RenderOptions& options) {
   if (!options.aovs.empty() && !exr && !options.json)
     throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
   if (options.encode && !png)
-    throw usage("--encode",
-                "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
-                "report shows them as screens take them",
-                "add -o FILE.png, or leave out --encode");
+    throw usage(
+        "--encode",
+        "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
+        "report shows them as screens take them",
+        "add -o FILE.png, or leave out --encode");
   if (options.frames) check_frame_names(options.outputs, *options.frames);
 }
 
@@ -89,7 +92,8 @@ CLI::Option* add_values(CLI::App* command, const char* names, const char* value_
 }
 
 void add_switch(CLI::App* command, const char* names, bool& on, const char* help) {
-  command->add_flag_callback(names, [&on] { on = true; }, help);
+  command->add_flag_callback(
+      names, [&on] { on = true; }, help);
 }
 
 /// The group `Limits`. Values are taken where they stand, which throws Error(usage).
@@ -125,21 +129,22 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
              "File to write: .png, .exr, or .html for a report; may be repeated");
   add_value(render, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
   add_value(render, "--frames", "FIRST-LAST", texts.frames,
-      "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
+            "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending");
   add_value(render, "--target", "FORMAT", texts.target, "Format the image is stored in: " + joined(target_names()));
   add_value(render, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  add_value(render, "--profile", "NAME", texts.profile, "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
+  add_value(render, "--profile", "NAME", texts.profile,
+            "Whose bits where OpenGL leaves a choice: ideal, mesa-llvmpipe-22.3");
   add_value(render, "--aov", "PLANES", texts.aov, "Planes for the EXR, with commas: " + plane_names());
   add_value(render, "--encode", "CODES", texts.encode,
-                     "Codes of a PNG. srgb: values taken as linear light and sRGB-encoded; raw: values as they are, "
-                     "tagged gAMA 1.0; without it fixed-point targets as they are, floats sRGB-encoded");
+            "Codes of a PNG. srgb: values taken as linear light and sRGB-encoded; raw: values as they are, "
+            "tagged gAMA 1.0; without it fixed-point targets as they are, floats sRGB-encoded");
   add_value(render, "--view", "NAME", texts.view, "Show this instead of the lit picture: " + joined(kViewNames));
   add_value(render, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core; never changes a pixel");
   add_value(render, "--simd", "NAME", options.simd, "best, scalar, sse4, avx2 or avx512; never changes a pixel");
   add_value(render, "--tile", "PIXELS", texts.tile,
-                     "Tile side: 8, 16, 32, 48 or 64; without it by size and threads; never changes a pixel");
+            "Tile side: 8, 16, 32, 48 or 64; without it by size and threads; never changes a pixel");
   add_switch(render, "--no-light-culling", texts.no_light_culling,
-                   "Try every light on every pixel; never changes a pixel");
+             "Try every light on every pixel; never changes a pixel");
   add_switch(render, "--hash", options.hash, "Print the hash of the image's stored bytes");
   add_switch(render, "--stats", options.stats, "Print counts and times");
   add_switch(render, "--json", options.json, "Print all of it as one JSON document");
@@ -192,7 +197,8 @@ GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::str
 CLI::App* add_export(CLI::App& app, ExportOptions& options, std::optional<std::string>& time) {
   CLI::App* command = app.add_subcommand("export", "Write a scene as a GLB file, for other programs and for this one");
   add_value(command, "SCENE", "FILE", options.scene, "Scene as for render")->required();
-  add_value(command, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output")->required();
+  add_value(command, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output")
+      ->required();
   add_value(command, "--time", "SECONDS", time, "Write the scene as it stands at this time, without what moves");
   add_switch(command, "-q,--quiet", options.quiet, "Say neither notes nor which file was written");
   add_limit_options(command, options);
@@ -203,7 +209,8 @@ ExportOptions finished(ExportOptions options, const std::optional<std::string>& 
   check_scene(options.scene);
   if (time) options.time = time_from_text(*time);
   if (options.output != "-" && !has_ending(options.output, ".glb"))
-    throw usage("-o", "a scene is not written to '" + options.output + "'", "end the name in .glb, or - for standard output");
+    throw usage("-o", "a scene is not written to '" + options.output + "'",
+                "end the name in .glb, or - for standard output");
   return options;
 }
 
@@ -219,16 +226,18 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
   add_value(command, "--driver", "NAME", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
   add_value(command, "--gbuffer", "FILE", options.gbuffer_file,
-      "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
+            "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
   add_value(command, "--image", "FILE", options.image_file,
-                      "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
-  add_value(command, "--profile", "NAME", options.held_to,
+            "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
+  add_value(
+      command, "--profile", "NAME", options.held_to,
       "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::kDriverProfileNames));
   add_value(command, "--subpixel-bits", "COUNT", texts.subpixel_bits,
-      "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
-  add_values(command, "--save", "FILE", options.saved, "Write what the driver drew: .png the picture, .exr its planes too");
+            "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
+  add_values(command, "--save", "FILE", options.saved,
+             "Write what the driver drew: .png the picture, .exr its planes too");
   add_switch(command, "--quick", options.quick,
-      "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
+             "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
   add_switch(command, "--json", options.json, "Print all of it as one JSON document");
   add_value(command, "-o,--output", "FILE", options.report, "Report to write, .html");
   add_limit_options(command, options);
@@ -284,11 +293,12 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   add_value(bench, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core");
   add_value(bench, "--simd", "NAME", options.simd, "best, scalar, sse4, avx2 or avx512");
   add_value(bench, "--against", "PEERS", texts.against,
-                    "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
-                    "and ours otherwise: "
-                    "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
-  add_switch(bench, "--moving", options.moving,
-             "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
+            "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
+            "and ours otherwise: "
+            "strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
+  add_switch(
+      bench, "--moving", options.moving,
+      "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
   add_value(bench, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
   add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   add_limit_options(bench, options);
@@ -354,8 +364,10 @@ Execution execution_of(const RenderOptions& options) {
 }
 
 Command command_from_arguments(int count, const char* const* arguments) {
-  CLI::App app("Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.\n"
-               "`trueshade help COMMAND` names the options of a command.", "trueshade");
+  CLI::App app(
+      "Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.\n"
+      "`trueshade help COMMAND` names the options of a command.",
+      "trueshade");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("trueshade ") + kVersion);
   app.footer(
@@ -401,7 +413,9 @@ Command command_from_arguments(int count, const char* const* arguments) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     throw unexpected_argument(chosen.empty() ? app : *chosen[0], app.remaining(true));
   } catch (const CLI::ParseError& error) {
-    throw usage("command line", one_line(error.what()), "see trueshade --help");
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    throw usage("command line", one_line(error.what()),
+                "see trueshade " + (chosen.empty() ? std::string() : chosen[0]->get_name() + " ") + "--help");
   }
   if (render_command->parsed()) return finished(std::move(render), texts);
   if (info_command->parsed()) {

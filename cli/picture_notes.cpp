@@ -64,6 +64,19 @@ std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame
          "--view normal and --view light-count show which)";
 }
 
+/// Pixels with a channel above 1, of a format of floats.
+size_t pixels_above_1(const Image& picture) {
+  const int channels = std::min(info(picture.format).channels, 3);
+  size_t count = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      bool any = false;
+      for (int c = 0; c < channels; ++c) any = any || picture.value(x, y, c) > 1.0;
+      count += any ? 1 : 0;
+    }
+  return count;
+}
+
 /// Pixels with a channel at the largest value that the format holds.
 size_t clamped_pixels(const Image& picture) {
   const FormatInfo layout = info(picture.format);
@@ -83,16 +96,23 @@ size_t clamped_pixels(const Image& picture) {
   return clamped;
 }
 
-/// How much of a picture stands at the largest value that its format holds.
-std::string clamp_note(const Pipeline& pipeline, const Image& picture) {
+/// How much of a picture stands at the largest value that its format holds, or that a PNG of it does.
+std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_png) {
   constexpr size_t kLeastPercent = 5;
   const FormatInfo layout = info(picture.format);
-  if (pipeline.view != ImageView::lit || layout.number_class != NumberClass::unorm || pipeline.post.active()) return {};
-  const size_t clamped = clamped_pixels(picture);
+  const bool floats = layout.number_class == NumberClass::floating;
+  if (pipeline.view != ImageView::lit || pipeline.post.active() || (floats && !to_png)) return {};
+  if (!floats && layout.number_class != NumberClass::unorm) return {};
+  const size_t clamped = floats ? pixels_above_1(picture) : clamped_pixels(picture);
   const size_t pixels = size_t(picture.width) * size_t(picture.height);
   if (100 * clamped < kLeastPercent * pixels) return {};
-  return std::to_string(clamped) + " of " + std::to_string(pixels) +
-         " pixels have a channel at 1, the largest value of " + std::string(layout.name) +
+  const std::string share = std::to_string(clamped) + " of " + std::to_string(pixels) + " pixels have a channel ";
+  if (floats)
+    return share +
+           "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it, and a tone_map of "
+           "the "
+           "post chain brings it into range)";
+  return share + "at 1, the largest value of " + std::string(layout.name) +
          ": Brighter light is cut off there (--target rgba16f keeps it, and a tone_map of the "
          "post chain brings it into range)";
 }
@@ -117,10 +137,10 @@ std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
 
 }  // namespace
 
-std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame) {
+std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png) {
   std::vector<std::string> notes;
-  for (std::string note :
-       {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color), hidden_note(pipeline, frame.color)})
+  for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png),
+                           hidden_note(pipeline, frame.color)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;
 }

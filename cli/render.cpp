@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 
@@ -101,7 +102,9 @@ RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const P
 std::string render_one(const RenderOptions& options, const std::vector<std::string>& paths,
                        const PreparedScene& prepared, RenderedFrame& result) {
   draw(options, prepared, result);
-  for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame))
+  const bool to_png =
+      std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
+  for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame, to_png))
     result.notes.lines.push_back(std::move(note));
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
@@ -140,6 +143,7 @@ void render(const RenderOptions& options) {
   for (const std::string& path : options.outputs) check_writable(path);
   Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
+  fit_lights_of_ours(scene, pipeline.light_model);
   check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
                file_memory(pipeline, options.outputs, options.aovs));
   if (options.frames) return render_frames(options, scene, pipeline);

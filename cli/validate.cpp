@@ -12,6 +12,7 @@
 #include "cli/validation_capture.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -87,6 +88,7 @@ bool judge_opengl(const ValidationOptions& options) {
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   v.pipeline = pipeline_of(options, scene);
+  fit_lights_of_ours(scene, v.pipeline.light_model);
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;

@@ -12,7 +12,12 @@ namespace {
 
 constexpr double kGreyReflectance = 0.7;             // reflectance that the lights are made for
 constexpr double kLeastGain = 0.7, kMostGain = 5.0;  // of the lights on white and on dark surfaces
+constexpr double kBrightest = 1.05;                  // gain times the brightest channel of a surface
+constexpr double kSmallShare = 0.01;                 // of the triangles: a surface of fewer may be cut off
 constexpr double kLightDistance = 2.2;               // of all but ambient light, in radii of the bounds
+constexpr double kFalloffThere = 0.6;                // how a lamp's attenuation grows over that distance
+constexpr double kPhotometricShare = 0.4;            // of the squared distance: a lamp's intensity where light spreads
+constexpr double kMostIntensity = 1e17;
 
 constexpr double kGroundReflectance = 0.34;
 constexpr glm::dvec3 kSoftLight(0.17, 0.18, 0.2);
@@ -37,20 +42,61 @@ glm::dvec3 mean_color(const Scene& scene, const Material& material) {
   return base * glm::dvec3(texel[0], texel[1], texel[2]);
 }
 
-/// How much more light than on grey a scene gets.
-double gain_of(const Scene& scene) {
-  const double reflectance = mean_reflectance(scene);
-  return reflectance > 0.0 ? std::clamp(kGreyReflectance / reflectance, kLeastGain, kMostGain) : 1.0;
+/// What an instance gives back of white light, and how many triangles it has.
+struct Surface {
+  glm::dvec3 color;
+  double triangles;
+};
+std::vector<Surface> surfaces_of(const Scene& scene) {
+  std::vector<glm::dvec3> of_mesh, of_material;
+  for (const Mesh& mesh : scene.meshes) of_mesh.push_back(mean_color(mesh));
+  for (const Material& material : scene.materials) of_material.push_back(mean_color(scene, material));
+  std::vector<Surface> surfaces;
+  for (const Instance& instance : scene.instances)
+    surfaces.push_back({of_mesh[instance.mesh] * of_material[instance.material],
+                        double(scene.meshes[instance.mesh].triangle_count())});
+  return surfaces;
 }
+
+double mean_of(const std::vector<Surface>& surfaces) {
+  double sum = 0.0, weight = 0.0;
+  for (const Surface& surface : surfaces) {
+    sum += surface.triangles * luminance(surface.color);
+    weight += surface.triangles;
+  }
+  return weight > 0.0 ? sum / weight : 0.0;
+}
+
+/// The largest channel of a surface that has a share of the scene worth speaking of.
+double brightest_of(const std::vector<Surface>& surfaces) {
+  double all = 0.0, brightest = 0.0;
+  for (const Surface& surface : surfaces) all += surface.triangles;
+  for (const Surface& surface : surfaces)
+    if (surface.triangles >= kSmallShare * all)
+      brightest = std::max({brightest, surface.color.x, surface.color.y, surface.color.z});
+  return brightest;
+}
+
+/// How much more light than on grey a scene gets: more on dark surfaces, unless a bright one among them would be cut
+/// off at 1.
+double gain_of(const Scene& scene) {
+  const std::vector<Surface> surfaces = surfaces_of(scene);
+  const double reflectance = mean_of(surfaces), brightest = brightest_of(surfaces);
+  if (!(reflectance > 0.0)) return 1.0;
+  const double gain = std::clamp(kGreyReflectance / reflectance, kLeastGain, kMostGain);
+  return std::min(gain, std::max(kBrightest / brightest, 1.0));
+}
+
+double photometric_intensity(double distance2) { return std::min(kPhotometricShare * distance2, kMostIntensity); }
 
 void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
   const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
-  const double intensity = scene.photometric ? std::min(0.4 * distance2, 1e17) : 1.0;
+  const double intensity = scene.photometric ? photometric_intensity(distance2) : 1.0;
   Light light;
   light.position = glm::vec3(bounds.centre + unit(from) * distance);
   light.color = glm::vec3(color * intensity);
   light.range = float(6.0 * bounds.radius);
-  light.attenuation = {1.0f, 0.0f, float(0.6 / distance2)};
+  light.attenuation = {1.0f, 0.0f, float(kFalloffThere / distance2)};
   scene.lights.push_back(light);
 }
 
@@ -58,16 +104,13 @@ void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const 
 
 double mean_reflectance(const Scene& scene) {
   const FpScope fp;
-  std::vector<glm::dvec3> of_mesh, of_material;
-  for (const Mesh& mesh : scene.meshes) of_mesh.push_back(mean_color(mesh));
-  for (const Material& material : scene.materials) of_material.push_back(mean_color(scene, material));
-  double sum = 0.0, weight = 0.0;
-  for (const Instance& instance : scene.instances) {
-    const double triangles = double(scene.meshes[instance.mesh].triangle_count());
-    sum += triangles * luminance(of_mesh[instance.mesh] * of_material[instance.material]);
-    weight += triangles;
-  }
-  return weight > 0.0 ? sum / weight : 0.0;
+  return mean_of(surfaces_of(scene));
+}
+
+double spread_light(const Light& lamp) {
+  const FpScope fp;
+  if (lamp.type == LightType::ambient || !(lamp.attenuation.z > 0.0f)) return 1.0;
+  return photometric_intensity(kFalloffThere / double(lamp.attenuation.z));
 }
 
 void add_lights_of_ours(Scene& scene) {

@@ -9,9 +9,13 @@ double mean_reflectance(const Scene& scene);
 
 /// Lights a scene whose file has none, as a photographer lights an object: a warm key light from the upper left, a cool
 /// fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark surfaces
-/// get more light, up to 5 times as much as grey ones, and white ones less. In a photometric scene the lights are as
+/// get more light, up to 5 times as much as grey ones but none that would cut a bright surface off at 1, and white ones
+/// less. In a photometric scene the lights are as
 /// bright at their distance as in others.
 void add_lights_of_ours(Scene& scene);
+
+/// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.
+double spread_light(const Light& lamp);
 
 /// Puts a level grey disc under what is drawn, a little below its lowest point, eight times as wide. It is darker
 /// where there is more light of ours, so that it looks the same under any object, and far away it is as the background.

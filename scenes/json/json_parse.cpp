@@ -58,13 +58,18 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     std::string reason = error.what();
     if (const size_t dash = reason.find(" - "); dash != std::string::npos) reason = reason.substr(dash + 3);
     reason = reason.substr(0, std::min(reason.find("; last read"), size_t(120)));
+    if (reason.starts_with("[json.exception.out_of_range"))
+      throw Error(ErrorKind::bad_input, place_of(line, column), "a number is too large", "numbers below 1e308");
     for (char& c : reason)
       if (static_cast<unsigned char>(c) < 0x20) c = '?';
-    throw Error(ErrorKind::bad_input, where_ + ": line " + std::to_string(line) + ", column " + std::to_string(column),
-                "this is not JSON: " + reason, "JSON as in RFC 8259");
+    throw Error(ErrorKind::bad_input, place_of(line, column), "this is not JSON: " + reason, "JSON as in RFC 8259");
   }
 
  private:
+  std::string place_of(ptrdiff_t line, size_t column) const {
+    return where_ + ": line " + std::to_string(line) + ", column " + std::to_string(column);
+  }
+
   [[noreturn]] void refuse(const std::string& pointer, const std::string& reason, const std::string& remedy) const {
     throw Error(ErrorKind::bad_input, where_ + (pointer.empty() ? "" : ": " + pointer), reason, remedy);
   }

@@ -69,10 +69,11 @@ const Material& default_material() {
   return material;
 }
 
-
 constexpr Field<Material> kMaterialFields[] = {
     {"specular_color", kGlossReason,
-     [](const Material& m) { return m.specular_color != default_material().specular_color; },
+     [](const Material& m) {
+       return m.specular_color != default_material().specular_color && m.specular_color != glm::vec3(0.0f);
+     },
      [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},
     {"shininess", kGlossReason, [](const Material& m) { return m.shininess != default_material().shininess; },
      [](const Material&, const Pipeline& p) { return takes_gloss(p.light_model); }},

