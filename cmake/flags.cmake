@@ -8,11 +8,11 @@ target_compile_options(
 target_compile_definitions(
   trueshade_flags
   INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_PURE)
-# Ours only, not a consumer's: warnings are errors, and the usual hardening.
+# Ours only, not a consumer's: warnings, which the presets make errors, and the usual hardening.
 add_library(trueshade_private_flags INTERFACE)
 target_compile_options(
   trueshade_private_flags
-  INTERFACE -Wall -Wextra -Wconversion -Wfloat-conversion -Werror -fstack-protector-strong -fstack-clash-protection)
+  INTERFACE -Wall -Wextra -Wconversion -Wfloat-conversion -fstack-protector-strong -fstack-clash-protection)
 target_compile_definitions(trueshade_private_flags INTERFACE _GLIBCXX_ASSERTIONS)
 if(CMAKE_BUILD_TYPE MATCHES "Release|RelWithDebInfo")
   target_compile_definitions(trueshade_private_flags INTERFACE _FORTIFY_SOURCE=2)

@@ -21,6 +21,7 @@ Buffers::Buffers(const Document& document, const Container& container, const Sce
       buffers_[i] = owned_[i];
     } else if (i == 0 && container.bin) {
       buffers_[i] = *container.bin;
+      take(buffers_[i].size(), where);
     } else if (i == 0 && container.is_glb && !buffer.fallback) {
       document.fail(pointer, "the file has no chunk BIN for this buffer", "a chunk BIN, or a uri");
     } else {

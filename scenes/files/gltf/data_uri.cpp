@@ -1,5 +1,7 @@
 #include "scenes/files/gltf/data_uri.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "scenes/scene_limits.h"
 
@@ -7,6 +9,12 @@ namespace trueshade::gltf {
 namespace {
 
 constexpr std::string_view kScheme = "data:", kBase64 = ";base64";
+
+/// Words of URIs are the same in capitals.
+bool is_word(std::string_view text, std::string_view small_letters) {
+  return std::equal(text.begin(), text.end(), small_letters.begin(), small_letters.end(),
+                    [](char c, char small) { return (c >= 'A' && c <= 'Z' ? char(c + 32) : c) == small; });
+}
 
 int digit_of(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -70,7 +78,7 @@ Bytes percent_decoded(std::string_view text, const std::string& where, uint64_t 
 
 }  // namespace
 
-bool is_data_uri(std::string_view uri) { return uri.starts_with(kScheme); }
+bool is_data_uri(std::string_view uri) { return is_word(uri.substr(0, kScheme.size()), kScheme); }
 
 std::string_view media_type_of_uri(std::string_view uri) {
   if (!is_data_uri(uri)) return {};
@@ -84,7 +92,8 @@ DataUri data_of_uri(std::string_view uri, const std::string& where, uint64_t lim
   std::string_view head = uri.substr(kScheme.size(), comma - kScheme.size());
   const std::string type(head.substr(0, head.find(';')));
   const std::string_view text = uri.substr(comma + 1);
-  return {type, head.ends_with(kBase64) ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
+  const bool base64 = head.size() >= kBase64.size() && is_word(head.substr(head.size() - kBase64.size()), kBase64);
+  return {type, base64 ? decoded(text, where, limit) : percent_decoded(text, where, limit)};
 }
 
 }  // namespace trueshade::gltf

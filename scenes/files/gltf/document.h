@@ -222,7 +222,8 @@ bool is_nearly_unit(const glm::dvec4& q);
 struct Document {
   std::string file;  ///< stands in errors
   bool is_glb = false;
-  bool quantized = false;  ///< KHR_mesh_quantization is among the extensions used
+  std::vector<std::string> unread_extensions;  ///< used, and not among those that are read; their first 80 bytes
+  bool quantized = false;                      ///< KHR_mesh_quantization is among the extensions used
   std::vector<Buffer> buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;

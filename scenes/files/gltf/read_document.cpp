@@ -59,9 +59,13 @@ std::string drawn_extensions() {
   return all;
 }
 
+const Extension* extension_named(std::string_view name) {
+  return std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                      [&](const Extension& e) { return e.name == name; });
+}
+
 void check_required(const json::Node& name) {
-  const auto extension = std::find_if(std::begin(kExtensions), std::end(kExtensions),
-                                      [&](const Extension& e) { return e.name == name.string(); });
+  const Extension* const extension = extension_named(name.string());
   if (extension != std::end(kExtensions) && extension->drawn) return;
   std::string quoted;
   json::append_string(quoted, std::string_view(name.string()).substr(0, 80));
@@ -74,6 +78,8 @@ void read_extensions(const json::Node& root, Document& document) {
   std::set<std::string_view> used, required;
   for_each(root, "extensionsUsed", [&](const json::Node& name, size_t) {
     if (!used.insert(name.string()).second) name.fail("an extension is named twice", "each once");
+    if (extension_named(name.string()) == std::end(kExtensions))
+      document.unread_extensions.push_back(std::string(name.string()).substr(0, 80));
   });
   for_each(root, "extensionsRequired", [&](const json::Node& name, size_t) {
     if (!required.insert(name.string()).second) name.fail("an extension is named twice", "each once");

@@ -18,7 +18,7 @@ glm::dvec3 read_three(const json::Node& node) {
 glm::dvec4 read_rotation(const json::Node& node) {
   node.array(4, 4);
   glm::dvec4 q;
-  for (int k = 0; k < 4; ++k) q[k] = node.element(size_t(k)).number(-1.0, 1.0);
+  for (int k = 0; k < 4; ++k) q[k] = node.element(size_t(k)).number(-2.0, 2.0);
   if (!is_nearly_unit(q)) node.fail("the quaternion is not of unit length", "x, y, z, w of length 1");
   return unit(q);
 }

@@ -278,6 +278,18 @@ void SceneMaker::add_notes() {
        " ignored: The picture is taken through the first camera");
   note(std::max<uint64_t>(document_.animations.size(), 1) - 1, "animation is", "animations are",
        " ignored: The first animation is played");
+  uint64_t unknown_paths = 0;
+  if (!document_.animations.empty())
+    for (const Channel& channel : document_.animations[0].channels) unknown_paths += channel.path == Path::unknown;
+  note(unknown_paths, "channel", "channels",
+       " of the animation without an effect: The path is none of translation, rotation, scale and weights");
+  std::string names;
+  constexpr size_t kNamed = 5;
+  const std::vector<std::string>& unread = document_.unread_extensions;
+  for (size_t i = 0; i < std::min(unread.size(), kNamed); ++i) names += (i > 0 ? ", " : "") + unread[i];
+  if (unread.size() > kNamed) names += ", ...";
+  note(unread.size(), "extension is", "extensions are",
+       (" not read, and the file is drawn as if it had none: " + names).c_str());
 }
 
 }  // namespace trueshade::gltf

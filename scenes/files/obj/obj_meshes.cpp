@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "core/error.h"
@@ -14,6 +15,8 @@ namespace trueshade::obj {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
+constexpr int kLongestList = 8;          // of the vertices, and of the sums, at a position; others are in a map
+constexpr uint64_t kBytesOfEntry = 128;  // of such a map, about
 
 class MeshMaker {
  public:
@@ -116,22 +119,41 @@ class MeshMaker {
 
   /// The sum of the smoothing group at a position.
   uint32_t sum_at(int32_t position) {
-    for (uint32_t sum = first_sum_[size_t(position)]; sum != kNone; sum = sums_[sum].next)
+    uint32_t& first = first_sum_[size_t(position)];
+    int listed = 0;
+    for (uint32_t sum = first; sum != kNone; sum = sums_[sum].next, ++listed)
       if (sums_[sum].group == group_) return sum;
-    return first_sum_[size_t(position)] = new_sum(first_sum_[size_t(position)]);
+    if (listed < kLongestList) return first = new_sum(first);
+    const auto [found, is_new] = more_sums_.try_emplace({position, group_}, kNone);
+    if (!is_new) return found->second;
+    take(kBytesOfEntry, polygon_);
+    return found->second = new_sum(kNone);
   }
 
   uint32_t vertex(const Corner& corner, uint64_t normal) {
     uint32_t& first = first_vertex_[size_t(corner.position)];
-    for (uint32_t v = first; v != kNone; v = vertices_[v].next) {
+    int listed = 0;
+    for (uint32_t v = first; v != kNone; v = vertices_[v].next, ++listed) {
       const Vertex& known = vertices_[v];
       if (known.normal == normal && known.uv == corner.uv && known.part == part_) return known.index;
     }
+    if (listed < kLongestList) {
+      const uint32_t index = new_vertex(corner, normal, first);
+      first = uint32_t(vertices_.size() - 1);
+      return index;
+    }
+    const auto [found, is_new] = more_vertices_.try_emplace({corner.position, corner.uv, normal, part_}, kNone);
+    if (!is_new) return found->second;
+    take(kBytesOfEntry, polygon_);
+    return found->second = new_vertex(corner, normal, kNone);
+  }
+
+  /// Its index in the part.
+  uint32_t new_vertex(const Corner& corner, uint64_t normal, uint32_t next) {
     Mesh& mesh = parts_[part_].mesh;
     const uint32_t index = uint32_t(mesh.vertex_count());
     take(sizeof(Vertex) + 12 * sizeof(float), polygon_);
-    vertices_.push_back({first, part_, index, corner.uv, normal});
-    first = uint32_t(vertices_.size() - 1);
+    vertices_.push_back({next, part_, index, corner.uv, normal});
     append(mesh, corner, normal);
     return index;
   }
@@ -173,6 +195,8 @@ class MeshMaker {
   std::vector<uint32_t> first_vertex_, first_sum_;  ///< of each position, into the lists below
   std::vector<Vertex> vertices_;
   std::vector<NormalSum> sums_;
+  std::map<std::tuple<int32_t, int32_t, uint64_t, uint32_t>, uint32_t> more_vertices_;  ///< indices in their parts
+  std::map<std::pair<int32_t, int32_t>, uint32_t> more_sums_;  ///< by position and smoothing group
   std::vector<ObjPart> parts_;
   std::map<std::pair<int32_t, int32_t>, uint32_t> part_of_;  ///< by object and material
   uint32_t part_ = 0;

@@ -81,6 +81,8 @@ TEST_CASE("required extensions that are not implemented are refused by name, oth
   CHECK(load_gltf(
             extensions(R"("extensionsUsed": ["EXT_unknown"], "extensions": {"EXT_unknown": {"x": 1}}, "extras": 7)"))
             .instances.empty());
+  CHECK(load_gltf(extensions(R"("extensionsUsed": ["EXT_a", "KHR_lights_punctual", "EXT_b"])")).notes ==
+        std::vector<std::string>{"2 extensions are not read, and the file is drawn as if it had none: EXT_a, EXT_b"});
   CHECK(
       load_gltf(
           extensions(R"("extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"])"))
@@ -129,6 +131,8 @@ TEST_CASE("buffers come from data URIs, files and the chunk BIN, and must be who
   };
   const std::string kind = "data:application/octet-stream;base64,";
   CHECK(load_gltf(buffer(R"("uri": ")" + kind + R"(AAEC", "byteLength": 3)")).instances.empty());
+  for (const char* in_capitals : {"DATA:application/octet-stream;BASE64,", "data:application/octet-stream;Base64,"})
+    CHECK_STARTS_WITH(refused(std::string(in_capitals) + "AAEC", 4), ": /buffers/0: there are 3 bytes");
   CHECK_STARTS_WITH(refused(kind + "AAEC", 4), ": /buffers/0: there are 3 bytes and byteLength says 4");
   CHECK_STARTS_WITH(refused(kind + "AAE"), ": /buffers/0/uri: the length of the base64 is no multiple of 4");
   CHECK_STARTS_WITH(refused(kind + "A=EC"), ": /buffers/0/uri: the base64 has a wrong character at 1");

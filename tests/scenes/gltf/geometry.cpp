@@ -224,6 +224,7 @@ TEST_CASE("hierarchies that are none are refused") {
   CHECK_STARTS_WITH(refused_nodes("{}", "0, 0"), ": /scenes/0/nodes/1: node 0 is named twice");
   CHECK_STARTS_WITH(refused_nodes("{}", "1"), ": /scenes/0/nodes/0: there is no node 1");
   CHECK_STARTS_WITH(refused_nodes(R"({"children": []})"), ": /nodes/0/children: found an array of 0");
+  CHECK(nodes(R"({"mesh": 0, "rotation": [0, 0, 1.0000001192092896, 0]})").instances.size() == 1);  // a rounded float
   CHECK_STARTS_WITH(refused_nodes(R"({"rotation": [0, 0, 0, 0.99]})"),
                     ": /nodes/0/rotation: the quaternion is not of unit length");
   CHECK_STARTS_WITH(refused_nodes(R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]})"),

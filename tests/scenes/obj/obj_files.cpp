@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 
 #include "scenes/files/obj/obj_scene.h"
@@ -130,6 +131,28 @@ TEST_CASE("OBJ: what is no face is named in a note, and what shapes no face is p
                                                 "1 curve or surface is not drawn, because only faces are drawn"});
   for (const char* without : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n"})
     CHECK(refusal(without) == "m.obj: the file has no faces (f statements: nothing else is drawn)");
+}
+
+TEST_CASE("OBJ: many vertices, groups or objects at one position take no time each by the others") {
+  constexpr int kFaces = 100000;
+  const auto faces = [](const char* before_each) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    for (int i = 1; i <= kFaces; ++i) {
+      if (*before_each != '\0') text += before_each + std::to_string(i) + '\n';
+      text += "f 1 2 3\n";
+    }
+    return text;
+  };
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  CHECK(read(faces("s "), MissingNormals::smooth).meshes[0].vertex_count() == 3 * kFaces);
+  CHECK(read(faces(""), MissingNormals::flat).meshes[0].vertex_count() == 3 * kFaces);
+  CHECK(read(faces(""), MissingNormals::smooth).meshes[0].vertex_count() == 3);
+  CHECK(read(faces("o "), MissingNormals::smooth).meshes.size() == kFaces);
+  std::string coordinates = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 1; i <= kFaces; ++i) coordinates += "vt 0." + std::to_string(i) + " 0\nf 1/-1 2/-1 3/-1\n";
+  CHECK(read(coordinates, MissingNormals::smooth).meshes[0].vertex_count() == 3 * kFaces);
+  CHECK(Clock::now() - start < std::chrono::seconds(20));  // 80 s each where each vertex is held against all others
 }
 
 TEST_CASE("OBJ: what is wrong names its line") {
