@@ -67,7 +67,7 @@ TEST_CASE("Pixels at the largest value of the target are counted, and of a float
   CHECK(has(said, "--target rgba16f"));
   CHECK(has(said_of(bright, {"--target", "rgb10_a2"}), "the largest value of rgb10_a2"));
   CHECK(said_of(bright, {"--target", "rgba16f"}).empty());
-  CHECK(said_of(bright, {"--target", "rgba16f", "-o", "x.exr"}).empty());
+  CHECK_FALSE(has(said_of(bright, {"--target", "rgba16f", "-o", "x.exr"}), "largest value"));
   CHECK(has(said_of(bright, {"--target", "rgba16f", "-o", "x.png"}), " of 192 pixels have a channel above 1, the "));
   CHECK_FALSE(has(said_of(kLamp, {"--target", "rgba16f", "-o", "x.png"}), "largest value"));
   CHECK_FALSE(has(said_of(kLamp), "largest value"));

@@ -14,7 +14,7 @@ TEST_CASE("what is no JSON is refused with line and column") {
   CHECK_STARTS_WITH(refusal(""), "f.json: line 1, column 1: this is not JSON");
   CHECK_STARTS_WITH(refusal("{\n  \"a\": 1,\n}"), "f.json: line 3, column 1: this is not JSON");
   CHECK_STARTS_WITH(refusal("[1 2]"), "f.json: line 1, column 4: this is not JSON");
-  CHECK_STARTS_WITH(refusal("[1,\n-1e999]"), "f.json: line 2, column 7: a number is too large (");
+  CHECK_STARTS_WITH(refusal("[1,\n-1e999]"), "f.json: line 2, column 6: a number is too large (");
   for (const char* bad :
        {"{",     "nul",     "[1,]",     "{\"a\"}",     "01",     "1.",    "+1", "'a'",   "NaN", "Infinity", "1e999",
         "[1] 2", "// c\n1", "\"\xff\"", "\"\\ud800\"", "\"\n\"", "{a:1}", "[1", "\"abc", "-",   "\x01"})
