@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "core/fp_env.h"
+#include "core/image_rows.h"
 #include "shading/output/view_image.h"
 
 namespace trueshade {
@@ -66,14 +69,18 @@ std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame
 
 /// Pixels with a channel above 1, of a format of floats.
 size_t pixels_above_1(const Image& picture) {
-  const int channels = std::min(info(picture.format).channels, 3);
+  const FpScope fp;
+  const size_t channels = size_t(std::min(info(picture.format).channels, 3)), width = size_t(picture.width);
+  std::vector<float> row(channels * width);
   size_t count = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
+  for (int y = 0; y < picture.height; ++y) {
+    read_row(picture, y, int(channels), row.data());
+    for (size_t x = 0; x < width; ++x) {
       bool any = false;
-      for (int c = 0; c < channels; ++c) any = any || picture.value(x, y, c) > 1.0;
+      for (size_t c = 0; c < channels; ++c) any |= row[channels * x + c] > 1.0f;
       count += any ? 1 : 0;
     }
+  }
   return count;
 }
 
