@@ -5,7 +5,7 @@
 namespace trueshade {
 
 /// The order that moves the lanes of a set to the front. A set of up to eight lanes has a bit for each lane. The row of
-/// a set has the numbers of its lanes, ascending, and then those of the other lanes. Vectors of four lanes read the
+/// a set lists the set's lanes from the lowest on, and behind them all other lanes. Vectors of four lanes read the
 /// first four numbers of the rows below 16.
 using FrontOrder = std::array<std::array<int32_t, 8>, 256>;
 

@@ -20,7 +20,7 @@ struct ClusterBins {
   std::vector<uint64_t> row_first;  ///< clusters of the instances of `row` before each; last, of all of them
   struct Piece {
     std::vector<ClusterDraw> draws;
-    std::vector<uint64_t> next;  ///< for each tile: the number of its clusters, later their next place in `list`
+    std::vector<uint64_t> next;  ///< for each tile: how many clusters it has; later where in `list` its next one goes
     uint64_t first;              ///< of `draws` among all
   };
   std::vector<Piece> piece;

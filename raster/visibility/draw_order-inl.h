@@ -90,7 +90,7 @@ inline std::span<ListedDraw> nearest_first(const TileDraws& in, const TileRect& 
   return {order, count};
 }
 
-/// Prefetches what drawing a cluster reads of its instance.
+/// Asks memory for what the drawing of a cluster will read of the cluster's instance.
 HWY_INLINE void fetch_instance(const TileDraws& in, const ListedDraw& draw) {
   hwy::Prefetch(&in.scene.instances[draw.instance]);
   const InstanceTransform& transform = in.view.instances[draw.instance];

@@ -19,7 +19,7 @@ struct LightShape {
   bool operator==(const LightShape&) const = default;
 };
 
-/// Whether a model states the exponent of its specular term. The other models take it from each surface.
+/// Whether the light model itself states the exponent of the highlight. In other models each surface states it.
 inline bool has_exponent(const LightModel& m) { return m.specular != Specular::none && !reads_specular_plane(m); }
 
 /// The shape of a model, whose exponent is read when the kernel runs.

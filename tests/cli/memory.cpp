@@ -382,7 +382,7 @@ TEST_CASE("whichever allocation is the last, and none succeeds after it, the com
                     "export LD_PRELOAD='" FAIL_ALLOCATIONS "' TRUESHADE_ALLOCATIONS=" + std::to_string(last));
     CAPTURE(last, outcome.exit_code, outcome.err);
     if (outcome.exit_code == 125) continue;  // timeout, which starts the command, had not enough
-    // glibc ends a process whose thread it cannot note a destructor for, and asks nobody.
+    // Where glibc has no memory to register a destructor of a thread, glibc ends the process, and we are not asked.
     if (outcome.err.starts_with("Fatal glibc error")) continue;
     CHECK((outcome.exit_code == 0 || outcome.exit_code == 6));
     drawn += outcome.exit_code == 0, refused += outcome.exit_code == 6;

@@ -130,8 +130,8 @@ TEST_CASE("What llvmpipe makes of textures is legal: every format, wrap and filt
   CHECK(tex > 0);
 }
 
-/// The room with maps of metal and roughness, emission and occlusion, one of its surfaces unlit by turns, under ambient
-/// light, and a pipeline that reads all of these.
+/// The room whose materials have maps of metal and roughness, emission and occlusion, under ambient light. `variant`
+/// chooses which of the maps are left out, and the one surface that is unlit.
 Scene metal_room(int variant) {
   Scene scene = textured_room(variant);
   scene.spec = "metal room " + std::to_string(variant);

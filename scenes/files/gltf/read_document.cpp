@@ -10,16 +10,10 @@
 namespace trueshade::gltf {
 namespace {
 
-/// An extension that is read. Where it is not drawn, its fields are kept and no stage reads them, so that a file must
-/// not require it.
-struct Extension {
-  std::string_view name;
-  bool drawn;
-};
-constexpr Extension kExtensions[] = {{"KHR_lights_punctual", true},    {"KHR_texture_transform", true},
-                                     {"KHR_materials_unlit", true},    {"KHR_materials_emissive_strength", true},
-                                     {"KHR_mesh_quantization", true},  {"EXT_mesh_gpu_instancing", true},
-                                     {"EXT_meshopt_compression", true}};
+/// The extensions that are read and drawn.
+constexpr std::string_view kExtensions[] = {
+    "KHR_lights_punctual",   "KHR_texture_transform",   "KHR_materials_unlit",    "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "EXT_meshopt_compression"};
 
 struct Version {
   int major = 0, minor = 0;
@@ -52,34 +46,23 @@ void check_asset(const json::Node& root) {
     least->fail("a reader of glTF " + least->string() + " is needed", "glTF 2.0");
 }
 
-std::string drawn_extensions() {
-  std::string all;
-  for (const Extension& extension : kExtensions)
-    if (extension.drawn) all += (all.empty() ? "" : " ") + std::string(extension.name);
-  return all;
-}
-
-const Extension* extension_named(std::string_view name) {
-  return std::find_if(std::begin(kExtensions), std::end(kExtensions),
-                      [&](const Extension& e) { return e.name == name; });
+bool is_read(std::string_view extension) {
+  return std::find(std::begin(kExtensions), std::end(kExtensions), extension) != std::end(kExtensions);
 }
 
 void check_required(const json::Node& name) {
-  const Extension* const extension = extension_named(name.string());
-  if (extension != std::end(kExtensions) && extension->drawn) return;
-  std::string quoted;
+  if (is_read(name.string())) return;
+  std::string quoted, all;
   json::append_string(quoted, std::string_view(name.string()).substr(0, 80));
-  const bool is_read = extension != std::end(kExtensions);
-  name.fail("the required extension " + quoted + (is_read ? " is read but not drawn yet" : " is not implemented"),
-            "export without it; implemented are " + drawn_extensions());
+  for (const std::string_view extension : kExtensions) all += (all.empty() ? "" : " ") + std::string(extension);
+  name.fail("the required extension " + quoted + " is not implemented", "export without it; implemented are " + all);
 }
 
 void read_extensions(const json::Node& root, Document& document) {
   std::set<std::string_view> used, required;
   for_each(root, "extensionsUsed", [&](const json::Node& name, size_t) {
     if (!used.insert(name.string()).second) name.fail("an extension is named twice", "each once");
-    if (extension_named(name.string()) == std::end(kExtensions))
-      document.unread_extensions.push_back(std::string(name.string()).substr(0, 80));
+    if (!is_read(name.string())) document.unread_extensions.push_back(std::string(name.string()).substr(0, 80));
   });
   for_each(root, "extensionsRequired", [&](const json::Node& name, size_t) {
     if (!required.insert(name.string()).second) name.fail("an extension is named twice", "each once");

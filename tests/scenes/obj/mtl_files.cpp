@@ -114,7 +114,7 @@ TEST_CASE("MTL: a picture is read once for all that read it alike") {
   CHECK(m.emission == glm::vec3(1.0f));
 }
 
-/// Files of materials that are drawn one after another, each with a picture of its own.
+/// An OBJ whose triangles have `count` materials, and the MTL of these, in which each material names another picture.
 Files with_pictures(int count) {
   Files files;
   files.obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
