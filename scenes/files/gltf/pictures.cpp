@@ -115,24 +115,27 @@ void Pictures::check_media_types(const std::map<uint32_t, std::string_view>& kin
   scene_.notes.push_back(first);
 }
 
-void Pictures::decode_all() {
-  for (size_t first = 0; first < wanted_.size(); first += kTogether)
-    decode_some(first, std::min(kTogether, wanted_.size() - first));
+void Pictures::decode_all(const std::function<void()>& meanwhile) {
+  decode_some(0, std::min(kTogether, wanted_.size()), meanwhile);
+  for (size_t first = kTogether; first < wanted_.size(); first += kTogether)
+    decode_some(first, std::min(kTogether, wanted_.size() - first), [] {});
   parallel_for(int(wanted_.size()), 0, [&](int i) {
     if (wanted_[size_t(i)].has_levels) build_mip_chain(scene_.textures[size_t(i)]);
   });
 }
 
-void Pictures::decode_some(size_t first, size_t count) {
+void Pictures::decode_some(size_t first, size_t count, const std::function<void()>& meanwhile) {
   std::vector<Task> tasks(count);
   for (size_t i = 0; i < count; ++i) tasks[i].content = content(wanted_[first + i].image);
   // A chain of levels adds a third at most.
   const auto left = [this] { return (limits_.texture_bytes - std::min(limits_.texture_bytes, bytes_)) / 4 * 3; };
   const uint64_t share = left() / kTogether;
-  parallel_for(int(count), 0, [&](int i) {
-    Task& task = tasks[size_t(i)];
+  parallel_for(int(count) + 1, 0, [&](int i) {
+    if (i == 0) return meanwhile();  // what it throws ends the loop
+    const size_t at = size_t(i) - 1;
+    Task& task = tasks[at];
     try {
-      task.image = decode_(task.content.bytes, place_of(wanted_[first + size_t(i)].image), share);
+      task.image = decode_(task.content.bytes, place_of(wanted_[first + at].image), share);
     } catch (const Error& error) {
       task.too_large = error.kind() == ErrorKind::limit;
       task.error = std::current_exception();

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -30,9 +31,11 @@ class Pictures {
   /// one is an error. Adds a note to the scene where a media type is not what the picture is.
   void check();
 
-  /// Decodes what was checked. Error(bad_input) for a picture that is broken; Error(limit) for pictures and their
-  /// levels over limits.texture_bytes. The error is the same however many cores there are.
-  void decode_all();
+  /// Decodes what was checked, while one of the cores does `meanwhile`, which neither asks for another picture nor
+  /// touches the scene's textures. Error(bad_input) for a picture that is broken; Error(limit) for pictures and their
+  /// levels over limits.texture_bytes. The error is the same however many cores there are: that of `meanwhile`, if it
+  /// throws, else that of the first picture. No picture is begun after `meanwhile` has failed.
+  void decode_all(const std::function<void()>& meanwhile);
 
  private:
   struct Wanted {
@@ -45,7 +48,7 @@ class Pictures {
   uint32_t first_with_content_of(uint32_t image);
   std::string_view check_content(uint32_t image) const;
   void check_media_types(const std::map<uint32_t, std::string_view>& kinds);
-  void decode_some(size_t first, size_t count);
+  void decode_some(size_t first, size_t count, const std::function<void()>& meanwhile);
   void take(Image image, size_t index);
   Content content(uint32_t image) const;
   void check_file(uint32_t image) const;

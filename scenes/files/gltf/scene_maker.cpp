@@ -27,14 +27,7 @@ Scene SceneMaker::make() {
   scene_.spec = document_.file;
   scene_.photometric = true;
   prepare();
-  timeline.nodes = scene_nodes(document_, hierarchy_);
-  if (animation()) {
-    timeline.node_motions = node_motions(accessors_, *animation(), hierarchy_);
-    for (const Channel& channel : animation()->channels)
-      if (channel.path == Path::weights && channel.node != kNone) weight_channels_.emplace(channel.node, &channel);
-  }
-  for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) add_node(place);
-  check_the_rest();
+  pictures_.decode_all([this] { read_geometry_and_nodes(); });
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
   if (!timeline.node_camera) scene_.camera = camera_seeing(bounds_of(scene_));
@@ -255,12 +248,20 @@ uint32_t SceneMaker::scene_skin(uint32_t skin) {
   return found->second;
 }
 
-/// What the scene does not draw is read too, so that whether a file is broken does not depend on its default scene.
-void SceneMaker::check_the_rest() {
+/// All that lies in buffers but pictures. What the scene does not draw is read too, so that whether a file is broken
+/// does not depend on its default scene.
+void SceneMaker::read_geometry_and_nodes() {
+  Timeline& timeline = scene_.timeline;
+  timeline.nodes = scene_nodes(document_, hierarchy_);
+  if (animation()) {
+    timeline.node_motions = node_motions(accessors_, *animation(), hierarchy_);
+    for (const Channel& channel : animation()->channels)
+      if (channel.path == Path::weights && channel.node != kNone) weight_channels_.emplace(channel.node, &channel);
+  }
+  for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) add_node(place);
   for (const auto& [place, drawn] : drawn_of_primitive_) drawn_of(place.first, place.second);
   for (const SkinSource& skin : document_.skins)
     if (skin.inverse_bind != kNone) accessors_.matrices(skin.inverse_bind);
-  pictures_.decode_all();
 }
 
 void SceneMaker::add_notes() {

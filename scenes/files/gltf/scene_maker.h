@@ -52,7 +52,7 @@ class SceneMaker {
   size_t uv_sets_of(const Primitive& primitive) const;
   const AnimationSource* animation() const;
   bool moves() const;
-  void check_the_rest();
+  void read_geometry_and_nodes();
   void add_notes();
 
   const Document& document_;

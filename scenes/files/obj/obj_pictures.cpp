@@ -111,20 +111,20 @@ struct ObjPictures::Task {
   Image image;
 };
 
-void ObjPictures::decode_ahead(std::span<const WantedPicture> wanted) {
-  if (!decode_) return;
+void ObjPictures::decode_ahead(std::span<const WantedPicture> wanted, const std::function<void()>& meanwhile) {
   std::vector<Task> tasks;
   std::set<std::string> paths;
-  for (const WantedPicture& picture : wanted)
+  for (const WantedPicture& picture : decode_ ? wanted : std::span<const WantedPicture>())
     attempt([&] {
       const MtlDocument& document = *picture.document;
       Task task{key_of(document, *picture.map), place_of(document, *picture.map), {}, {}};
       if (paths.insert(task.path).second) tasks.push_back(std::move(task));
     });
   uint64_t left = limits_.texture_bytes;
-  for (size_t first = 0; first < tasks.size(); first += kTogether) {
-    const std::span<Task> together(&tasks[first], std::min(kTogether, tasks.size() - first));
-    decode_some(together, without_levels(left) / kTogether);
+  for (size_t first = 0; first == 0 || first < tasks.size(); first += kTogether) {
+    const std::span<Task> together = std::span(tasks).subspan(first, std::min(kTogether, tasks.size() - first));
+    decode_some(
+        together, without_levels(left) / kTogether, first == 0 ? meanwhile : [] {});
     for (Task& task : together) {
       if (task.image.texels.empty()) continue;
       left -= std::min<uint64_t>(left, task.image.texels.size());
@@ -133,10 +133,11 @@ void ObjPictures::decode_ahead(std::span<const WantedPicture> wanted) {
   }
 }
 
-void ObjPictures::decode_some(std::span<Task> tasks, uint64_t share) const {
+void ObjPictures::decode_some(std::span<Task> tasks, uint64_t share, const std::function<void()>& meanwhile) const {
   for (Task& task : tasks) attempt([&] { task.content = read_(task.path, limits_.file_bytes, task.where); });
-  parallel_for(int(tasks.size()), 0, [&](int i) {
-    Task& task = tasks[size_t(i)];
+  parallel_for(int(tasks.size()) + 1, 0, [&](int i) {
+    if (i == 0) return meanwhile();  // what it throws ends the loop
+    Task& task = tasks[size_t(i) - 1];
     if (task.content.empty()) return;
     attempt([&] { task.image = decode_(task.content, task.where + ": " + task.path, share); });
     task.content = Bytes();

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -31,9 +32,10 @@ class ObjPictures {
   ObjPictures(const FileReader& read, const ImageDecoder& decode, const SceneLimits& limits, Scene& scene)
       : read_(read), decode_(decode), limits_(limits), scene_(scene) {}
 
-  /// Reads pictures and decodes them by all cores, for the functions below. What fails is left to them to try again, so
-  /// that the error is that of the first picture in the order of use, however many cores there are.
-  void decode_ahead(std::span<const WantedPicture> wanted);
+  /// Reads pictures and decodes them by all cores, of which one does `meanwhile`, for the functions below. What fails
+  /// is left to them to try again, so that the error is that of the first picture in the order of use, however many
+  /// cores there are. Throws what `meanwhile` throws; no picture is begun after that.
+  void decode_ahead(std::span<const WantedPicture> wanted, const std::function<void()>& meanwhile);
 
   /// Index of a texture, which has its first level alone before build_levels(). Errors: bad_input with the line of the
   /// statement, limit over limits.texture_bytes, io.
@@ -57,7 +59,7 @@ class ObjPictures {
  private:
   struct Task;
 
-  void decode_some(std::span<Task> tasks, uint64_t share) const;
+  void decode_some(std::span<Task> tasks, uint64_t share, const std::function<void()>& meanwhile) const;
   Image decoded(const MtlDocument& document, const MapSource& map);
   int32_t add(Texture texture, const std::string& where);
   template <typename Make>

@@ -40,17 +40,20 @@ class Libraries {
     drawn_.resize(document.material_names.size() + 1, -1);
   }
 
-  /// Decodes the pictures of the materials that parts are drawn in, by all cores.
-  void decode_pictures(std::span<const ObjPart> parts) {
+  /// Decodes the pictures of the materials that polygons are drawn in, by all cores, of which one does `meanwhile`.
+  void decode_pictures(const std::function<void()>& meanwhile) {
     std::vector<WantedPicture> wanted;
     std::set<int32_t> seen;
-    for (const ObjPart& part : parts) {
-      if (part.material < 0 || !seen.insert(part.material).second) continue;
-      const auto found = defined_.find(document_.material_names[size_t(part.material)]);
+    for (size_t i = 0; i < document_.runs.size(); ++i) {
+      const Run& run = document_.runs[i];
+      const size_t end =
+          i + 1 < document_.runs.size() ? document_.runs[i + 1].first_polygon : document_.polygon_count();
+      if (run.first_polygon == end || run.material < 0 || !seen.insert(run.material).second) continue;
+      const auto found = defined_.find(document_.material_names[size_t(run.material)]);
       if (found == defined_.end()) continue;
       for (const MapSource* map : maps_of(*found->second.material)) wanted.push_back({found->second.document, map});
     }
-    pictures_.decode_ahead(wanted);
+    pictures_.decode_ahead(wanted, meanwhile);
   }
 
   void build_levels() { pictures_.build_levels(); }
@@ -134,10 +137,10 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
   scene.spec = path;
   obj::ObjDocument document = obj::read_obj(file, path, limits);
   obj::Libraries libraries(document, limits, decode, read, scene);
-  std::vector<obj::ObjPart> parts = obj::parts_of(document, missing_normals, limits);
+  std::vector<obj::ObjPart> parts;
+  libraries.decode_pictures([&] { parts = obj::parts_of(document, missing_normals, limits); });
   if (parts.empty())
     throw Error(ErrorKind::bad_input, path, "the file has no faces", "f statements: nothing else is drawn");
-  libraries.decode_pictures(parts);
   for (obj::ObjPart& part : parts) {
     Instance instance;
     instance.mesh = uint32_t(scene.meshes.size());

@@ -1,5 +1,8 @@
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <ctime>
+#include <thread>
 
 #include "../expect_error.h"
 #include "asset.h"
@@ -211,6 +214,50 @@ TEST_CASE("headers of all pictures are read before the first is decoded, and ima
   CHECK(scene.textures.size() == 1);
   CHECK(scene.materials.size() == 17);
   CHECK(decoded == 1);
+}
+
+TEST_CASE("broken geometry is named before broken pictures, and few pictures are decoded beside it") {
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
+  asset.accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");
+  asset.accessor(std::vector<uint16_t>{0, 1, 7}, "SCALAR");  // there is no vertex 7
+  constexpr int kPictures = 64;
+  std::string materials, textures, images, primitives;
+  for (int i = 0; i < kPictures; ++i) {
+    const std::string comma = i > 0 ? ", " : "", index = std::to_string(i),
+                      content = "\x89PNG\r\n\x1a\n\2\2" + std::string(i >= 3 ? "broken" : "abcd");
+    const int view = asset.view(std::vector<char>(content.begin(), content.end()));
+    materials += comma + R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": )" + index + "}}}";
+    textures += comma + R"({"source": )" + index + "}";
+    images += comma + R"({"mimeType": "image/png", "bufferView": )" + std::to_string(view) + "}";
+    primitives +=
+        comma + R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": )" + index + "}";
+  }
+  const auto text = [&](const std::string& more_primitives) {
+    return asset.gltf(R"("nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" + primitives + more_primitives +
+                      R"(]}], "materials": [)" + materials + R"(], "textures": [)" + textures + R"(], "images": [)" +
+                      images + "]");
+  };
+  std::atomic<int> decoded = 0;
+  const ImageDecoder decode = [&](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
+    if (most > 0) {
+      ++decoded;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // geometry takes less
+      if (content.size() > 14) throw Error(ErrorKind::bad_input, where, "it is broken", "a whole one");
+    }
+    return decode_plain(content, where, most);
+  };
+  const ScratchFolder scratch;
+  const auto refused = [&](const std::string& more_primitives) {
+    decoded = 0;
+    return error_of(ErrorKind::bad_input,
+                    [&] { load_scene(scratch.write("b.gltf", text(more_primitives)), {}, decode); });
+  };
+  CHECK(refused("").find("/images/3: it is broken") != std::string::npos);
+  CHECK(decoded <= 8);  // that are decoded together
+  CHECK(refused(R"(, {"attributes": {"POSITION": 0}, "indices": 3})").find("/primitives/64") != std::string::npos);
+  CHECK(decoded < int(std::max(2u, 2 * std::thread::hardware_concurrency())));
 }
 
 TEST_CASE("a primitive that uses few vertices of a large accessor keeps these, its triangles and the bounds of all") {

@@ -164,6 +164,17 @@ TEST_CASE("MTL: of pictures that cannot be decoded the first in use is named") {
   }
 }
 
+TEST_CASE("MTL: a polygon that is refused is named before pictures that are") {
+  Files files = with_pictures(12);
+  files.files["0.png"] = "broken";
+  files.decode = [](std::span<const uint8_t>, const std::string& where, uint64_t) -> Image {
+    throw Error(ErrorKind::bad_input, where, "it is broken", "a whole one");
+  };
+  CHECK_THAT(error_of(ErrorKind::bad_input, [&] { files.read(); }), Catch::Matchers::Contains("0.png: it is broken"));
+  files.limits.geometry_bytes = 1;
+  CHECK_THAT(error_of(ErrorKind::limit, [&] { files.read(); }), Catch::Matchers::Contains("geometry"));
+}
+
 TEST_CASE("MTL: pictures and their smaller levels are held to the limit, narrow ones too") {
   // A column of 2 texels has 8 bytes, and its level of 1 another 4: half as many again, where a square has a third.
   Files files = with_pictures(4);

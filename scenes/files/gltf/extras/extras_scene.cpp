@@ -67,7 +67,7 @@ class ExtrasSceneMaker {
                             ? -1
                             : pictures_.texture(texture.image, texture.format, texture.levels == Levels::filtered));
     pictures_.check();
-    pictures_.decode_all();
+    pictures_.decode_all([] {});
     for (size_t i = 0; i < extras_.textures.size(); ++i) {
       const TextureExtras& from = extras_.textures[i];
       Texture texture = sources[i] < 0 ? stored(from) : decoded_.textures[size_t(sources[i])];
