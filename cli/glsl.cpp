@@ -1,59 +1,77 @@
-#include "gl/emit/glsl.h"
-
-#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/commands.h"
 #include "cli/preparation.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
-#include "gl/emit/post_glsl.h"
 #include "gl/emit/state_list.h"
+#include "gl/lists/frame_files.h"
+#include "gl/lists/scene_records.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
 
-void write_glsl(const GlslFilesOptions& options) {
-  PipelineOptions chosen;
-  chosen.preset = options.preset;
-  chosen.strategy = options.strategy;
-  chosen.pipeline_file = options.pipeline_file;
-  const Pipeline pipeline = pipeline_of(chosen, Scene{});
-  oracle::GlslOptions judge;
-  judge.maps = judge.specular_maps = judge.normal_maps = judge.more_uv = judge.double_sided = options.maps;
-  judge.metal_maps = judge.emission_maps = judge.occlusion_maps = judge.unlit = options.maps;
-  judge.transparent = pipeline.transparency.mode != TransparencyMode::none;
-  const oracle::GlslShaders shaders = oracle::shaders_of(pipeline, judge);
+namespace {
+
+/// What the shaders depend on where no scene says it.
+oracle::GlslOptions options_without_scene(const GlslFilesOptions& asked, const Pipeline& pipeline) {
+  oracle::GlslOptions options;
+  options.maps = options.specular_maps = options.normal_maps = options.more_uv = options.double_sided = asked.maps;
+  options.metal_maps = options.emission_maps = options.occlusion_maps = options.unlit = asked.maps;
+  options.transparent = pipeline.transparency.mode != TransparencyMode::none;
+  return options;
+}
+
+/// Of that scene, with the planes that a capture has; halves of three channels are no format that must be rendered to.
+oracle::GlslOptions options_of_scene(const Scene& scene) {
+  oracle::GlslOptions options = oracle::scene_options(scene);
+  options.primitive = options.rgb16f = false;
+  return options;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace
+
+void write_glsl(const GlslFilesOptions& asked) {
+  std::optional<Scene> scene;
+  if (!asked.scene.empty()) {
+    check_pipeline(asked);
+    scene = scene_of_options(asked.scene, asked.limits);
+    set_time(*scene, asked.time);
+  }
+  const Pipeline pipeline = pipeline_of(asked, scene ? *scene : Scene{});
+  if (scene) fit_lights_of_ours(*scene, pipeline.light_model);
+  oracle::GlslOptions options = scene ? options_of_scene(*scene) : options_without_scene(asked, pipeline);
+  options.version = oracle::version_of(asked.api);
+  if (asked.api == oracle::ShaderApi::es31) options.primitive = false;
+  if (asked.api != oracle::ShaderApi::gl) options.rgb16f = false;
+  const oracle::ShaderTexts shaders = oracle::shader_files(pipeline, options, asked.api);
+  std::string state = "{\n" + oracle::state_list(pipeline, options, asked.api);
+  std::optional<oracle::FrameFiles> frame;
+  if (scene) {
+    frame = oracle::frame_files(oracle::frame_list(*scene, pipeline, options), asked.api, "state.bin");
+    state += ",\n" + frame->members;
+  }
   std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error) throw Error(ErrorKind::io, options.folder, "cannot make the folder: " + error.message(), "choose another");
-  std::vector<std::pair<std::string, std::string>> files = {{"geometry.vert", shaders.geometry_vert},
-                                                            {"geometry.frag", shaders.geometry_frag},
-                                                            {"light.vert", shaders.light_vert},
-                                                            {"light.frag", shaders.light_frag},
-                                                            {"base.frag", shaders.base_frag},
-                                                            {"transparent.vert", shaders.transparent_vert},
-                                                            {"transparent.frag", shaders.transparent_frag},
-                                                            {"state.json", oracle::state_list(pipeline, judge)}};
-  for (const oracle::PostPass& pass : oracle::post_passes(pipeline, judge.version)) {
-    const std::string name = "post_" + pass.name + ".frag";
-    if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return file.first == name; }))
-      files.emplace_back(name, pass.frag);
-  }
-  if (pipeline.post.active()) files.emplace_back("post.vert", oracle::fullscreen_vertex_text(judge.version));
-  if (pipeline.post.marker_radius > 0.0f) {
-    files.emplace_back("markers.vert", oracle::marker_vertex_text(pipeline, judge.version));
-    files.emplace_back("markers.frag", oracle::marker_fragment_text(pipeline, judge.version));
-  }
+  std::filesystem::create_directories(asked.folder, error);
+  if (error) throw Error(ErrorKind::io, asked.folder, "cannot make the folder: " + error.message(), "choose another");
   std::string written;
-  for (const auto& [name, text] : files) {
-    if (text.empty()) continue;
-    const std::string path = options.folder + '/' + name;
-    write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-    written += path + '\n';
+  for (const auto& [name, text] : shaders) {
+    write_text(asked.folder + '/' + name, text);
+    written += asked.folder + '/' + name + '\n';
+  }
+  write_text(asked.folder + "/state.json", state + "\n}\n");
+  written += asked.folder + "/state.json\n";
+  if (frame) {
+    write_file(asked.folder + "/state.bin", frame->bytes);
+    written += asked.folder + "/state.bin\n";
   }
   print(written);
 }

@@ -109,17 +109,19 @@ void add_limit_options(CLI::App* command, LimitedOptions& options) {
   }
 }
 
-/// The options of PipelineOptions but for the target.
-void add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
+/// The options of PipelineOptions but for the target. Returns that of the scene.
+CLI::Option* add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
   std::string names;
   for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
-  add_value(command, "SCENE", "FILE", options.scene,
-            "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
-      ->required();
+  CLI::Option* scene =
+      add_value(command, "SCENE", "FILE", options.scene,
+                "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+          ->required();
   add_value(command, "--preset", "NAME", options.preset, "Row of numbers the pipeline starts from: " + names);
   add_value(command, "--pipeline", "FILE", options.pipeline_file,
             "JSON file of values that replace the preset's and the scene's");
   add_value(command, "--size", "WxH", size, "Image size in pixels, WIDTHxHEIGHT");
+  return scene;
 }
 
 CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) {
@@ -178,19 +180,41 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   return options;
 }
 
-CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, std::optional<std::string>& strategy) {
-  CLI::App* glsl = app.add_subcommand("glsl", "Write a preset as GLSL shaders and a list of OpenGL state");
-  add_value(glsl, "--preset", "NAME", options.preset, "Row of numbers, as for render")->required();
-  add_value(glsl, "--pipeline", "FILE", options.pipeline_file, "Pipeline in JSON, over the preset");
-  add_value(glsl, "--strategy", "NAME", strategy, "How lights come to pixels: " + joined(kStrategyNames));
-  add_switch(glsl, "--maps", options.maps, "Materials with colour, specular and normal maps and alpha masks");
+/// Option values of glsl as text.
+struct GlslTexts {
+  std::optional<std::string> api, size, strategy, time;
+};
+
+CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, GlslTexts& texts) {
+  CLI::App* glsl = app.add_subcommand("glsl", "Write a pipeline, or a whole frame, as shaders and state for a GPU");
+  add_pipeline_options(glsl, options, texts.size)->required(false);
+  add_value(glsl, "--api", "NAME", texts.api,
+            "Whose GLSL and state, without it gl: " + joined(oracle::kShaderApiNames));
+  add_value(glsl, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(glsl, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_switch(glsl, "--maps", options.maps,
+             "Without a scene: materials with colour, specular and normal maps and alpha masks");
   add_value(glsl, "-o,--output", "FOLDER", options.folder, "Folder for the files; made if it is not there")->required();
+  add_limit_options(glsl, options);
   return glsl;
 }
 
-GlslFilesOptions finished(GlslFilesOptions options, const std::optional<std::string>& strategy) {
+GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
   check_preset(options.preset);
-  if (strategy) options.strategy = strategy_from_text("--strategy", *strategy);
+  if (options.scene.empty() && !options.preset)
+    throw usage("glsl", "neither a scene nor a preset is named", "name a scene, or add --preset NAME");
+  if (!options.scene.empty() && options.maps)
+    throw usage("--maps", "the scene's materials say which maps there are", "leave out --maps or the scene");
+  if (options.scene.empty() && texts.time) throw usage("--time", "there is no scene", "name one, or leave out --time");
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.api) {
+    const auto found = std::find(std::begin(oracle::kShaderApiNames), std::end(oracle::kShaderApiNames), *texts.api);
+    if (found == std::end(oracle::kShaderApiNames))
+      throw usage("--api", "there is no '" + *texts.api + "'", "one of: " + joined(oracle::kShaderApiNames));
+    options.api = oracle::ShaderApi(found - std::begin(oracle::kShaderApiNames));
+  }
   return options;
 }
 
@@ -378,7 +402,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   InfoOptions info;
   ListOptions list;
   GlslFilesOptions glsl;
-  std::optional<std::string> glsl_strategy;
+  GlslTexts glsl_texts;
   ExportOptions exported;
   std::optional<std::string> export_time;
   ValidationOptions validation;
@@ -391,7 +415,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   add_limit_options(info_command, info);
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   add_switch(list_command, "--json", list.json, "As one JSON document");
-  const CLI::App* glsl_command = add_glsl(app, glsl, glsl_strategy);
+  const CLI::App* glsl_command = add_glsl(app, glsl, glsl_texts);
   const CLI::App* export_command = add_export(app, exported, export_time);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
@@ -422,7 +446,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
     check_scene(info.file);
     return info;
   }
-  if (glsl_command->parsed()) return finished(std::move(glsl), glsl_strategy);
+  if (glsl_command->parsed()) return finished(std::move(glsl), glsl_texts);
   if (export_command->parsed()) return finished(std::move(exported), export_time);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);

@@ -6,6 +6,7 @@
 
 #include "cli/limit_options.h"
 #include "core/image_files/image_io.h"
+#include "gl/emit/glsl_terms.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -70,13 +71,12 @@ struct ListOptions {
   bool json = false;
 };
 
-/// `trueshade glsl`
-struct GlslFilesOptions {
-  std::string preset;  ///< name of a row
-  std::optional<Strategy> strategy;
-  std::optional<std::string> pipeline_file;  ///< over the preset
-  bool maps = false;                         ///< shaders of materials with colour, specular and normal maps
-  std::string folder;                        ///< made if it is not there
+/// `trueshade glsl`: a pipeline's shaders and state, and with a scene the frame's data too.
+struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
+  oracle::ShaderApi api = oracle::ShaderApi::gl;
+  double time = 0.0;   ///< seconds of the scene's timeline
+  bool maps = false;   ///< without a scene: shaders of materials with colour, specular and normal maps
+  std::string folder;  ///< made if it is not there
 };
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
@@ -107,9 +107,8 @@ struct PrintText {
   std::string text;
 };
 
-using Command =
-    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
-                 BenchOptions, PrintText>;
+using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
+                             ValidationOptions, BenchOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

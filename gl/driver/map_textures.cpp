@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gl/lists/scene_records.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -93,10 +95,7 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
                                           : uploaded(none, Sampler{}));
     return textures;
   };
-  more_uv_ = any([](const Material& m) {
-    const auto maps = maps_of(m);
-    return std::any_of(maps.begin(), maps.end(), [](const TextureSlot* map) { return map->used() && map->uv_set > 0; });
-  });
+  more_uv_ = reads_more_uv(scene);
   white_ = uploaded(white, Sampler{});
   color_ = upload(&Material::color_map, white);
   const auto uploaded_if_any = [&](const TextureSlot Material::*slot, const Texture& none) {

@@ -15,7 +15,6 @@
 #include "gl/driver/surface_uniforms.h"
 #include "gl/emit/post_glsl.h"
 #include "oracle/exact_coverage.h"
-#include "oracle/matrices.h"
 #include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
@@ -238,11 +237,7 @@ class LightPass {
     }
     show(-1, t_.light.framebuffer);
     use(programs_.light);
-    const Matrix4 clip = projection_of(scene_.camera, pipeline_.geometry, pipeline_.width, pipeline_.height);
-    std::array<float, 16> rows{};
-    for (size_t r = 0; r < 4; ++r)
-      for (size_t c = 0; c < 4; ++c) rows[4 * r + c] = float(clip[4 * c + r]);
-    glUniform4fv(glGetUniformLocation(programs_.light, "clip_from_world"), 4, rows.data());
+    set_clip_rows(programs_.light, scene_, pipeline_);
     BlendState blend = pipeline_.blend;
     if (stands_in_) blend.mask[3] = false;
     const LightMeshes meshes(pipeline_.light_volumes);
@@ -303,21 +298,11 @@ GlRenderer::GlRenderer(const GlContext& context, const Scene& scene, int rotatio
 GlRenderer::~GlRenderer() { context_->make_current(); }  // what it owns is freed in that context
 
 GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
-  GlslOptions options;
+  GlslOptions options = scene_options(buffers_->scene());
   options.version = context_->info().major * 10 + context_->info().minor >= 45 ? 450 : 330;
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
-  options.maps = buffers_->maps().used();
-  options.specular_maps = buffers_->maps().specular();
-  options.normal_maps = buffers_->maps().normal();
-  options.metal_maps = buffers_->maps().metal();
-  options.emission_maps = buffers_->maps().emission();
-  options.occlusion_maps = buffers_->maps().occlusion();
-  options.more_uv = buffers_->maps().more_uv();
-  options.double_sided = buffers_->has_double_sided();
-  options.unlit = buffers_->has_unlit();
-  options.transparent = buffers_->has_transparent();
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
   return options;

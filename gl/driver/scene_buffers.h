@@ -1,33 +1,18 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "gl/driver/map_textures.h"
 #include "gl/driver/objects.h"
+#include "gl/lists/scene_records.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
 
-/// A run of instances, consecutive in the scene, of one mesh, all transparent, double-sided or mirrored or none, and,
-/// where materials have maps, of one material: one instanced draw.
-struct InstanceRun {
-  uint32_t mesh = 0, material = 0;
-  uint32_t first = 0, count = 0;
-  bool transparent = false, double_sided = false, mirrored = false;
-};
-
 /// Which surfaces a pass draws.
 enum class Surfaces : uint8_t { all, opaque, transparent };
-
-/// What a draw needs to know of an instance.
-struct InstanceRecord {
-  static constexpr int kFloats = 4 * 4 + 3 * 4 + 3 * 3 + 4;  ///< clip rows, world rows, normal rows, base colour
-  std::array<float, kFloats> values;
-  std::array<uint32_t, 2> ids;
-};
 
 /// A scene on the GPU: each mesh once, lights as texels. Instance matrices follow when a camera and a size are known.
 class SceneBuffers {
@@ -42,8 +27,6 @@ class SceneBuffers {
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);
-  bool has_transparent() const;
-  bool has_double_sided() const;
   /// Every triangle of those surfaces, in submission order, by the program in use, culled as the state in force
   /// says; where there are double-sided or mirrored ones, as that of upload_instances()'s pipeline says for them; one
   /// of GlslOptions::maps where maps() are used; texture units 11 (frames of normal maps) and 13 to 19.
@@ -58,7 +41,6 @@ class SceneBuffers {
   GLuint light_texels(const LightModel& model);
   /// Material records as material_text() reads them.
   GLuint material_texels(const Pipeline& pipeline);
-  bool has_unlit() const;
 
  private:
   struct MeshBuffers {
@@ -71,30 +53,19 @@ class SceneBuffers {
   MeshBuffers upload(const Mesh& mesh, int rotation) const;
   void draw_run(const InstanceRun& run, GLuint program) const;
   void set_faces_of(const InstanceRun& run) const;
-  InstanceRun run_of(uint32_t instance) const;
 
   const Scene* scene_;
   MapTextures maps_;
+  bool double_sided_;  ///< some material is
   std::vector<MeshBuffers> meshes_;
   std::vector<InstanceRun> runs_;
   GlBuffer instances_;
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
   bool has_own_faces_ = false;           ///< some run is not drawn with the pipeline's culling and front face
-  CullFace culled_ = CullFace::none;     ///< of the pipeline that it was made for
-  FrontFace front_ = FrontFace::ccw;
+  GeometryState faces_;                  ///< of the pipeline that the records were made for
   GlTexelBuffer lights_, materials_;
   std::optional<LightModel> uploaded_;    ///< whose records lights_ holds
   std::optional<Pipeline> materials_of_;  ///< whose records materials_ holds
 };
-
-/// A spot light's cone as shaders read it: LightLayout says what the numbers are.
-struct ConeNumbers {
-  bool narrow = false;  ///< false: a light without a cone, or whose cone is the whole sphere
-  float first = 0, second = 0;
-};
-ConeNumbers cone_numbers(const Light& light, Cone cone);
-
-/// The light records as the shaders read them, RGBA a texel.
-std::vector<float> light_records(const Scene& scene, const LightModel& model);
 
 }  // namespace trueshade::oracle

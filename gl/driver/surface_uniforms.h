@@ -12,4 +12,7 @@ namespace trueshade::oracle {
 int bind_surface(GLuint program, std::span<const GlslPlane> planes, std::span<const GlTexture> textures, GLuint depth,
                  const Scene& scene, const Pipeline& pipeline, int shift_x, int shift_y);
 
+/// Sets clip_from_world, rows, of a program that draws light geometry.
+void set_clip_rows(GLuint program, const Scene& scene, const Pipeline& pipeline);
+
 }  // namespace trueshade::oracle

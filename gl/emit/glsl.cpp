@@ -214,6 +214,10 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   return text;
 }
 
+std::string viewer_text(const LightModel& model) {
+  return model.viewer == Viewer::local ? "uniform vec3 eye;\n" : "uniform vec3 view_axis;\n";
+}
+
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options) {
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string text;
@@ -225,8 +229,7 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
     text +=
         "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
         "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
-  return text + "uniform vec3 eye;\n" +
-         (pipeline.light_model.viewer == Viewer::infinite ? "uniform vec3 view_axis;\n" : "");
+  return text + viewer_text(pipeline.light_model);
 }
 
 std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options) {

@@ -103,6 +103,8 @@ std::string fullscreen_vertex_text(int version);
 /// `vec3 lit(P, N, V, albedo, [gloss,] [ambient share,] place, color[, k][, axis, cone][, ambient])`: what one light
 /// adds; in the order albedo_last, before the albedo.
 std::string light_function_text(const LightModel& model, const GlslOptions& options);
+/// The uniform that `V` of surface_text() is made of.
+std::string viewer_text(const LightModel& model);
 /// Samplers and uniforms that read_surface_text() reads, without those of the lights.
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
 /// Discards pixels without a surface; then `vec3 P, N, V` and `vec4 albedo` of the pixel, from the planes.

@@ -22,8 +22,7 @@ std::string forward_text(const Pipeline& p, const GlslOptions& options) {
   const bool loop = p.strategy == Strategy::forward_loop;
   std::string text = glsl_header(options.version, loop ? "the scene, all lights summed in order, one store a fragment"
                                                        : "the scene under one light, added to the target");
-  text +=
-      varyings_text(p, options, "in") + "uniform vec3 eye;\nuniform vec3 view_axis;\nuniform samplerBuffer lights;\n";
+  text += varyings_text(p, options, "in") + viewer_text(p.light_model) + "uniform samplerBuffer lights;\n";
   text += loop ? "uniform int light_count;\n" : "uniform int light;  // the draw's; -1: a scene without lights\n";
   if (reads_materials(p.light_model)) text += "uniform samplerBuffer materials;\n";
   text += lights_text(p, options) + forward_surface_text(p, options);

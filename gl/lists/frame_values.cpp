@@ -1,0 +1,45 @@
+#include "gl/lists/frame_values.h"
+
+#include "oracle/exact_coverage.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+double rounded(double value) { return double(float(value)); }
+
+/// What takes window coordinates to normalized device coordinates.
+void add_window_values(const Pipeline& pipeline, int shift_x, int shift_y, std::vector<NamedValue>& out) {
+  const GeometryState& g = pipeline.geometry;
+  const Viewport v = resolved_viewport(g, pipeline.width, pipeline.height);
+  const double up = g.clip_origin == ClipOrigin::upper_left ? -1 : 1;
+  out.push_back({"ndc_from_window",
+                 {double(float(v.x + shift_x)), double(float(v.y + shift_y)), rounded(2.0 / v.width),
+                  up * rounded(2.0 / v.height)}});
+  out.push_back({"ndc_origin", {1, up}});
+  const bool zero_to_one = g.clip_depth == ClipDepth::zero_to_one;
+  const double near = double(g.depth_near), far = double(g.depth_far);
+  const double scale = zero_to_one ? far - near : (far - near) * 0.5, offset = zero_to_one ? near : (near + far) * 0.5;
+  out.push_back({"depth_to_ndc", {rounded(offset), rounded(1.0 / scale)}});
+}
+
+}  // namespace
+
+std::vector<NamedValue> frame_values(const Scene& scene, const Pipeline& pipeline, int shift_x, int shift_y) {
+  const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
+  const Matrix4 inverse = inverse_of(clip);
+  const auto axis = view_axis(clip);
+  const glm::vec3& eye = scene.camera.eye;
+  std::vector<NamedValue> out{{"eye", {double(eye.x), double(eye.y), double(eye.z)}},
+                              {"view_axis", {rounded(axis[0]), rounded(axis[1]), rounded(axis[2])}},
+                              {"clip_from_world", {}},
+                              {"world_from_clip", {}}};
+  for (size_t r = 0; r < 4; ++r)
+    for (size_t c = 0; c < 4; ++c) out[2].numbers.push_back(rounded(clip[4 * c + r]));
+  for (size_t i = 0; i < 16; ++i) out[3].numbers.push_back(rounded(inverse[i]));
+  add_window_values(pipeline, shift_x, shift_y, out);
+  return out;
+}
+
+}  // namespace trueshade::oracle

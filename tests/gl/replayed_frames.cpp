@@ -1,0 +1,126 @@
+// `trueshade glsl SCENE`, drawn by gl/replay, which knows of Trueshade what docs/opengl.md says of the files and
+// nothing else, and judged as any capture.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "scenes/pipeline/presets.h"
+#include "tests/catch.hpp"
+#include "tests/scratch_folder.h"
+
+using namespace trueshade;
+using nlohmann::json;
+
+namespace {
+
+int exit_code_of(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// What to write, as arguments of `trueshade glsl` and, but for the API, of `trueshade validate`.
+struct Asked {
+  std::string scene, preset, strategy, more;
+  std::string arguments() const {
+    return "'" + scene + "' --size 96x72 --preset " + preset + " --strategy " + strategy + ' ' + more;
+  }
+};
+
+bool written(const Asked& asked, const std::string& api, const ScratchFolder& folder) {
+  return exit_code_of(std::string("'") + TRUESHADE_COMMAND + "' glsl " + asked.arguments() + " --api " + api + " -o '" +
+                      folder.path("") + "' > /dev/null") == 0;
+}
+
+/// Whether there is what the replay needs; otherwise the test has said SKIPPED.
+bool replayed(const ScratchFolder& folder) {
+  const int code = exit_code_of(std::string("LIBGL_ALWAYS_SOFTWARE=1 python3 -B '") + TRUESHADE_SOURCE_DIR +
+                                "/gl/replay/replay.py' '" + folder.path("") + "' '" + folder.path("capture.exr") + "'");
+  if (code == 7) WARN("SKIPPED: no EGL driver without a window");
+  if (code == 127) WARN("SKIPPED: there is no python3");
+  if (code != 7 && code != 127) REQUIRE(code == 0);
+  return code == 0;
+}
+
+int judged(const Asked& asked, const ScratchFolder& folder) {
+  return exit_code_of(std::string("'") + TRUESHADE_COMMAND + "' validate " + asked.arguments() + " --gbuffer '" +
+                      folder.path("capture.exr") + "' --subpixel-bits 8 --quick > '" + folder.path("said.txt") +
+                      "' 2>&1");
+}
+
+void check_explained(const Asked& asked, const std::string& api) {
+  const ScratchFolder folder;
+  INFO(api << ": " << asked.arguments());
+  REQUIRE(written(asked, api, folder));
+  if (replayed(folder)) CHECK(judged(asked, folder) == 0);
+}
+
+const char* const kCity = "builtin:city,objects=60,lights=6";
+
+}  // namespace
+
+TEST_CASE("Three presets, replayed from their files in OpenGL 3.3, are judged without a violation") {
+  check_explained({kCity, "light-volumes", "deferred-volumes", ""}, "gl33");
+  check_explained({kCity, "many-lights", "deferred-loop", ""}, "gl33");
+  check_explained({"builtin:lecture,lights=4", "punctual", "forward-multipass", ""}, "gl33");
+}
+
+TEST_CASE("The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation") {
+  for (const char* api : {"gl", "es31"}) {
+    check_explained({kCity, "light-volumes", "deferred-volumes", ""}, api);
+    check_explained({"builtin:lecture,lights=4", "punctual", "forward-loop", ""}, api);
+  }
+}
+
+TEST_CASE("Every preset and strategy, replayed from its files, is judged without a violation", "[long]") {
+  for (const char* api : {"gl33", "es31"})
+    for (const char* scene : {kCity, "builtin:lecture,lights=4"})
+      for (const Preset& preset : presets())
+        for (const std::string_view strategy : kStrategyNames)
+          check_explained({scene, std::string(preset.name), std::string(strategy), ""}, api);
+}
+
+TEST_CASE("A replayed frame whose files were changed is in no legal set") {
+  const ScratchFolder folder;
+  const Asked asked{kCity, "many-lights", "deferred-loop", ""};
+  REQUIRE(written(asked, "gl33", folder));
+  json frame = json::parse(std::ifstream(folder.path("state.json")));
+  for (json& pass : frame["passes"])
+    if (pass["uniforms"].contains("light_count")) pass["uniforms"]["light_count"]["value"] = {5};  // of 6
+  std::ofstream(folder.path("state.json")) << frame;
+  if (replayed(folder)) CHECK(judged(asked, folder) == 1);
+}
+
+TEST_CASE("A scene's files name what the shaders read and nothing else") {
+  const ScratchFolder folder;
+  REQUIRE(written({kCity, "light-volumes", "deferred-loop", ""}, "gl33", folder));
+  const json frame = json::parse(std::ifstream(folder.path("state.json")));
+  const uint64_t size = std::filesystem::file_size(folder.path("state.bin"));
+  for (const auto& [name, buffer] : frame["buffers"].items())
+    CHECK(buffer["offset"].get<uint64_t>() + buffer["bytes"].get<uint64_t>() <= size);
+  CHECK(!frame["buffers"].contains("materials"));  // this light model reads none
+  std::string texts;
+  for (const char* file : {"geometry.vert", "geometry.frag", "light.vert", "light.frag"}) {
+    std::ifstream in(folder.path(file));
+    texts += std::string(std::istreambuf_iterator<char>(in), {});
+  }
+  for (const json& pass : frame["passes"])
+    for (const char* kind : {"uniforms", "samplers"})
+      for (const auto& [name, value] : pass[kind].items()) CHECK(texts.find(name) != std::string::npos);
+  for (const json& line : frame["uniforms"]) {
+    const std::string name = line.get<std::string>().substr(0, line.get<std::string>().find(':'));
+    CHECK(texts.find(name) != std::string::npos);
+    CHECK(name != "view_axis");
+  }
+}
+
+TEST_CASE("What OpenGL ES 3.1 has not is refused in one line") {
+  const ScratchFolder folder;
+  folder.write("p.json", R"({"gbuffer": {"normal": {"interpolation": "noperspective"}}})");
+  CHECK(exit_code_of(std::string("'") + TRUESHADE_COMMAND + "' glsl --preset many-lights --api es31 --pipeline '" +
+                     folder.path("p.json") + "' -o '" + folder.path("out") + "' 2> /dev/null > /dev/null") == 2);
+  CHECK(!std::filesystem::exists(folder.path("out")));
+}
