@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/json_number.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
@@ -50,7 +51,9 @@ std::string json_string(std::string_view text) {
 }
 
 std::string json_number(uint64_t value) { return shortest(value); }
-std::string json_number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
+std::string json_number(double value) {
+  return std::isfinite(value) ? shortest(value) : std::string(json_of_nonfinite(value));
+}
 
 JsonObject& JsonObject::put_raw(std::string_view key, std::string_view json) {
   if (!members_.empty()) members_ += ", ";

@@ -5,11 +5,12 @@
 
 namespace trueshade {
 
-/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD, and what printable() does not show is escaped,
-/// so that the text is JSON and does nothing to a terminal whatever a file is called.
+/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD, and what printable() does not show is
+/// escaped, so that the text is JSON and does nothing to a terminal whatever a file is called.
 std::string json_string(std::string_view text);
 
-/// Numbers as JSON: integers whole, a double in the fewest digits that give it back.
+/// Numbers as JSON: integers whole, a double in the fewest digits that give it back, and what is not finite as the
+/// string "inf", "-inf" or "nan".
 std::string json_number(uint64_t value);
 std::string json_number(double value);
 

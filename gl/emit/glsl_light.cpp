@@ -1,4 +1,6 @@
 // The light models as GLSL: docs/arithmetic.md section 8, term by term. Shared by every design.
+#include <limits>
+
 #include "gl/emit/glsl.h"
 
 namespace trueshade::oracle {
@@ -88,20 +90,22 @@ std::string cone_text(Cone cone) {
          "    f = f * " + factor + ";\n  }\n";
 }
 
+/// `vec3 added`: what the light adds where its distance is a number.
 std::string sum_text(const LightModel& m) {
   const bool none = m.specular == Specular::none, albedo = m.specular_source == SpecularSource::albedo;
   const std::string ks = albedo ? "albedo" : reads_specular_plane(m) ? "gloss.rgb" : "specular_color";
   const std::string reflected = none ? "albedo * c" : albedo ? "albedo * (c + s)" : "(albedo * c + " + ks + " * s)";
+  const std::string added = "  vec3 added = ";
   switch (m.order) {
     case TermOrder::factored:
-      return "  return " + reflected + " * (color.rgb * f);\n";
+      return added + reflected + " * (color.rgb * f);\n";
     case TermOrder::separate:
-      return "  return albedo * c * color.rgb * f" + (none ? std::string() : " + color.rgb * s * " + ks + " * f") +
+      return added + "albedo * c * color.rgb * f" + (none ? std::string() : " + color.rgb * s * " + ks + " * f") +
              ";\n";
     case TermOrder::albedo_last:
-      return std::string(none ? "  return (c * f)" : "  return ((c + s) * f)") + " * color.rgb;\n";
+      return added + (none ? "(c * f)" : "((c + s) * f)") + " * color.rgb;\n";
     case TermOrder::with_ambient:
-      return "  return (albedo * ambient + " + reflected + " * color.rgb) * f;\n";
+      return added + "(albedo * ambient + " + reflected + " * color.rgb) * f;\n";
   }
   return {};
 }
@@ -169,7 +173,9 @@ vec3 unit(vec3 v) {
   text += m.diffuse == Diffuse::unclamped ? "  float c = nl;\n"
           : m.specular == Specular::phong ? "  float c = clamp(nl, 0.0, 1.0);\n"
                                           : "  float c = max(nl, 0.0);\n";
-  return text + specular_text(m, options.products) + sum_text(m) + "}\n";
+  return text + specular_text(m, options.products) + sum_text(m) +
+         "  return d2 <= " + glsl_float(std::numeric_limits<float>::max()) +
+         " ? added : vec3(0.0);  // 0 where the distance is not finite\n}\n";
 }
 
 }  // namespace trueshade::oracle

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/json_number.h"
 
 namespace trueshade::oracle {
 
@@ -22,7 +23,7 @@ std::string member(const std::string& name, const std::string& value) { return q
 std::string member(const std::string& name, size_t value) { return member(name, std::to_string(value)); }
 
 std::string number_text(double value) {
-  if (!std::isfinite(value)) return value > 0 ? "\"inf\"" : value < 0 ? "\"-inf\"" : "\"nan\"";
+  if (!std::isfinite(value)) return std::string(json_of_nonfinite(value));
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;

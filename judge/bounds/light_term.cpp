@@ -28,6 +28,13 @@ Bounded3 unit(const Arithmetic& a, const Bounded3& v) {
   return out;
 }
 
+constexpr double kFirstInfinity = 0x1p128;  ///< what float32 has no number for
+
+/// Whether the vector is a number in each component: of infinities and NaN nothing can be said but that they are.
+bool is_finite(const Bounded3& v) {
+  return std::isfinite(v[0].value) && std::isfinite(v[1].value) && std::isfinite(v[2].value);
+}
+
 /// min(x, most): does not round, never moves values apart.
 Bounded at_most(const Bounded& x, double most) { return {std::min(x.value, most), x.error}; }
 
@@ -56,8 +63,9 @@ LightSum::LightSum(const ShadedSurface& s, const Scene& scene, const LightModel&
   if (model.renormalize && is_zero(s.normal)) normal_ = {};
   const Bounded3 to_eye = vector_difference(a, exactly(scene.camera.eye), s.position);
   view_ = unit(a, to_eye);
+  view_lost_ = model.viewer == Viewer::local && !is_finite(to_eye);
   view_undefined_ = model.viewer == Viewer::local && is_zero(to_eye);
-  if (view_undefined_) view_ = {};
+  if (view_undefined_ || view_lost_) view_ = {};
   for (size_t k = 0; k < 3 && model.viewer == Viewer::infinite; ++k) view_[k] = rounded_once(view_axis[k]);
   shines_ = model.specular != Specular::none;
   adds_unlit_ = adds_unlit(model);
@@ -77,13 +85,13 @@ LightTerm LightSum::operator()(const Light& light) const {
     to_light = exactly(-light.direction);
   } else {
     const Bounded3 offset = vector_difference(a_, exactly(light.position), surface_.position);
-    if (far_away(offset, light)) {
+    const Bounded d2 = dot(a_, offset, offset);
+    if (overflows(offset, d2, t) || far_away(offset, light)) {
       t.in_range = t.maybe_in_range = false;
       return t;
     }
     to_light = unit(a_, offset);
     if (is_zero(offset)) t.undefined = !exact_, to_light = {};
-    const Bounded d2 = dot(a_, offset, offset);
     if (!inside_extent(square_root(a_, d2), light, t)) {
       t.in_range = t.maybe_in_range = false;
       return t;
@@ -101,7 +109,23 @@ LightTerm LightSum::operator()(const Light& light) const {
   return t;
 }
 
+bool LightSum::overflows(const Bounded3& offset, const Bounded& d2, LightTerm& t) const {
+  if (!is_finite(offset)) {
+    const auto is_nan = [](const Bounded& c) { return std::isnan(c.value); };
+    t.undefined = !exact_ && std::any_of(offset.begin(), offset.end(), is_nan);  // GLSL promises nothing of NaN
+    return true;
+  }
+  if (d2.low() >= kFirstInfinity) return true;
+  if (d2.high() < kFirstInfinity || !std::isfinite(d2.error)) return false;
+  t.either_way = true;
+  t.dark = d2.value >= kFirstInfinity;
+  return false;
+}
+
 bool LightSum::for_lanes(LanePixel& px) const {
+  constexpr double kNear = 0x1p60;  // where no square overflows, whatever light it is
+  for (const Bounded& c : surface_.position)
+    if (!(std::fabs(c.value) < kNear)) return false;
   const double s = shininess();
   if (shines_ && (view_undefined_ || !(s >= 1 && s <= 8192) || s != std::nearbyint(s) || shininess_error() > 0))
     return false;
@@ -155,8 +179,8 @@ bool LightSum::inside_extent(const Bounded& d, const Light& light, LightTerm& t)
   const LightExtent extent = light.type == LightType::spot ? volumes_.spot : volumes_.point;
   if (extent == LightExtent::unbounded || !std::isfinite(light.range)) return true;
   if (d.low() >= double(light.range)) return false;
-  t.either_way = d.high() >= double(light.range);
-  t.dark = d.value >= double(light.range);
+  t.either_way = t.either_way || d.high() >= double(light.range);
+  t.dark = t.dark || d.value >= double(light.range);
   return true;
 }
 
@@ -277,6 +301,10 @@ Bounded LightSum::term_of(const Light& light, size_t k, const Bounded& cosine, c
 
 Bounded LightSum::specular_of(const Bounded3& to_light, const Bounded& n_l, bool& undefined) const {
   if (!shines_) return {};
+  if (view_lost_) {  // a cosine of NaN, which counts as 0 (docs/arithmetic.md section 8)
+    undefined = undefined || (!exact_ && !(model_.specular_masked && n_l.high() <= 0));
+    return model_.specular_masked && !(n_l.value > 0) ? Bounded{} : power_of(0, 0, 0);
+  }
   const Bounded cosine =
       model_.specular == Specular::phong ? reflected_cosine(to_light, n_l) : half_cosine(to_light, undefined);
   const double s = shininess();

@@ -46,6 +46,10 @@ class LightSum {
   /// x^shininess for 0 <= low <= value <= high: of every shininess that the surface may have.
   Bounded power_of(double low, double value, double high) const;
 
+  /// True where the squared distance is surely no float: the light adds nothing. Sets either_way and dark where it may
+  /// be none.
+  bool overflows(const Bounded3& offset, const Bounded& d2, LightTerm& t) const;
+
   /// False where the light's extent surely leaves the pixel out; sets either_way and dark where it may.
   bool inside_extent(const Bounded& d, const Light& light, LightTerm& t) const;
 
@@ -75,7 +79,7 @@ class LightSum {
   const LightModel& model_;
   const LightVolumes& volumes_;
   const Arithmetic& a_;
-  bool exact_, undefined_ = false, view_undefined_ = false, shines_ = true, adds_unlit_ = false;
+  bool exact_, undefined_ = false, view_undefined_ = false, view_lost_ = false, shines_ = true, adds_unlit_ = false;
   Bounded3 normal_, view_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/json_number.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -28,7 +29,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::string number(double v) {
-  if (!std::isfinite(v)) return "null";
+  if (!std::isfinite(v)) return std::string(json_of_nonfinite(v));
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", v);
   return text;

@@ -37,7 +37,7 @@ Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Cap
 /// The verdict as JSON, fixed key order: scene, driver, profile, pass, suspicious, stages [{stage, width, height,
 /// counts by class name, covered, ambiguous, predicted_other, stored_values, worst_error, aggregates [{name, observed,
 /// expected, sigma, pass} or {name, tested: false}], worst [{x, y, class, plane, low, high, nominal, given, note}]}],
-/// inferred. x, y from the top left; infinite ends are null.
+/// inferred. x, y from the top left; infinite ends are the strings "inf" and "-inf".
 std::string verdict_json(const Verdict& verdict);
 
 }  // namespace trueshade::oracle

@@ -1,5 +1,7 @@
 #include "cli/json_text.h"
 
+#include <limits>
+
 #include "cli/progress_bar.h"
 #include "tests/catch.hpp"
 
@@ -19,7 +21,9 @@ TEST_CASE("strings become JSON whatever bytes they hold") {
 TEST_CASE("numbers become the shortest JSON that gives them back") {
   CHECK(json_number(0.1) == "0.1");
   CHECK(json_number(uint64_t(18446744073709551615u)) == "18446744073709551615");
-  CHECK(json_number(1.0 / 0.0) == "null");
+  CHECK(json_number(std::numeric_limits<double>::infinity()) == "\"inf\"");
+  CHECK(json_number(-std::numeric_limits<double>::infinity()) == "\"-inf\"");
+  CHECK(json_number(std::numeric_limits<double>::quiet_NaN()) == "\"nan\"");
   CHECK(JsonObject().put("a", 1).put("b", true).put_raw("c", JsonArray().add_raw("1").add_raw("2").text()).text() ==
         R"({"a": 1, "b": true, "c": [1, 2]})");
 }
