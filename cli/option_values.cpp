@@ -64,6 +64,15 @@ double time_from_text(const std::string& text) {
   return value;
 }
 
+double chance_from_text(const std::string& option, const std::string& text) {
+  constexpr double kMost = 0.01;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value <= kMost))
+    throw usage(option, "'" + text + "' is no chance above 0 and at most 0.01", "give one, like 1e-6");
+  return value;
+}
+
 FrameRange frames_from_text(const std::string& text) {
   constexpr int64_t kMostFrames = 1000000;
   const size_t dash = text.find('-');

@@ -14,6 +14,8 @@ int integer_in(const std::string& option, const std::string& text, int least, in
 int tile_from_text(const std::string& option, const std::string& text);
 Size size_from_text(const std::string& text);
 double time_from_text(const std::string& text);
+/// Above 0 and at most 0.01.
+double chance_from_text(const std::string& option, const std::string& text);
 FrameRange frames_from_text(const std::string& text);
 NumericProfile profile_from_text(const std::string& text);
 ImageView view_from_text(const std::string& option, const std::string& text);

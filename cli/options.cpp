@@ -240,7 +240,7 @@ ExportOptions finished(ExportOptions options, const std::optional<std::string>& 
 
 /// Option values of validate as text.
 struct ValidationTexts {
-  std::optional<std::string> size, subpixel_bits, strategy, time;
+  std::optional<std::string> size, subpixel_bits, strategy, time, significance;
 };
 
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
@@ -262,12 +262,16 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
              "Write what the driver drew: .png the picture, .exr its planes too");
   add_switch(command, "--quick", options.quick,
              "Neither look for the tightest profile that explains the image nor draw it again, moved by whole pixels");
+  add_value(command, "--significance", "CHANCE", texts.significance,
+            "How many of all legal images may fail the tests of the whole image, at most 0.01 (1e-6)");
+  add_switch(command, "--lenient", options.lenient,
+             "What the tests of the whole image find is a remark: only pixels in no legal set fail");
   add_switch(command, "--json", options.json, "Print all of it as one JSON document");
   add_value(command, "-o,--output", "FILE", options.report, "Report to write, .html");
   add_limit_options(command, options);
   command->footer(
-      "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set, 7 there is no OpenGL driver; "
-      "others as for trueshade.");
+      "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set or no rounding that is known makes such an "
+      "image, 7 there is no OpenGL driver; others as for trueshade.");
   return command;
 }
 
@@ -278,6 +282,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.time) options.time = time_from_text(*texts.time);
   check_scene(options.scene);
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
+  if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
   check_preset(options.preset);
   if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
     throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));

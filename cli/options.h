@@ -89,6 +89,8 @@ struct ValidationOptions : PipelineOptions {
   std::vector<std::string> saved;        ///< .png, .exr: what was drawn here
   std::optional<std::string> report;     ///< .html
   bool quick = false;                    ///< neither the tightest profile nor the moved frame
+  bool lenient = false;                  ///< what the tests of the whole image find is no failure
+  double significance = 1e-6;            ///< of these tests: how many legal images may fail them
   bool json = false;
 };
 

@@ -84,6 +84,7 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.report) check_writable(*options.report);
   for (const std::string& path : options.saved) check_writable(path);
   Validation v;
+  v.lenient = options.lenient;
   if (!options.gbuffer_file.empty()) v.capture = capture_from_files(options.gbuffer_file, options.image_file);
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
@@ -106,8 +107,8 @@ bool judge_opengl(const ValidationOptions& options) {
   });
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
-    v.verdict =
-        oracle::validate_capture(scene, v.pipeline, v.capture, {v.profile, !options.quick, drawn.steps, drawn.objects});
+    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
+                                         {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance});
   });
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);

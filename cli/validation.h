@@ -18,6 +18,7 @@ struct Validation {
   oracle::Capture capture;
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
+  bool lenient = false;                                  ///< what the tests of the whole image find is no failure
   std::vector<DriverFrame::Pass> passes;                 ///< empty for a capture from files
   int timed_frames = 0;                                  ///< whose median the passes are
   std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing where not drawn
@@ -26,7 +27,8 @@ struct Validation {
   double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
 };
 
-/// Whether every pixel is in its legal set, and the driver drew the same again.
+/// Whether every pixel is in its legal set, the driver drew the same again and, unless that is lenient, the image is
+/// one that a known rounding makes.
 bool passes(const Validation& validation);
 
 /// EXACT and STORE-2 pixels among all of a stage.
@@ -39,6 +41,12 @@ std::string invariance_line(const Validation& validation);
 std::string profile_line(const oracle::Profile& profile);
 std::string tightest_line(const oracle::Inference& inferred);
 std::string conclusion(const Validation& validation);
+
+/// The rounding of stores that each stage follows: `gbuffer as stated, codes to nearest, halves toward zero; ...`.
+std::string rounding_line(const oracle::Verdict& verdict);
+
+/// What the target hides, and which one would show it; empty for 32-bit floats and where there is no picture.
+std::string blind_spot_line(const Validation& validation);
 
 /// What the command says: lines for people, or one JSON document.
 std::string validation_text(const Validation& validation);

@@ -89,18 +89,16 @@ std::string counts_table(const StageVerdict& s) {
   return html + "</table>\n";
 }
 
-std::string aggregates_table(const std::vector<AggregateTest>& tests) {
-  std::string html = "<table class=wide><tr><th>test of the whole image<th>found<th>expected<th>sigma<th>\n";
-  for (const AggregateTest& t : tests) {
-    if (!t.tested) {
-      html += "<tr><td>" + escaped(t.name) + "<td><td><td><td>not tested: only the last of many blends is known\n";
-      continue;
-    }
-    html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.6g") + "<td>" +
-            (t.one_sided ? "at most " : "") + number(t.expected, "%.6g") + "<td>" + number(t.sigma, "%.3g") + "<td>" +
-            (t.passes() ? "as chance makes it" : "<span class=bad>not what chance makes</span>") + '\n';
-  }
-  return html + "</table>\n";
+std::string aggregates_table(const oracle::Evidence& evidence, double least_chance) {
+  std::string html = "<table class=wide><tr><th>test of the whole image<th>found<th>expected<th>where<th>\n";
+  for (const AggregateTest& t : evidence.tests)
+    html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.5g") + "<td>" +
+            (t.low < 0 ? number(t.low, "%.5g") + " to " : "at most ") + number(t.high, "%.5g") + "<td>" +
+            escaped(t.where) + "<td>" +
+            (t.passes(least_chance) ? "as chance makes it"
+                                    : "<span class=bad>one legal image in " + oracle::one_in(t.chance) + "</span>") +
+            '\n';
+  return html + "</table>\n<p class=quiet>By this rounding: " + escaped(text(evidence.rule)) + ".</p>\n";
 }
 
 std::string worst_table(const StageVerdict& s) {
@@ -131,11 +129,11 @@ std::string pictures(const Validation& v) {
   return html + "</div>\n";
 }
 
-std::string stage_part(const StageVerdict& s, const std::vector<AggregateTest>& tests) {
+std::string stage_part(const StageVerdict& s, const oracle::Evidence& evidence, double least_chance) {
   return "<h2>Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) + "<p class=quiet>" +
          std::to_string(s.explained()) + " pixels show another surface or branch than the nominal one; " +
          number(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible.</p>\n" +
-         aggregates_table(tests) + worst_table(s);
+         aggregates_table(evidence, least_chance) + worst_table(s);
 }
 
 std::string inference_part(const oracle::Verdict& v) {
@@ -151,13 +149,21 @@ std::string inference_part(const oracle::Verdict& v) {
   return html + "</table></details>\n";
 }
 
+/// The evidence, the rounding that stages follow, and what the target hides: a paragraph each.
+std::string remarks(const Validation& v) {
+  std::string html;
+  for (const std::string& line : {v.verdict.evidence_line(), rounding_line(v.verdict), blind_spot_line(v)})
+    if (!line.empty()) html += "<p>" + escaped(line) + ".</p>\n";
+  return html;
+}
+
 std::string heading(const Validation& v) {
   const std::string size = std::to_string(v.pipeline.width) + " \xc3\x97 " + std::to_string(v.pipeline.height);
-  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=\"verdict" + (passes(v) ? "" : " bad") + "\">Verdict: " +
-                     escaped(conclusion(v)) + ".</p>\n<p class=quiet>" + escaped(v.verdict.driver) +
-                     "<br>preset " + escaped(v.pipeline.preset) + ", " + size + " pixels, " +
-                     std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion + "<br>held to " +
-                     escaped(profile_line(v.profile)) + "</p>\n";
+  std::string html = "<h1>" + escaped(v.verdict.scene) + "</h1>\n<p class=\"verdict" + (passes(v) ? "" : " bad") +
+                     "\">Verdict: " + escaped(conclusion(v)) + ".</p>\n" + remarks(v) + "<p class=quiet>" +
+                     escaped(v.verdict.driver) + "<br>preset " + escaped(v.pipeline.preset) + ", " + size +
+                     " pixels, " + std::string(info(v.pipeline.target).name) + ", trueshade " + kVersion +
+                     "<br>held to " + escaped(profile_line(v.profile)) + "</p>\n";
   for (const std::string& note : v.notes) html += "<p class=quiet>" + escaped(note) + "</p>\n";
   html += notes_part(v.scene_notes.lines);
   html += "<div class=facts>" + fact(grouped(std::to_string(v.verdict.violations())), "pixels in no legal set");
@@ -173,7 +179,8 @@ std::string heading(const Validation& v) {
 std::string validation_page(const Validation& v) {
   std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v);
   html += pictures(v);
-  for (size_t i = 0; i < v.verdict.stages.size(); ++i) html += stage_part(v.verdict.stages[i], v.verdict.aggregates[i]);
+  for (size_t i = 0; i < v.verdict.stages.size(); ++i)
+    html += stage_part(v.verdict.stages[i], v.verdict.evidence[i], v.verdict.least_chance(v.verdict.stages.size()));
   return html + inference_part(v.verdict) +
          "<h2>Pipeline</h2>\n<details><summary>All that may change a pixel beside the scene</summary><pre>" +
          escaped(pipeline_json(v.pipeline)) + "</pre></details>\n" + std::string(kPageEnd);

@@ -10,6 +10,7 @@ namespace trueshade {
 namespace {
 
 using oracle::AggregateTest;
+using oracle::Evidence;
 using oracle::kPixelClasses;
 using oracle::PixelClass;
 using oracle::StageVerdict;
@@ -44,16 +45,16 @@ std::string class_rows(const StageVerdict& s) {
   return lines;
 }
 
-std::string aggregate_rows(const std::vector<AggregateTest>& tests) {
+std::string aggregate_rows(const Evidence& evidence, double least_chance) {
   std::string lines;
-  for (const AggregateTest& t : tests) {
-    if (!t.tested) {
-      lines += "  " + left(t.name, 18) + " not tested: only the last of many blends is known\n";
-      continue;
-    }
-    lines += "  " + left(t.name, 18) + " found " + real(t.observed) + (t.one_sided ? ", at most " : ", expected ") +
-             real(t.expected) + " (sigma " + real(t.sigma, "%.3g") + ")" +
-             (t.passes() ? "\n" : ", NOT what chance makes\n");
+  for (const AggregateTest& t : evidence.tests) {
+    if (t.passes(least_chance) && (t.observed == 0 || !t.where.empty())) continue;
+    lines += "  " + left(t.name, 21) + " found " + real(t.observed, "%.5g") + ", expected " +
+             (t.low < 0 ? real(t.low, "%.5g") + " to " : "at most ") + real(t.high, "%.5g");
+    if (!t.passes(least_chance))
+      lines += (t.where.empty() ? "" : " in " + t.where) + ", NOT what chance makes (one in " +
+               oracle::one_in(t.chance) + ")";
+    lines += '\n';
   }
   return lines;
 }
@@ -66,7 +67,7 @@ std::string worst_row(const WorstPixel& w) {
          (w.note.empty() ? "" : (w.plane.empty() ? "" : "; ") + w.note) + '\n';
 }
 
-std::string stage_text(const StageVerdict& s, const std::vector<AggregateTest>& tests) {
+std::string stage_text(const StageVerdict& s, const Evidence& evidence, double least_chance) {
   constexpr size_t kShown = 8;
   std::string lines = "\n" + s.stage + ": " + std::to_string(s.classes.size()) + " pixels, " +
                       std::to_string(s.covered) + " with a surface\n";
@@ -75,7 +76,7 @@ std::string stage_text(const StageVerdict& s, const std::vector<AggregateTest>& 
            real(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible\n";
   if (s.worst_error > 0)
     lines += "  largest error of a float channel: " + real(s.worst_error, "%.3f") + " of its bound\n";
-  lines += aggregate_rows(tests);
+  lines += aggregate_rows(evidence, least_chance);
   if (!s.worst.empty()) lines += "  worst pixels (x,y from the top left):\n";
   for (size_t i = 0; i < std::min(kShown, s.worst.size()); ++i) lines += "  " + worst_row(s.worst[i]);
   return lines;
@@ -98,7 +99,9 @@ std::string tightest_line(const oracle::Inference& inferred) {
          " pixels against it";
 }
 
-bool passes(const Validation& v) { return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0; }
+bool passes(const Validation& v) {
+  return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0 && (v.lenient || !v.verdict.convicted());
+}
 
 std::string invariance_line(const Validation& v) {
   if (!v.repeat_changes) return {};
@@ -114,8 +117,39 @@ std::string conclusion(const Validation& validation) {
     return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" + post;
   if (validation.repeat_changes.value_or(0) > 0)
     return "every pixel is explained, yet the same frame drawn again is another" + post;
-  const char* remark = ", yet the image is not what chance makes (a remark: each pixel is legal)";
-  return std::string("every pixel is explained") + (v.suspicious() ? remark : "") + post;
+  if (!v.convicted()) return "every pixel is explained" + post;
+  const char* lenient = " (a remark, as --lenient asks)";
+  return "each pixel is legal, yet no rounding that is known makes such an image" +
+         std::string(validation.lenient ? lenient : "") + post;
+}
+
+std::string rounding_line(const oracle::Verdict& v) {
+  std::string line;
+  for (size_t i = 0; i < v.stages.size(); ++i) {
+    const Evidence& e = v.evidence[i];
+    if (v.stages[i].stored_values == 0 || e.against || e.as_stated) continue;
+    line += (line.empty() ? "" : "; ") + v.stages[i].stage + ": " + text(e.rule) + ", as known implementations do";
+  }
+  return line;
+}
+
+std::string blind_spot_line(const Validation& v) {
+  const Image& color = v.capture.color;
+  const FormatInfo layout = info(color.format);
+  if (color.width == 0 || (layout.number_class == NumberClass::floating && !layout.small_float())) return {};
+  if (layout.small_float())
+    return std::string(layout.name) + " hides what changes a pixel by less than 1 part in " +
+           std::to_string(1 << std::min(10, layout.bits[2] == 16 ? 10 : layout.bits[2] - 5)) + "; rgba32f shows it";
+  double codes = 0;  // all stored, so that an error of e changes e * codes of them
+  for (int y = 0; y < color.height; ++y)
+    for (int x = 0; x < color.width; ++x)
+      for (int k = 0; k < 3; ++k) codes += double(color.code(x, y, k));
+  constexpr double kTold = 30;        // stores that a rule rules out and that the tests tell
+  constexpr double kSmallest = 1e-3;  // percent: what sums of floats may be off
+  const double one = 100.0 / double(layout.largest_code(0)), all = codes > 0 ? 100 * kTold / codes : 100;
+  return std::string(layout.name) + " hides what changes a pixel by less than a code, " + real(one, "%.2g") +
+         " % of white, and of an error of all light what is below " + real(std::clamp(all, kSmallest, 100.0), "%.2g") +
+         " %; rgba16f and rgba32f show it";
 }
 
 double exact_share(const StageVerdict& stage) {
@@ -136,8 +170,14 @@ std::string validation_text(const Validation& v) {
   lines += verdict_row("times", times + "judged in " + real(v.judge_ms / 1000, "%.2f") + " s");
   if (v.repeat_changes) lines += verdict_row("invariance", invariance_line(v));
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
-    lines += stage_text(v.verdict.stages[i], v.verdict.aggregates[i]);
+    lines += stage_text(v.verdict.stages[i], v.verdict.evidence[i], v.verdict.least_chance(v.verdict.stages.size()));
   lines += '\n';
+  const auto add_row = [&lines](const char* name, const std::string& value) {
+    if (!value.empty()) lines += verdict_row(name, value);
+  };
+  add_row("rounding", rounding_line(v.verdict));
+  add_row("hidden", blind_spot_line(v));
+  add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   return lines + verdict_row("verdict", conclusion(v));
 }
@@ -157,7 +197,8 @@ std::string validation_json(const Validation& v) {
       .put("timed_frames", v.timed_frames)
       .put_raw("notes", notes.text())
       .put("post_chain", v.pipeline.post.active() ? "not judged" : "none");
-  json.put_raw("ignored", ignored_json(v.scene_notes));
+  if (const std::string hidden = blind_spot_line(v); !hidden.empty()) json.put("hidden", hidden);
+  json.put("lenient", v.lenient).put_raw("ignored", ignored_json(v.scene_notes));
   if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
   if (v.move_changes) json.put("move_changes", *v.move_changes);
   json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));

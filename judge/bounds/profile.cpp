@@ -76,6 +76,14 @@ std::optional<Profile> profile_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::string text(const StoreRule& rule) {
+  std::string codes = rule.mesa_codes         ? "codes as llvmpipe's"
+                      : rule.code_reach > 0.5 ? "codes within 0.6"
+                                              : "codes to nearest";
+  if (rule.sums_in_floats) codes += ", sums kept in floats";
+  return codes + ", halves " + (rule.half == HalfStore::nearest ? "to nearest" : "toward zero");
+}
+
 const char* text(SnapRule rule) {
   switch (rule) {
     case SnapRule::nearest:

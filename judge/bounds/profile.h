@@ -15,7 +15,7 @@ enum class SnapRule : uint8_t {
   nearest,      ///< round(w * 2^b), ties to even, of a coordinate that float errors may have moved
   nearest_0_6,  ///< either neighbour within 0.6 of 2^-b (D3D11.3 functional spec, 3.2.4.1)
   toward_zero,  ///< floor(w * 2^b): a wrong guess to be told apart when a profile is inferred
-  unstated,     ///< anywhere within half of 2^-b: finer grids, or none at all, lie inside
+  unstated,     ///< anywhere within 0.6 of 2^-b: the two above, finer grids and none at all lie inside
 };
 enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
 enum class FillRule : uint8_t { left_low, left_high, unstated };  ///< which horizontal edge is in; GL window, y up
@@ -44,6 +44,19 @@ struct Sampling {
   bool operator==(const Sampling&) const = default;
 };
 
+/// How implementations that are known round what they store. A profile may leave more open; the tests of a whole image
+/// ask which of these rules the image follows.
+struct StoreRule {
+  double code_reach = 0.5;             ///< |stored code - real code| at most; errors beyond a half are spread evenly
+  bool mesa_codes = false;             ///< llvmpipe's codes of sRGB and of ten bits, and its blending
+  bool sums_in_floats = false;         ///< what is blended is rounded once, when the target is read (softpipe)
+  HalfStore half = HalfStore::either;  ///< either: not known yet
+  bool operator==(const StoreRule&) const = default;
+};
+
+/// One line, such as `codes within 0.6, halves toward zero`.
+std::string text(const StoreRule& rule);
+
 struct Profile {
   std::string name = "unknown";
   int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
@@ -57,7 +70,7 @@ struct Profile {
   /// The same of an encoded sRGB value: drivers approximate the power (docs/gl_rules.md section 3).
   double srgb_reach = 1.0;
   HalfStore half = HalfStore::either;
-  HalfStore likely_half = HalfStore::toward_zero;    ///< the nominal one of either: resolved() has the pipeline's
+  StoreRule likely;  ///< what is nominal of all that the knobs allow; resolved() finds it where its `half` is open
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;

@@ -242,7 +242,7 @@ void Projector::snap(WindowVertex& v, int axis_index, const ClipVertex& clip, do
       v.low[axis] = std::floor(t - e), v.high[axis] = std::floor(t + e);
       break;
     case SnapRule::unstated:
-      v.low[axis] = t - e - 0.5, v.high[axis] = t + e + 0.5;
+      v.low[axis] = t - e - 0.6, v.high[axis] = t + e + 0.6;
       break;
   }
   if (profile_.exact_vertices && profile_.snap == SnapRule::nearest && profile_.subpixel_bits == 8 &&

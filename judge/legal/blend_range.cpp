@@ -307,12 +307,9 @@ Texel blended_in_16_bits(const BlendState& state, const Profile& profile, const 
 
 }  // namespace
 
-Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
-                   const Texel& stored) {
+Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const Profile& likely,
+                   const std::array<Range, 4>& source, const Texel& stored) {
   if (profile.blend != BlendRule::any_precision) return blended_texel(state, format, profile, source, stored);
-  Profile likely = float_once(profile);
-  if (likely.half == HalfStore::either) likely.half = profile.likely_half;
-  likely.unorm_reach = likely.srgb_reach = 0.5;
   std::array<Range, 4> loose = source;
   const FormatInfo layout = info(format);
   for (size_t k = 0; k < 4 && state.enabled && layout.small_float(); ++k) {

@@ -29,8 +29,9 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
 /// What the nominal rule, float32 rounded once to the likelier neighbour, leaves, for the tests of the whole image:
 /// its second_chance is a bound of how often a driver of that rule stores another. Profiles that state their blend:
 /// theirs.
-Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
-                   const Texel& stored);
+///   likely: following(profile.likely, profile)
+Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const Profile& likely,
+                   const std::array<Range, 4>& source, const Texel& stored);
 
 /// What drivers' decoding of an sRGB code was found to be off at most (docs/gl_rules.md section 3), with room for its
 /// rounding.

@@ -184,7 +184,8 @@ void LightOutline::add_endless(uint32_t triangle) {
   const CullFace cull = pipeline.geometry.cull_face;
   if (cull == CullFace::front_and_back) return;
   if (shape.endless.facing_known && ((cull == CullFace::front && front) || (cull == CullFace::back && !front))) return;
-  const double snap = std::ldexp(profile.snap == SnapRule::nearest_0_6 ? 0.6 : 0.5, -profile.subpixel_bits);
+  const double snap = std::ldexp(profile.snap == SnapRule::nearest || profile.snap == SnapRule::toward_zero ? 0.5 : 0.6,
+                                 -profile.subpixel_bits);
   const double e = snap + 3 * 0x1p-23 * (kGuardBand + projector_->window_reach()[0] + projector_->window_reach()[1]);
   for (size_t i = 0; i < 3; ++i) {
     const Triple &a = at[(i + 1) % 3], &b = at[(i + 2) % 3], &da = error[(i + 1) % 3], &db = error[(i + 2) % 3];

@@ -65,6 +65,12 @@ void set_reach(LegalTexel& t, double low, double high, double reach, double larg
   }
 }
 
+/// The same of codes: a rule that reaches beyond half a code adds an error of its own.
+void set_code_chance(LegalTexel& t, const Range& codes, const Profile& profile) {
+  const double own = profile.likely.code_reach - 0.5;
+  set_chance(t, {codes.value, codes.low - own, codes.high + own}, t.nominal - 0.5, t.nominal + 0.5);
+}
+
 LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   const auto scaled = [&](double x, double direction) {
     const double clamped = std::clamp(x, 0.0, 1.0) * largest;
@@ -84,7 +90,7 @@ LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   } else {
     set_reach(t, low, high, profile.unorm_reach, largest);
   }
-  if (r.low < r.high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
+  if (r.low < r.high || profile.likely.code_reach > 0.5) set_code_chance(t, {value, low, high}, profile);
   return t;
 }
 
@@ -124,7 +130,7 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
     set_llvmpipe_code(t, r);
     return t;
   }
-  if (low < high) set_chance(t, {value, low, high}, t.nominal - 0.5, t.nominal + 0.5);
+  set_code_chance(t, {value, low, high}, profile);
   return t;
 }
 
@@ -132,7 +138,8 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
   if (!grid.has_sign()) r = {std::max(0.0, r.value), std::max(0.0, r.low), std::max(0.0, r.high)};
   LegalTexel t;
   if (profile.half == HalfStore::either) {
-    t = {grid.stored(r.value, profile.likely_half), grid.below(r.low), grid.above(r.high)};
+    t = {grid.stored(r.value, profile.likely.half == HalfStore::nearest ? HalfStore::nearest : HalfStore::toward_zero),
+         grid.below(r.low), grid.above(r.high)};
     if (r.high > grid.largest()) t.high = HUGE_VAL;  // to the largest or to infinity
     if (r.low < -grid.largest()) t.low = -HUGE_VAL;
   } else {
@@ -143,7 +150,7 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
       if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
   if (!std::isfinite(r.value)) return t;
   const double spacing = grid.spacing(r.value);
-  const bool truncates = (profile.half == HalfStore::either ? profile.likely_half : profile.half) != HalfStore::nearest;
+  const bool truncates = (profile.half == HalfStore::either ? profile.likely.half : profile.half) != HalfStore::nearest;
   const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);
   const double above = truncates && t.nominal < 0 ? t.nominal : t.nominal + (truncates ? spacing : spacing / 2);
   set_chance(t, r, below, above);
@@ -151,6 +158,21 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
 }
 
 }  // namespace
+
+Profile following(const StoreRule& rule, const Profile& profile) {
+  Profile p = profile;
+  p.likely = rule;
+  p.unorm_reach = std::min(p.unorm_reach, rule.code_reach);
+  p.srgb_reach = std::min(p.srgb_reach, rule.code_reach);
+  if (p.half == HalfStore::either)
+    p.half = rule.half == HalfStore::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.blend != BlendRule::any_precision) return p;
+  const Profile mesa = *profile_named("mesa-llvmpipe-22.3");
+  p.blend = rule.mesa_codes ? BlendRule::mesa_codes : BlendRule::float_once;
+  p.exact_planes = true;  // an sRGB code stands for its own value, or for what llvmpipe reads of it
+  if (rule.mesa_codes) p.srgb_reach = mesa.srgb_reach, p.sampling.mesa_decode = true;
+  return p;
+}
 
 bool computes_in_16_bits(Format format, const Profile& profile) {
   return format == Format::rgb10_a2 && profile.blend == BlendRule::mesa_codes;
@@ -199,6 +221,16 @@ LegalTexel narrowed(const LegalTexel& wide, int channel) {
 
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile) {
   const FormatInfo layout = info(format);
+  const bool has_mesa_codes = layout.srgb_channel(channel) || format == Format::rgb10_a2;
+  if (profile.likely.mesa_codes && profile.blend != BlendRule::mesa_codes && has_mesa_codes) {
+    const LegalTexel likely = legal_texel(range, format, channel, following(profile.likely, profile));
+    Profile letter = profile;
+    letter.likely = {};
+    LegalTexel t = legal_texel(range, format, channel, letter);
+    t.nominal = std::clamp(likely.nominal, t.low, t.high);
+    t.second_chance = likely.second_chance, t.second_side = likely.second_side;
+    return t;
+  }
   if (layout.srgb_channel(channel)) return srgb8(range, profile);
   if (computes_in_16_bits(format, profile)) return narrowed(unorm(range, 65535, profile), channel);
   if (layout.number_class == NumberClass::unorm) return unorm(range, double(layout.largest_code(channel)), profile);

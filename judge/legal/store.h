@@ -16,9 +16,9 @@ inline Range range_of(const Bounded& b) { return {b.value, b.low(), b.high()}; }
 struct LegalTexel {
   double nominal = 0;  ///< what the store gives for Range::value; unorm and half: on the grid
   double low = 0, high = 0;
-  double second_chance =
-      0;                ///< predicted probability that not the nominal value is stored, errors uniform in the range
-  int second_side = 0;  ///< where the likelier other value lies: -1 below, 1 above
+  double second_chance = 0;  ///< predicted probability that the likely rule does not store the nominal value, errors
+                             ///< uniform in the range
+  int second_side = 0;       ///< where the likelier other value lies: -1 below, 1 above
   bool contains(double stored) const { return stored >= low && stored <= high; }
 };
 
@@ -29,6 +29,9 @@ struct LegalTexel {
 ///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
 ///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
+
+/// A profile of which stores and blends are those of the rule, wherever it leaves them open.
+Profile following(const StoreRule& rule, const Profile& profile);
 
 /// What a draw would output to leave what a clear to `color` leaves: llvmpipe clears 10 and 16 bits by rounding halves
 /// upward, and not by way of 16 bits, and sRGB by a table of its own (docs/arithmetic.md section 11); elsewhere the

@@ -1,36 +1,76 @@
 #include "judge/stages/aggregate.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <span>
+
+#include "judge/stages/regions.h"
 
 namespace trueshade::oracle {
 
 namespace {
 
-/// sum over groups of (sum of chances in the group)^2; list sorted by group.
-template <class Item, class Same>
-double clustered_variance(const std::vector<Item>& sorted, const Same& same) {
-  double variance = 0;
+constexpr double kLetPass = 0x1p-20;  // of stores that no known rule need explain
+
+/// One choice, however many pixels or channels had it.
+struct Group {
+  double share = 0;  ///< of those that went the other way
+  double signed_share = 0;
+  double chance = 0;  ///< mean prediction
+  double side = 0;    ///< mean of the predicted sides
+  bool ruled_out = false;
+};
+
+std::vector<Group> groups_of_stores(const StageVerdict& v) {
+  std::vector<StoreChoice> sorted = v.choices;
+  std::sort(sorted.begin(), sorted.end(), [](const StoreChoice& a, const StoreChoice& b) { return a.value < b.value; });
+  std::vector<Group> groups;
   for (size_t i = 0; i < sorted.size();) {
-    double chances = 0;
+    Group g;
     size_t j = i;
-    for (; j < sorted.size() && same(sorted[i], sorted[j]); ++j) chances += double(sorted[j].chance);
-    variance += chances * chances;
+    for (; j < sorted.size() && sorted[j].value == sorted[i].value; ++j) {
+      const StoreChoice& c = sorted[j];
+      g.share += c.taken != 0 ? 1 : 0, g.signed_share += c.taken;
+      g.chance += double(c.chance), g.side += double(c.chance) * c.side;
+      g.ruled_out = g.ruled_out || (c.taken != 0 && !(c.chance > 0));
+    }
+    const auto count = double(j - i);
+    g.share /= count, g.signed_share /= count, g.chance /= count, g.side /= count;
+    groups.push_back(g);
     i = j;
   }
-  return variance;
+  return groups;
 }
 
-AggregateTest other_surfaces(const StageVerdict& v) {
-  std::vector<SurfaceChoice> choices = v.surface_choices;
-  std::sort(choices.begin(), choices.end(),
-            [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface < b.surface; });
-  const double variance = clustered_variance(
-      choices, [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.surface == b.surface; });
-  return {"other surfaces", double(v.explained()), v.predicted_other, std::sqrt(variance + 1), true};
+AggregateTest ruled_out(const StageVerdict& v, std::span<const Group> groups) {
+  const double most = kLetPass * double(v.stored_values);
+  const auto found = double(std::count_if(groups.begin(), groups.end(), [](const Group& g) { return g.ruled_out; }));
+  return {"ruled out", found, 0, most, chance_of_at_least(found, most)};
 }
 
-AggregateTest clusters(const StageVerdict& v) {
+AggregateTest second_neighbours(std::span<const Group> groups) {
+  double found = 0, most = 0;
+  for (const Group& g : groups) {
+    if (g.ruled_out) continue;
+    found += g.share, most += std::min(1.0, 2 * g.chance);
+  }
+  return {"second neighbours", found, 0, most, chance_of_at_least(found, most)};
+}
+
+AggregateTest store_bias(std::span<const Group> groups) {
+  double found = 0, low = 0, high = 0;
+  for (const Group& g : groups) {
+    found += g.signed_share;
+    const double most = std::min(1.0, 2 * g.chance);
+    if (g.ruled_out) continue;
+    (g.side < 0 ? low : high) += g.side < 0 ? -most : most;
+  }
+  const double chance = found > 0 ? chance_of_at_least(found, high) : chance_of_at_least(-found, -low);
+  return {"store bias", found, low, high, std::min(1.0, 2 * chance)};
+}
+
+AggregateTest store_clusters(const StageVerdict& v) {
   const size_t pixels = size_t(v.width) * size_t(v.height);
   std::vector<float> chance(pixels, 0), value(pixels, 0);
   std::vector<bool> taken(pixels, false);
@@ -39,11 +79,11 @@ AggregateTest clusters(const StageVerdict& v) {
     if (c.taken != 0 || !taken[c.pixel]) value[c.pixel] = c.value;
     taken[c.pixel] = taken[c.pixel] || c.taken != 0;
   }
-  double pairs = 0, expected = 0;
+  double pairs = 0, most = 0;
   const auto look = [&](size_t a, size_t b) {
     if (value[a] == value[b]) return;  // one choice, seen twice
     pairs += taken[a] && taken[b] ? 1 : 0;
-    expected += double(chance[a]) * double(chance[b]);
+    most += std::min(1.0, 2 * double(std::min(chance[a], chance[b])));
   };
   for (int y = 0; y < v.height; ++y)
     for (int x = 0; x < v.width; ++x) {
@@ -51,32 +91,72 @@ AggregateTest clusters(const StageVerdict& v) {
       if (x + 1 < v.width) look(at, at + 1);
       if (y + 1 < v.height) look(at, at + size_t(v.width));
     }
-  return {"store clusters", pairs, expected, std::sqrt(expected + 1), true};
+  constexpr double kPairsOfPixel = 4;  // so many change together
+  return {"store clusters", pairs, 0, most, chance_of_at_least(pairs / kPairsOfPixel, most / kPairsOfPixel)};
+}
+
+AggregateTest other_surfaces(std::span<const PixelChoice> surfaces) {
+  double found = 0, most = 0;
+  std::vector<PixelChoice> sorted(surfaces.begin(), surfaces.end());
+  std::sort(sorted.begin(), sorted.end(), [](const PixelChoice& a, const PixelChoice& b) { return a.group < b.group; });
+  for (size_t i = 0; i < sorted.size();) {
+    double other = 0, chance = 0;
+    size_t j = i;
+    for (; j < sorted.size() && sorted[j].group == sorted[i].group; ++j)
+      other += sorted[j].other ? 1 : 0, chance += double(sorted[j].chance);
+    found += other / double(j - i), most += std::min(1.0, 2 * chance / double(j - i));
+    i = j;
+  }
+  return {"other surfaces", found, 0, most, chance_of_at_least(found, most)};
+}
+
+bool shows_another(PixelClass c) {
+  return c == PixelClass::edge || c == PixelClass::depth_tie || c == PixelClass::clip || c == PixelClass::branch;
+}
+
+/// The pixels with more than one surface, each with all its chances together.
+std::vector<PixelChoice> choices_of_surfaces(const StageVerdict& v) {
+  std::vector<SurfaceChoice> sorted = v.surface_choices;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const SurfaceChoice& a, const SurfaceChoice& b) { return a.pixel < b.pixel; });
+  std::vector<PixelChoice> pixels;
+  for (const SurfaceChoice& c : sorted) {
+    if (pixels.empty() || pixels.back().pixel != c.pixel)
+      pixels.push_back({c.pixel, c.surface, c.chance, shows_another(v.classes[c.pixel])});
+    else
+      pixels.back().chance = 1 - (1 - pixels.back().chance) * (1 - c.chance);
+  }
+  return pixels;
+}
+
+std::vector<PixelChoice> choices_of_stores(const StageVerdict& v) {
+  std::vector<PixelChoice> pixels;
+  pixels.reserve(v.choices.size());
+  for (const StoreChoice& c : v.choices)
+    pixels.push_back({c.pixel, std::bit_cast<uint32_t>(c.value), c.chance, c.taken != 0});
+  return pixels;
 }
 
 }  // namespace
 
+double chance_of_at_least(double observed, double mean) {
+  const double t = observed - mean;
+  return t > 0 ? std::exp(-t * t / (2 * (mean + t / 3))) : 1;
+}
+
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
-  std::vector<StoreChoice> choices = v.choices;
-  std::sort(choices.begin(), choices.end(),
-            [](const StoreChoice& a, const StoreChoice& b) { return a.value < b.value; });
-  const double sigma = std::sqrt(
-      clustered_variance(choices, [](const StoreChoice& a, const StoreChoice& b) { return a.value == b.value; }) + 1);
-  double second = 0, expected = 0, bias = 0, expected_bias = 0;
-  for (const StoreChoice& c : choices) {
-    second += c.taken != 0 ? 1 : 0;
-    expected += double(c.chance);
-    bias += c.taken;
-    expected_bias += c.side * double(c.chance);
-  }
-  // Chances are upper bounds: the true drift lies between none and the predicted one.
-  const double drift = std::clamp(bias, std::min(0.0, expected_bias), std::max(0.0, expected_bias));
-  std::vector<AggregateTest> tests = {other_surfaces(v),
-                                      {"second neighbours", second, expected, sigma, true},
-                                      {"store bias", bias, drift, sigma, false},
-                                      clusters(v)};
-  for (size_t i = 1; i < tests.size(); ++i) tests[i].tested = v.stores_apart;
+  const std::vector<Group> stores = groups_of_stores(v);
+  const std::vector<PixelChoice> surfaces = choices_of_surfaces(v);
+  std::vector<AggregateTest> tests = {ruled_out(v, stores), second_neighbours(stores), store_bias(stores),
+                                      store_clusters(v), other_surfaces(surfaces)};
+  tests.push_back(least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height));
+  tests.push_back(least_likely_region("surfaces of a region", 0.5, surfaces, v.width, v.height));
   return tests;
+}
+
+const AggregateTest& least_likely(const std::vector<AggregateTest>& tests) {
+  return *std::min_element(tests.begin(), tests.end(),
+                           [](const AggregateTest& a, const AggregateTest& b) { return a.chance < b.chance; });
 }
 
 }  // namespace trueshade::oracle

@@ -8,29 +8,34 @@
 
 namespace trueshade::oracle {
 
-/// observed against expected, in standard deviations of what chance does.
+/// What was seen against the most that chance is expected to make.
 struct AggregateTest {
   std::string name;
-  double observed = 0, expected = 0, sigma = 1;
-  bool one_sided = true;  ///< expectations are upper bounds: errors are taken to fill their whole interval
-  bool tested = true;     ///< false: the stage leaves nothing to count
-  double deviation() const { return (observed - expected) / sigma; }
-  bool passes() const {
-    return !tested || (one_sided ? deviation() : deviation() < 0 ? -deviation() : deviation()) <= 6;
-  }
+  double observed = 0, low = 0, high = 0;  ///< expected between these
+  double chance = 1;    ///< at most so likely is it, of an implementation that follows the rule; all regions counted
+  std::string where{};  ///< of a region: `tile of 16x16 at 32,48`
+  bool passes(double least_chance) const { return chance >= least_chance; }
 };
 
-/// Four tests a stage:
-///   other surfaces     pixels that show another than the nominal surface or branch; pixels of one triangle move
-///   together,
-///                      so sigma^2 = sum over triangles of (sum p)^2 + 1
-///   second neighbours  channels stored as another than the nominal neighbour; equal values are one choice, so
-///                      sigma^2 = sum over values of (n p)^2 + 1
-///   store bias         their signed sum; sigma as before (a drift such as truncation shows here)
-///   store clusters     neighbouring pixels that both took a second one, of unequal values: expected sum p_i p_j
-/// The last three are not tested where only the last of many blends is known (StageVerdict::stores_apart): what one
-/// store took cannot be told from the next one's.
-/// The 1 keeps a lone pixel from being six deviations where nothing was expected.
+inline constexpr size_t kAggregateTests = 7;  ///< a stage
+
+/// The likelihood that a sum of independent numbers between 0 and 1, of which `mean` is expected, is at least
+/// `observed`: Bernstein's bound exp(-t^2 / (2 (mean + t / 3))) with t = observed - mean.
+double chance_of_at_least(double observed, double mean);
+
+/// The tests of a stage. Pixels of one triangle, and stores of equal values, are one choice, which counts for the share
+/// of its pixels that went the other way: so choices are independent. A prediction spreads errors evenly over their
+/// bounds; errors that are systematic reach twice as many choices at most, and that is what is expected at most.
+///   ruled out          stores that the likely rule rules out; one in 2^20 is let pass
+///   second neighbours  stores that took another than the nominal neighbour, where the rule leaves a choice
+///   store bias         their signed sum (a drift such as truncation shows here)
+///   store clusters     neighbouring pixels that both took a second one, of unequal values
+///   other surfaces     pixels that show another than the nominal surface or branch
+///   a region           tiles of 8, 16, 32 and 64 pixels, and halves of the image: choices that went the other way, of
+///                      stores or of surfaces, against the share that they have elsewhere
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& verdict);
+
+/// The least likely of them.
+const AggregateTest& least_likely(const std::vector<AggregateTest>& tests);
 
 }  // namespace trueshade::oracle

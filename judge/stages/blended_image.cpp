@@ -10,10 +10,47 @@ void BlendingJudge::find_layers(const Capture& capture) {
     layers_.emplace(scene_, pipeline_, profile_, capture);
 }
 
+/// What the likely rule leaves after a fragment's nominal draws. Sums that are kept in floats are carried as such.
+void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const {
+  const bool in_floats = profile_.likely.sums_in_floats;
+  const Format format = in_floats ? Format::rgba32f : color_.image->format;
+  for (int i = 0; i < f.nominal; ++i) {
+    p.likely = in_floats ? blended_texel(blend, format, likely_, f.output.nominal, p.likely)
+                         : likely_texel(blend, format, profile_, likely_, f.output.nominal, p.likely);
+    for (size_t k = 0; k < 4; ++k) {
+      p.value[k] += float(f.output.nominal[k].value);
+      p.chance[k] += float(p.likely[k].second_chance);
+      p.drift[k] += float(p.likely[k].second_chance) * float(p.likely[k].second_side);
+    }
+  }
+}
+
+/// The choice between what the likely rule leaves after all draws and what was stored. Sums of equal sources are one.
+void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const {
+  m.choices.clear();
+  if (!view.quantised() || p.split || (layers_ && layers_->any(x, y))) return;
+  for (int k = 0; k < view.channels; ++k) {
+    LegalTexel t = p.likely[size_t(k)];
+    if (profile_.likely.sums_in_floats) {
+      const Range sum{t.nominal, t.low, t.high};
+      t = legal_texel(sum, color_.image->format, k, likely_);
+    } else {
+      t.second_chance = std::min(1.0, double(p.chance[size_t(k)]));
+      t.second_side = p.drift[size_t(k)] < 0 ? -1 : 1;
+    }
+    const double given = view.stored(x, y, k);
+    if (given == t.nominal && !(t.second_chance > 0)) continue;
+    StoreChoice c = choice_of(view, k, uint32_t(at(x, y)), double(p.value[size_t(k)]), t, given, profile_);
+    if (given >= t.low && given <= t.high) c.chance = float(std::max(t.second_chance, 1e-3));
+    m.choices.push_back(c);
+  }
+}
+
 /// What the pixel may hold after the fragments, from what it may hold before them.
 void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const {
   const Format format = color_.image->format;
   for (const DrawnFragment& f : fragments) {
+    if (!f.output.undefined && color_.quantised()) carry_likely(p, f, blend);
     if (f.output.undefined) {
       if (f.least > 0) p.pixel_class = PixelClass::undefined;
       if (f.least == 0) {
@@ -61,12 +98,12 @@ void BlendingJudge::cover(int x, int y) {
 void BlendingJudge::judge_last(int x, int y, const Image& last) {
   PixelState& p = pixels_[at(x, y)];
   if (p.pixel_class == PixelClass::undefined) return;
-  const PlaneView view(&last);
+  const PlaneView view_of_last(&last);
   const auto judged = [&](const Texel& texel, Match& m) {
     Way way;
     way.texel = texel;
     for (size_t k = 0; k < 4; ++k) way.value[k] = texel[k].nominal;
-    return fits(way, view, x, y, m);
+    return fits(way, view_of_last, x, y, m);
   };
   Match m;
   if (judged(p.nominal, m)) {
@@ -79,7 +116,10 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
   } else {
     p.pixel_class = PixelClass::violation;
   }
-  m.choices.clear();  // of many stores only the last one's result is known
+  if (p.pixel_class == PixelClass::exact || p.pixel_class == PixelClass::store_2)
+    choose_last(p, x, y, view_of_last, m);
+  else
+    m.choices.clear();
   rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
 }
 
@@ -89,9 +129,7 @@ StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const P
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
   judge.find_layers(capture);
-  StageVerdict v = judge.verdict("lighting", &capture.color);
-  v.stores_apart = false;
-  return v;
+  return judge.verdict("lighting", &capture.color);
 }
 
 }  // namespace trueshade::oracle

@@ -11,7 +11,6 @@ namespace {
 
 constexpr size_t kBatchBytes = size_t(160) << 20;  // of targets that wait to be judged together
 constexpr int kMostLights = 64;                    // that do
-constexpr size_t kMostChoices = size_t(1) << 14;   // of a row that are kept: the first ones, whichever way they went
 
 Texel texel_of(const Image& image, int x, int y) {
   const PlaneView view(&image);
@@ -32,6 +31,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
     : scene_(scene),
       pipeline_(pipeline),
       profile_(profile),
+      likely_(following(profile.likely, profile)),
       color_(target_of(capture, pipeline)),
       count_(plane_of(capture, pipeline, "light.count")),
       drawn_at_(capture.drawn_at),
@@ -267,22 +267,20 @@ bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Ma
 void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn,
                            const BlendState& blend, const PlaneView& view, Match& m) const {
   m.choices.clear();
-  if (!view.quantised() || rows_[size_t(y)].choices.size() >= kMostChoices) return;
+  if (!view.quantised()) return;
   Texel t = before;
   std::array<double, 4> value{};
   for (const DrawnFragment& f : drawn)
     for (int i = 0; i < f.nominal; ++i) {
-      t = likely_texel(blend, color_.image->format, profile_, f.output.nominal, t);
+      t = likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, t);
       for (size_t k = 0; k < 4; ++k) value[k] = f.output.nominal[k].value;
     }
   const bool codes_add = view.unorm() && !view.layout.srgb && blend.rgb == kAccumulate;
   for (size_t k = 0; k < size_t(view.channels); ++k) {
     const double given = view.stored(x, y, int(k));
-    const auto taken = int8_t(given < t[k].nominal ? -1 : given > t[k].nominal ? 1 : 0);
-    if (taken == 0 && !(t[k].second_chance > 0)) continue;
-    const auto side = int8_t(t[k].second_chance > 0 ? t[k].second_side : taken);
+    if (given == t[k].nominal && !(t[k].second_chance > 0)) continue;
     const double choice = codes_add || !blend.enabled ? value[k] : value[k] + before[k].nominal;
-    m.choices.push_back({uint32_t(at(x, y)), float(choice), float(t[k].second_chance), side, taken});
+    m.choices.push_back(choice_of(view, int(k), uint32_t(at(x, y)), choice, t[k], given, profile_));
   }
 }
 

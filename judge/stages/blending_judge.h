@@ -10,8 +10,8 @@
 
 #include "core/threads/parallel_for.h"
 #include "judge/legal/blend_ways.h"
-#include "judge/stages/captured_surface.h"
 #include "judge/legal/light_cover.h"
+#include "judge/stages/captured_surface.h"
 #include "judge/stages/tied_surfaces.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -23,8 +23,11 @@ struct PixelState {
   PixelClass pixel_class = PixelClass::exact;
   double same = 1;     ///< predicted probability that every light drew as nominal
   Texel nominal, all;  ///< by the nominal draws; by any
-  bool split = false;  ///< whether the two may differ
-  bool open = false;   ///< a fragment that may be absent could have left anything
+  Texel likely;        ///< by the nominal draws, rounded as the likely rule has it; floats where it keeps them
+  std::array<float, 4> value{}, chance{}, drift{};  ///< sums over the draws: sources, chances of other roundings, with
+                                                    ///< their signs
+  bool split = false;                               ///< whether the two may differ
+  bool open = false;                                ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
 };
@@ -71,7 +74,8 @@ class BlendingJudge {
 
   void may_be_other(int x, int y, int light, const FragmentCount& count) {
     pixels_[at(x, y)].same *= 1 - double(count.chance_other);
-    rows_[size_t(y)].surface_choices.push_back({uint64_t(uint32_t(light)) << 32 | count.triangle, count.chance_other});
+    rows_[size_t(y)].surface_choices.push_back(
+        {uint64_t(uint32_t(light)) << 32 | count.triangle, uint32_t(at(x, y)), count.chance_other});
   }
 
   /// Depths that may be equal are so for all lights or for none.
@@ -79,7 +83,7 @@ class BlendingJudge {
     for (const TiedSurface& t : tied_->at(x, y)) {
       if (t.certain) continue;
       pixels_[at(x, y)].same *= 0.5;
-      rows_[size_t(y)].surface_choices.push_back({uint64_t(at(x, y)), 0.5f});
+      rows_[size_t(y)].surface_choices.push_back({uint64_t(at(x, y)), uint32_t(at(x, y)), 0.5f});
     }
   }
 
@@ -91,6 +95,8 @@ class BlendingJudge {
   void judge(int x, int y, int light, const Image* before, const Image* given, std::span<const DrawnFragment> fragments,
              const BlendState& blend);
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
+  void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const;
+  void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
   void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,
               const PlaneView& view, Match& m) const;
   void unchanged(int x, int y, size_t i);
@@ -104,7 +110,7 @@ class BlendingJudge {
 
   const Scene& scene_;
   const Pipeline pipeline_;
-  const Profile profile_;
+  const Profile profile_, likely_;
   const PlaneView color_, count_;  ///< the target, and light.count where it was captured
   const std::array<int, 2> drawn_at_;
   const CapturedSurface captured_;

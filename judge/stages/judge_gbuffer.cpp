@@ -278,7 +278,8 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
   const bool clear_legal = !certain;
   if (legal.size() + (clear_legal ? 1 : 0) > 1) {
     const PossibleSurface* first = nominal != nullptr ? nominal : legal.front();
-    row.may_be_other(uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
+    row.may_be_other(uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x),
+                     uint64_t(first->instance) << 32 | first->triangle, chance_of_other(legal, nominal));
   }
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
   if (is_clear(x, y_top)) {

@@ -37,6 +37,7 @@ class LightingJudge {
   }
 
  private:
+  uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
   bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
   void judge_pixel(int x, int y, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
@@ -88,7 +89,7 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
         legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)), color_.image->format, 3, profile_);
   }
   const TransparentPixel pixel = layers_->at(x, y);
-  may_have_other_layers(pixel, row);
+  may_have_other_layers(pixel, pixel_at(x, y), row);
   LayeredVerdict v = judge_ways(layers_->ways(pixel, at.nominal), color_, "color", x, y, profile_);
   if (v.pixel_class == PixelClass::violation && branches) {
     v = judge_ways(layers_->ways(pixel, at.all), color_, "color", x, y, profile_);
@@ -99,7 +100,7 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
 }
 
 bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const {
-  const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
+  const uint32_t pixel = pixel_at(x, y);
   for (int k = 0; k < 3; ++k) {
     Bounded c = lit.color[size_t(k)];
     c.value += change[size_t(k)];
@@ -110,7 +111,7 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
 
 void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
   Match m;
-  const uint32_t pixel = uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x);
+  const uint32_t pixel = pixel_at(x, y);
   for (int k = 0; k < color_.channels; ++k) {
     const Range c = cleared_range(double(scene_.clear[k]), color_.image->format, k, profile_);
     m.channel_is(color_, "color", k, c, color_.stored(x, y, k), pixel, profile_);
@@ -129,12 +130,12 @@ void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
   const ShadedSurface surface = surface_.at(x, y);
   const LitRange lit = lights_.at(surface);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
-  if (!lit.branches.empty()) row.may_be_other(uint64_t(y) << 32 | uint64_t(x), 0.5);
+  if (!lit.branches.empty()) row.may_be_other(pixel_at(x, y), pixel_at(x, y), 0.5);
   Match nominal;
   const auto others = [&](Match& m) {
     if (color_.channels > 3) {
       m.channel_is(color_, "color", 3, output_range(pipeline_.light_model, surface_.alpha(surface)),
-                   color_.stored(x, y, 3), uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), profile_);
+                   color_.stored(x, y, 3), pixel_at(x, y), profile_);
     }
     count_is(lit, x, y, m);
   };

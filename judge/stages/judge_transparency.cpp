@@ -50,10 +50,11 @@ class TransparencyJudge {
       if (std::memcmp(before_.texel(x, y), target.texel(x, y), bytes) == 0) return;
     } else {
       ways = layers_.ways(pixel, ways[0].texel);
-      may_have_other_layers(pixel, row);
+      may_have_other_layers(pixel, uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x), row);
       row.covered += pixel.layers.front().drawn ? 1 : 0;
     }
-    const LayeredVerdict v = judge_ways(ways, after, "color", x, y, profile_);
+    LayeredVerdict v = judge_ways(ways, after, "color", x, y, profile_);
+    if (profile_.blend == BlendRule::any_precision) v.match.choices.clear();  // factors may be rounded in many ways
     if (worse(v.pixel_class, classes_[at(x, y)])) classes_[at(x, y)] = v.pixel_class;
     const uint32_t instance = pixel.layers.empty() ? first : pixel.layers.front().instance;
     row.record(x, y, v.pixel_class, v.match, "after transparent instance " + std::to_string(instance));
@@ -98,7 +99,7 @@ LayeredVerdict judge_ways(std::span<const LayeredTexel> ways, const PlaneView& v
   return closest;
 }
 
-void may_have_other_layers(const TransparentPixel& pixel, RowTally& row) {
+void may_have_other_layers(const TransparentPixel& pixel, uint32_t at, RowTally& row) {
   double same = 1;
   const TransparentLayer* open = nullptr;
   for (const TransparentLayer& layer : pixel.layers) {
@@ -107,7 +108,7 @@ void may_have_other_layers(const TransparentPixel& pixel, RowTally& row) {
     same *= 1 - double(layer.chance_other);
     open = &layer;
   }
-  if (open != nullptr) row.may_be_other(uint64_t(open->instance) << 32 | open->triangle, 1 - same);
+  if (open != nullptr) row.may_be_other(at, uint64_t(open->instance) << 32 | open->triangle, 1 - same);
 }
 
 StageVerdict judge_transparency(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

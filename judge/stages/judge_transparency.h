@@ -16,6 +16,6 @@ LayeredVerdict judge_ways(std::span<const LayeredTexel> ways, const PlaneView& v
                           const Profile& profile);
 
 /// Notes in a row that a pixel may show another number of its layers.
-void may_have_other_layers(const TransparentPixel& pixel, RowTally& row);
+void may_have_other_layers(const TransparentPixel& pixel, uint32_t at, RowTally& row);
 
 }  // namespace trueshade::oracle

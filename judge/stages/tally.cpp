@@ -9,6 +9,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kWorst = 32;
+constexpr size_t kMostChoices = size_t(1) << 14;  // of a row that are kept: the first ones, whichever way they went
 
 /// One unit in the last place of what the plane stores at `value`.
 double unit_of(const PlaneView& view, int channel, double value) {
@@ -107,17 +108,30 @@ void Match::texel_is(const PlaneView& view, const char* name, int at, const Lega
   ++stored_values;
   const auto taken = int8_t(stored < texel.nominal ? -1 : stored > texel.nominal ? 1 : 0);
   second = second || taken != 0;
-  if (view.layout.small_float() && profile.half == HalfStore::either)
-    return;  // which neighbour is the nominal one is not known
-  const auto side = int8_t(texel.second_chance > 0 ? texel.second_side : taken);
-  if (taken != 0 || texel.second_chance > 0)
-    choices.push_back({pixel, float(value), float(texel.second_chance), side, taken});
+  if (taken == 0 && !(texel.second_chance > 0)) return;
+  choices.push_back(choice_of(view, at, pixel, value, texel, stored, profile));
 }
 
-void RowTally::may_be_other(uint64_t surface, double chance) {
+StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double value, const LegalTexel& likely,
+                      double stored, const Profile& profile) {
+  StoreChoice c{pixel, float(value), float(likely.second_chance), int8_t(likely.second_side),
+                int8_t(stored < likely.nominal   ? -1
+                       : stored > likely.nominal ? 1
+                                                 : 0)};
+  const bool is_second = c.taken == 0 || (c.chance > 0 && (c.taken == c.side || c.chance > 0.5f));
+  if (!is_second) c.chance = 0, c.side = c.taken;
+  if (view.unorm() && profile.likely.code_reach > 0.5) {  // errors of such a size are alike where values are
+    constexpr double kAlike = 16;                         // parts of a code
+    const double step = kAlike * view.layout.largest_code(channel);
+    c.value = float(std::floor(value * step) / step);
+  }
+  return c;
+}
+
+void RowTally::may_be_other(uint32_t pixel, uint64_t surface, double chance) {
   ++ambiguous;
   predicted_other += chance;
-  surface_choices.push_back({surface, float(chance)});
+  surface_choices.push_back({surface, pixel, float(chance)});
 }
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
@@ -128,7 +142,7 @@ void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::s
 void RowTally::record(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
   stored_values += match.stored_values;
   worst_error = std::max(worst_error, match.worst_error);
-  choices.insert(choices.end(), match.choices.begin(), match.choices.end());
+  if (choices.size() < kMostChoices) choices.insert(choices.end(), match.choices.begin(), match.choices.end());
   if (c == PixelClass::exact || c == PixelClass::store_2) return;
   worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
                    match.legal_value.nominal, match.given, match.excess, surface});
@@ -137,8 +151,13 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
 
 Profile resolved(const Profile& profile, const Pipeline& pipeline) {
   Profile p = profile;
-  p.likely_half = pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
-  if (p.exact_planes) p.half = p.likely_half;
+  const HalfStore stated =
+      pipeline.gbuffer.half_round == HalfRound::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.exact_planes) p.half = stated;
+  if (p.likely.half != HalfStore::either) return p;
+  p.likely = {std::min(p.unorm_reach, 0.6), p.blend == BlendRule::mesa_codes, false,
+              p.half == HalfStore::either ? stated : p.half};
+  if (p.unorm_reach == 1.0) p.likely.code_reach = 0.5;
   return p;
 }
 
@@ -147,6 +166,7 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
   StageVerdict v;
   v.stage = stage;
   v.profile = profile.name;
+  v.rule = profile.likely;
   v.width = width, v.height = height;
   for (RowTally& row : rows) {
     v.classes.insert(v.classes.end(), row.classes.begin(), row.classes.end());

@@ -63,6 +63,11 @@ struct Match {
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 
+/// The choice that a store had, by what the likely rule makes of its value. One that the rule rules out has a chance of
+/// 0, wherever it lies.
+StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double value, const LegalTexel& likely,
+                      double stored, const Profile& profile);
+
 /// One row's share of a verdict.
 struct RowTally {
   std::vector<PixelClass> classes;
@@ -72,13 +77,15 @@ struct RowTally {
   std::vector<StoreChoice> choices;
   std::vector<WorstPixel> worst;
 
-  void may_be_other(uint64_t surface, double chance);
+  /// `pixel`: y * width + x, y from the top.
+  void may_be_other(uint32_t pixel, uint64_t surface, double chance);
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
   /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 };
 
 /// The profile as it applies: `ideal` follows the pipeline's half_round; of others that allow either, it is nominal.
+/// The likely rule of stores is the tightest that the profile's knobs leave, nearest codes where they leave all.
 Profile resolved(const Profile& profile, const Pipeline& pipeline);
 
 StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,

@@ -4,28 +4,34 @@
 #include <string>
 #include <vector>
 
-#include "judge/stages/aggregate.h"
+#include "judge/stages/evidence.h"
 #include "judge/stages/infer.h"
 #include "judge/stages/judge.h"
 
 namespace trueshade::oracle {
 
 struct ValidateOptions {
-  Profile profile;       ///< what is promised; by default what OpenGL promises with 4 subpixel bits
-  bool infer = false;    ///< also find the tightest profile: some fifteen judgements more
-  LightSteps steps{};    ///< of strategies that draw light by light: to judge each light by itself
-  LightSteps objects{};  ///< of surfaces transparent after the lights: to judge each by itself
+  Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
+  bool infer = false;          ///< also find the tightest profile: some fifteen judgements more
+  LightSteps steps{};          ///< of strategies that draw light by light: to judge each light by itself
+  LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
+  double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them
 };
 
 struct Verdict {
   std::string scene, driver;
   std::string profile;
   std::vector<StageVerdict> stages;  ///< those the capture has planes for: gbuffer; lighting or blending; transparency
-  std::vector<std::vector<AggregateTest>> aggregates;  ///< a list a stage
+  std::vector<Evidence> evidence;    ///< of each stage
+  double significance = 1e-6;
   std::optional<Inference> inferred;
 
-  uint64_t violations() const;  ///< over all stages; the command's exit code is 1 where it is not 0
-  bool suspicious() const;      ///< some aggregate test fails: legal pixel by pixel, yet not what chance makes
+  uint64_t violations() const;                      ///< over all stages; the command's exit code is 1 where it is not 0
+  double least_chance(size_t stages_judged) const;  ///< of one test, so that all of them pass by the significance
+  bool convicted() const;   ///< legal pixel by pixel, yet no implementation that is known makes such an image
+  bool suspicious() const;  ///< convicted, or stores follow another known rule than the one that is stated
+  /// The strongest evidence in one line: what was seen, what is expected at most, how likely that is.
+  std::string evidence_line() const;
 };
 
 /// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by
@@ -34,10 +40,11 @@ struct Verdict {
 Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
                          const ValidateOptions& options = {});
 
-/// The verdict as JSON, fixed key order: scene, driver, profile, pass, suspicious, stages [{stage, width, height,
-/// counts by class name, covered, ambiguous, predicted_other, stored_values, worst_error, aggregates [{name, observed,
-/// expected, sigma, pass} or {name, tested: false}], worst [{x, y, class, plane, low, high, nominal, given, note}]}],
-/// inferred. x, y from the top left; infinite ends are the strings "inf" and "-inf".
+/// The verdict as JSON, fixed key order: scene, driver, profile, pass, convicted, suspicious, significance, evidence
+/// (one line, where convicted), stages [{stage, width, height, counts by class name, covered, ambiguous,
+/// predicted_other, stored_values, worst_error, rounding, aggregates [{name, observed, low, high, chance, where,
+/// pass}], worst [{x, y, class, plane, low, high, nominal, given, note}]}], inferred. x, y from the top left; infinite
+/// ends are null.
 std::string verdict_json(const Verdict& verdict);
 
 }  // namespace trueshade::oracle

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "judge/bounds/profile.h"
 #include "judge/legal/pixel_class.h"
 
 namespace trueshade::oracle {
@@ -19,18 +20,20 @@ struct WorstPixel {
   std::string note;   ///< the surface meant: `instance 3, triangle 17`, or `nothing drawn`
 };
 
-/// A channel whose rounding could go either way: kept for the tests of the whole image.
+/// A channel whose rounding could go either way by the likely rule, or went a way that the rule rules out: kept for the
+/// tests of the whole image.
 struct StoreChoice {
   uint32_t pixel;  ///< y * width + x, y from the top
   float value;     ///< the real value before the store: equal values are one choice, however many pixels have them
-  float chance;    ///< predicted that the second neighbour is taken
+  float chance;    ///< predicted that the second neighbour is taken; 0 where the rule rules out what was stored
   int8_t side;     ///< where the nearest threshold lies: -1 below, 1 above
-  int8_t taken;    ///< 0: the nominal one; -1, 1: the one below, above
+  int8_t taken;    ///< 0: the nominal one; -1, 1: one below, above
 };
 
-/// A pixel with more than one legal surface or branch.
+/// A pixel with more than one legal surface or branch. A pixel may have several.
 struct SurfaceChoice {
   uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle move together
+  uint32_t pixel;    ///< y * width + x, y from the top
   float chance;      ///< predicted that another is shown
 };
 
@@ -45,7 +48,7 @@ struct StageVerdict {
   uint64_t stored_values = 0;                    ///< unorm and half channels judged
   std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
-  bool stores_apart = true;                      ///< false: many stores, of which only the last one's result is known
+  StoreRule rule;                                ///< by which `choices` are choices
   double worst_error = 0;                        ///< float planes: largest |given - value| / bound
   std::vector<WorstPixel> worst;                 ///< at most 32
 

@@ -313,7 +313,7 @@ TEST_CASE("a driver's report and JSON name the driver and the tightest profile")
   CHECK(folder.entries() == Arguments{"v.html"});
 }
 
-TEST_CASE("stores that lean are a remark where OpenGL allows them, in text and JSON, and no rejection") {
+TEST_CASE("stores that lean as a known driver's do are named, in text and JSON, and no rejection") {
   const ScratchFolder folder;
   for (const char* target : {"srgb8_a8", "rgb10_a2"}) {  // whose codes llvmpipe does not round to the nearest
     folder.write("p.json", std::string(R"({"target":")") + target + "\"}");
@@ -325,16 +325,61 @@ TEST_CASE("stores that lean are a remark where OpenGL allows them, in text and J
     }
     INFO(told.out << told.err);
     CHECK(told.exit_code == 0);
-    CHECK(has(told.out, "NOT what chance makes"));
-    CHECK(has(told.out,
-              "every pixel is explained, yet the image is not what chance makes (a remark: each pixel is legal)"));
+    CHECK(has(told.out, "codes as llvmpipe's, halves toward zero, as known implementations do"));
+    CHECK(has(told.out, "verdict     every pixel is explained\n"));
     Arguments json = draw;
     json.emplace_back("--json");
     const Outcome listed = judged(folder, json);
     CHECK(listed.exit_code == 0);
-    CHECK(has(listed.out, R"("pass":true,"suspicious":true)"));
+    CHECK(has(listed.out, R"("pass":true,"convicted":false,"suspicious":true)"));
     CHECK(has(listed.out, R"("VIOLATION":0)"));
   }
+}
+
+TEST_CASE(
+    "a picture that no known rounding makes is a failure, a remark with --lenient, and its evidence is one line") {
+  // Sixty lights, each of which adds 0.4 codes to each pixel, or 0.6: rounded, each of them adds 0 or 1, and either is
+  // legal. So the sum may be anything from 0 to 60 codes, and the second picture is no other neighbour of the first.
+  const auto scene = [](double codes) {
+    std::string lights;
+    for (int i = 0; i < 60; ++i)
+      lights += std::string(i > 0 ? "," : "") + R"({"type":"point","position":[)" + std::to_string(0.02 * i - 0.6) +
+                R"(,0.1,6],"range":60,"color":[1,1,1],"intensity":)" + std::to_string(codes / 255 * 1.12) + "}";
+    return R"({"version":1,"camera":{"eye":[0,0,3],"target":[0,0,0]},"objects":[{"geometry":"quad.ply","color":[1,1,1]}],)"
+           R"("lights":[)" +
+           lights + "]}";
+  };
+  const ScratchFolder folder;
+  folder.write("quad.ply",
+               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+               "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n3 0 1 2\n3 0 2 3\n");
+  folder.write("stated.json", scene(0.4)), folder.write("other.json", scene(0.6));
+  folder.write("p.json", R"({"strategy":"deferred-volumes","light_model":{"specular":"none"}})");
+  const Outcome drawn = run_command({"render", "other.json", "--pipeline", "p.json", "--size", "64x48", "-o", "c.exr",
+                                     "--aov", "depth,position,normal,albedo,id.object"},
+                                    folder.path(""));
+  INFO(drawn.err);
+  REQUIRE(drawn.exit_code == 0);
+  const auto judge = [&](const Arguments& more) {
+    Arguments all = {"validate", "stated.json", "--pipeline", "p.json", "--gbuffer", "c.exr", "--quick"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_command(all, folder.path(""));
+  };
+  const Outcome failed = judge({}), lenient = judge({"--lenient"}), json = judge({"--json"});
+  INFO(failed.out << failed.err);
+  CHECK(failed.exit_code == 1);
+  CHECK(has(failed.out, "VIOLATION          0"));
+  CHECK(has(failed.out, "evidence    lighting, "));
+  CHECK(has(failed.out, "each pixel is legal, yet no rounding that is known makes such an image\n"));
+  CHECK(lenient.exit_code == 0);
+  CHECK(has(lenient.out, "(a remark, as --lenient asks)"));
+  CHECK(json.exit_code == 1);
+  CHECK(
+      has(json.out, R"("pass":false,"convicted":true,"suspicious":true,"significance":1e-06,"evidence":"lighting, )"));
+  CHECK(judge({"--profile", "ideal"}).exit_code == 1);  // by its pixels
+  for (const char* chance : {"0", "-1e-6", "0.02", "nan", "1e-6x", ""})
+    CHECK(judge({"--significance", chance}).exit_code == 2);
 }
 
 TEST_CASE("a capture without what its picture's lights are judged from is refused by its file's name") {

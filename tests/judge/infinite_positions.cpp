@@ -115,7 +115,7 @@ TEST_CASE("A verdict's JSON has strings for infinities and NaN") {
   WorstPixel& worst = stage.worst.back();
   worst.low = -infinity, worst.high = infinity, worst.given = std::numeric_limits<double>::quiet_NaN();
   verdict.stages.push_back(stage);
-  verdict.aggregates.emplace_back();
+  verdict.evidence.emplace_back();
   const std::string json = verdict_json(verdict);
   CHECK(json.find(R"("low":"-inf","high":"inf")") != std::string::npos);
   CHECK(json.find(R"("given":"nan")") != std::string::npos);

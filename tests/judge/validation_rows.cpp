@@ -5,7 +5,8 @@
 //   validation_rows DRIVER SUBPIXEL-BITS SIZE PROFILE,... STRATEGY,... FILE SCENE...
 //
 // Tab-separated: scene, strategy, preset, profile, driver, size, stage, pixels with a surface, the classes' counts,
-// pixels of other surfaces or branches, how many were predicted, failed tests of the whole image, s that judging took.
+// pixels of other surfaces or branches, how many were predicted, 1 where no known rounding makes the stage, s that
+// judging took.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -59,13 +60,21 @@ std::set<std::string> keys_in(const std::string& file) {
   return keys;
 }
 
-void append(const Request& r, const std::string& key, const StageVerdict& v, double seconds) {
-  int failed = 0;
-  for (const AggregateTest& t : aggregate_tests(v)) failed += t.passes() ? 0 : 1;
+using Judge = std::function<StageVerdict(const Profile&)>;
+
+void append(const Request& r, const std::string& key, const StageVerdict& v, double seconds, const Profile& profile,
+            const Judge& judge) {
+  constexpr double kStages = 2, kLeastChance = 1e-6 / (kStages * double(kAggregateTests));
+  const Evidence evidence = evidence_of(v, judge, profile, kLeastChance);
+  if (evidence.against) {
+    const AggregateTest& t = evidence.least_likely();
+    std::printf("  %s: %g where %g to %g are expected, %s\n", t.name.c_str(), t.observed, t.low, t.high,
+                t.where.c_str());
+  }
   std::ostringstream line;
   line << key << '\t' << v.stage << '\t' << v.covered;
   for (const uint64_t count : v.counts) line << '\t' << count;
-  line << '\t' << v.explained() << '\t' << v.predicted_other << '\t' << failed << '\t' << seconds << '\n';
+  line << '\t' << v.explained() << '\t' << v.predicted_other << '\t' << evidence.against << '\t' << seconds << '\n';
   std::ofstream(r.file, std::ios::app) << line.str();
   std::fputs(line.str().c_str(), stdout);
   std::fflush(stdout);
@@ -89,7 +98,8 @@ class Table {
     for (const Profile& profile : profiles) {
       const std::string key = key_of(r_, name_, asked, profile);
       const auto [geometry, seconds] = judged_geometry(asked, capture, profile);
-      append(r_, key, geometry, seconds);
+      append(r_, key, geometry, seconds, profile,
+             [&](const Profile& p) { return judge_gbuffer(scene_, pipeline, p, capture); });
     }
     if (blends_lights(asked.strategy)) return add_blending(asked, pipeline, capture, profiles);
     for (const Profile& profile : profiles) add_lighting(asked, pipeline, capture, profile);
@@ -98,8 +108,9 @@ class Table {
  private:
   void add_lighting(const Pipeline& asked, const Pipeline& pipeline, const Capture& capture, const Profile& profile) {
     StageVerdict v;
-    const double seconds = timed([&] { v = judge_lighting(scene_, pipeline, profile, capture); });
-    append(r_, key_of(r_, name_, asked, profile), v, seconds);
+    const Judge judge = [&](const Profile& p) { return judge_lighting(scene_, pipeline, p, capture); };
+    const double seconds = timed([&] { v = judge(profile); });
+    append(r_, key_of(r_, name_, asked, profile), v, seconds, profile, judge);
   }
 
   /// A target that looks at it change (softpipe's) is judged by its last state too.
@@ -117,7 +128,8 @@ class Table {
     std::vector<StageVerdict> verdicts;
     const double seconds = timed([&] { verdicts = judge_blending(scene_, pipeline, profiles, capture, steps); });
     for (size_t i = 0; i < profiles.size(); ++i)
-      append(r_, key_of(r_, name_, asked, profiles[i]), verdicts[i], seconds);
+      append(r_, key_of(r_, name_, asked, profiles[i]), verdicts[i], seconds, profiles[i],
+             [&](const Profile& p) { return judge_blending(scene_, pipeline, p, capture, steps); });
     for (size_t i = 0; i < profiles.size() && !same; ++i) add_lighting(asked, pipeline, capture, profiles[i]);
   }
 

@@ -1,0 +1,30 @@
+#pragma once
+// Which known way of rounding a stage of an image follows, and whether it follows any.
+#include <functional>
+#include <vector>
+
+#include "judge/stages/aggregate.h"
+
+namespace trueshade::oracle {
+
+/// What the tests of the whole image say of a stage.
+struct Evidence {
+  std::vector<AggregateTest> tests;  ///< by `rule`
+  StoreRule rule;         ///< the first that the image follows, of those that the profile allows; else the likeliest
+  bool as_stated = true;  ///< that rule is the one that profile and pipeline state
+  bool against = false;   ///< the image follows none
+
+  const AggregateTest& least_likely() const { return oracle::least_likely(tests); }
+};
+
+/// Holds a stage to the stated rule and, where that fails, to the other rules that are known and that the profile
+/// allows: nearest codes, within 0.6 (D3D11.3), llvmpipe's, sums kept in floats (softpipe); halves toward zero and to
+/// nearest. A stage with violations is not tried again: its pixels convict it.
+///   judge: the same stage by another profile
+Evidence evidence_of(const StageVerdict& stated, const std::function<StageVerdict(const Profile&)>& judge,
+                     const Profile& profile, double least_chance);
+
+/// `10^12` of 1e-12 and below, with the exponent rounded down; `1,000` alike.
+std::string one_in(double chance);
+
+}  // namespace trueshade::oracle

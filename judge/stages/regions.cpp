@@ -1,0 +1,100 @@
+#include "judge/stages/regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// A way to cut the image into regions of equal size.
+struct Cut {
+  const char* name;
+  int width, height;  ///< pixels
+};
+
+/// What the choices of a region came to.
+struct Sums {
+  double other = 0, expected = 0;
+};
+
+/// Choices that went the other way, at most so many, where `seen` of them were seen with as much latitude: three
+/// standard deviations, and ten where little was seen.
+double with_room(double seen) { return seen + 3 * std::sqrt(seen) + 10; }
+
+std::string place(const Cut& cut, int x, int y) {
+  if (cut.width * cut.height > 64 * 64 || cut.width != cut.height)
+    return std::string(cut.name) + " at " + std::to_string(x) + ',' + std::to_string(y);
+  return "tile of " + std::string(cut.name) + " at " + std::to_string(x) + ',' + std::to_string(y);
+}
+
+/// Choices with their region, so that those of one group in one region stand together.
+struct Placed {
+  uint32_t region;
+  PixelChoice choice;
+};
+
+std::vector<Sums> sums_by_region(std::vector<Placed>& placed, size_t regions) {
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.region, a.choice.group) < std::tie(b.region, b.choice.group);
+  });
+  std::vector<Sums> sums(regions);
+  for (size_t i = 0; i < placed.size();) {
+    double other = 0, chance = 0;
+    size_t j = i;
+    for (;
+         j < placed.size() && placed[j].region == placed[i].region && placed[j].choice.group == placed[i].choice.group;
+         ++j)
+      other += placed[j].choice.other ? 1 : 0, chance += double(placed[j].choice.chance);
+    const auto count = double(j - i);
+    Sums& s = sums[placed[i].region];
+    s.other += other / count, s.expected += std::min(1.0, 2 * chance / count);
+    i = j;
+  }
+  return sums;
+}
+
+}  // namespace
+
+AggregateTest least_likely_region(const char* name, double least_share, std::vector<PixelChoice> choices, int width,
+                                  int height) {
+  const int half_width = (width + 1) / 2, half_height = (height + 1) / 2;
+  const Cut cuts[] = {{"8x8", 8, 8},
+                      {"16x16", 16, 16},
+                      {"32x32", 32, 32},
+                      {"64x64", 64, 64},
+                      {"half", half_width, height},
+                      {"half", width, half_height}};
+  AggregateTest least{name, 0, 0, 0, 1};
+  std::vector<Placed> placed(choices.size());
+  double regions_tried = 0;
+  for (const Cut& cut : cuts) {
+    if (cut.width >= width && cut.height >= height) continue;
+    const auto across = uint32_t((width + cut.width - 1) / cut.width),
+               down = uint32_t((height + cut.height - 1) / cut.height);
+    for (size_t i = 0; i < choices.size(); ++i) {
+      const uint32_t x = choices[i].pixel % uint32_t(width), y = choices[i].pixel / uint32_t(width);
+      placed[i] = {y / uint32_t(cut.height) * across + x / uint32_t(cut.width), choices[i]};
+    }
+    const std::vector<Sums> sums = sums_by_region(placed, size_t(across) * down);
+    Sums all;
+    for (const Sums& s : sums) all.other += s.other, all.expected += s.expected;
+    for (size_t i = 0; i < sums.size(); ++i) {
+      const Sums& s = sums[i];
+      if (s.other == 0 && s.expected == 0) continue;
+      ++regions_tried;
+      const double outside = all.expected - s.expected, seen = with_room(all.other - s.other);
+      const double share = outside > seen ? std::max(least_share, seen / outside) : 1;
+      const double most = share * s.expected;
+      const double chance = chance_of_at_least(s.other, most);
+      if (chance >= least.chance) continue;
+      least.chance = chance, least.observed = s.other, least.high = most;
+      least.where = place(cut, int(i % across) * cut.width, int(i / across) * cut.height);
+    }
+  }
+  least.chance = std::min(1.0, least.chance * std::max(1.0, regions_tried));
+  return least;
+}
+
+}  // namespace trueshade::oracle
