@@ -14,7 +14,7 @@ namespace {
 constexpr int64_t kHuge = int64_t(1) << 40;  // 1/256 pixel; from here on a triangle is cut to the guard box
 
 enum class Plane { small_w, near, far };
-constexpr float kSmallestW = 0x1p-100f;
+constexpr float kSmallestW = 0x1p-126f;  // below it a float is denormal, which OpenGL may take for 0
 
 /// A vertex of the polygon and the edge of the original triangle it lies on: ends (i, i) for an original vertex, (-1,
 /// -1) for a point inside the triangle.

@@ -42,7 +42,7 @@ bool owns_edge(const WindowVertex& a, const WindowVertex& b, int sign, bool low_
   return low_side ? dx > 0 : dx < 0;  // rightwards: the inside is above
 }
 
-constexpr double kSmallestW = 0x1p-100;
+constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which OpenGL may take for 0
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGuardBand = 0x1p15;  // pixels
 constexpr size_t kMostPatterns = 12;   // edges in doubt whose sides are all tried
-constexpr double kNearestW = 0x1p-100;
+constexpr double kNearestW = 0x1p-126;
 
 using Triple = std::array<double, 3>;
 

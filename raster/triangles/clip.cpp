@@ -12,7 +12,7 @@ namespace trueshade {
 namespace {
 
 enum Plane : uint8_t { kW, kNear, kFar, kRight, kLeft, kTop, kBottom };
-constexpr double kSmallestW = 0x1p-100;
+constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which OpenGL may take for 0
 
 // A plane's distance is a sum of terms: two clip coordinates (each with a sign), or one and a constant.
 struct PlaneTerms {
