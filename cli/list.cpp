@@ -6,6 +6,7 @@
 #include "cli/json_text.h"
 #include "core/numeric_profile.h"
 #include "judge/bounds/profile_names.h"
+#include "judge/diagnosis/finding.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -47,9 +48,12 @@ std::vector<Section> sections() {
   planes.entries.emplace_back("light.<i>", "what light i alone adds; i counts from 0");
   for (const std::string_view name : kViewNames) views.entries.emplace_back(name, "");
   for (const std::string_view name : simd_targets()) simd.entries.emplace_back(name, "");
-  Section schemas{"schemas", "JSON Schemas, for editors (installed in share/trueshade, in the sources in scenes/schemas)", {}};
+  Section faults{"faults", "Faults that validate looks for (--suppose)", {}};
+  for (const oracle::KnownFault& fault : oracle::known_faults()) faults.entries.emplace_back(fault.name, fault.text);
+  Section schemas{
+      "schemas", "JSON Schemas, for editors (installed in share/trueshade, in the sources in scenes/schemas)", {}};
   schemas.entries = {{"scene.schema.json", "of scene files"}, {"pipeline.schema.json", "of pipeline files"}};
-  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd, schemas};
+  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd, faults, schemas};
 }
 
 std::string json_of(const std::vector<Section>& list) {

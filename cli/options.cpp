@@ -266,6 +266,10 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
             "How many of all legal images may fail the tests of the whole image, at most 0.01 (1e-6)");
   add_switch(command, "--lenient", options.lenient,
              "What the tests of the whole image find is a remark: only pixels in no legal set fail");
+  add_values(
+      command, "--suppose", "FAULT", options.supposed,
+      "Say how much of what is wrong this fault explains, beside others that are supposed; `trueshade list` names "
+      "all; may be repeated");
   add_switch(command, "--json", options.json, "Print all of it as one JSON document");
   add_value(command, "-o,--output", "FILE", options.report, "Report to write, .html");
   add_limit_options(command, options);
@@ -349,6 +353,15 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   return options;
 }
 
+/// A word as a shell reads it back.
+std::string for_shell(const std::string& word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 /// CLI11's message without the line breaks that some have.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -430,6 +443,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
     words.push_back("--help");
   }
   if (!words.empty()) check_first_argument(app, words[0]);
+  for (const std::string& word : words) validation.command_line += ' ' + for_shell(word);
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     app.parse(words);

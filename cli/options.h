@@ -91,6 +91,8 @@ struct ValidationOptions : PipelineOptions {
   bool quick = false;                    ///< neither the tightest profile nor the moved frame
   bool lenient = false;                  ///< what the tests of the whole image find is no failure
   double significance = 1e-6;            ///< of these tests: how many legal images may fail them
+  std::vector<std::string> supposed;     ///< names of faults, as diagnose() takes them
+  std::string command_line;              ///< as it was given, for a shell
   bool json = false;
 };
 

@@ -110,6 +110,14 @@ bool judge_opengl(const ValidationOptions& options) {
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
                                          {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance});
   });
+  if (v.verdict.violations() > 0 || v.verdict.suspicious() || !options.supposed.empty())
+    v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, options.supposed);
+  for (size_t i = 0; i < v.findings.size(); ++i) {
+    v.findings[i].command = "trueshade" + options.command_line;
+    if (!options.supposed.empty()) continue;
+    if (v.findings[i].together) v.findings[i].command = v.findings[i - 1].command;
+    v.findings[i].command += " --suppose " + v.findings[i].name;
+  }
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);
   if (options.report) {

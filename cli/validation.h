@@ -6,6 +6,7 @@
 
 #include "cli/driver_capture.h"
 #include "cli/notes.h"
+#include "judge/diagnosis/finding.h"
 #include "judge/stages/validate.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
@@ -18,9 +19,10 @@ struct Validation {
   oracle::Capture capture;
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
-  bool lenient = false;                                  ///< what the tests of the whole image find is no failure
-  std::vector<DriverFrame::Pass> passes;                 ///< empty for a capture from files
-  int timed_frames = 0;                                  ///< whose median the passes are
+  bool lenient = false;                   ///< what the tests of the whole image find is no failure
+  std::vector<oracle::Finding> findings;  ///< what explains a capture that does not pass, or what was supposed
+  std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
+  int timed_frames = 0;                   ///< whose median the passes are
   std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing where not drawn
   std::vector<std::string> notes;                        ///< what a reader must know before the figures
   Notes scene_notes;                                     ///< what the picture does not show of the scene
@@ -47,6 +49,10 @@ std::string rounding_line(const oracle::Verdict& verdict);
 
 /// What the target hides, and which one would show it; empty for 32-bit floats and where there is no picture.
 std::string blind_spot_line(const Validation& validation);
+
+/// A finding in one line, and the pixel that proves it in another.
+std::string finding_line(const oracle::Finding& finding);
+std::string proof_line(const oracle::Finding& finding);
 
 /// What the command says: lines for people, or one JSON document.
 std::string validation_text(const Validation& validation);

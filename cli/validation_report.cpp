@@ -136,6 +136,16 @@ std::string stage_part(const StageVerdict& s, const oracle::Evidence& evidence, 
          aggregates_table(evidence, least_chance) + worst_table(s);
 }
 
+/// What explains a capture that does not pass.
+std::string diagnosis_part(const Validation& v) {
+  if (v.findings.empty()) return "";
+  std::string html = "<h2>What it looks like</h2>\n";
+  for (const oracle::Finding& f : v.findings)
+    html += "<p>" + std::string(f.together ? "And " : "") + escaped(finding_line(f)) + ".<br><span class=quiet>" +
+            escaped(proof_line(f)) + ".</span><br><code>" + escaped(f.command) + "</code></p>\n";
+  return html;
+}
+
 std::string inference_part(const oracle::Verdict& v) {
   if (!v.inferred) return "";
   std::string html =
@@ -177,7 +187,7 @@ std::string heading(const Validation& v) {
 }  // namespace
 
 std::string validation_page(const Validation& v) {
-  std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v);
+  std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v) + diagnosis_part(v);
   html += pictures(v);
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
     html += stage_part(v.verdict.stages[i], v.verdict.evidence[i], v.verdict.least_chance(v.verdict.stages.size()));

@@ -99,6 +99,21 @@ std::string tightest_line(const oracle::Inference& inferred) {
          " pixels against it";
 }
 
+std::string finding_line(const oracle::Finding& f) {
+  return f.name + " (" + f.plane + "): " + f.text + "; " + (f.together ? "together they explain " : "explains ") +
+         real(100 * f.explained, "%.1f") + " % of some " + std::to_string(f.changed) +
+         " pixels that are not as expected" +
+         (f.contradicted > 0.0005 ? ", and contradicts " + real(100 * f.contradicted, "%.1f") + " % of the others"
+                                  : "");
+}
+
+std::string proof_line(const oracle::Finding& f) {
+  if (f.proof.plane.empty()) return "no pixel of those looked at is explained";
+  return "at " + std::to_string(f.proof.x) + ',' + std::to_string(f.proof.y) + ' ' + f.proof.plane + " is " +
+         real(f.proof.given, "%.9g") + "; expected " + real(f.proof.right, "%.9g") + ", by this fault " +
+         real(f.proof.predicted, "%.9g");
+}
+
 bool passes(const Validation& v) {
   return v.verdict.violations() == 0 && v.repeat_changes.value_or(0) == 0 && (v.lenient || !v.verdict.convicted());
 }
@@ -179,7 +194,11 @@ std::string validation_text(const Validation& v) {
   add_row("hidden", blind_spot_line(v));
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
-  return lines + verdict_row("verdict", conclusion(v));
+  lines += verdict_row("verdict", conclusion(v));
+  for (const oracle::Finding& f : v.findings)
+    lines += verdict_row(f.together ? "and" : "looks like", finding_line(f)) + verdict_row("", proof_line(f)) +
+             verdict_row("", "try: " + f.command);
+  return lines;
 }
 
 std::string validation_json(const Validation& v) {
@@ -201,7 +220,10 @@ std::string validation_json(const Validation& v) {
   json.put("lenient", v.lenient).put_raw("ignored", ignored_json(v.scene_notes));
   if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
   if (v.move_changes) json.put("move_changes", *v.move_changes);
-  json.put("draw_ms", v.draw_ms).put("judge_ms", v.judge_ms).put_raw("verdict", oracle::verdict_json(v.verdict));
+  json.put("draw_ms", v.draw_ms)
+      .put("judge_ms", v.judge_ms)
+      .put_raw("verdict", oracle::verdict_json(v.verdict))
+      .put_raw("diagnosis", oracle::findings_json(v.findings));
   return json.text() + '\n';
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+// How far what was given is from what is predicted.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace trueshade::oracle {
+
+/// Beyond this many steps of what a plane stores a value is another one.
+inline constexpr double kSameSteps = 0.5;
+
+/// What a disagreement of so many steps costs: nothing, or from 0.15 for one step to 1 for a thousand. Coming nearer
+/// counts for something, being right for much more.
+inline double cost_of(double steps) {
+  if (steps < kSameSteps) return 0;
+  return std::min(1.0, 0.15 + 0.085 * std::log2(std::max(1.0, steps)));
+}
+
+/// A pixel that stands for `weight` pixels of its kind.
+struct SampledPixel {
+  int x = 0, y = 0;
+  double weight = 1;
+};
+
+/// Pixels that agree with a prediction, and what the others cost.
+struct Disagreement {
+  double cost = 0;          ///< over all sampled pixels, by weight
+  double explained = 0;     ///< weight of the pixels that agree, of those that do not without the fault
+  double contradicted = 0;  ///< weight of those that do not agree, of those that do without it
+};
+
+/// A number as a fault's name has it: at most five digits that count.
+std::string parameter_text(double value);
+
+/// The parameter of a fault as its name has it: a word, where there is one without spaces.
+template <class Fault>
+std::string parameter_word(const Fault& fault, double value) {
+  const std::string word = fault.says != nullptr ? fault.says(value) : parameter_text(value);
+  return word.find(' ') == std::string::npos ? word : parameter_text(value);
+}
+
+}  // namespace trueshade::oracle

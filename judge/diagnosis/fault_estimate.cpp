@@ -1,0 +1,238 @@
+#include "judge/diagnosis/fault_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kMostVoters = 120;
+
+class Estimate {
+ public:
+  Estimate(const PictureCase& picture, const PictureSupposition& supposed, const PictureFault& fault,
+           const std::vector<SampledPixel>& pixels, const std::vector<double>& off_if_right)
+      : picture_(picture), supposed_(supposed), fault_(fault), pixels_(pixels), off_(off_if_right) {}
+
+  double cost(double parameter) const { return picture_.disagreement(with(parameter), pixels_, off_).cost; }
+  std::vector<double> best_of(std::span<const double> starts, size_t most) const;
+  double smooth() const;
+  std::vector<double> lights(double sign) const;
+  std::vector<double> counts(bool at_pixel) const;
+
+ private:
+  PictureSupposition with(double parameter) const {
+    PictureSupposition s = supposed_;
+    s.suppose(fault_, parameter);
+    return s;
+  }
+  double stepped(double parameter) const;
+  double narrowed(double parameter) const;
+  double short_number(double parameter) const;
+  bool fits(const Color& value, const SampledPixel& pixel, double steps) const;
+  template <class See>
+  void each_voter(const See& see) const;
+
+  const PictureCase& picture_;
+  const PictureSupposition& supposed_;
+  const PictureFault& fault_;
+  const std::vector<SampledPixel>& pixels_;
+  const std::vector<double>& off_;
+};
+
+std::vector<double> Estimate::best_of(std::span<const double> starts, size_t most) const {
+  std::vector<std::pair<double, double>> tried;
+  for (const double start : starts) tried.emplace_back(cost(start), start);
+  std::stable_sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> best;
+  for (size_t i = 0; i < std::min(most, tried.size()); ++i) best.push_back(tried[i].second);
+  return best;
+}
+
+/// One step of least squares in the parameter's logarithm, each residual weighed by Cauchy's rule, so that pixels that
+/// have another fault count for little.
+double Estimate::stepped(double parameter) const {
+  constexpr double kMove = 0.004;
+  const bool codes = info(supposed_.pass.pipeline.target).number_class == NumberClass::unorm;
+  const auto kept = [codes](double v) { return codes ? std::clamp(v, 0.0, 1.0) : v; };
+  const PictureSupposition here = with(parameter), there = with(parameter * (1 + kMove));
+  double numerator = 0, denominator = 0;
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    if (off_[i] < kSameSteps && i % 4 != 0) continue;
+    const SampledPixel& p = pixels_[i];
+    const PictureCase::Prediction a = picture_.predicted(here, p.x, p.y), b = picture_.predicted(there, p.x, p.y);
+    const Color given = picture_.given_value(p.x, p.y);
+    for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
+      const auto c = size_t(k);
+      const double step = picture_.step_at(given[c], k), from = kept(a.value[c]);
+      const double slope = (kept(b.value[c]) - from) / kMove / step, off = (given[c] - from) / step;
+      if (!std::isfinite(off) || !std::isfinite(slope) || std::fabs(slope) < 1e-3) continue;
+      const double scale = std::max(2.0, 0.1 * std::fabs(slope)), weight = p.weight / (1 + off * off / (scale * scale));
+      numerator += weight * slope * off, denominator += weight * slope * slope;
+    }
+  }
+  if (!(denominator > 0)) return parameter;
+  return parameter * std::exp(std::clamp(numerator / denominator, -0.7, 0.7));
+}
+
+/// Golden sections about a parameter.
+double Estimate::narrowed(double parameter) const {
+  constexpr double kRatio = 0.6180339887498949;
+  double low = parameter / 1.01, high = parameter * 1.01;
+  double a = high - kRatio * (high - low), b = low + kRatio * (high - low), cost_a = cost(a), cost_b = cost(b);
+  for (int i = 0; i < 8; ++i) {
+    if (cost_a <= cost_b) {
+      high = b, b = a, cost_b = cost_a;
+      a = high - kRatio * (high - low), cost_a = cost(a);
+    } else {
+      low = a, a = b, cost_a = cost_b;
+      b = low + kRatio * (high - low), cost_b = cost(b);
+    }
+  }
+  const double best = cost_a <= cost_b ? a : b;
+  return std::min(cost_a, cost_b) < cost(parameter) ? best : parameter;
+}
+
+/// The shortest number that explains as much.
+double Estimate::short_number(double parameter) const {
+  const double least = cost(parameter);
+  for (const int digits : {1, 2, 3, 4}) {
+    const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(parameter))) + 1 - digits);
+    const double rounded = std::nearbyint(parameter / unit) * unit;
+    if (rounded != 0 && rounded != 1 && cost(rounded) <= least) return rounded;
+  }
+  return parameter;
+}
+
+double Estimate::smooth() const {
+  double best = best_of(fault_.starts, 1).front(), least = cost(best), at = best;
+  if (least >= picture_.disagreement(supposed_, pixels_, off_).cost) return best;  // it comes no nearer
+  for (int i = 0; i < 6; ++i) {
+    const double next = stepped(at);
+    const double moved = std::fabs(next / at - 1);
+    at = next;
+    const double c = cost(at);
+    if (c < least) least = c, best = at;
+    if (moved < 1e-5) break;
+  }
+  return short_number(narrowed(best));
+}
+
+/// Pixels that are not as they should be, with what was predicted.
+template <class See>
+void Estimate::each_voter(const See& see) const {
+  size_t voters = 0;
+  for (size_t i = 0; i < pixels_.size() && voters < kMostVoters; ++i) {
+    if (off_[i] < kSameSteps) continue;
+    const SampledPixel& p = pixels_[i];
+    const auto [x, y] = picture_.source(supposed_.move, p.x, p.y);
+    const PlainSurface surface = picture_.surface(x, y);
+    if (!surface.covered) continue;
+    ++voters;
+    see(p, surface);
+  }
+}
+
+/// Whether a value, after what else is supposed, is what was given.
+bool Estimate::fits(const Color& value, const SampledPixel& pixel, double steps) const {
+  Color v = value;
+  for (const PictureSupposition::Step& step : supposed_.steps) step.change(v, step.parameter, pixel.x, pixel.y);
+  const Color given = picture_.given_value(pixel.x, pixel.y);
+  for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
+    double at = v[size_t(k)];
+    if (info(supposed_.pass.pipeline.target).number_class == NumberClass::unorm) at = std::clamp(at, 0.0, 1.0);
+    if (std::fabs(at - given[size_t(k)]) > steps * picture_.step_at(given[size_t(k)], k)) return false;
+  }
+  return true;
+}
+
+std::vector<double> Estimate::lights(double sign) const {
+  const LightPass& pass = supposed_.pass;
+  const bool blends = blends_lights(pass.pipeline.strategy);
+  std::map<uint32_t, double> votes;
+  each_voter([&](const SampledPixel& pixel, const PlainSurface& surface) {
+    const PredictedPixel right = predicted_pixel(pass, surface);
+    for (const LightAdded& added : lights_added(pass, surface, Reach::adds)) {
+      Color without = right.value;
+      for (size_t k = 0; k < 3; ++k) without[k] += sign * added.term[k];
+      if (fits(without, pixel, blends ? 1.6 : 0.8)) votes[added.light] += pixel.weight;
+    }
+  });
+  std::vector<std::pair<double, double>> ranked;
+  for (const auto& [light, weight] : votes) ranked.emplace_back(-weight, double(light));
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<double> best;
+  for (size_t i = 0; i < std::min<size_t>(3, ranked.size()); ++i) best.push_back(ranked[i].second);
+  return best;
+}
+
+/// The number that people would write, of those from `low` to `high`.
+double round_number(uint32_t low, uint32_t high) {
+  for (uint32_t unit = 1u << 16; unit > 1; unit /= 2)
+    if (const uint32_t n = (low + unit - 1) / unit * unit; n > 0 && n <= high) return double(n);
+  return double(low);
+}
+
+std::vector<double> Estimate::counts(bool at_pixel) const {
+  const LightPass& pass = supposed_.pass;
+  const auto all = uint32_t(pass.lights.size());
+  LightPass dark = pass;
+  dark.lights.clear();
+  std::vector<double> change(all + 2);  // of votes, from one count to the next
+  each_voter([&](const SampledPixel& pixel, const PlainSurface& surface) {
+    Color sum = predicted_pixel(dark, surface).value;
+    uint32_t from = 0, ordinal = 0;
+    const auto vote = [&](uint32_t low, uint32_t high) {  // these counts leave `sum`
+      if (low < high && fits(sum, pixel, 1.6)) change[low] += pixel.weight, change[high] -= pixel.weight;
+    };
+    for (const LightAdded& added : lights_added(pass, surface, at_pixel ? Reach::in_range : Reach::adds)) {
+      const uint32_t place = at_pixel ? ordinal : added.light;  // the count above which the light is drawn
+      if (added.term != std::array<double, 3>{}) {
+        vote(from, place + 1);
+        for (size_t k = 0; k < 3; ++k) sum[k] += added.term[k];
+        from = place + 1;
+      }
+      ++ordinal;
+    }
+    vote(from, all + 1);
+  });
+  double votes = 0, most = 0;
+  uint32_t low = 0, high = 0;
+  for (uint32_t n = 0; n <= all; ++n) {
+    votes += change[n];
+    if (votes > most * (1 + 1e-9)) most = votes, low = n;
+    if (votes >= most * (1 - 1e-9) && most > 0 && n >= low && (high < low || n == high + 1 || n == low)) high = n;
+  }
+  if (!(most > 0)) return {};
+  return {round_number(low, std::max(low, high))};
+}
+
+}  // namespace
+
+std::vector<double> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
+                                      const PictureFault& fault, const std::vector<SampledPixel>& pixels,
+                                      const std::vector<double>& off_if_right) {
+  const Estimate estimate(picture, supposed, fault, pixels, off_if_right);
+  switch (fault.search) {
+    case Search::none:
+      return {0};
+    case Search::one_of:
+      return estimate.best_of(fault.starts, 2);
+    case Search::smooth:
+      return {estimate.smooth()};
+    case Search::missing_light:
+      return estimate.lights(-1);
+    case Search::doubled_light:
+      return estimate.lights(1);
+    case Search::count:
+      return estimate.counts(false);
+    case Search::count_at_pixel:
+      return estimate.counts(true);
+  }
+  return {};  // unreachable: every enumerator returns above
+}
+
+}  // namespace trueshade::oracle

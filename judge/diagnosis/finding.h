@@ -1,0 +1,54 @@
+#pragma once
+// What a diagnosis says of a capture.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "judge/bounds/profile.h"
+#include "judge/stages/verdict.h"
+#include "oracle/capture.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// One channel of one pixel that the fault explains: what is right there, what was given, what the fault predicts.
+struct Proof {
+  int x = 0, y = 0;   ///< from the top left
+  std::string plane;  ///< `color.R`; unorm values are codes
+  double given = 0, right = 0, predicted = 0;
+};
+
+/// A fault that explains pixels which are not what they should be.
+struct Finding {
+  std::string name;         ///< of the fault, with its parameter: `light-range=1.01`; what `--suppose` takes
+  std::string plane;        ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`
+  std::string text;         ///< a sentence without its full stop
+  uint64_t changed = 0;     ///< pixels of the plane that differ from what is predicted of a right renderer, estimated
+  double explained = 0;     ///< the share of these that the fault predicts
+  double contradicted = 0;  ///< of the pixels that were as predicted, the share that the fault predicts otherwise
+  bool together = false;    ///< it explains that share only beside the finding before it
+  Proof proof;
+  std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
+};
+
+/// What explains a capture that does not pass, at most `most` findings, the likeliest first; none where no known fault
+/// explains a third of what is wrong. Works on samples of some thousands of pixels, the same ones every time.
+///   stages: of validate_capture(), by the same pipeline and profile
+///   supposed: names of faults; if there are any, these are tried and no others
+/// Error(usage) for a name that no fault has, or a parameter that is no number.
+std::vector<Finding> diagnose(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                              const Capture& capture, std::span<const StageVerdict> stages,
+                              std::span<const std::string> supposed = {}, size_t most = 3);
+
+/// The names of all faults that are known, each with what it says: for help and documents.
+struct KnownFault {
+  std::string name, plane, text;
+};
+std::vector<KnownFault> known_faults();
+
+/// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, proof {x, y, plane,
+/// given, right, predicted}, command}.
+std::string findings_json(std::span<const Finding> findings);
+
+}  // namespace trueshade::oracle

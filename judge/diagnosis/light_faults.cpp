@@ -1,0 +1,215 @@
+#include <algorithm>
+
+#include "judge/diagnosis/picture_faults.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+using F = LightFault;
+
+bool lamp(const Light& l) { return l.type == LightType::point || l.type == LightType::spot; }
+bool has_lamps(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), lamp); }
+bool falls_off(const LightPass& p) { return has_lamps(p) && p.pipeline.light_model.falloff != Falloff::none; }
+bool has_range(const LightPass& p) {
+  const Falloff f = p.pipeline.light_model.falloff;
+  const LightVolumes& v = p.pipeline.light_volumes;
+  return has_lamps(p) && (f == Falloff::linear_range || f == Falloff::linear || f == Falloff::inverse_square ||
+                          v.point != LightExtent::unbounded || v.spot != LightExtent::unbounded);
+}
+bool has_attenuation(const LightPass& p) {
+  const Falloff f = p.pipeline.light_model.falloff;
+  return has_lamps(p) && (f == Falloff::quadratic || f == Falloff::attenuation);
+}
+bool shines(const LightPass& p) { return p.pipeline.light_model.specular != Specular::none; }
+bool squares(const LightPass& p) {
+  const Falloff f = p.pipeline.light_model.falloff;
+  return has_lamps(p) && (f == Falloff::quadratic || f == Falloff::attenuation || f == Falloff::inverse_square);
+}
+bool goes_by_distance(const LightPass& p) {
+  const Falloff f = p.pipeline.light_model.falloff;
+  return has_lamps(p) && f != Falloff::none && f != Falloff::inverse_square;
+}
+bool has_cones(const LightPass& p) {
+  return p.pipeline.light_model.cone != Cone::none &&
+         std::any_of(p.lights.begin(), p.lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+}
+bool order_matters(const LightPass& p) {
+  return p.lights.size() > 1 && info(p.pipeline.target).number_class == NumberClass::floating;
+}
+bool of_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
+bool of_small_floats(const LightPass& p) { return info(p.pipeline.target).small_float(); }
+bool stores_truncate(const LightPass& p) {
+  return of_codes(p) || (of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::nearest);
+}
+bool stores_nearest(const LightPass& p) {
+  return of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::toward_zero;
+}
+
+void scale_intensity(LightPass& p, double f) { p.fault.intensity *= f; }
+void scale_range(LightPass& p, double f) { p.fault.range *= f; }
+void scale_attenuation(LightPass& p, double f) {
+  for (Light& l : p.lights) l.attenuation.y *= float(f), l.attenuation.z *= float(f);
+}
+void scale_specular(LightPass& p, double f) { p.fault.specular *= f; }
+void scale_diffuse(LightPass& p, double f) { p.fault.diffuse *= f; }
+void scale_shininess(LightPass& p, double f) { p.fault.shininess *= f; }
+void scale_position(LightPass& p, double f) { p.fault.position *= f; }
+void other_falloff(LightPass& p, double f) { p.pipeline.light_model.falloff = Falloff(int(f)); }
+void distance_once(LightPass& p, double) { p.fault.distance = F::Distance::once; }
+void distance_squared(LightPass& p, double) { p.fault.distance = F::Distance::squared; }
+void viewer_turned(LightPass& p, double) { p.fault.half = F::Half::viewer_turned; }
+void light_turned(LightPass& p, double) { p.fault.half = F::Half::light_turned; }
+void reflected(LightPass& p, double) { p.fault.half = F::Half::reflected; }
+void viewer_far(LightPass& p, double) {
+  p.pipeline.light_model.viewer = p.pipeline.light_model.viewer == Viewer::local ? Viewer::infinite : Viewer::local;
+}
+void other_mask(LightPass& p, double) {
+  p.pipeline.light_model.specular_masked = !p.pipeline.light_model.specular_masked;
+}
+void other_length(LightPass& p, double) { p.pipeline.light_model.renormalize = !p.pipeline.light_model.renormalize; }
+void no_specular(LightPass& p, double) { p.fault.specular = 0; }
+void round_normals(LightPass& p, double codes) { p.fault.normal_codes = codes; }
+void turn_normals(LightPass& p, double) { p.fault.normal_turned = true; }
+void normals_to_view(LightPass& p, double) { p.fault.normal_in_view = true; }
+void unclamp(LightPass& p, double) { p.fault.cosine = F::Cosine::unclamped; }
+void two_sided(LightPass& p, double) { p.fault.cosine = F::Cosine::two_sided; }
+void half_lambert(LightPass& p, double) { p.fault.cosine = F::Cosine::half_lambert; }
+void no_cosine(LightPass& p, double) { p.fault.cosine = F::Cosine::missing; }
+void leave_out(LightPass& p, double light) { p.fault.missing = int64_t(light); }
+void draw_twice(LightPass& p, double light) { p.fault.twice = int64_t(light); }
+void at_most(LightPass& p, double count) { p.fault.most_lights = uint32_t(count); }
+void at_most_here(LightPass& p, double count) { p.fault.most_at_pixel = uint32_t(count); }
+void reverse_order(LightPass& p, double) { p.fault.reversed = !p.fault.reversed; }
+void swap_colors(LightPass& p, double) { p.fault.swapped_colors = true; }
+void mirror_z(LightPass& p, double) { p.fault.mirrored_z = true; }
+void no_ambient(LightPass& p, double) { p.fault.no_ambient = true; }
+void drop_cones(LightPass& p, double) { p.fault.cone_dropped = true; }
+void newton_root(LightPass& p, double) { p.fault.root = F::Root::one_newton_step; }
+void short_root(LightPass& p, double) { p.fault.root = F::Root::twelve_bits; }
+void half_sums(LightPass& p, double) { p.fault.sum = F::Sum::halves; }
+void truncate(LightPass& p, double) { p.fault.store = F::Store::truncated; }
+void to_nearest(LightPass& p, double) { p.fault.store = F::Store::nearest; }
+void round_up(LightPass& p, double) { p.fault.store = F::Store::upward; }
+void codes_per_light(LightPass& p, double) {
+  p.pipeline.strategy = blends_lights(p.pipeline.strategy) ? Strategy::deferred_loop : Strategy::deferred_volumes;
+}
+void nothing(LightPass&, double) {}
+
+bool has_ambient(const LightPass& p) {
+  const auto ambient = [](const Light& l) { return l.type == LightType::ambient; };
+  return std::any_of(p.lights.begin(), p.lights.end(), ambient) ||
+         p.pipeline.light_model.global_ambient != glm::vec3(0.0f) ||
+         p.pipeline.light_model.order == TermOrder::with_ambient;
+}
+bool several(const LightPass& p) { return p.lights.size() > 1; }
+bool shines_local(const LightPass& p) { return shines(p); }
+bool sums_once(const LightPass& p) {
+  return of_small_floats(p) ? false : several(p) && !blends_lights(p.pipeline.strategy);
+}
+bool deferred(const LightPass& p) { return several(p) && !is_forward(p.pipeline.strategy); }
+
+constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
+constexpr double kSpecularFactors[] = {0.25, 0.5, 2, 4};
+constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
+constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
+constexpr double kNormalCodes[] = {255, 1023};
+constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+std::string falloff_name(double f) {
+  constexpr const char* kNames[] = {"linear_range", "quadratic", "none", "linear", "attenuation", "inverse_square"};
+  return kNames[std::clamp(int(f), 0, 5)];
+}
+std::string neighbour_name(double at) {
+  constexpr const char* kNames[] = {"right of them",      "left of them",       "below them",
+                                    "above them",         "below to the right", "below to the left",
+                                    "above to the right", "above to the left"};
+  return kNames[std::clamp(int(at), 0, 7)];
+}
+
+constexpr auto kNone = Search::none;
+constexpr auto kOneOf = Search::one_of;
+constexpr auto kSmooth = Search::smooth;
+
+// name, text, light, value, can, search, starts, move, doubt, reach
+constexpr PictureFault kFaults[] = {
+    {"light-intensity", "the lights are %s times as bright as they should be", scale_intensity, nullptr, has_lamps,
+     kSmooth, kFactors},
+    {"light-range", "the lights' range is %s times what it should be", scale_range, nullptr, has_range, kSmooth,
+     kFactors},
+    {"light-attenuation", "the lights' linear and quadratic attenuation are %s times what they should be",
+     scale_attenuation, nullptr, has_attenuation, kSmooth, kFactors},
+    {"light-position", "the lights' positions are %s times what they should be", scale_position, nullptr, has_lamps,
+     kSmooth, kFactors},
+    {"light-mirrored-z", "the lights' z has the wrong sign", mirror_z, nullptr, has_lamps},
+    {"light-colors-bgr", "the lights' colours are in the order BGR", swap_colors},
+    {"falloff-distance-once", "the falloff uses d where d^2 is due", distance_once, nullptr, squares},
+    {"falloff-distance-squared", "the falloff uses d^2 where d is due", distance_squared, nullptr, goes_by_distance},
+    {"falloff-other", "the falloff is `%s`", other_falloff, nullptr, falls_off, kOneOf, kFalloffs, nullptr, 0, 0, 0,
+     falloff_name},
+    {"cone-dropped", "spot lights shine in all directions", drop_cones, nullptr, has_cones},
+    {"half-vector-viewer", "the half vector is L - V: the viewer's direction has the wrong sign", viewer_turned,
+     nullptr, shines},
+    {"half-vector-light", "the half vector is V - L: the light's direction has the wrong sign", light_turned, nullptr,
+     shines},
+    {"specular-reflected", "the highlight is of the other kind: R.V for N.H, or N.H for R.V", reflected, nullptr,
+     shines},
+    {"specular-viewer", "the highlight's viewer is at infinity for a local one, or the other way round", viewer_far,
+     nullptr, shines_local},
+    {"specular-mask", "the highlight is not left out where N.L is not positive, or is where it should stay", other_mask,
+     nullptr, shines},
+    {"specular-missing", "there is no highlight", no_specular, nullptr, shines},
+    {"specular-factor", "the highlight is %s times as strong as it should be", scale_specular, nullptr, shines, kSmooth,
+     kSpecularFactors, nullptr, 0.01},
+    {"shininess", "the shininess is %s times what it should be", scale_shininess, nullptr, shines, kSmooth, kExponents},
+    {"diffuse-factor", "the diffuse term is %s times what it should be", scale_diffuse, nullptr, has_lamps, kSmooth,
+     kFactors, nullptr, 0.01},
+    {"lighting-normal-length",
+     "the light pass leaves normals unnormalised, or normalises those that it should take as they are", other_length},
+    {"lighting-normal-rounded", "the light pass reads normals rounded to %s steps", round_normals, nullptr, nullptr,
+     kOneOf, kNormalCodes},
+    {"lighting-normal-turned", "the light pass turns normals round", turn_normals},
+    {"lighting-normal-in-view", "the light pass takes normals in view space for normals in the world", normals_to_view},
+    {"diffuse-unclamped", "N.L is not clamped to 0, or is where it should not be", unclamp},
+    {"diffuse-two-sided", "N.L counts by its magnitude", two_sided},
+    {"diffuse-half-lambert", "N.L is replaced by (N.L / 2 + 1/2)^2", half_lambert},
+    {"diffuse-missing", "N.L is missing", no_cosine},
+    {"ambient-missing", "there is no ambient light", no_ambient, nullptr, has_ambient},
+    {"light-missing", "light %s is missing", leave_out, nullptr, nullptr, Search::missing_light},
+    {"light-twice", "light %s is drawn twice", draw_twice, nullptr, nullptr, Search::doubled_light},
+    {"light-count", "only the first %s lights are drawn", at_most, nullptr, several, Search::count},
+    {"light-count-pixel", "only the first %s lights in range of a pixel are drawn", at_most_here, nullptr, several,
+     Search::count_at_pixel},
+    {"light-order",
+     "the lights are drawn in the opposite order",
+     reverse_order,
+     nullptr,
+     order_matters,
+     kNone,
+     {},
+     nullptr,
+     0.02},
+    {"tile-lists-8", "tiles of 8x8 pixels are lit by the lists of the tiles %s", nothing, nullptr, deferred, kOneOf,
+     kTiles, nullptr, 0, 0, 8, neighbour_name},
+    {"tile-lists-16", "tiles of 16x16 pixels are lit by the lists of the tiles %s", nothing, nullptr, deferred, kOneOf,
+     kTiles, nullptr, 0, 0, 16, neighbour_name},
+    {"tile-lists-32", "tiles of 32x32 pixels are lit by the lists of the tiles %s", nothing, nullptr, deferred, kOneOf,
+     kTiles, nullptr, 0, 0, 32, neighbour_name},
+    {"tile-lists-64", "tiles of 64x64 pixels are lit by the lists of the tiles %s", nothing, nullptr, deferred, kOneOf,
+     kTiles, nullptr, 0, 0, 64, neighbour_name},
+    {"root-newton", "reciprocal square roots are estimated with one step of Newton's", newton_root},
+    {"root-12-bits", "reciprocal square roots have 12 bits", short_root},
+    {"sum-halves", "the lights are summed in half precision", half_sums, nullptr,
+     [](const LightPass& p) { return several(p) && !blends_lights(p.pipeline.strategy); }},
+    {"store-truncated", "stores truncate", truncate, nullptr, stores_truncate},
+    {"store-nearest", "halves are rounded to nearest", to_nearest, nullptr, stores_nearest},
+    {"store-upward", "stores round upward", round_up, nullptr, nullptr, kNone, {}, nullptr, 0.01},
+    {"store-per-light", "each light is rounded where the sum should be, or the sum where each light should be",
+     codes_per_light, nullptr, sums_once},
+};
+
+}  // namespace
+
+std::span<const PictureFault> light_faults() { return kFaults; }
+
+}  // namespace trueshade::oracle

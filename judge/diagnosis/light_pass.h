@@ -1,0 +1,81 @@
+#pragma once
+// What a light pass makes of one pixel of a capture's own G-buffer, right or with a fault: docs/arithmetic.md section 8
+// in double, light after light.
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "oracle/matrices.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// A surface as the light pass reads it.
+struct PlainSurface {
+  bool covered = false;
+  std::array<double, 3> position{}, normal{}, specular{}, emission{};
+  std::array<double, 4> albedo{0, 0, 0, 1};
+  double shininess = 0, ambient_share = 1;
+};
+
+/// What a wrong light pass does otherwise than its light model says. The defaults are right.
+struct LightFault {
+  enum class Distance : uint8_t { right, once, squared };  ///< d where d^2 is due; d^2 where d is
+  enum class Half : uint8_t { right, viewer_turned, light_turned, reflected, no_viewer };
+  enum class Root : uint8_t { right, one_newton_step, twelve_bits };
+  enum class Sum : uint8_t { right, halves };
+  enum class Store : uint8_t { right, truncated, nearest, upward };
+  enum class Cosine : uint8_t { right, unclamped, two_sided, half_lambert, missing };
+  Distance distance = Distance::right;
+  Half half = Half::right;
+  Root root = Root::right;
+  Sum sum = Sum::right;
+  Store store = Store::right;
+  Cosine cosine = Cosine::right;
+  double normal_codes = 0;  ///< normals rounded to so many steps in [0, 1]; 0: not rounded
+  double intensity = 1, range = 1, specular = 1, shininess = 1, diffuse = 1;  ///< factors
+  double position = 1;                                                        ///< of the lights', about the origin
+  int64_t missing = -1, twice = -1;                                           ///< index of a light
+  uint32_t most_lights = std::numeric_limits<uint32_t>::max();                ///< of the scene
+  uint32_t most_at_pixel = std::numeric_limits<uint32_t>::max();              ///< of those in range of a pixel
+  bool reversed = false, normal_turned = false, swapped_colors = false, mirrored_z = false;
+  bool no_ambient = false, cone_dropped = false;
+  bool normal_in_view = false;  ///< rotated by the camera, and then read as if in the world
+};
+
+/// The lights and how they are drawn; a fault may have changed any of it.
+struct LightPass {
+  Camera camera;
+  Pipeline pipeline;
+  std::vector<Light> lights;
+  LightFault fault;
+  std::array<double, 3> axis{};  ///< oracle::view_axis() of the camera
+  glm::vec4 clear{0.0f};
+};
+LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
+
+/// RGBA of one pixel.
+struct PredictedPixel {
+  std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
+  std::array<double, 4> value{};   ///< before the only store; of strategies that blend what `stored` stands for
+};
+///   listed: whether each light is in the list that the pixel is lit from; null: all are
+PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface,
+                               const std::vector<uint8_t>* listed = nullptr);
+
+/// A value as the target stores it, and what a stored one stands for.
+double stored_value(const Pipeline& pipeline, double value, int channel);
+double value_of_stored(Format target, double stored, int channel);
+
+/// What the lights of the pass add to the pixel, in order: those that add something, or those in range.
+struct LightAdded {
+  uint32_t light = 0;
+  std::array<double, 3> term{};
+};
+enum class Reach : uint8_t { adds, in_range };
+std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface, Reach reach);
+
+}  // namespace trueshade::oracle

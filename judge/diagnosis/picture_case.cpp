@@ -1,0 +1,295 @@
+#include "judge/diagnosis/picture_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/threads/parallel_for.h"
+#include "judge/stages/transparent_layers.h"
+#include "scenes/pipeline/transparency.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr std::array<size_t, 4> kSample = {700, 200, 500, 60}, kFew = {140, 50, 110, 16};
+constexpr int kLeastTile = 8;
+constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+
+/// Deletes all but `most` elements, spread evenly over an order that looks like chance and is always the same.
+void thin_out(std::vector<uint32_t>& pixels, size_t most) {
+  const auto scrambled = [](uint32_t v) {
+    v ^= v >> 16, v *= 0x7feb352du, v ^= v >> 15, v *= 0x846ca68bu;
+    return v ^ v >> 16;
+  };
+  if (pixels.size() <= most) return;
+  std::nth_element(pixels.begin(), pixels.begin() + int64_t(most), pixels.end(),
+                   [&](uint32_t a, uint32_t b) { return scrambled(a) < scrambled(b); });
+  pixels.resize(most);
+}
+
+/// What a plane of that format gives back for a value.
+double held_value(const Pipeline& pipeline, Format format, double value, int channel) {
+  Pipeline of_plane = pipeline;
+  of_plane.target = format;
+  return value_of_stored(format, stored_value(of_plane, value, channel), channel);
+}
+
+}  // namespace
+
+std::string parameter_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.5g", value);
+  return text;
+}
+
+std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::array<size_t, 4>& most,
+                                         const std::vector<PixelUse>& uses) {
+  std::array<std::vector<uint32_t>, 4> strata;
+  for (uint32_t i = 0; i < stage.classes.size(); ++i) {
+    if (uses[i] == PixelUse::left_out) continue;
+    const PixelClass c = stage.classes[i];
+    const size_t other = uses[i] == PixelUse::dull ? 3 : 2;
+    strata[c == PixelClass::violation ? 0 : c == PixelClass::store_2 ? 1 : other].push_back(i);
+  }
+  std::vector<SampledPixel> sample;
+  for (size_t s = 0; s < strata.size(); ++s) {
+    const auto all = double(strata[s].size());
+    thin_out(strata[s], most[s]);
+    for (const uint32_t i : strata[s])
+      sample.push_back({int(i) % stage.width, int(i) / stage.width, all / double(strata[s].size())});
+  }
+  return sample;
+}
+
+void PictureSupposition::suppose(const PictureFault& fault, double parameter) {
+  if (fault.light != nullptr) fault.light(pass, parameter);
+  if (fault.value != nullptr) steps.push_back({fault.value, parameter});
+  if (fault.move != nullptr) fault.move(move, parameter);
+  if (fault.tile > 0) tile = fault.tile, tile_from = int(parameter);
+  reach = std::max(reach, fault.reach);
+}
+
+PictureCase::PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                         const StageVerdict& stage)
+    : scene_(scene),
+      pipeline_(pipeline),
+      captured_(scene, pipeline, resolved(profile, pipeline), capture),
+      color_(target_of(capture, pipeline)),
+      right_(light_pass_of(scene, pipeline)) {
+  draw_sample(stage, profile, capture);
+}
+
+/// Pixels under transparent surfaces are not predicted.
+void PictureCase::draw_sample(const StageVerdict& stage, const Profile& profile, const Capture& capture) {
+  std::optional<TransparentLayers> layers;
+  if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)
+    layers.emplace(scene_, pipeline_, resolved(profile, pipeline_), capture);
+  std::vector<PixelUse> uses(stage.classes.size());
+  for (int y = 0; y < stage.height; ++y)
+    for (int x = 0; x < stage.width; ++x) {
+      bool black = true;
+      for (int k = 0; k < std::min(3, channels()); ++k) black = black && given(x, y, k) == 0;
+      uses[size_t(y) * size_t(stage.width) + size_t(x)] = layers && layers->any(x, y)         ? PixelUse::left_out
+                                                          : black || !captured_.covered(x, y) ? PixelUse::dull
+                                                                                              : PixelUse::usual;
+    }
+  sample_ = sampled_pixels(stage, kSample, uses);
+  few_ = sampled_pixels(stage, kFew, uses);
+}
+
+PlainSurface PictureCase::surface(int x, int y) const {
+  PlainSurface plain;
+  plain.covered = captured_.covered(x, y);
+  if (!plain.covered) return plain;
+  const ShadedSurface s = captured_.at(x, y);
+  for (size_t k = 0; k < 3; ++k) {
+    plain.position[k] = s.position[k].value, plain.normal[k] = s.normal[k].value;
+    plain.specular[k] = s.specular[k].value, plain.emission[k] = s.emission[k].value;
+  }
+  for (size_t k = 0; k < 4; ++k) plain.albedo[k] = s.albedo[k].value;
+  plain.shininess = s.shininess, plain.ambient_share = s.ambient_share.value;
+  if (expected_ != nullptr) heal_surface(x, y, plain);
+  return plain;
+}
+
+void PictureCase::heal_surface(int x, int y, PlainSurface& surface) const {
+  const PlaneValues v = expected_->at(x, y).value;
+  const GBufferState& g = pipeline_.gbuffer;
+  const bool halved = info(g.normal.format).number_class == NumberClass::unorm;
+  for (int i = 0; i < 4; ++i) {
+    const auto k = size_t(i);
+    if (wrong_[size_t(Plane::albedo)]) surface.albedo[k] = held_value(pipeline_, g.albedo.format, v.albedo[k], i);
+    if (i == 3) continue;
+    if (wrong_[size_t(Plane::position)])
+      surface.position[k] = held_value(pipeline_, g.position.format, v.position[k], i);
+    if (!wrong_[size_t(Plane::normal)]) continue;
+    const double n = halved ? v.normal[k] * 0.5 + 0.5 : v.normal[k],
+                 held = held_value(pipeline_, g.normal.format, n, i);
+    surface.normal[k] = halved ? held * 2 - 1 : held;
+  }
+}
+
+std::array<int, 2> PictureCase::source(const Move& move, int x, int y) const {
+  x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
+  return {move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y};
+}
+
+void PictureCase::make_tiles() {
+  if (!tiles_.empty()) return;
+  const auto across = [&](int side) { return (pipeline_.width + side - 1) / side; };
+  const auto boxes = [&](int side) {
+    return std::vector<Box>(size_t(across(side)) * size_t((pipeline_.height + side - 1) / side));
+  };
+  std::vector<Box>& least = tiles_[kLeastTile] = boxes(kLeastTile);
+  parallel_for((pipeline_.height + kLeastTile - 1) / kLeastTile, 0, [&](int row) {
+    for (int y = row * kLeastTile; y < std::min((row + 1) * kLeastTile, pipeline_.height); ++y)
+      for (int x = 0; x < pipeline_.width; ++x) {
+        if (!captured_.covered(x, y)) continue;
+        Box& box = least[size_t(row) * size_t(across(kLeastTile)) + size_t(x / kLeastTile)];
+        const ShadedSurface s = captured_.at(x, y);
+        for (size_t k = 0; k < 3; ++k) {
+          const double v = s.position[k].value;
+          box.low[k] = box.empty ? v : std::min(box.low[k], v), box.high[k] = box.empty ? v : std::max(box.high[k], v);
+        }
+        box.empty = false;
+      }
+  });
+  for (int side = 2 * kLeastTile; side <= 64; side *= 2) {
+    std::vector<Box>& larger = tiles_[side] = boxes(side);
+    for (size_t i = 0; i < least.size(); ++i) {
+      const Box& from = least[i];
+      if (from.empty) continue;
+      const int tx = int(i) % across(kLeastTile) * kLeastTile / side,
+                ty = int(i) / across(kLeastTile) * kLeastTile / side;
+      Box& to = larger[size_t(ty) * size_t(across(side)) + size_t(tx)];
+      for (size_t k = 0; k < 3; ++k) {
+        to.low[k] = to.empty ? from.low[k] : std::min(to.low[k], from.low[k]);
+        to.high[k] = to.empty ? from.high[k] : std::max(to.high[k], from.high[k]);
+      }
+      to.empty = false;
+    }
+  }
+}
+
+/// Lights whose range reaches the box of the tile that the pixel's list is from.
+std::vector<uint8_t> PictureCase::list_of(const PictureSupposition& supposed, int x, int y) const {
+  const int side = supposed.tile, across = (pipeline_.width + side - 1) / side,
+            down = (pipeline_.height + side - 1) / side;
+  const int* step = kNeighbours[supposed.tile_from];
+  const int tx = std::clamp(x / side + step[0], 0, across - 1), ty = std::clamp(y / side + step[1], 0, down - 1);
+  const Box& box = tiles_.at(side)[size_t(ty) * size_t(across) + size_t(tx)];
+  std::vector<uint8_t> listed(supposed.pass.lights.size());
+  for (size_t i = 0; i < listed.size(); ++i) {
+    const Light& light = supposed.pass.lights[i];
+    const double range = double(light.range) * supposed.pass.fault.range;
+    if (light.type == LightType::ambient || light.type == LightType::directional || std::isinf(range)) {
+      listed[i] = 1;
+      continue;
+    }
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double p = double(light.position[k]);
+      const double outside = std::max({0.0, box.low[size_t(k)] - p, p - box.high[size_t(k)]});
+      squared += outside * outside;
+    }
+    listed[i] = !box.empty && squared < range * range ? 1 : 0;
+  }
+  return listed;
+}
+
+PictureCase::Prediction PictureCase::predicted(const PictureSupposition& supposed, int x, int y) const {
+  const auto [sx, sy] = source(supposed.move, x, y);
+  std::vector<uint8_t> listed;
+  if (supposed.tile > 0) listed = list_of(supposed, sx, sy);
+  const PredictedPixel pixel = predicted_pixel(supposed.pass, surface(sx, sy), supposed.tile > 0 ? &listed : nullptr);
+  Prediction out;
+  out.value = pixel.value;
+  if (supposed.steps.empty()) {
+    out.drawn = out.stored = out.nearest = pixel.stored;
+    return out;
+  }
+  Color after;
+  for (int k = 0; k < 4; ++k) after[size_t(k)] = value_of_stored(pipeline_.target, pixel.stored[size_t(k)], k);
+  for (const PictureSupposition::Step& step : supposed.steps) {
+    step.change(out.value, step.parameter, x, y);
+    step.change(after, step.parameter, x, y);
+  }
+  Pipeline nearest = supposed.pass.pipeline;
+  nearest.gbuffer.half_round = HalfRound::nearest;
+  for (int k = 0; k < 4; ++k) {
+    out.drawn[size_t(k)] = stored_value(supposed.pass.pipeline, out.value[size_t(k)], k);
+    out.stored[size_t(k)] = stored_value(supposed.pass.pipeline, after[size_t(k)], k);
+    out.nearest[size_t(k)] = stored_value(nearest, after[size_t(k)], k);
+  }
+  return out;
+}
+
+Color PictureCase::given_value(int x, int y) const {
+  Color c{0, 0, 0, 1};
+  for (int k = 0; k < channels(); ++k) c[size_t(k)] = value_of_stored(pipeline_.target, given(x, y, k), k);
+  return c;
+}
+
+double PictureCase::step_at(double value, int channel) const {
+  const FormatInfo& layout = color_.layout;
+  if (layout.number_class == NumberClass::unorm) {
+    const double code = 1.0 / layout.largest_code(channel);
+    return layout.srgb_channel(channel) ? code * std::max(0.08, 2.3 * std::pow(std::max(0.0, value), 0.58)) : code;
+  }
+  const double size = std::max(std::fabs(value), 0x1p-9);
+  if (!layout.small_float()) return 1e-5 * size;
+  const int bits = layout.bits[size_t(channel)] == 16 ? 10 : layout.bits[size_t(channel)] - 5;
+  return std::ldexp(1.0, std::ilogb(size) - bits);
+}
+
+double PictureCase::steps_off(const PictureSupposition& supposed, const Prediction& p, int x, int y,
+                              int channel) const {
+  const auto k = size_t(channel);
+  const double stored = given(x, y, channel);
+  if (!std::isfinite(stored)) return std::isfinite(p.drawn[k]) || std::isfinite(p.stored[k]) ? 1e3 : 0;
+  const double unit = color_.unorm() ? 1 : step_at(stored, channel);
+  double off =
+      std::min({std::fabs(stored - p.drawn[k]), std::fabs(stored - p.stored[k]), std::fabs(stored - p.nearest[k])}) /
+      unit;
+  if (off < kSameSteps) return 0;
+  if (supposed.reach > 0) {
+    const double value = color_.unorm() ? p.value[k] * color_.layout.largest_code(channel) : p.value[k];
+    off = std::min(off, std::max(0.0, std::fabs(stored - value) / unit - supposed.reach));
+  }
+  if (off > 1.5 || blends_lights(pipeline_.strategy)) return off;
+  // Floats are off a little: the other side of a threshold is as good.
+  for (const double moved : {1 - 3e-6, 1 + 3e-6})
+    if (std::fabs(stored - stored_value(supposed.pass.pipeline, p.value[k] * moved, channel)) < kSameSteps * unit)
+      return 0;
+  return off;
+}
+
+double PictureCase::steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const {
+  const Prediction p = predicted(supposed, pixel.x, pixel.y);
+  double off = 0;
+  for (int k = 0; k < channels(); ++k) off = std::max(off, steps_off(supposed, p, pixel.x, pixel.y, k));
+  return off;
+}
+
+std::vector<double> PictureCase::steps_off(const PictureSupposition& supposed,
+                                           const std::vector<SampledPixel>& pixels) const {
+  std::vector<double> off;
+  off.reserve(pixels.size());
+  for (const SampledPixel& p : pixels) off.push_back(steps_off(supposed, p));
+  return off;
+}
+
+Disagreement PictureCase::disagreement(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels,
+                                       const std::vector<double>& off_if_right) const {
+  Disagreement d;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const double off = steps_off(supposed, pixels[i]), weight = pixels[i].weight;
+    d.cost += weight * cost_of(off);
+    if (off_if_right[i] >= kSameSteps && off < kSameSteps) d.explained += weight;
+    if (off_if_right[i] < kSameSteps && off >= kSameSteps) d.contradicted += weight;
+  }
+  return d;
+}
+
+}  // namespace trueshade::oracle

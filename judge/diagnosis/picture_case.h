@@ -1,0 +1,99 @@
+#pragma once
+// A captured picture against what its own G-buffer should have made it, under any faults that are supposed.
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "judge/diagnosis/disagreement.h"
+#include "judge/diagnosis/finding.h"
+#include "judge/diagnosis/picture_faults.h"
+#include "judge/diagnosis/plane_faults.h"
+#include "judge/stages/captured_surface.h"
+
+namespace trueshade::oracle {
+
+/// Faults that a picture is supposed to have, all at once; they are predicted in this order.
+struct PictureSupposition {
+  LightPass pass;
+  struct Step {
+    void (*change)(Color&, double, int x, int y);
+    double parameter;
+  };
+  std::vector<Step> steps;
+  Move move;
+  int tile = 0, tile_from = 0;  ///< pixels a side of tiles; whose lists they have, of eight neighbours
+  double reach = 0;
+
+  void suppose(const PictureFault& fault, double parameter);
+};
+
+/// Borrows the scene and the capture.
+class PictureCase {
+ public:
+  PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+              const StageVerdict& stage);
+
+  PictureSupposition right() const { return {right_, {}, {}, 0, 0, 0}; }
+  const std::vector<SampledPixel>& sample() const { return sample_; }
+  const std::vector<SampledPixel>& few() const { return few_; }  ///< of the sample, for a first look
+
+  /// How many steps of the format the pixel is off.
+  double steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const;
+  /// Over pixels, against what they are off where nothing is wrong.
+  Disagreement disagreement(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels,
+                            const std::vector<double>& off_if_right) const;
+  std::vector<double> steps_off(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
+
+  /// Channel by channel: what the picture stands for before it is stored, and after.
+  struct Prediction {
+    Color drawn;            ///< where the faults come before the store
+    Color stored, nearest;  ///< where they come after it, stored again as the pipeline says, or to nearest
+    Color value;            ///< of `drawn`, before the store
+  };
+  Prediction predicted(const PictureSupposition& supposed, int x, int y) const;
+  double given(int x, int y, int channel) const { return color_.stored(x, y, channel); }
+  Color given_value(int x, int y) const;
+  int channels() const { return std::min(color_.channels, 4); }
+  double steps_off(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
+  /// One step of the format, in values, about a value.
+  double step_at(double value, int channel) const;
+
+  PlainSurface surface(int x, int y) const;
+  /// From now on the planes that are wrong are read as they should be. Not while others ask.
+  void heal(std::shared_ptr<const ExpectedPlanes> expected, const std::array<bool, kPlanes>& wrong) {
+    expected_ = std::move(expected), wrong_ = wrong;
+  }
+  /// The pixel that is shown at (x, y).
+  std::array<int, 2> source(const Move& move, int x, int y) const;
+  /// Makes the tiles' boxes, which lists of lights are made from. Not while others ask.
+  void make_tiles();
+
+ private:
+  struct Box {
+    std::array<double, 3> low, high;
+    bool empty = true;
+  };
+  std::vector<uint8_t> list_of(const PictureSupposition& supposed, int x, int y) const;
+  void heal_surface(int x, int y, PlainSurface& surface) const;
+  void draw_sample(const StageVerdict& stage, const Profile& profile, const Capture& capture);
+
+  const Scene& scene_;
+  const Pipeline pipeline_;
+  const CapturedSurface captured_;
+  const PlaneView color_;
+  LightPass right_;
+  std::vector<SampledPixel> sample_, few_;
+  std::map<int, std::vector<Box>> tiles_;  ///< by side
+  std::shared_ptr<const ExpectedPlanes> expected_;
+  std::array<bool, kPlanes> wrong_{};
+};
+
+/// Whether a pixel that is as it should be says much: dull ones are black, or nothing is drawn there.
+enum class PixelUse : uint8_t { usual, dull, left_out };
+
+/// The strata of a stage's pixels, each sampled: violations, second neighbours, others, and of these the dull ones.
+std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::array<size_t, 4>& most,
+                                         const std::vector<PixelUse>& uses);
+
+}  // namespace trueshade::oracle

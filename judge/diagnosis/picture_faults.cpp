@@ -1,0 +1,127 @@
+#include "judge/diagnosis/picture_faults.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
+constexpr double kGammas[] = {1 / 2.4, 1 / 2.2, 1 / 1.8, 1.8, 2.2, 2.4};
+constexpr double kBits[] = {3, 4, 5, 6, 7};
+constexpr double kShifts[] = {-1, 1, -2, 2, -3, 3, -4, 4};
+
+double encoded(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
+double decoded(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+template <class Change>
+void each_of_rgb(Color& c, const Change& change) {
+  for (size_t k = 0; k < 3; ++k) c[k] = change(c[k]);
+}
+
+void encode(Color& c, double, int, int) { each_of_rgb(c, encoded); }
+void decode(Color& c, double, int, int) { each_of_rgb(c, decoded); }
+void power(Color& c, double p, int, int) {
+  each_of_rgb(c, [p](double v) { return v > 0 ? std::pow(v, p) : 0; });
+}
+void expose(Color& c, double f, int, int) {
+  each_of_rgb(c, [f](double v) { return v * f; });
+}
+void premultiply(Color& c, double, int, int) {
+  each_of_rgb(c, [a = c[3]](double v) { return v * a; });
+}
+void unpremultiply(Color& c, double, int, int) {
+  each_of_rgb(c, [a = c[3]](double v) { return a > 0 ? v / a : v; });
+}
+/// Shows channel R of `from` as the first, and so on.
+template <size_t R, size_t G, size_t B, size_t A>
+void show(Color& c, double, int, int) {
+  c = {c[R], c[G], c[B], c[A]};
+}
+void map_tones(Color& c, double, int, int) {
+  each_of_rgb(c, [](double v) { return v / (1 + v); });
+}
+void clamp_to_one(Color& c, double, int, int) {
+  each_of_rgb(c, [](double v) { return std::clamp(v, 0.0, 1.0); });
+}
+void cut_bits(Color& c, double bits, int, int) {
+  each_of_rgb(c, [bits](double v) {
+    const int low = 8 - int(bits), code = int(std::nearbyint(std::clamp(v, 0.0, 1.0) * 255));
+    return double((code >> low << low) | code >> int(bits)) / 255;
+  });
+}
+void raise(Color& c, double codes, int, int) {
+  each_of_rgb(c, [codes](double v) { return v + codes / 255; });
+}
+void invert(Color& c, double, int, int) {
+  each_of_rgb(c, [](double v) { return 1 - v; });
+}
+void set_alpha(Color& c, double alpha, int, int) { c[3] = alpha; }
+void nothing(Color&, double, int, int) {}
+
+void flip_y(Move& m, double) { m.flip_y = !m.flip_y; }
+void flip_x(Move& m, double) { m.flip_x = !m.flip_x; }
+void turn(Move& m, double) { m.flip_x = !m.flip_x, m.flip_y = !m.flip_y; }
+void shift_x(Move& m, double pixels) { m.x += int(pixels); }
+void shift_y(Move& m, double pixels) { m.y += int(pixels); }
+
+constexpr double kAlphas[] = {0, 1};
+constexpr double kCodes[] = {-4, -3, -2, -1, 1, 2, 3, 4};
+
+bool of_floats(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::floating; }
+bool of_codes(const LightPass& p) { return !of_floats(p); }
+
+constexpr auto kNone = Search::none;
+constexpr auto kOneOf = Search::one_of;
+
+// name, text, light, value, can, search, starts, move, doubt, reach
+constexpr PictureFault kFaults[] = {
+    {"picture-flip-y", "the picture is upside down", nullptr, nullptr, nullptr, kNone, {}, flip_y},
+    {"picture-flip-x", "the picture is mirrored, left for right", nullptr, nullptr, nullptr, kNone, {}, flip_x},
+    {"picture-turned", "the picture is turned by 180 degrees", nullptr, nullptr, nullptr, kNone, {}, turn},
+    {"picture-shift-x", "the picture is moved by %s pixels to the right", nullptr, nullptr, nullptr, kOneOf, kShifts,
+     shift_x},
+    {"picture-shift-y", "the picture is moved by %s pixels downward", nullptr, nullptr, nullptr, kOneOf, kShifts,
+     shift_y},
+    {"picture-bgr", "the picture's channels are in the order BGR", nullptr, show<2, 1, 0, 3>},
+    {"picture-grb", "the picture's channels are in the order GRB", nullptr, show<1, 0, 2, 3>},
+    {"picture-rbg", "the picture's channels are in the order RBG", nullptr, show<0, 2, 1, 3>},
+    {"picture-gbr", "the picture's channels are in the order GBR", nullptr, show<1, 2, 0, 3>},
+    {"picture-brg", "the picture's channels are in the order BRG", nullptr, show<2, 0, 1, 3>},
+    {"picture-argb", "the picture's channels are in the order ARGB", nullptr, show<3, 0, 1, 2>},
+    {"picture-abgr", "the picture's channels are in the order ABGR", nullptr, show<3, 2, 1, 0>},
+    {"picture-gbar", "the picture's channels are in the order GBAR", nullptr, show<1, 2, 3, 0>},
+    {"picture-srgb-encoded", "the picture is sRGB-encoded once more than the target says", nullptr, encode},
+    {"picture-srgb-missing", "the picture is not sRGB-encoded, or decoded once more than the target says", nullptr,
+     decode},
+    {"picture-gamma", "the picture is raised to the power of %s", nullptr, power, nullptr, Search::smooth, kGammas,
+     nullptr, 0.01},
+    {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply},
+    {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply},
+    {"picture-exposure", "the picture is %s times as bright as it should be", nullptr, expose, nullptr, Search::smooth,
+     kFactors},
+    {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
+    {"picture-clamped", "the picture is clamped to [0, 1]", nullptr, clamp_to_one, of_floats},
+    {"picture-inverted", "the picture shows 1 - x", nullptr, invert},
+    {"picture-bits", "the picture keeps %s bits a channel", nullptr, cut_bits, of_codes, kOneOf, kBits, nullptr, 0.01},
+    {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, kOneOf, kCodes,
+     nullptr, 0.01},
+    {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, kOneOf, kAlphas},
+    {"picture-dithered",
+     "the picture is dithered: each code is one of the two beside the value",
+     nullptr,
+     nothing,
+     of_codes,
+     kNone,
+     {},
+     nullptr,
+     0.05,
+     1.02},
+};
+
+}  // namespace
+
+std::span<const PictureFault> picture_value_faults() { return kFaults; }
+
+}  // namespace trueshade::oracle

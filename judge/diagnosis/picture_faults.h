@@ -1,0 +1,48 @@
+#pragma once
+// What people get wrong of the picture: how its light is computed, and what becomes of it afterwards.
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "judge/diagnosis/light_pass.h"
+
+namespace trueshade::oracle {
+
+using Color = std::array<double, 4>;
+
+/// Where the pixel that is shown came from.
+struct Move {
+  bool flip_x = false, flip_y = false;
+  int x = 0, y = 0;  ///< added afterwards, from the top left; outside, the edge's pixel
+};
+
+/// How a fault's parameter is found.
+enum class Search : uint8_t {
+  none,           ///< it has none
+  one_of,         ///< the best of `starts`
+  smooth,         ///< from the best of `starts` by least squares
+  missing_light,  ///< the light without which most pixels are as given
+  doubled_light,  ///< the same of one that is drawn twice
+  count,          ///< of lights, by sums of the first so many
+  count_at_pixel  ///< of lights that reach a pixel, the same
+};
+
+struct PictureFault {
+  std::string_view name, text;  ///< text: `%s` stands for the parameter
+  void (*light)(LightPass&, double) = nullptr;
+  void (*value)(Color&, double, int x, int y) = nullptr;  ///< of what the picture stands for
+  bool (*can)(const LightPass&) = nullptr;                ///< whether it can change anything; null: always
+  Search search = Search::none;
+  std::span<const double> starts{};
+  void (*move)(Move&, double) = nullptr;
+  double doubt = 0;  ///< what naming it costs beyond its parameter: the more it can explain by chance
+  double reach = 0;  ///< steps that it may be off: of what is noise
+  int tile = 0;      ///< pixels a side of tiles whose light lists are those of other tiles; parameter: which
+  std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
+};
+
+std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp
+std::span<const PictureFault> light_faults();          ///< light_faults.cpp
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,21 @@
+#pragma once
+#include "judge/diagnosis/picture_case.h"
+
+namespace trueshade::oracle {
+
+/// Findings about the picture, the likeliest first, as diagnose() has them.
+///   only: faults with their parameters that are supposed, all together; empty: look for the likeliest
+struct NamedFault {
+  const PictureFault* fault = nullptr;
+  double parameter = 0;
+};
+/// How many pixels are not as they should be, estimated.
+double changed_pixels(const PictureCase& picture);
+
+std::vector<Finding> picture_findings(PictureCase& picture, std::span<const NamedFault> only);
+
+/// `light-range=1.01`; a fault without a parameter by its name alone.
+std::string name_of(const PictureFault& fault, double parameter);
+std::string text_of(const PictureFault& fault, double parameter);
+
+}  // namespace trueshade::oracle

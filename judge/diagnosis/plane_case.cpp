@@ -1,0 +1,139 @@
+#include "judge/diagnosis/plane_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/diagnosis/picture_case.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr std::array<size_t, 4> kPlaneSample = {500, 100, 300, 60}, kPlaneFew = {110, 20, 60, 16};
+
+/// The number of a plane's channel, and the constant that stands where there is none.
+double number_of(const PlaneValues& v, Plane plane, int channel) {
+  const auto k = size_t(channel);
+  switch (plane) {
+    case Plane::depth:
+      return v.depth;
+    case Plane::position:
+      return k < 3 ? v.position[k] : v.covered ? 1 : 0;
+    case Plane::normal:
+      return k < 3 ? v.normal[k] : v.covered ? 1 : 0;
+    case Plane::albedo:
+      return v.albedo[k];
+    case Plane::uv:
+      return k < 2 ? v.uv[k] : k == 3 && v.covered ? 1 : 0;
+    case Plane::object:
+      return v.object;
+    default:
+      return v.material;
+  }
+}
+
+}  // namespace
+
+PlaneCase::PlaneCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                     const StageVerdict& stage)
+    : scene_(scene),
+      pipeline_(pipeline),
+      profile_(resolved(profile, pipeline)),
+      drawn_at_(capture.drawn_at),
+      context_(plane_context(scene_, pipeline_)),
+      right_(std::make_shared<ExpectedPlanes>(scene, pipeline_, profile_, capture.drawn_at)) {
+  for (size_t i = 0; i < kPlanes; ++i) {
+    if (Plane(i) == Plane::position && pipeline_.gbuffer.position_from_depth) continue;
+    views_[i] = plane_of(capture, pipeline_, kPlaneNames[i]);
+  }
+  std::vector<PixelUse> uses(stage.classes.size());
+  for (int y = 0; y < stage.height; ++y)
+    for (int x = 0; x < stage.width; ++x)
+      if (!right_->covered(x, y)) uses[size_t(y) * size_t(stage.width) + size_t(x)] = PixelUse::dull;
+  sample_ = sampled_pixels(stage, kPlaneSample, uses), few_ = sampled_pixels(stage, kPlaneFew, uses);
+  for (const SampledPixel& p : few_)
+    for (const double v : right_->at(p.x, p.y).value.position) extent_ = std::max(extent_, std::fabs(v));
+}
+
+int PlaneCase::planes() const {
+  return int(std::count_if(views_.begin(), views_.end(), [](const PlaneView& v) { return bool(v); }));
+}
+
+std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, const NamedPlaneFault& fault) const {
+  PlaneSupposition s = base;
+  s.faults.push_back(fault);
+  if (fault.fault->redraw == nullptr) return s;
+  const auto scene = std::make_shared<Scene>(scene_);
+  Pipeline pipeline = pipeline_;
+  for (const NamedPlaneFault& f : s.faults)
+    if (f.fault->redraw != nullptr && !f.fault->redraw(*scene, pipeline, f.parameter)) return std::nullopt;
+  s.scene = scene;
+  s.drawn = std::make_shared<ExpectedPlanes>(*scene, pipeline, profile_, drawn_at_);
+  return s;
+}
+
+/// What a plane shows at a pixel: from where its content came, encoded.
+ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, int x, int y) const {
+  PlaneMove move;
+  for (const NamedPlaneFault& f : supposed.faults)
+    if (f.fault->move != nullptr && (f.fault->plane == plane || f.fault->plane == Plane::all))
+      f.fault->move(move, f.parameter);
+  x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
+  ExpectedPixel p =
+      supposed.drawn->at(move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y);
+  for (const NamedPlaneFault& f : supposed.faults)
+    if (f.fault->change != nullptr && f.fault->plane == plane)
+      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter);
+  return p;
+}
+
+/// As the plane's format has it.
+double PlaneCase::stored(Plane plane, double value, int channel) const {
+  const PlaneView& view = views_[size_t(plane)];
+  if (!view.unorm()) return value;
+  const double v = plane == Plane::normal && channel < 3 ? value * 0.5 + 0.5 : value;
+  return std::clamp(v, 0.0, 1.0) * view.layout.largest_code(channel);
+}
+
+double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const {
+  const PlaneView& view = views_[size_t(plane)];
+  const double given = view.stored(x, y, channel), value = stored(plane, number_of(p.value, plane, channel), channel);
+  const double a = stored(plane, number_of(p.low, plane, channel), channel),
+               b = stored(plane, number_of(p.high, plane, channel), channel);
+  const double slack = std::max(std::fabs(a - value), std::fabs(b - value));
+  if (!std::isfinite(given) || !std::isfinite(value)) return given == value ? 0 : 1e3;
+  const double off = std::max(0.0, std::fabs(given - value) - slack);
+  double unit = 1, room = 0.51;  // of a code
+  if (!view.unorm()) {
+    const double size = std::max(std::fabs(value), std::fabs(given));
+    unit = plane == Plane::position ? extent_ * 0x1p-20 : plane == Plane::depth ? 0x1p-22 : 0x1p-20;
+    if (view.layout.number_class == NumberClass::integer) unit = 1;
+    if (view.layout.small_float()) unit = std::ldexp(1.0, std::max(size > 0 ? std::ilogb(size) : -14, -14) - 10);
+    room = view.layout.small_float() ? 1.01 : 0.4;
+  }
+  return std::max(0.0, off / unit - room - reach) + (off / unit > room + reach ? kSameSteps : 0);
+}
+
+std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& supposed, int x, int y) const {
+  std::array<double, kPlanes> off{};
+  bool moved = false;
+  for (const NamedPlaneFault& f : supposed.faults)
+    moved = moved || f.fault->move != nullptr || f.fault->change != nullptr;
+  const ExpectedPixel plain = moved ? ExpectedPixel{} : supposed.drawn->at(x, y);
+  for (size_t i = 0; i < kPlanes; ++i) {
+    if (!views_[i]) continue;
+    double reach = 0;
+    for (const NamedPlaneFault& f : supposed.faults)
+      if (f.fault->plane == Plane(i)) reach = std::max(reach, f.fault->reach);
+    const ExpectedPixel p = moved ? changed(supposed, Plane(i), x, y) : plain;
+    for (int k = 0; k < views_[i].channels; ++k) off[i] = std::max(off[i], channel_off(Plane(i), p, reach, x, y, k));
+  }
+  return off;
+}
+
+double PlaneCase::predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const {
+  const double v = stored(plane, number_of(changed(supposed, plane, x, y).value, plane, channel), channel);
+  return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
+}
+
+}  // namespace trueshade::oracle

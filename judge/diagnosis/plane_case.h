@@ -1,0 +1,58 @@
+#pragma once
+// The planes of a capture beside those that are expected.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "judge/diagnosis/disagreement.h"
+#include "judge/diagnosis/plane_faults.h"
+#include "judge/diagnosis/plane_search.h"
+
+namespace trueshade::oracle {
+
+/// Faults that a G-buffer is supposed to have, all at once. Those that draw otherwise come first.
+struct PlaneSupposition {
+  std::vector<NamedPlaneFault> faults;
+  std::shared_ptr<const Scene> scene;  ///< that is drawn; null: the right one
+  std::shared_ptr<const ExpectedPlanes> drawn;
+};
+
+/// Borrows all.
+class PlaneCase {
+ public:
+  PlaneCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+            const StageVerdict& stage);
+
+  PlaneSupposition right() const { return {{}, nullptr, right_}; }
+  /// With one more fault; nothing where it changes nothing here.
+  std::optional<PlaneSupposition> with(const PlaneSupposition& base, const NamedPlaneFault& fault) const;
+  const std::vector<SampledPixel>& sample() const { return sample_; }
+  const std::vector<SampledPixel>& few() const { return few_; }
+
+  /// Steps that each plane is off at a pixel; 0 of planes that were not captured.
+  std::array<double, kPlanes> steps_off(const PlaneSupposition& supposed, int x, int y) const;
+  const PlaneView& view(Plane plane) const { return views_[size_t(plane)]; }
+  int planes() const;
+  /// What would be stored at the pixel: codes, or floats.
+  double predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const;
+  ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }
+  const Scene& scene() const { return scene_; }
+  std::shared_ptr<const ExpectedPlanes> expected() const { return right_; }
+
+ private:
+  ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y) const;
+  double channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const;
+  double stored(Plane plane, double value, int channel) const;
+
+  const Scene& scene_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  const std::array<int, 2> drawn_at_;
+  const PlaneContext context_;
+  std::array<PlaneView, kPlanes> views_;
+  double extent_ = 1;  ///< of positions: what floats of them are exact to
+  std::shared_ptr<const ExpectedPlanes> right_;
+  std::vector<SampledPixel> sample_, few_;
+};
+
+}  // namespace trueshade::oracle

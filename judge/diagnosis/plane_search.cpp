@@ -1,0 +1,253 @@
+#include "judge/diagnosis/plane_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/threads/parallel_for.h"
+#include "judge/diagnosis/plane_case.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+using Search = PlaneFault::Search;
+
+constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
+constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
+constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
+
+struct Candidate {
+  PlaneSupposition supposed;
+  Disagreement found;
+  std::array<double, kPlanes> costs{};  ///< by plane
+  double cost = 0;                      ///< of what it costs where nothing is wrong
+};
+
+class PlaneSearch {
+ public:
+  explicit PlaneSearch(const PlaneCase& planes) : planes_(planes) {
+    off_few_ = off(planes.right(), planes.few()), off_ = off(planes.right(), planes.sample());
+    for (size_t i = 0; i < off_.size(); ++i) {
+      const double weight = planes.sample()[i].weight;
+      for (size_t k = 0; k < kPlanes; ++k) wrong_[k] += off_[i][k] >= kSameSteps ? weight : 0;
+      changed_ += agrees(off_[i]) ? 0 : weight;
+      same_ += agrees(off_[i]) ? weight : 0;
+    }
+    for (size_t i = 0; i < off_few_.size(); ++i) cost_few_ += planes.few()[i].weight * cost(off_few_[i]);
+    for (size_t i = 0; i < off_.size(); ++i) cost_ += planes.sample()[i].weight * cost(off_[i]);
+  }
+
+  double changed() const { return changed_; }
+  double wrong(size_t plane) const { return wrong_[plane]; }
+  std::vector<Candidate> look() const;
+  Candidate judged(PlaneSupposition supposed, bool all) const;
+  Finding finding(const Candidate& candidate, size_t which) const;
+
+ private:
+  using Steps = std::vector<std::array<double, kPlanes>>;
+  static bool agrees(const std::array<double, kPlanes>& off) {
+    return std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; });
+  }
+  double cost(const std::array<double, kPlanes>& off) const {
+    double sum = 0;
+    for (const double o : off) sum += cost_of(o);
+    return sum / planes_.planes();
+  }
+  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
+  std::vector<double> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
+  std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
+  bool bears_on(const PlaneFault& fault) const;
+  Proof proof(const Candidate& candidate) const;
+
+  const PlaneCase& planes_;
+  Steps off_few_, off_;
+  std::array<double, kPlanes> wrong_{};
+  double changed_ = 0, same_ = 0, cost_few_ = 0, cost_ = 0;
+};
+
+PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const {
+  Steps steps(pixels.size());
+  parallel_for(int(pixels.size()), 0, [&](int i) {
+    steps[size_t(i)] = planes_.steps_off(supposed, pixels[size_t(i)].x, pixels[size_t(i)].y);
+  });
+  return steps;
+}
+
+Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
+  const std::vector<SampledPixel>& pixels = all ? planes_.sample() : planes_.few();
+  const Steps now = off(supposed, pixels), &before = all ? off_ : off_few_;
+  Candidate c;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    c.found.cost += pixels[i].weight * cost(now[i]);
+    if (!agrees(before[i]) && agrees(now[i])) c.found.explained += pixels[i].weight;
+    if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
+  }
+  c.cost = c.found.cost / (all ? cost_ : cost_few_);
+  for (const NamedPlaneFault& f : supposed.faults)
+    c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+  c.supposed = std::move(supposed);
+  return c;
+}
+
+/// Only planes that are wrong can have a fault of their own; drawing otherwise changes most of them.
+bool PlaneSearch::bears_on(const PlaneFault& fault) const {
+  if (fault.plane != Plane::all) return wrong_[size_t(fault.plane)] >= kLeastChanged;
+  return changed_ >= kLeastChanged;
+}
+
+/// What the fault's parameter may be: those of its table, or what the pixels say.
+std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
+  if (fault.search == Search::none) return {0};
+  if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
+  std::vector<double> differences;
+  std::map<uint32_t, double> votes;
+  for (size_t i = 0; i < off_few_.size(); ++i) {
+    const SampledPixel& p = planes_.few()[i];
+    if (agrees(off_few_[i])) continue;
+    const ExpectedPixel expected = planes_.expected(p.x, p.y);
+    if (!expected.value.covered) continue;
+    votes[uint32_t(expected.value.object) - 1] += p.weight;
+    if (const PlaneView& depth = planes_.view(Plane::depth))
+      differences.push_back(depth.stored(p.x, p.y, 0) - planes_.predicted(base, Plane::depth, p.x, p.y, 0));
+  }
+  if (fault.search == Search::object) {
+    std::vector<std::pair<double, double>> ranked;
+    for (const auto& [object, weight] : votes) ranked.emplace_back(-weight, double(object));
+    std::sort(ranked.begin(), ranked.end());
+    if (ranked.size() > 2) ranked.resize(2);
+    std::vector<double> objects;
+    for (const auto& [weight, object] : ranked) objects.push_back(object);
+    return objects;
+  }
+  if (differences.empty()) return {};
+  std::nth_element(differences.begin(), differences.begin() + int64_t(differences.size() / 2), differences.end());
+  return {differences[differences.size() / 2]};
+}
+
+std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
+  std::vector<Candidate> candidates;
+  const auto tries = [&](std::span<const PlaneFault> table) {
+    for (const PlaneFault& fault : table) {
+      const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
+      if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
+      std::optional<Candidate> best;
+      for (const double parameter : parameters(base, fault)) {
+        std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
+        if (!s) continue;
+        Candidate c = judged(std::move(*s), false);
+        if (!best || c.cost < best->cost) best = std::move(c);
+      }
+      if (best) candidates.push_back(std::move(*best));
+    }
+  };
+  tries(plane_faults());
+  if (redraw) tries(redraw_faults());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  return candidates;
+}
+
+std::vector<Candidate> PlaneSearch::look() const {
+  const auto by_cost = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+  const bool redraw = planes_.scene().triangle_count() <= kMostTriangles;
+  std::vector<Candidate> singles = beside(planes_.right(), redraw);
+  if (singles.empty()) return {};
+  std::vector<Candidate> pairs;
+  if (singles.front().cost > 0.03)
+    for (size_t i = 0; i < std::min(kFirstOfPairs, singles.size()); ++i) {
+      std::vector<Candidate> both = beside(singles[i].supposed, redraw && i == 0);
+      both.resize(std::min<size_t>(both.size(), 2));
+      for (Candidate& c : both) pairs.push_back(judged(std::move(c.supposed), true));
+    }
+  singles.resize(std::min(kFinalists, singles.size()));
+  for (Candidate& c : singles) c = judged(std::move(c.supposed), true);
+  std::stable_sort(singles.begin(), singles.end(), by_cost);
+  std::stable_sort(pairs.begin(), pairs.end(), by_cost);
+  const auto explains = [&](const Candidate& c) {
+    return c.found.explained - c.found.contradicted >= kNamed * changed_;
+  };
+  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front()))
+    return {std::move(pairs.front())};
+  const double most = singles.front().cost + kRival;
+  singles.erase(
+      std::remove_if(singles.begin(), singles.end(), [&](const Candidate& c) { return !explains(c) || c.cost > most; }),
+      singles.end());
+  return singles;
+}
+
+Proof PlaneSearch::proof(const Candidate& candidate) const {
+  Proof proof;
+  double farthest = 0;
+  for (size_t i = 0; i < off_.size(); ++i) {
+    const auto [x, y, weight] = planes_.sample()[i];
+    const size_t worst = size_t(std::max_element(off_[i].begin(), off_[i].end()) - off_[i].begin());
+    if (off_[i][worst] <= farthest || !agrees(planes_.steps_off(candidate.supposed, x, y))) continue;
+    farthest = off_[i][worst];
+    const auto plane = Plane(worst);
+    double most = -1;
+    for (int k = 0; k < planes_.view(plane).channels; ++k) {
+      const double given = planes_.view(plane).stored(x, y, k),
+                   right = planes_.predicted(planes_.right(), plane, x, y, k);
+      if (std::fabs(given - right) <= most) continue;
+      most = std::fabs(given - right);
+      proof = {x,     y,     channel_of(kPlaneNames[worst], k),
+               given, right, planes_.predicted(candidate.supposed, plane, x, y, k)};
+    }
+  }
+  return proof;
+}
+
+Finding PlaneSearch::finding(const Candidate& candidate, size_t which) const {
+  const NamedPlaneFault& fault = candidate.supposed.faults[which];
+  Finding f;
+  f.name = name_of(*fault.fault, fault.parameter), f.text = text_of(*fault.fault, fault.parameter);
+  f.plane = kPlaneNames[size_t(fault.fault->plane)];
+  f.changed = uint64_t(std::llround(changed_));
+  f.explained = candidate.found.explained / changed_;
+  f.contradicted = same_ > 0 ? candidate.found.contradicted / same_ : 0;
+  f.together = which > 0;
+  f.proof = proof(candidate);
+  return f;
+}
+
+}  // namespace
+
+std::string name_of(const PlaneFault& fault, double parameter) {
+  return std::string(fault.name) + (fault.search == Search::none ? "" : "=" + parameter_word(fault, parameter));
+}
+
+std::string text_of(const PlaneFault& fault, double parameter) {
+  std::string text(fault.text);
+  const size_t at = text.find("%s");
+  if (at != std::string::npos)
+    text.replace(at, 2, fault.says != nullptr ? fault.says(parameter) : parameter_text(parameter));
+  return text;
+}
+
+PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                             const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only) {
+  const PlaneCase planes(scene, pipeline, profile, capture, stage);
+  const PlaneSearch search(planes);
+  PlaneFindings out;
+  for (size_t k = 0; k < kPlanes; ++k) out.wrong[k] = search.wrong(k) >= kLeastChanged;
+  if (search.changed() < kLeastChanged) return out;
+  out.expected = planes.expected();
+  std::vector<Candidate> found;
+  if (only.empty()) {
+    found = search.look();
+  } else {
+    PlaneSupposition supposed = planes.right();
+    for (const NamedPlaneFault& f : only)
+      if (std::optional<PlaneSupposition> s = planes.with(supposed, f)) supposed = std::move(*s);
+    if (!supposed.faults.empty()) found.push_back(search.judged(std::move(supposed), true));
+  }
+  for (const Candidate& c : found)
+    for (size_t i = 0; i < c.supposed.faults.size(); ++i) {
+      out.findings.push_back(search.finding(c, i));
+      out.faults.push_back(c.supposed.faults);
+    }
+  return out;
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,33 @@
+#pragma once
+// A captured G-buffer against what the scene should have made it, under any faults that are supposed.
+#include <memory>
+#include <vector>
+
+#include "judge/diagnosis/disagreement.h"
+#include "judge/diagnosis/finding.h"
+#include "judge/diagnosis/plane_faults.h"
+#include "judge/stages/tally.h"
+
+namespace trueshade::oracle {
+
+struct NamedPlaneFault {
+  const PlaneFault* fault = nullptr;
+  double parameter = 0;
+};
+
+/// Findings about the G-buffer, the likeliest first, as diagnose() has them, and the planes that are not as expected.
+struct PlaneFindings {
+  std::vector<Finding> findings;
+  std::vector<std::vector<NamedPlaneFault>> faults;  ///< of each finding
+  std::array<bool, kPlanes> wrong{};                 ///< by Plane
+  std::shared_ptr<const ExpectedPlanes> expected;    ///< of a right renderer; null where no plane is wrong
+};
+
+///   only: faults that are supposed, all together; empty: look for the likeliest
+PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                             const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only);
+
+std::string name_of(const PlaneFault& fault, double parameter);
+std::string text_of(const PlaneFault& fault, double parameter);
+
+}  // namespace trueshade::oracle

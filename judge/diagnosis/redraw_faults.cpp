@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+
+#include "judge/diagnosis/plane_faults.h"
+#include "oracle/matrices.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+bool cull(Scene&, Pipeline& p, double face) {
+  if (p.geometry.cull_face == CullFace(int(face))) return false;
+  p.geometry.cull_face = CullFace(int(face));
+  return true;
+}
+bool turn_front(Scene&, Pipeline& p, double) {
+  if (p.geometry.cull_face == CullFace::none) return false;
+  p.geometry.front_face = p.geometry.front_face == FrontFace::ccw ? FrontFace::cw : FrontFace::ccw;
+  return true;
+}
+bool compare(Scene&, Pipeline& p, double func) {
+  if (p.geometry.depth_func == DepthFunc(int(func))) return false;
+  p.geometry.depth_func = DepthFunc(int(func));
+  if (p.geometry.depth_func == DepthFunc::greater || p.geometry.depth_func == DepthFunc::gequal)
+    p.geometry.clear_depth = 0;
+  return true;
+}
+bool hold_depth(Scene&, Pipeline& p, double format) {
+  if (p.geometry.depth_format == Format(int(format))) return false;
+  p.geometry.depth_format = Format(int(format));
+  return true;
+}
+bool clip_depth(Scene& s, Pipeline& p, double) {
+  if (s.camera.clip_from_world) return false;
+  // The matrix stays as it is, and the range is taken for the other one.
+  const Matrix4 m = projection_of(s.camera, p.geometry, p.width, p.height);
+  s.camera.clip_from_world.emplace();
+  for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(m[i]);
+  p.geometry.clip_depth =
+      p.geometry.clip_depth == ClipDepth::zero_to_one ? ClipDepth::negative_one_to_one : ClipDepth::zero_to_one;
+  return true;
+}
+bool clamp_depth(Scene&, Pipeline& p, double) {
+  p.geometry.depth_clamp = !p.geometry.depth_clamp;
+  return true;
+}
+bool offset_depth(Scene&, Pipeline& p, double factor) {
+  p.geometry.polygon_offset_factor += float(factor), p.geometry.polygon_offset_units += float(factor);
+  return true;
+}
+bool draw_upside_down(Scene&, Pipeline& p, double) {
+  p.geometry.clip_origin =
+      p.geometry.clip_origin == ClipOrigin::lower_left ? ClipOrigin::upper_left : ClipOrigin::lower_left;
+  return true;
+}
+template <class Change>
+bool change_matrix(Scene& s, const Pipeline& p, const Change& change) {
+  Matrix4 m = projection_of(s.camera, p.geometry, p.width, p.height);
+  change(m);
+  s.camera.clip_from_world.emplace();
+  for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(m[i]);
+  s.camera.matrix_has_gl_range = false;
+  return true;
+}
+/// Half pixels to the right and up: the parameter counts eight directions, counter-clockwise from the right.
+constexpr int kDirections[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+bool half_a_pixel(Scene& s, Pipeline& p, double direction) {
+  const int* d = kDirections[std::clamp(int(direction), 0, 7)];
+  return change_matrix(s, p, [&](Matrix4& m) {
+    for (size_t c = 0; c < 4; ++c)
+      m[4 * c] += m[4 * c + 3] * d[0] / p.width, m[4 * c + 1] += m[4 * c + 3] * d[1] / p.height;
+  });
+}
+bool left_handed(Scene& s, Pipeline& p, double) {
+  return change_matrix(s, p, [](Matrix4& m) {
+    for (size_t c = 0; c < 4; ++c) m[4 * c] = -m[4 * c];
+  });
+}
+bool interpolate(Scene&, Pipeline& p, double how) {
+  GBufferState& g = p.gbuffer;
+  for (PlaneState* plane : {&g.position, &g.normal, &g.albedo, &g.uv}) plane->interpolation = Interpolation(int(how));
+  return true;
+}
+bool flat_normals(Scene&, Pipeline& p, double) {
+  p.gbuffer.normal.interpolation =
+      p.gbuffer.normal.interpolation == Interpolation::flat ? Interpolation::smooth : Interpolation::flat;
+  return true;
+}
+bool provoke(Scene&, Pipeline& p, double) {
+  p.geometry.provoking = p.geometry.provoking == Provoking::last ? Provoking::first : Provoking::last;
+  const GBufferState& g = p.gbuffer;
+  return g.position.interpolation == Interpolation::flat || g.normal.interpolation == Interpolation::flat ||
+         g.albedo.interpolation == Interpolation::flat;
+}
+template <class Change>
+bool change_samplers(Scene& s, const Change& change) {
+  bool any = false;
+  for (Material& m : s.materials)
+    for (TextureSlot* slot : maps_of(m))
+      if (slot->used()) change(slot->sampler), any = true;
+  return any;
+}
+bool filter(Scene& s, Pipeline&, double way) {
+  return change_samplers(s, [way](Sampler& sampler) {
+    const int how = int(way);
+    sampler.mag_filter = how == 0 ? Filter::nearest : Filter::linear;
+    sampler.min_filter = how == 0 ? Filter::nearest : Filter::linear;
+    sampler.mip_filter = how <= 1 ? MipFilter::none : how == 2 ? MipFilter::nearest : MipFilter::linear;
+  });
+}
+bool bias_lod(Scene& s, Pipeline&, double bias) {
+  return change_samplers(s, [bias](Sampler& sampler) { sampler.lod_bias += float(bias); });
+}
+bool wrap(Scene& s, Pipeline&, double way) {
+  return change_samplers(s, [way](Sampler& sampler) { sampler.wrap = {Wrap(int(way)), Wrap(int(way))}; });
+}
+bool no_textures(Scene& s, Pipeline&, double) {
+  bool any = false;
+  for (Material& m : s.materials) any = any || m.color_map.used(), m.color_map.texture = -1;
+  return any;
+}
+bool no_base_color(Scene& s, Pipeline&, double) {
+  for (Material& m : s.materials) m.base_color = glm::vec4(1.0f);
+  return true;
+}
+/// The object keeps its number and draws nothing.
+bool leave_out(Scene& s, Pipeline&, double object) {
+  const auto at = size_t(object);
+  if (at >= s.instances.size()) return false;
+  s.instances[at].mesh = uint32_t(s.meshes.size());
+  s.meshes.emplace_back();
+  return true;
+}
+bool no_transforms(Scene& s, Pipeline&, double) {
+  for (Instance& i : s.instances) i.world_from_object = glm::mat4x3(1.0f);
+  return true;
+}
+
+std::string face_name(double face) {
+  constexpr const char* kNames[] = {"none", "front", "back"};
+  return kNames[std::clamp(int(face), 0, 2)];
+}
+std::string func_name(double func) {
+  constexpr const char* kNames[] = {"never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"};
+  return kNames[std::clamp(int(func), 0, 7)];
+}
+std::string format_name(double format) { return std::string(info(Format(int(format))).name); }
+std::string direction_name(double direction) {
+  constexpr const char* kNames[] = {"to the right", "up and to the right",  "up",   "up and to the left",
+                                    "to the left",  "down and to the left", "down", "down and to the right"};
+  return kNames[std::clamp(int(direction), 0, 7)];
+}
+std::string way_name(double way) {
+  constexpr const char* kNames[] = {"smooth", "flat", "noperspective"};
+  return kNames[std::clamp(int(way), 0, 2)];
+}
+std::string filter_name(double way) {
+  constexpr const char* kNames[] = {"nearest", "linear", "linear_mipmap_nearest", "linear_mipmap_linear"};
+  return kNames[std::clamp(int(way), 0, 3)];
+}
+std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::clamp(int(way), 0, 4))]); }
+
+constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
+                 kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
+                 kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3},
+                 kBiases[] = {-1, -0.5, 0.5, 1}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
+                 kNoPerspective[] = {2};
+
+using Fault2 = PlaneFault;
+constexpr auto kOne = Fault2::Search::one_of;
+
+// name, text, plane, change, redraw, move, search, starts, doubt, reach, says
+constexpr PlaneFault kFaults2[] = {
+    {"cull-face", "the face culled is `%s`", Plane::all, nullptr, cull, nullptr, kOne, kFaces, 0, 0, face_name},
+    {"front-face", "the front is taken for the back", Plane::all, nullptr, turn_front},
+    {"depth-func", "the depth test is `%s`", Plane::all, nullptr, compare, nullptr, kOne, kFuncs, 0, 0, func_name},
+    {"depth-format", "the depth buffer is %s", Plane::all, nullptr, hold_depth, nullptr, kOne, kFormats2, 0, 0,
+     format_name},
+    {"half-pixel", "the picture is drawn half a pixel %s", Plane::all, nullptr, half_a_pixel, nullptr, kOne,
+     kDirectionNumbers, 0, 0, direction_name},
+    {"left-handed", "the camera is left-handed: x runs to the left", Plane::all, nullptr, left_handed},
+    {"upside-down",
+     "the window's y runs downward",
+     Plane::all,
+     nullptr,
+     draw_upside_down,
+     nullptr,
+     Fault2::Search::none,
+     {},
+     0.01},
+    {"clip-depth", "clip space is taken for the other range of z", Plane::all, nullptr, clip_depth},
+    {"depth-clamp", "near and far clip where they should not, or do not where they should", Plane::all, nullptr,
+     clamp_depth},
+    {"polygon-offset", "a polygon offset of %s is on", Plane::all, nullptr, offset_depth, nullptr, kOne, kOffsets2},
+    {"interpolation", "attributes are interpolated `%s`", Plane::all, nullptr, interpolate, nullptr, kOne,
+     kNoPerspective, 0, 0, way_name},
+    {"normal-flat", "normals are flat where smooth ones are due, or smooth where flat ones are", Plane::all, nullptr,
+     flat_normals},
+    {"provoking-vertex", "the other vertex provokes", Plane::all, nullptr, provoke},
+    {"texture-filter", "textures are filtered `%s`", Plane::all, nullptr, filter, nullptr, kOne, kFilters, 0, 0,
+     filter_name},
+    {"texture-lod-bias", "the textures' level of detail is off by %s", Plane::all, nullptr, bias_lod, nullptr, kOne,
+     kBiases},
+    {"texture-wrap", "textures wrap by `%s`", Plane::all, nullptr, wrap, nullptr, kOne, kWraps, 0, 0, wrap_name},
+    {"texture-missing", "the colour maps are not read", Plane::all, nullptr, no_textures},
+    {"base-color-missing", "the materials' base colours are not applied", Plane::all, nullptr, no_base_color},
+    {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
+    {"transforms-missing", "the objects' matrices are not applied", Plane::all, nullptr, no_transforms},
+};
+
+}  // namespace
+
+std::span<const PlaneFault> redraw_faults() { return kFaults2; }
+
+}  // namespace trueshade::oracle

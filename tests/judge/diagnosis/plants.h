@@ -1,0 +1,9 @@
+#pragma once
+#include "tests/judge/diagnosis/planted.h"
+
+namespace trueshade::testing {
+
+const std::vector<Plant>& plants_of_pictures();
+const std::vector<Plant>& plants_of_planes();
+
+}  // namespace trueshade::testing
