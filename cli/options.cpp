@@ -243,16 +243,29 @@ struct ValidationTexts {
   std::optional<std::string> size, subpixel_bits, strategy, time, significance;
 };
 
+/// `gbuffer`: the name of the option or argument of files of planes.
+void add_capture_options(CLI::App* command, CaptureOptions& options, const char* gbuffer, const char* help) {
+  add_values(command, gbuffer, "FILE", options.gbuffer_files, help);
+  add_value(command, "--map", "PLANES", options.map,
+            "Which channels are which planes, and how they are packed: PLANE=FILE.CHANNELS[:WORD]... with commas, say "
+            "position=gbuf2.RGB,normal=gbuf1.RG:octahedral,depth=depth.R:reversed; or @FILE with such entries. Words: "
+            "octahedral, spheremap, unorm, unorm8, unorm10, unorm16, unit; view, view_z_away, view_y_down_z_away; "
+            "window, reversed, linear, distance; bottom_up. rows=bottom_up turns every plane over");
+  add_value(command, "--image", "FILE", options.image_file,
+            "The picture of the capture, as a file of its own; else the channels R G B A, or color of --map");
+}
+
+void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
+
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
   add_pipeline_options(command, options, texts.size);
   add_value(command, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
   add_value(command, "--driver", "NAME", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
-  add_value(command, "--gbuffer", "FILE", options.gbuffer_file,
-            "Judge this capture instead: an EXR of planes, channels as --aov names them (docs/validation.md)");
-  add_value(command, "--image", "FILE", options.image_file,
-            "The picture of the capture, .exr or .png; else R G B A of --gbuffer");
+  add_capture_options(command, options.capture, "--gbuffer",
+                      "Judge this capture instead: planes as .exr, .dds, .tif, .npy or .png, channels as --aov names "
+                      "them or as --map says; may be repeated (docs/captures.md)");
   add_value(
       command, "--profile", "NAME", options.held_to,
       "Hold the driver to this profile instead of what OpenGL promises of any: " + joined(oracle::kDriverProfileNames));
@@ -290,21 +303,68 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   check_preset(options.preset);
   if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
     throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
-  if (options.driver && !options.gbuffer_file.empty())
+  check_capture(options.capture);
+  if (options.driver && options.capture.given())
     throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
   constexpr auto& kProfiles = oracle::kDriverProfileNames;
   if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
     throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(kProfiles));
-  if (options.gbuffer_file.empty() && !options.image_file.empty())
+  if (!options.capture.given() && !options.capture.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   for (const std::string& path : options.saved)
     if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
       throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
   check_named_once("--save", options.saved);
-  if (!options.saved.empty() && !options.gbuffer_file.empty())
+  if (!options.saved.empty() && options.capture.given())
     throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
   if (options.report && !has_ending(*options.report, ".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  return options;
+}
+
+/// Option values of shade as text.
+struct ShadeTexts {
+  std::optional<std::string> time, target, strategy, profile, threads;
+};
+
+CLI::App* add_shade(CLI::App& app, ShadeOptions& options, ShadeTexts& texts) {
+  CLI::App* command = app.add_subcommand("shade", "Light a G-buffer that something else has drawn");
+  add_capture_options(command, options.capture, "GBUFFER",
+                      "Files of planes: .exr, .dds, .tif, .npy or .png, channels as --aov names them or as --map says");
+  add_value(command, "--lights", "SCENE", options.scene,
+            "Scene file or builtin:NAME, whose lights, camera and clear colour are taken")
+      ->required();
+  add_value(command, "--preset", "NAME", options.preset, "Row of numbers, as for render");
+  add_value(command, "--pipeline", "FILE", options.pipeline_file, "JSON file of values, as for render");
+  add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_value(command, "--target", "FORMAT", texts.target, "Format the image is stored in, as for render");
+  add_value(command, "--strategy", "NAME", texts.strategy,
+            "How lights come to pixels: forward-loop, deferred-volumes or deferred-loop");
+  add_value(command, "--profile", "NAME", texts.profile, "Whose bits where OpenGL leaves a choice, as for render");
+  add_value(command, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core; never changes a pixel");
+  add_values(command, "-o,--output", "FILE", options.outputs, "File to write: .png or .exr; may be repeated");
+  add_switch(command, "--hash", options.hash, "Print the hash of the image's stored bytes");
+  add_switch(command, "-q,--quiet", options.quiet, "Say neither notes nor which files were written");
+  add_limit_options(command, options);
+  return command;
+}
+
+ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  check_preset(options.preset);
+  check_scene(options.scene);
+  check_capture(options.capture);
+  check_named_once("-o", options.outputs);
+  for (const std::string& path : options.outputs)
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+  if (!options.capture.given()) throw usage("GBUFFER", "there is no G-buffer", "name its files, or give --map");
+  if (options.outputs.empty() && !options.hash)
+    throw usage("shade", "nothing would come of it", "add -o FILE or --hash");
   return options;
 }
 
@@ -391,7 +451,7 @@ Error unexpected_argument(const CLI::App& command, const std::vector<std::string
 
 /// The first argument is a command, or an option of the program itself. Error(usage) for any other.
 void check_first_argument(const CLI::App& app, const std::string& first) {
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "export", "validate", "bench"};
+  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "export", "validate", "shade", "bench"};
   if (!first_unknown_option({&first, 1}, option_names(app)).empty()) throw unexpected_argument(app, {first});
   if (first[0] != '-' && std::find(std::begin(kCommands), std::end(kCommands), first) == std::end(kCommands))
     throw usage("command line", "there is no command '" + first + "'", "one of: " + joined(kCommands));
@@ -425,6 +485,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   std::optional<std::string> export_time;
   ValidationOptions validation;
   ValidationTexts validation_texts;
+  ShadeOptions shaded;
+  ShadeTexts shade_texts;
   BenchOptions benchmark;
   BenchTexts bench_texts;
   const CLI::App* render_command = add_render(app, render, texts);
@@ -436,6 +498,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_texts);
   const CLI::App* export_command = add_export(app, exported, export_time);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
+  const CLI::App* shade_command = add_shade(app, shaded, shade_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
   std::vector<std::string> words(arguments + 1, arguments + std::max(count, 1));
   if (!words.empty() && words[0] == "help") {  // `help COMMAND` is `COMMAND --help`
@@ -468,6 +531,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (glsl_command->parsed()) return finished(std::move(glsl), glsl_texts);
   if (export_command->parsed()) return finished(std::move(exported), export_time);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
+  if (shade_command->parsed()) return finished(std::move(shaded), shade_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
   return list;
 }

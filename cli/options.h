@@ -25,6 +25,15 @@ struct LimitedOptions {
   Limits limits;
 };
 
+/// A capture made elsewhere.
+struct CaptureOptions {
+  std::vector<std::string> gbuffer_files;  ///< files of planes
+  std::optional<std::string> map;          ///< which channels are which planes, see capture_map_from_option()
+  std::string image_file;                  ///< the picture; empty: that of the files, if there is one
+
+  bool given() const { return !gbuffer_files.empty() || map.has_value(); }
+};
+
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
 struct PipelineOptions : LimitedOptions {
   std::string scene;                  ///< a file or builtin:NAME
@@ -48,6 +57,11 @@ struct RenderOptions : PipelineOptions {
   Execution execution;
   bool hash = false, stats = false, json = false;
   bool quiet = false;  ///< neither notes nor the names of files written
+};
+
+/// `trueshade shade`: of RenderOptions without frames, planes, views and statistics. `scene` has the lights.
+struct ShadeOptions : RenderOptions {
+  CaptureOptions capture;
 };
 
 /// Execution of the options; borrows options.simd.
@@ -81,18 +95,18 @@ struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
-  std::optional<std::string> driver;     ///< default, llvmpipe or softpipe; none where there is a capture
-  std::optional<std::string> held_to;    ///< what profile to hold the driver to; nothing: what OpenGL promises of any
-  double time = 0.0;                     ///< seconds of the scene's timeline
-  std::optional<int> subpixel_bits;      ///< of the driver's grid; nothing: what it says, 4 for a capture
-  std::string gbuffer_file, image_file;  ///< the capture; empty: draw one here
-  std::vector<std::string> saved;        ///< .png, .exr: what was drawn here
-  std::optional<std::string> report;     ///< .html
-  bool quick = false;                    ///< neither the tightest profile nor the moved frame
-  bool lenient = false;                  ///< what the tests of the whole image find is no failure
-  double significance = 1e-6;            ///< of these tests: how many legal images may fail them
-  std::vector<std::string> supposed;     ///< names of faults, as diagnose() takes them
-  std::string command_line;              ///< as it was given, for a shell
+  std::optional<std::string> driver;   ///< default, llvmpipe or softpipe; none where there is a capture
+  std::optional<std::string> held_to;  ///< what profile to hold the driver to; nothing: what OpenGL promises of any
+  double time = 0.0;                   ///< seconds of the scene's timeline
+  std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
+  CaptureOptions capture;              ///< empty: draw one here
+  std::vector<std::string> saved;      ///< .png, .exr: what was drawn here
+  std::optional<std::string> report;   ///< .html
+  bool quick = false;                  ///< neither the tightest profile nor the moved frame
+  bool lenient = false;                ///< what the tests of the whole image find is no failure
+  double significance = 1e-6;          ///< of these tests: how many legal images may fail them
+  std::vector<std::string> supposed;   ///< names of faults, as diagnose() takes them
+  std::string command_line;            ///< as it was given, for a shell
   bool json = false;
 };
 
@@ -112,7 +126,7 @@ struct PrintText {
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, PrintText>;
+                             ValidationOptions, BenchOptions, ShadeOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

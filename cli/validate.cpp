@@ -5,11 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "cli/capture/captured_planes.h"
+#include "cli/capture/stored_planes.h"
+#include "cli/capture_options.h"
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
 #include "cli/preparation.h"
 #include "cli/validation.h"
-#include "cli/validation_capture.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
 #include "scenes/pipeline/fit_lights.h"
@@ -42,7 +44,7 @@ DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Vali
 uint64_t judging_memory(const ValidationOptions& options, const Pipeline& pipeline) {
   constexpr uint64_t kDriver = uint64_t(85) << 20, kPixel = 480, kQuickPixel = 420;
   return uint64_t(pipeline.width) * uint64_t(pipeline.height) * (options.quick ? kQuickPixel : kPixel) +
-         (options.gbuffer_file.empty() ? kDriver : 0);
+         (options.capture.given() ? 0 : kDriver);
 }
 
 /// A capture that `--gbuffer` takes, but for the planes that no file holds.
@@ -56,11 +58,13 @@ void save(const oracle::Capture& capture, const std::string& path) {
 }
 
 /// Makes the capture that was read one of the pipeline.
-void fit_capture(const ValidationOptions& options, Validation& v) {
-  if (!v.capture.has_alpha) v.notes.push_back("the picture has no alpha channel, so alpha is not judged");
-  const Image& plane = v.capture.planes.front().image;
-  if (!options.size) v.pipeline.width = plane.width, v.pipeline.height = plane.height;
-  store_as(v.pipeline, options.gbuffer_file, v.capture);
+void fit_capture(const ValidationOptions& options, const CaptureFiles& files, const Scene& scene, Validation& v) {
+  CapturedPlanes planes = captured_planes(files, scene, v.pipeline);
+  v.capture = std::move(planes.capture);
+  store_as(v.pipeline, files.name, v.capture);
+  if (v.capture.color.width > 0 && !v.capture.has_alpha)
+    v.notes.push_back("the picture has no alpha channel, so alpha is not judged");
+  v.notes.insert(v.notes.end(), planes.notes.begin(), planes.notes.end());
   if (!options.held_to && !options.subpixel_bits)
     v.notes.push_back(
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
@@ -85,11 +89,13 @@ bool judge_opengl(const ValidationOptions& options) {
   for (const std::string& path : options.saved) check_writable(path);
   Validation v;
   v.lenient = options.lenient;
-  if (!options.gbuffer_file.empty()) v.capture = capture_from_files(options.gbuffer_file, options.image_file);
+  std::optional<CaptureFiles> files;
+  if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   v.pipeline = pipeline_of(options, scene);
   fit_lights_of_ours(scene, v.pipeline.light_model);
+  if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
@@ -100,11 +106,12 @@ bool judge_opengl(const ValidationOptions& options) {
         "must be that target");
   DriverFrame drawn;
   v.draw_ms = timed([&] {
-    if (options.gbuffer_file.empty())
+    if (!files)
       drawn = draw_here(options, scene, v);
     else
-      fit_capture(options, v);
+      fit_capture(options, *files, scene, v);
   });
+  files.reset();
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,

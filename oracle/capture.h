@@ -9,6 +9,21 @@
 
 namespace trueshade::oracle {
 
+/// A plane that was unpacked from what an engine stores, such as a normal from two octahedral codes: how far its values
+/// are from those that the engine's shaders have. Bounds on each component, one for all pixels or one a pixel.
+struct DecodedPlane {
+  std::string name;
+  bool unit_length = false;          ///< what is packed is a direction of length 1
+  std::vector<float> reading_error;  ///< |here - what a shader unpacks from the very same codes|
+  std::vector<float> packing_error;  ///< |here - what was packed|
+  bool has_alpha = true;  ///< false: there are three channels, and the fourth, which stands in, is not judged
+
+  bool is_unpacked() const { return !packing_error.empty(); }
+  static double at(const std::vector<float>& bounds, size_t pixel) {
+    return bounds.empty() ? 0.0 : double(bounds[bounds.size() == 1 ? 0 : pixel]);
+  }
+};
+
 /// What a renderer drew, from wherever it came: a real driver on this machine, a file captured elsewhere, our own
 /// frame, or a mutant made to be rejected. Images have rows top first, values as they read back from the stored
 /// formats.
@@ -20,9 +35,16 @@ struct Capture {
   bool has_alpha = true;           ///< false: the file had R, G and B alone; the alpha of `color` is then not judged
   std::string name = "capture";    ///< what errors call it: the file it is from
 
+  std::vector<DecodedPlane> decoded{};  ///< of the planes that are not as their renderer stored them
+
   const Image* plane(std::string_view name) const {
     for (const NamedImage& p : planes)
       if (p.name == name) return &p.image;
+    return nullptr;
+  }
+  const DecodedPlane* decoding(std::string_view name) const {
+    for (const DecodedPlane& p : decoded)
+      if (p.name == name) return &p;
     return nullptr;
   }
 };

@@ -18,6 +18,7 @@
 #include "shading/frame_tables.h"
 #include "shading/frame_tile.h"
 #include "shading/gl_counts.h"
+#include "shading/output/post_frame.h"
 #include "shading/output/target.h"
 
 namespace trueshade {
@@ -98,11 +99,15 @@ PreparedScene::~PreparedScene() = default;
 void PreparedScene::update() { cluster_posed_meshes(*scene_, *clusters_); }
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
-Frame draw_frame(const PreparedScene& prepared, const Pipeline& given, const Execution& asked,
-                 std::span<const std::string> planes, bool lit, const Progress& progress) {
+namespace {
+
+/// `given`: surfaces to be lit instead of the scene's; null: those are drawn.
+Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, const Execution& asked,
+                    std::span<const std::string> planes, bool lit, const GivenSurfaces* given,
+                    const Progress& progress) {
   const FpScope fp;
   const Scene& scene = prepared.scene();
-  const Pipeline pipeline = without_idle_emission(scene, given);
+  const Pipeline pipeline = given == nullptr ? without_idle_emission(scene, asked_for) : asked_for;
   const FramePlan plan = plan_frame(scene, pipeline, asked, planes, lit);
   const int threads = plan.execution.threads;
   check_memory(plan, pipeline, planes);
@@ -126,6 +131,7 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& given, const Exe
                        LightPlanes(planes, scene, pipeline, *tables.meshes, view),
                        ViewDistance(scene, pipeline),
                        TransparentPass(scene, pipeline, plan.execution),
+                       given,
                        frame};
   stats.before_tiles_ms = now_ms() - start;
   stats.loops_before_tiles = log->loops();
@@ -137,8 +143,29 @@ Frame draw_frame(const PreparedScene& prepared, const Pipeline& given, const Exe
   stats.lights = scene.lights.size();
   stats.pixel_lights = stats.covered_pixels * stats.lights;
   stats.triangles = scene.triangle_count();
-  stats.gl = counted_as_gl(scene, given, *tables.meshes, stats);
+  stats.gl = counted_as_gl(scene, asked_for, *tables.meshes, stats);
   stats.total_ms = now_ms() - start;
+  return frame;
+}
+
+}  // namespace
+
+Frame draw_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
+                 std::span<const std::string> planes, bool lit, const Progress& progress) {
+  return draw_surfaces(prepared, pipeline, execution, planes, lit, nullptr, progress);
+}
+
+Frame light_surfaces(const Scene& scene, const Pipeline& asked, const Execution& execution, const GivenSurfaces& given,
+                     const Progress& progress) {
+  validate(asked);
+  validate(execution);
+  Pipeline pipeline = asked;
+  pipeline.transparency.mode = TransparencyMode::none;
+  check_surfaces(given, pipeline);
+  Scene lights = scene;
+  lights.instances.clear();
+  Frame frame = draw_surfaces(PreparedScene(lights), pipeline, execution, {}, true, &given, progress);
+  if (pipeline.post.active()) frame.color = finished_image(scene, pipeline, execution, frame.color, given.depth);
   return frame;
 }
 

@@ -79,6 +79,11 @@ struct TileStages {
       frame.transparent.blend_into_albedo(all, rect, s.vertices, *glass, s.surface);
   }
 
+  void take_surfaces() {
+    load_surfaces(*frame.given, frame.view, rect, s.visible, s.surface);
+    counts.covered += uint64_t(s.surface.covered_pixels);
+  }
+
   // Leaves the lit tile in s.color; in the target's stored form where the plan encodes.
   void add_lights() {
     fetch_texels(rect, frame.out.color);
@@ -131,9 +136,12 @@ void draw_tile(const FrameWork& frame, int tile, TileCounts& counts) {
   const bool lit = frame.plan.lit();
   const double start = now_ms();
   TileStages stages(frame, tile, thread_scratch(), counts);
-  stages.find_visible();
+  if (frame.given == nullptr) stages.find_visible();
   const double seen = now_ms();
-  stages.find_surfaces();
+  if (frame.given == nullptr)
+    stages.find_surfaces();
+  else
+    stages.take_surfaces();
   const double resolved = now_ms();
   if (lit) stages.add_lights();
   const double lighted = now_ms();

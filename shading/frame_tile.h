@@ -8,6 +8,7 @@
 #include "shading/frame.h"
 #include "shading/frame_plan.h"
 #include "shading/frame_tables.h"
+#include "shading/given_surfaces.h"
 #include "shading/output/light_planes.h"
 #include "shading/output/view_distance.h"
 #include "shading/sum/light_pass.h"
@@ -25,6 +26,7 @@ struct FrameWork {
   const LightPlanes light_planes;
   const ViewDistance view_distance;
   const TransparentPass transparent;
+  const GivenSurfaces* const given;  ///< lit instead of the scene's surfaces; null: those are drawn
   Frame& out;
 };
 

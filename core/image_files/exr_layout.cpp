@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800,
                    kPartsFlag = 0x1000;  // flags beside the version
-constexpr size_t kMostNameBytes = 255, kMostChannels = 1024;
+constexpr size_t kMostNameBytes = 255, kMostChannels = 1024, kMostParts = 64;
 constexpr int64_t kMostSide = 65536;
 constexpr uint64_t kMostManifest = uint64_t(16) << 20;
 
@@ -49,6 +49,13 @@ class HeaderCursor {
     const std::string_view text(reinterpret_cast<const char*>(bytes_.data() + at_), size_t(zero - begin));
     at_ += text.size() + 1;
     return text;
+  }
+  /// Passes a zero, if one is next.
+  bool take_zero() {
+    if (left() < 1) fail("the EXR ends inside its header");
+    if (bytes_[at_] != 0) return false;
+    ++at_;
+    return true;
   }
   void skip(size_t count) {
     if (count > left()) fail("a part of its header is longer than the file");
@@ -147,27 +154,49 @@ uint64_t blocks_of(const HeaderValues& header, bool tiled, const HeaderCursor& f
          uint64_t((window.height + header.tile->height - 1) / header.tile->height);
 }
 
-}  // namespace
-
-ExrLayout exr_layout(const std::string& where, std::span<const uint8_t> bytes) {
-  HeaderCursor file(where, bytes, 0, bytes.size());
-  constexpr uint32_t kMagic = 0x01312f76;
-  if (file.word() != kMagic) file.fail("it is no EXR");
-  const uint32_t version = file.word();
-  if ((version & 0xff) != 2 || (version & ~(0xffu | kTiledFlag | kLongNamesFlag | kDeepFlag | kPartsFlag)) != 0)
-    file.fail("its version of EXR is not known", "store version 2");
-  if ((version & kPartsFlag) != 0) file.fail("it has several parts", "store one, with all channels");
-  if ((version & kDeepFlag) != 0) file.fail("it is a deep image", "store one sample a pixel");
-  const HeaderValues header = read_attributes(file);
+/// What a header says, after it is known to be whole. `entries`: of the tables behind the headers so far.
+ExrLayout checked_layout(const std::string& where, const HeaderValues& header, bool tiled, const HeaderCursor& file,
+                         uint64_t& entries) {
   if (!header.data_window || !header.pixel_bytes || *header.pixel_bytes == 0 || !header.block_rows)
     file.fail("its header names no channels, window or compression");
   if (*header.block_rows == 0) file.fail("its compression is not known", "store it with ZIP");
   const PixelWindow& window = *header.data_window;
   if (window.width > kMostSide || window.height > kMostSide)
     throw Error(ErrorKind::limit, where, "it is over 65536 pixels a side", "give a part of it");
-  if (blocks_of(header, (version & kTiledFlag) != 0, file) > file.left() / 8)
-    file.fail("the EXR ends before its pixels do");
+  entries += blocks_of(header, tiled, file);
   return {int(window.width), int(window.height), *header.pixel_bytes};
+}
+
+std::vector<ExrLayout> layouts_of(const std::string& where, std::span<const uint8_t> bytes, size_t most_parts) {
+  HeaderCursor file(where, bytes, 0, bytes.size());
+  constexpr uint32_t kMagic = 0x01312f76;
+  if (file.word() != kMagic) file.fail("it is no EXR");
+  const uint32_t version = file.word();
+  if ((version & 0xff) != 2 || (version & ~(0xffu | kTiledFlag | kLongNamesFlag | kDeepFlag | kPartsFlag)) != 0)
+    file.fail("its version of EXR is not known", "store version 2");
+  const bool in_parts = (version & kPartsFlag) != 0;
+  if (in_parts && most_parts == 1) file.fail("it has several parts", "store one, with all channels");
+  if ((version & kDeepFlag) != 0) file.fail("it is a deep image", "store one sample a pixel");
+  std::vector<ExrLayout> layouts;
+  uint64_t entries = 0;
+  do {
+    if (layouts.size() == most_parts) file.fail("it has over 64 parts", "store fewer");
+    const HeaderValues header = read_attributes(file);
+    layouts.push_back(
+        checked_layout(where, header, header.tile.has_value() || (version & kTiledFlag) != 0, file, entries));
+  } while (in_parts && !file.take_zero());
+  if (entries > file.left() / 8) file.fail("the EXR ends before its pixels do");
+  return layouts;
+}
+
+}  // namespace
+
+ExrLayout exr_layout(const std::string& where, std::span<const uint8_t> bytes) {
+  return layouts_of(where, bytes, 1).front();
+}
+
+std::vector<ExrLayout> exr_part_layouts(const std::string& where, std::span<const uint8_t> bytes) {
+  return layouts_of(where, bytes, kMostParts);
 }
 
 }  // namespace trueshade

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace trueshade {
 
@@ -18,5 +19,8 @@ struct ExrLayout {
 /// pixels; subsampled channels; an offset table beyond the file. Error(limit): over 65536 pixels a side or 1024
 /// channels.
 ExrLayout exr_layout(const std::string& where, std::span<const uint8_t> bytes);
+
+/// The same of each part of an EXR that may have several, at most 64.
+std::vector<ExrLayout> exr_part_layouts(const std::string& where, std::span<const uint8_t> bytes);
 
 }  // namespace trueshade

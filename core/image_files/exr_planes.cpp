@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -34,11 +35,22 @@ class ExrFile {
   const OIIO::ImageSpec& spec() const { return spec_; }
   bool has_more_parts() { return file_->seek_subimage(1, 0); }
 
+  /// Goes on to the part of that number; false where there is none.
+  bool seek(int part) {
+    if (!file_->seek_subimage(part, 0)) return false;
+    part_ = part;
+    spec_ = file_->spec(part, 0);
+    return true;
+  }
+
   /// Rows [first, end) of all channels, each in its own type.
   void read(int first, int end, std::vector<uint8_t>& rows) {
     rows.resize(size_t(end - first) * size_t(spec_.width) * spec_.pixel_bytes(true));
-    if (!file_->read_scanlines(0, 0, first, end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data()))
-      throw failure();
+    const bool done = spec_.tile_width == 0 ? file_->read_scanlines(part_, 0, first, end, 0, 0, spec_.nchannels,
+                                                                    OIIO::TypeDesc::UNKNOWN, rows.data())
+                                            : file_->read_tiles(part_, 0, 0, spec_.width, first, end, 0, 1, 0,
+                                                                spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data());
+    if (!done) throw failure();
   }
 
  private:
@@ -53,6 +65,7 @@ class ExrFile {
   OIIO::Filesystem::IOMemReader memory_;
   std::unique_ptr<OIIO::ImageInput> file_;
   OIIO::ImageSpec spec_;
+  int part_ = 0;
 };
 
 ImageFileInfo header_of(const std::string& path, std::span<const uint8_t> bytes) {
@@ -64,6 +77,15 @@ ImageFileInfo header_of(const std::string& path, std::span<const uint8_t> bytes)
   for (const OIIO::ParamValue& entry : spec.extra_attribs)
     header.metadata.emplace_back(entry.name().string(), entry.get_string());
   return header;
+}
+
+/// Refuses what is too large, deep, or not all of a picture.
+void check_window(const std::string& path, const OIIO::ImageSpec& spec) {
+  check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
+  if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
+  if (spec.x != 0 || spec.y != 0 || spec.full_x != 0 || spec.full_y != 0 || spec.full_width != spec.width ||
+      spec.full_height != spec.height)
+    throw bad_image(path, "its data window is not its display window", "store all pixels, from 0, 0 on");
 }
 
 /// A plane to be filled from channels of a file.
@@ -137,12 +159,8 @@ void append_rows(const std::vector<uint8_t>& rows, size_t pixel_bytes, PlaneSour
 std::vector<NamedImage> planes_of(const std::string& path, std::span<const uint8_t> bytes) {
   ExrFile file(path, bytes);
   const OIIO::ImageSpec& spec = file.spec();
-  check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
   if (spec.tile_width != 0) throw bad_image(path, "it is stored in tiles", "store scan lines");
-  if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
-  if (spec.x != 0 || spec.y != 0 || spec.full_x != 0 || spec.full_y != 0 || spec.full_width != spec.width ||
-      spec.full_height != spec.height)
-    throw bad_image(path, "its data window is not its display window", "store all pixels, from 0, 0 on");
+  check_window(path, spec);
   std::vector<PlaneSource> planes;
   for (const PlaneLayout& layout : kPlanes)
     if (auto plane = plane_in(path, spec, layout)) planes.push_back(std::move(*plane));
@@ -159,7 +177,56 @@ std::vector<NamedImage> planes_of(const std::string& path, std::span<const uint8
   return result;
 }
 
+Channel exr_channel_of(const std::string& path, const OIIO::ImageSpec& spec, int index) {
+  Channel channel;
+  channel.part = spec.get_string_attribute("oiio:subimagename");
+  channel.name = spec.channel_name(index);
+  const OIIO::TypeDesc type = spec.channelformat(index);
+  if (type == OIIO::TypeDesc::UINT32) channel.kind = ChannelKind::integer;
+  if (type == OIIO::TypeDesc::HALF) channel.bits = 16;
+  if (type != OIIO::TypeDesc::UINT32 && type != OIIO::TypeDesc::HALF && type != OIIO::TypeDesc::FLOAT)
+    throw bad_image(path, "channel " + channel.name + " is " + type.c_str(), "store it as float, half or uint");
+  return channel;
+}
+
+/// Appends rows of one channel, which lies `offset` bytes into a pixel.
+void append_words(const std::vector<uint8_t>& rows, size_t pixel_bytes, size_t offset, Channel& channel) {
+  for (size_t at = offset; at < rows.size(); at += pixel_bytes) {
+    uint32_t word = 0;
+    std::memcpy(&word, rows.data() + at, channel.bits == 16 ? 2 : 4);
+    channel.words.push_back(channel.bits == 16 ? std::bit_cast<uint32_t>(float_from_half(uint16_t(word))) : word);
+  }
+}
+
+void add_part(const std::string& path, ExrFile& exr, ChannelFile& file) {
+  const OIIO::ImageSpec& spec = exr.spec();
+  check_window(path, spec);
+  if (file.width == 0) file.width = spec.width, file.height = spec.height;
+  if (file.width != spec.width || file.height != spec.height)
+    throw bad_image(path, "its parts have two sizes", "store parts of one size");
+  const size_t before = file.channels.size();
+  for (int c = 0; c < spec.nchannels; ++c) file.channels.push_back(exr_channel_of(path, spec, c));
+  std::vector<uint8_t> rows;
+  const int at_once = spec.tile_width == 0 ? kRowsAtOnce : spec.tile_height;
+  for (int first = 0; first < spec.height; first += at_once) {
+    exr.read(first, std::min(first + at_once, spec.height), rows);
+    for (int c = 0; c < spec.nchannels; ++c)
+      append_words(rows, spec.pixel_bytes(true), spec.pixel_bytes(0, c, true), file.channels[before + size_t(c)]);
+  }
+}
+
+ChannelFile channels_of_parts(const std::string& path, std::span<const uint8_t> bytes) {
+  ExrFile exr(path, bytes);
+  ChannelFile file{path, 0, 0, {}};
+  for (int part = 0; part == 0 || exr.seek(part); ++part) add_part(path, exr, file);
+  return file;
+}
+
 }  // namespace
+
+ChannelFile exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
+  return guarded(path, [&] { return channels_of_parts(path, bytes); });
+}
 
 ImageFileInfo exr_header(const std::string& path, std::span<const uint8_t> bytes) {
   return guarded(path, [&] { return header_of(path, bytes); });

@@ -89,6 +89,10 @@ std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint
   return table().exr_planes(path, bytes);
 }
 
+ChannelFile exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
+  return table().exr_part_channels(path, bytes);
+}
+
 Image jpeg_pixels(const std::string& where, std::span<const uint8_t> bytes) {
   return table().jpeg_pixels(where, bytes);
 }

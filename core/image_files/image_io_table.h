@@ -10,6 +10,7 @@ struct ImageIoTable {
   decltype(&trueshade::exr_header) exr_header;
   decltype(&trueshade::exr_planes) exr_planes;
   decltype(&trueshade::jpeg_pixels) jpeg_pixels;
+  decltype(&trueshade::exr_part_channels) exr_part_channels;
 };
 
 /// What the module exports under this name.

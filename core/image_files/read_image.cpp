@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/image_files/channel_file.h"
 #include "core/image_files/exr_layout.h"
 #include "core/image_files/exr_planes.h"
 #include "core/image_files/image_io.h"
@@ -119,6 +120,39 @@ Image exr_color(const std::string& where, std::span<const uint8_t> content, uint
   throw bad_image(where, "it has no colour", "name its channels R, G, B and A");
 }
 
+ChannelFile png_channels(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
+  const ImageFileInfo header = png_header(path, bytes);
+  check_decoded(path, header.width, header.height, texel_bytes_of(header), 3, bytes, most_expansion);
+  const Image image = png_pixels(path, bytes);
+  ChannelFile file{path, image.width, image.height, {}};
+  for (const std::string& name : header.channels) {
+    const size_t c = std::string_view("RGBA").find(name[0]);
+    Channel channel;
+    channel.name = name.substr(0, 1);
+    channel.kind = ChannelKind::unorm;
+    channel.bits = info(image.format).bits[0];
+    const size_t pixels = size_t(image.width) * size_t(image.height), bytes_each = size_t(channel.bits / 8);
+    channel.words.resize(pixels);
+    for (size_t i = 0; i < pixels; ++i)
+      std::memcpy(&channel.words[i], image.texels.data() + (4 * i + c) * bytes_each, bytes_each);
+    file.channels.push_back(std::move(channel));
+  }
+  return file;
+}
+
+ChannelFile checked_parts(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
+  uint64_t texel_bytes = 0;
+  const std::vector<ExrLayout> parts = exr_part_layouts(path, bytes);
+  for (const ExrLayout& part : parts) {
+    if (part.width != parts[0].width || part.height != parts[0].height)
+      throw bad_image(path, "its parts have two sizes", "store parts of one size");
+    texel_bytes += part.pixel_bytes;
+  }
+  check_decoded(path, parts[0].width, parts[0].height, texel_bytes, 3, bytes, most_expansion);
+  require_memory(kOpenImageIo, path, "the library that reads the picture");
+  return exr_part_channels(path, bytes);
+}
+
 }  // namespace
 
 ImageFileInfo read_image_info(const std::string& path) {
@@ -153,6 +187,23 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
   const ExrLayout layout = exr_layout(where, content);
   check_budget(where, layout.width, layout.height, 16, most_bytes);
   return exr_color(where, content, most_expansion);
+}
+
+ChannelFile read_channel_file(const std::string& path, uint64_t most_expansion) {
+  const FpScope ieee;
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  const std::string_view kind = picture_kind(bytes);
+  if (kind == "PNG") return png_channels(path, bytes, most_expansion);
+  if (kind == "OpenEXR") return checked_parts(path, bytes, most_expansion);
+  if (kind == "DDS") return dds_channels(path, bytes);
+  if (kind == "TIFF") return tiff_channels(path, bytes);
+  if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("\x93NUMPY"))
+    return npy_channels(path, bytes);
+  const bool lossy = kind == "JPEG" || kind == "Radiance HDR";
+  throw bad_image(path,
+                  kind.empty() ? "it is neither EXR, DDS, TIFF, PNG nor .npy"
+                               : "it is " + std::string(kind) + (lossy ? ", which does not keep a plane's values" : ""),
+                  "save it as EXR, DDS, TIFF, PNG or .npy");
 }
 
 std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion) {

@@ -62,6 +62,9 @@ class SurfaceValues {
 /// A possible surface's fragment as lights read it where no plane is between.
 ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
 
+/// Component k of n / |n|.
+Range normalized(const Range& x, const Range& y, const Range& z, int k, const Profile& profile);
+
 /// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
 Range halved_normal(const Range& n, const Profile& profile);
 

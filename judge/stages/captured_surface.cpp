@@ -62,10 +62,11 @@ bool CapturedSurface::covered(int x, int y) const {
   return object_ ? object_.stored(x, y, 0) != 0 : !is_clear_depth(pipeline_.geometry, depth_.stored(x, y, 0));
 }
 
-/// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error.
+/// A channel as the shader reads it; unorm codes k as k / largest with the profile's fetch error, unpacked values with
+/// that of unpacking.
 Bounded CapturedSurface::fetched(const PlaneView& view, int x, int y, int channel) const {
   const double stored = view.stored(x, y, channel);
-  if (!view.unorm()) return {stored, 0};
+  if (!view.unorm()) return {stored, view.reading_error(x, y)};
   const double largest = view.layout.largest_code(channel), value = stored / largest;
   return {value, stored == 0 || stored == largest ? 0 : value * profile_.fetch_error};
 }
@@ -73,7 +74,7 @@ Bounded CapturedSurface::fetched(const PlaneView& view, int x, int y, int channe
 ShadedSurface CapturedSurface::at(int x, int y) const {
   ShadedSurface s;
   for (int k = 0; k < 3; ++k) {
-    if (position_) s.position[size_t(k)] = {position_.stored(x, y, k), 0};
+    if (position_) s.position[size_t(k)] = fetched(position_, x, y, k);
     s.normal[size_t(k)] =
         normal_.unorm() ? doubled_normal(fetched(normal_, x, y, k), profile_.arithmetic) : fetched(normal_, x, y, k);
   }
@@ -123,7 +124,8 @@ Bounded3 CapturedSurface::position_from_depth(int x, int y) const {
   };
   const double z = depth_.stored(x, y, 0);
   const bool codes = pipeline_.geometry.depth_format != Format::d32f;
-  const double fetch = codes && z != 1 ? z * profile_.fetch_error : 0;  // a code is read as a float
+  const double fetch = (codes && z != 1 ? z * profile_.fetch_error : 0) +  // a code is read as a float
+                       depth_.reading_error(x, y);
   std::array<Bounded, 4> p = {
       ndc(x + 0.5, viewport_.x, viewport_.width), ndc(pipeline_.height - 1 - y + 0.5, viewport_.y, viewport_.height),
       Bounded{(z - offset) / scale, (4 * v * (std::fabs(z) + std::fabs(offset)) + fetch) / std::fabs(scale)},

@@ -105,6 +105,21 @@ class GBufferJudge {
     if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
   }
 
+  /// The values that a plane may hold where what was packed is in `packed`.
+  static Range widened(const Range& packed, const PlaneView& view, int x, int y_top) {
+    const double error = view.packing_error(x, y_top);
+    return {packed.value, packed.low - error, packed.high + error};
+  }
+
+  /// What a plane may hold of a normal's component.
+  Range held_normal(const AttributePlane& plane, const SurfaceValues& surface, int k, int x, int y_top) const {
+    const Range n = surface.normal(k, plane.interpolation);
+    if (plane.view.unorm()) return halved_normal(n, profile_);
+    if (plane.view.decoded == nullptr || !plane.view.decoded->unit_length) return widened(n, plane.view, x, y_top);
+    const auto component = [&](int c) { return surface.normal(c, plane.interpolation); };
+    return widened(normalized(component(0), component(1), component(2), k, profile_), plane.view, x, y_top);
+  }
+
   Match match(const PossibleSurface& c, int x, int y_top, bool& bounded) const {
     Match m;
     const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
@@ -120,8 +135,8 @@ class GBufferJudge {
     const SurfaceValues surface(projector_, c, sx, sy);
     bounded = surface.bounded();
     if (depth_)
-      m.channel_is(depth_, "depth", 0, surface.depth(), depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)),
-                   pixel, profile_);
+      m.channel_is(depth_, "depth", 0, widened(surface.depth(), depth_, x, y_top),
+                   depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)), pixel, profile_);
     if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
     const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
                                    bool looked_up) {
@@ -141,13 +156,12 @@ class GBufferJudge {
           continue;
         }
         if (p.first == kNormal) {
-          const Range n = surface.normal(k, p.interpolation);
-          judge_channel(p.view, p.name, k, p.view.unorm() ? halved_normal(n, profile_) : n, stored, surface.bumpy());
+          judge_channel(p.view, p.name, k, held_normal(p, surface, k, x, y_top), stored, surface.bumpy());
           continue;
         }
         if (p.first != kAlbedo) {
-          m.channel_is(p.view, p.name, k, surface.attribute(p.first + size_t(k), p.interpolation), stored, pixel,
-                       profile_);
+          const Range range = surface.attribute(p.first + size_t(k), p.interpolation);
+          m.channel_is(p.view, p.name, k, widened(range, p.view, x, y_top), stored, pixel, profile_);
           continue;
         }
         const Range base = surface.base_color(k, p.interpolation);

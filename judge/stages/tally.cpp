@@ -55,6 +55,8 @@ double PlaneView::stored(int x, int y, int channel) const {
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
   const bool is_target = name == "color";
   PlaneView view(is_target ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
+  view.decoded = capture.decoding(name);
+  if (view.decoded != nullptr && !view.decoded->has_alpha) view.channels = std::min(view.channels, 3);
   if (is_target && !capture.has_alpha) view.channels = std::min(view.channels, 3);
   if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
     throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),

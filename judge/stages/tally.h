@@ -14,13 +14,22 @@ namespace trueshade::oracle {
 struct PlaneView {
   const Image* image = nullptr;
   FormatInfo layout = info(Format::rgba32f);
-  int channels = 0;  ///< those that are judged: of a target without alpha 3, whatever its format
+  int channels = 0;                       ///< those that are judged: of a target without alpha 3, whatever its format
+  const DecodedPlane* decoded = nullptr;  ///< where the values are unpacked ones
 
   PlaneView() = default;
   explicit PlaneView(const Image* i);
   explicit operator bool() const { return image != nullptr; }
   double stored(int x, int y, int channel) const;  ///< y from the top
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
+  /// Bounds of DecodedPlane on a component; 0 of a plane that is as it was stored. y from the top.
+  double reading_error(int x, int y) const {
+    return decoded == nullptr ? 0 : decoded->at(decoded->reading_error, pixel(x, y));
+  }
+  double packing_error(int x, int y) const {
+    return decoded == nullptr ? 0 : decoded->at(decoded->packing_error, pixel(x, y));
+  }
+  size_t pixel(int x, int y) const { return size_t(y) * size_t(image->width) + size_t(x); }
   bool quantised() const { return unorm() || layout.small_float(); }
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }

@@ -67,7 +67,8 @@ void TransparentLayers::find_fronts(const Capture& capture) {
       for (int x = 0; x < pipeline_.width; ++x) {
         const double stored = depth_in_buffer(state, depth.stored(x, y, 0));
         const size_t pixel = size_t(pipeline_.height - 1 - y) * size_t(pipeline_.width) + size_t(x);
-        front_low_[pixel] = front_high_[pixel] = up ? -stored : stored;
+        const double key = up ? -stored : stored, error = depth.packing_error(x, y);
+        front_low_[pixel] = key - error, front_high_[pixel] = key + error;
       }
     return;
   }

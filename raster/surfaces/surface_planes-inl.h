@@ -23,10 +23,9 @@ namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Positions from the stored depth: docs/arithmetic.md section 7.
-inline void rebuild_positions(const SurfaceTask& task) {
-  const TileRect& rect = task.rect;
-  const WindowTransform& t = task.in.view.window;
-  const auto& m = task.in.view.world_from_clip;
+inline void rebuild_positions(const View& view, const TileRect& rect, const float* depth, SurfaceTile& out) {
+  const WindowTransform& t = view.window;
+  const auto& m = view.world_from_clip;
   const float left = float(t.offset[0] / 128 - t.scale[0] / 128) * 0.5f;
   const float bottom = float(t.offset[1] / 128 - std::abs(t.scale[1]) / 128) * 0.5f;
   const float per_x = float(2.0 / double(t.scale[0] / 128)), per_y = float(2.0 / double(std::abs(t.scale[1]) / 128));
@@ -34,15 +33,15 @@ inline void rebuild_positions(const SurfaceTask& task) {
   for (int y = 0; y < rect.size; ++y) {
     for (int x = 0; x < rect.size; ++x) {
       const int i = tile_index(rect.size, x, y);
-      if (task.out.covered[i] == 0) continue;
+      if (out.covered[i] == 0) continue;
       const float nx = (float(rect.x + x) + 0.5f - left) * per_x - 1.0f;
       const float up = (float(rect.y + y) + 0.5f - bottom) * per_y - 1.0f;
       const float ny = t.upper_left ? -up : up;
-      const float nz = (task.visible.depth[i] - z_offset) * per_z;
+      const float nz = (depth[i] - z_offset) * per_z;
       float h[4];
       for (size_t r = 0; r < 4; ++r) h[r] = ((m[4 * r] * nx + m[4 * r + 1] * ny) + m[4 * r + 2] * nz) + m[4 * r + 3];
       const float inverse = 1.0f / h[3];
-      for (int c = 0; c < 3; ++c) task.out.plane[kPosition + c][i] = h[c] * inverse;
+      for (int c = 0; c < 3; ++c) out.plane[kPosition + c][i] = h[c] * inverse;
     }
   }
 }

@@ -63,4 +63,8 @@ struct VisibleVertices {
 void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
                       const VisibilityTile& visible, UvPlanes uv, VisibleVertices& work, SurfaceTile& out);
 
+/// Sets the positions of a tile's covered pixels to what resolve_surfaces() makes of their depths where planes have
+/// position_from_depth.
+void positions_from_depth(const View& view, const TileRect& rect, const float* depth, SurfaceTile& out);
+
 }  // namespace trueshade

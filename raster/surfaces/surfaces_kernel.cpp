@@ -114,10 +114,14 @@ void resolve_surfaces_simd(const TileDraws& in, const TileRect& rect, const GBuf
   if (out.covered_pixels == 0) return;
   interpolate_tile(task);
   interpolate_clipped(task);
-  if (planes.position_from_depth) rebuild_positions(task);
+  if (planes.position_from_depth) rebuild_positions(task.in.view, task.rect, task.visible.depth, task.out);
   store_interpolated(task);
   apply_materials(task);
   store_materials(task);
+}
+
+void positions_from_depth_simd(const View& view, const TileRect& rect, const float* depth, SurfaceTile& out) {
+  rebuild_positions(view, rect, depth, out);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE
@@ -125,4 +129,5 @@ HWY_AFTER_NAMESPACE();
 
 namespace trueshade {
 TRUESHADE_KERNEL(resolve_surfaces, HWY_NAMESPACE::resolve_surfaces_simd);
+TRUESHADE_KERNEL(positions_from_depth, HWY_NAMESPACE::positions_from_depth_simd);
 }  // namespace trueshade

@@ -55,7 +55,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
     for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], task.pixels(), 1.0f);
     MappedBlocks{in, task.rect, values, task.visible, seen, out}.run();
   }
-  if (task.planes.position_from_depth) rebuild_positions(task);
+  if (task.planes.position_from_depth) rebuild_positions(task.in.view, task.rect, task.visible.depth, task.out);
   store_interpolated(task);
   if (colored || textured) {
     apply_materials(task);

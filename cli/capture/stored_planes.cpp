@@ -1,4 +1,4 @@
-#include "cli/validation_capture.h"
+#include "cli/capture/stored_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,15 +9,12 @@
 
 #include "core/error.h"
 #include "core/half.h"
-#include "core/image_files/image_io.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
-#include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
 namespace {
 
-constexpr uint64_t kMaxPictureBytes = uint64_t(4) << 30;
 constexpr double kLargestWhole = 16777216.0;  // 2^24: every whole number to here is a float
 
 Error bad_capture(const std::string& where, const std::string& reason, const std::string& remedy) {
@@ -112,7 +109,8 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   const FormatInfo to = info(format);
   const bool pads_uv = name == "uv" && from.channels == 2;
   const bool pads_normal = name == "normal" && from.channels == 3 && to.packed();
-  const bool pads_alpha = name == "color" && from.channels == 3 && to.channels == 4;  // which is not judged
+  const bool pads_alpha =
+      (name == "color" || name == "albedo") && from.channels == 3 && to.channels == 4;  // which is not judged
   if (from.channels != to.channels && !pads_uv && !pads_normal && !pads_alpha)
     throw bad_capture(where,
                       name + " has " + std::to_string(from.channels) + " channels, and " +
@@ -135,77 +133,39 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   return image;
 }
 
-void check_kind(const std::string& file, const std::vector<NamedImage>& planes) {
-  if (planes.size() == 1 && planes[0].name == "color")
-    throw bad_capture(file, "there is no G-buffer in it",
-                      "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
+bool lacks_albedo_alpha(const oracle::Capture& capture) {
+  const Image* const albedo = capture.plane("albedo");
+  const oracle::DecodedPlane* const decoded = capture.decoding("albedo");
+  return albedo != nullptr && (info(albedo->format).channels < 4 || (decoded != nullptr && !decoded->has_alpha));
 }
 
-/// Refuses depths and texture coordinates in halves where the pipeline stores more bits: they are values that were
-/// rounded after they had been drawn. Reading widens them to floats, so that only the file's header tells.
-void check_halves(const Pipeline& pipeline, const std::string& file) {
-  const std::vector<std::string> channels = read_image_info(file).channels;
-  const auto has = [&](const char* channel) {
-    return std::find(channels.begin(), channels.end(), channel) != channels.end();
-  };
-  const auto refuse = [&](const char* plane, Format format) {
-    throw bad_capture(
-        file, std::string(plane) + " is stored as half, and the pipeline's as " + std::string(info(format).name),
-        "write it as float: a half keeps 11 of its bits");
-  };
-  if (has("depth.Z half")) refuse("depth", pipeline.geometry.depth_format);
-  if (has("uv.X half") && !info(pipeline.gbuffer.uv.format).small_float()) refuse("uv", pipeline.gbuffer.uv.format);
-}
-
-bool is_rgb_of_8_bits(const ImageFileInfo& file) {
-  return file.channels.size() == 3 && file.channels.front().ends_with("uint8");
-}
-
-/// Reads the picture in a file into a capture. A PNG of R, G and B gets an alpha of 1, which is not judged.
-void read_picture(const std::string& path, oracle::Capture& capture) {
-  if (is_rgb_of_8_bits(read_image_info(path))) {
-    capture.has_alpha = false;
-    capture.color = decode_image(read_user_file(path, kMaxPictureBytes, ""), path, kMaxPictureBytes);
-    return;
-  }
-  std::vector<NamedImage> planes = read_planes(path);
-  if (planes.front().name != "color") throw bad_capture(path, "it has no channels R G B A", "give the lit picture");
-  capture.has_alpha = info(planes.front().image.format).channels != 3;
-  capture.color = std::move(planes.front().image);
+/// A fourth channel beside a format of three, which reads as 1 there: 1 where there is a surface, 0 where the plane was
+/// cleared, and then it may be left out. `name` is the plane.
+Image without_alpha(const std::string& where, const std::string& name, const Image& given, const FormatInfo& to) {
+  Image image(given.width, given.height, given.format == Format::rgba16f ? Format::rgb16f : Format::rgb32f);
+  for (int y = 0; y < given.height; ++y)
+    for (int x = 0; x < given.width; ++x) {
+      const double alpha = given.value(x, y, 3);
+      if (alpha != 1.0 && alpha != 0.0)
+        throw bad_capture(where,
+                          name + ".A at " + std::to_string(x) + ',' + std::to_string(y) + " is " +
+                              std::to_string(alpha) + ", and " + std::string(to.name) + " has no alpha",
+                          "leave " + name + ".A out, or name a format with alpha in --pipeline");
+      for (int k = 0; k < 3; ++k) {
+        const auto value = float(given.value(x, y, k));
+        image.set_code(x, y, k,
+                       info(image.format).small_float() ? half_from_float(value, HalfRound::toward_zero)
+                                                        : std::bit_cast<uint32_t>(value));
+      }
+    }
+  return image;
 }
 
 }  // namespace
 
-oracle::Capture capture_from_files(const std::string& gbuffer_file, const std::string& image_file) {
-  oracle::Capture capture;
-  capture.driver = "capture of " + gbuffer_file;
-  capture.name = gbuffer_file;
-  std::vector<NamedImage> planes = read_planes(gbuffer_file);
-  check_kind(gbuffer_file, planes);
-  for (NamedImage& plane : planes) {
-    if (plane.name == "color") {
-      capture.has_alpha = info(plane.image.format).channels != 3;
-      capture.color = std::move(plane.image);
-    } else {
-      capture.planes.push_back(std::move(plane));
-    }
-  }
-  if (image_file.empty()) return capture;
-  capture.driver += " and " + image_file;
-  read_picture(image_file, capture);
-  const Image& plane = capture.planes.front().image;
-  if (capture.color.width != plane.width || capture.color.height != plane.height)
-    throw bad_capture(image_file,
-                      "it is " + size_text(capture.color.width, capture.color.height) + ", and the G-buffer " +
-                          size_text(plane.width, plane.height),
-                      "capture both at one size");
-  return capture;
-}
-
 void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& capture) {
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);
-  check_halves(pipeline, where);
   const Image& first = capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
     throw bad_capture(
@@ -214,14 +174,26 @@ void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& 
   if (capture.color.width > 0) {
     if (capture.color.format == Format::rgba8 && pipeline.target == Format::srgb8_a8)
       capture.color.format = Format::srgb8_a8;  // a PNG holds codes, whatever they stand for
+    if (capture.color.format == Format::srgb8_a8 && pipeline.target == Format::rgba8)
+      capture.color.format = Format::rgba8;
     if (capture.color.format == Format::rgba8 && pipeline.target != Format::rgba8)
       throw bad_capture(where,
                         "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits",
                         "give it as an EXR");
     capture.color = converted(where, "color", capture.color, pipeline.target);
   }
-  for (NamedImage& plane : capture.planes)
-    plane.image = converted(where, plane.name, plane.image, stored_format(pipeline, plane.name));
+  if (lacks_albedo_alpha(capture) && pipeline.light_model.alpha_from_albedo) capture.has_alpha = false;
+  for (NamedImage& plane : capture.planes) {
+    const oracle::DecodedPlane* const decoded = capture.decoding(plane.name);
+    if (decoded != nullptr && decoded->is_unpacked()) continue;
+    const Format wanted = stored_format(pipeline, plane.name);
+    const bool extra_alpha = info(plane.image.format).channels == 4 && info(wanted).channels == 3;
+    if (extra_alpha) plane.image = without_alpha(where, plane.name, plane.image, info(wanted));
+    const int given = info(plane.image.format).channels;
+    plane.image = converted(where, plane.name, plane.image, wanted);
+    if (given == 3 && info(plane.image.format).channels == 4 && plane.name == "albedo")
+      capture.decoded.push_back({plane.name, false, {}, {}, false});
+  }
 }
 
 }  // namespace trueshade

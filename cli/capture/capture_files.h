@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/capture/capture_map.h"
+#include "core/image_files/channel_file.h"
+
+namespace trueshade {
+
+/// One plane's channels, in the files that hold them.
+struct PlaneChannelList {
+  MappedPlane mapped;
+  const ChannelFile* file;
+  std::vector<const Channel*> channels;
+};
+
+/// The files of a capture, and what planes they hold. Planes point into the files.
+struct CaptureFiles {
+  std::vector<ChannelFile> files;
+  std::vector<PlaneChannelList> planes;  ///< the picture as `color`, if there is one
+  std::string name;                      ///< what errors call the capture: its first file
+
+  CaptureFiles() = default;
+  CaptureFiles(CaptureFiles&&) = default;
+  CaptureFiles& operator=(CaptureFiles&&) = default;
+  int width() const { return files.front().width; }
+  int height() const { return files.front().height; }
+};
+
+/// Reads `gbuffer` and the files that the map names, and finds the channels of the planes: those of the map, or without
+/// one all whose usual channels are there (docs/captures.md). `image`: the file of the picture, or empty.
+/// Error(bad_input): a channel that is missing, of two types in a plane, in two files; files of two sizes; no plane at
+/// all. Else as read_channel_file().
+CaptureFiles read_capture_files(const std::vector<std::string>& gbuffer, const std::string& image,
+                                const CaptureMap& map, uint64_t most_expansion);
+
+}  // namespace trueshade

@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace trueshade {
+
+/// What one number or a few stand for, beside the numbers of a file.
+enum class Packing : uint8_t { none, octahedral, spheremap };
+
+/// The space of positions and normals. View spaces have x to the right of the picture.
+enum class CapturedSpace : uint8_t {
+  world,
+  view,                ///< y up, z towards the viewer: OpenGL's
+  view_z_away,         ///< y up, z away from the viewer: Direct3D's
+  view_y_down_z_away,  ///< y down, z away from the viewer
+};
+
+/// What a depth is. A plane `position` that has one of these is rebuilt from a single channel.
+enum class CapturedDepth : uint8_t {
+  none,
+  window,    ///< what the depth buffer holds
+  reversed,  ///< 1 minus that
+  linear,    ///< distance along the camera's axis, scene units
+  distance,  ///< distance to the eye, scene units
+};
+
+/// Where a plane of a capture comes from.
+struct MappedPlane {
+  std::string plane;   ///< as --aov names it, or `color`
+  std::string source;  ///< FILE.CHANNELS; empty: the plane's usual channels
+  Packing packing = Packing::none;
+  CapturedSpace space = CapturedSpace::world;
+  CapturedDepth depth = CapturedDepth::none;
+  bool unorm = false;      ///< [0, 1] stands for [-1, 1]
+  int unorm_bits = 0;      ///< of the codes that floats of the file were made of; 0: they were floats
+  bool unit = false;       ///< normals that were made unit length before they were stored
+  bool bottom_up = false;  ///< the file's first row is the picture's last
+
+  bool is_unpacked() const {
+    return packing != Packing::none || space != CapturedSpace::world || unorm || unit ||
+           (depth != CapturedDepth::none && depth != CapturedDepth::window) ||
+           (plane == "position" && depth != CapturedDepth::none);
+  }
+};
+
+/// What `--map` says. Without any plane, planes are found by their usual channels.
+struct CaptureMap {
+  std::vector<MappedPlane> planes;
+  bool bottom_up = false;  ///< of every plane, and of --image
+  std::string folder;      ///< that files named in it are relative to; empty: the working folder
+};
+
+/// Entries with commas or line ends between them; `#` begins a comment. An entry is PLANE,
+/// PLANE=FILE.CHANNELS[:WORD]..., or rows=top_down or rows=bottom_up. Error of `kind` behind `where`, with the line
+/// where there are several: for what is none of these, a plane twice, and words that do not go with the plane or with
+/// each other.
+CaptureMap capture_map_from_text(std::string_view text, const std::string& where, ErrorKind kind);
+
+/// The same of `--map`'s value: an entry list, or @FILE. Error(usage), or of the file as above Error(bad_input).
+CaptureMap capture_map_from_option(const std::string& value);
+
+/// How many channels a plane may have, as it is stored.
+struct PlaneChannels {
+  std::string_view plane;
+  size_t least, most;
+};
+/// Null for a name that no captured plane has.
+const PlaneChannels* channels_of_plane(std::string_view plane);
+
+}  // namespace trueshade

@@ -1,0 +1,363 @@
+#include "cli/capture/captured_planes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "cli/capture/camera_frame.h"
+#include "cli/capture/plane_images.h"
+#include "cli/capture/unpacking.h"
+#include "core/error.h"
+#include "oracle/matrices.h"
+
+namespace trueshade {
+namespace {
+
+// What a shader's arithmetic may be off by, relative: 16 units in the last place of a float for a distance that it
+// computes, a point that it transforms, a direction that it turns. Two units of 1 for a depth of the window.
+constexpr double kComputed = 0x1p-20, kWindowComputed = 0x1p-22;
+
+/// Not below the number.
+float rounded_up(double value) { return std::nextafter(float(value), HUGE_VALF); }
+
+double length_of(const Real3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// The distance of the next number that a channel's storage has.
+double step_of(const Channel& channel, double value) {
+  if (channel.is_code() || channel.kind == ChannelKind::snorm) return 1.0 / channel.largest_code();
+  if (channel.is_rounded) return 0x1p-23 * std::fabs(value);
+  if (channel.bits >= 32) return 0;
+  const int exponent = value == 0 ? -14 : std::max(std::ilogb(value), -14);
+  return std::ldexp(1.0, exponent - (channel.bits == 16 ? 10 : channel.bits - 5));
+}
+
+/// Unpacks the planes of one capture.
+class PlaneUnpacker {
+ public:
+  PlaneUnpacker(const CaptureFiles& files, const Scene& scene, const Pipeline& pipeline)
+      : files_(files), pipeline_(pipeline), frame_(scene, pipeline) {
+    for (const Light& light : scene.lights)
+      farthest_light_ = std::max(
+          farthest_light_, length_of({double(light.position.x), double(light.position.y), double(light.position.z)}));
+  }
+
+  CapturedPlanes run() {
+    out_.capture.driver = "capture of " + files_.name;
+    out_.capture.name = files_.name;
+    // Where surfaces are comes before what is packed there.
+    for (const PlaneChannelList& plane : files_.planes)
+      if (plane.mapped.plane == "depth" || plane.mapped.plane.starts_with("id.")) add(plane);
+    find_surfaces();
+    for (const PlaneChannelList& plane : files_.planes)
+      if (plane.mapped.plane != "depth" && !plane.mapped.plane.starts_with("id.")) add(plane);
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(const PlaneChannelList& plane, const std::string& reason, const std::string& remedy) const {
+    throw Error(ErrorKind::bad_input, plane.file->path, reason, remedy);
+  }
+  [[noreturn]] void fail_at(const PlaneChannelList& plane, int x, int y, const std::string& reason,
+                            const std::string& remedy) const {
+    std::string values;
+    for (const Channel* channel : plane.channels) {
+      char number[32];
+      std::snprintf(number, sizeof number, "%s%.9g", values.empty() ? "" : ", ",
+                    channel->value(file_pixel(plane, x, y)));
+      values += number;
+    }
+    fail(plane,
+         plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + " is " + values + ", " + reason,
+         remedy);
+  }
+  void note(const std::string& line) { out_.notes.push_back(line); }
+
+  void add(const PlaneChannelList& plane) {
+    const std::string& name = plane.mapped.plane;
+    const bool lacks_alpha = plane.channels.size() == 3 && (name == "color" || name == "albedo" || name == "emission");
+    if (plane.mapped.plane == "depth" && is_linear(plane)) {
+      add_linear_depth(plane);
+    } else if (plane.mapped.depth == CapturedDepth::reversed && name == "depth") {
+      add_reversed_depth(plane);
+    } else if (name == "position" && plane.mapped.depth != CapturedDepth::none) {
+      add_position_of_depth(plane);
+    } else if (name == "position" && plane.mapped.space != CapturedSpace::world) {
+      add_view_positions(plane);
+    } else if (name == "normal" && plane.mapped.is_unpacked() && !is_stored_normal(plane)) {
+      add_normals(plane);
+    } else if (name == "color") {
+      out_.capture.color = stored_plane_image(plane);
+      out_.capture.has_alpha = !lacks_alpha;
+      if (plane.file->path != files_.name) out_.capture.driver += " and " + plane.file->path;
+    } else {
+      check_halves(plane);
+      out_.capture.planes.push_back({name, stored_plane_image(plane)});
+      if (lacks_alpha && info(out_.capture.planes.back().image.format).channels == 4)
+        out_.capture.decoded.push_back({name, false, {}, {}, false});
+    }
+  }
+
+  /// Depths and texture coordinates in halves, where the pipeline stores more bits, were rounded after they were drawn.
+  void check_halves(const PlaneChannelList& plane) const {
+    const std::string& name = plane.mapped.plane;
+    const Format format = name == "depth" ? pipeline_.geometry.depth_format : surface_planes(pipeline_).uv.format;
+    if (plane.channels[0]->kind != ChannelKind::floating || plane.channels[0]->bits >= 32) return;
+    if (name == "depth" || (name == "uv" && !info(format).small_float()))
+      fail(plane, name + " is stored as half, and the pipeline's as " + std::string(info(format).name),
+           "write it as float: a half keeps 11 of its bits");
+  }
+
+  static bool is_linear(const PlaneChannelList& plane) {
+    return plane.mapped.depth == CapturedDepth::linear || plane.mapped.depth == CapturedDepth::distance;
+  }
+
+  /// Codes of a world normal n/2 + 1/2 in the very format that the pipeline has are judged as such.
+  bool is_stored_normal(const PlaneChannelList& plane) const {
+    const FormatInfo layout = info(pipeline_.gbuffer.normal.format);
+    return plane.mapped.packing == Packing::none && plane.mapped.space == CapturedSpace::world && !plane.mapped.unit &&
+           layout.number_class == NumberClass::unorm &&
+           (plane.channels[0]->is_code() ? plane.channels[0]->bits : plane.mapped.unorm_bits) == layout.bits[0];
+  }
+
+  void find_surfaces() {
+    const Image* const object = out_.capture.plane("id.object");
+    const Image* const depth = out_.capture.plane("depth");
+    if (object == nullptr && depth == nullptr) return;
+    const FormatInfo buffer = info(pipeline_.geometry.depth_format);
+    const double off = buffer.number_class == NumberClass::unorm ? 1.0 / buffer.largest_code(0) : 0;
+    covered_.resize(size_t(files_.width()) * size_t(files_.height()));
+    for (int y = 0; y < files_.height(); ++y)
+      for (int x = 0; x < files_.width(); ++x)
+        covered_[at(x, y)] = object != nullptr
+                                 ? object->value(x, y, 0) != 0
+                                 : std::fabs(depth->value(x, y, 0) - double(pipeline_.geometry.clear_depth)) > off;
+  }
+  size_t at(int x, int y) const { return size_t(y) * size_t(files_.width()) + size_t(x); }
+
+  /// Whether something is packed at a pixel: without planes that tell, where any number is not 0.
+  bool is_packed(const PlaneChannelList& plane, int x, int y) const {
+    if (!covered_.empty()) return covered_[at(x, y)] != 0;
+    return std::any_of(plane.channels.begin(), plane.channels.end(),
+                       [&](const Channel* c) { return c->words[file_pixel(plane, x, y)] != 0; });
+  }
+
+  /// Calls unpack(x, y) for each pixel where something is packed, and stores what it returns.
+  template <typename Unpack>
+  void add_vectors(const PlaneChannelList& plane, bool unit_length, Unpack unpack) {
+    Image image(files_.width(), files_.height(), Format::rgb32f);
+    const size_t pixels = size_t(image.width) * size_t(image.height);
+    oracle::DecodedPlane decoded{plane.mapped.plane, unit_length, std::vector<float>(pixels),
+                                 std::vector<float>(pixels), true};
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        if (!is_packed(plane, x, y)) continue;
+        const UnpackedVector v = unpack(x, y);
+        for (int k = 0; k < 3; ++k) image.set_code(x, y, k, std::bit_cast<uint32_t>(float(v.value[size_t(k)])));
+        decoded.reading_error[at(x, y)] = rounded_up(v.reading_error);
+        decoded.packing_error[at(x, y)] = rounded_up(v.packing_error);
+      }
+    out_.capture.planes.push_back({plane.mapped.plane, std::move(image)});
+    out_.capture.decoded.push_back(std::move(decoded));
+  }
+
+  PackedNumber number_at(const PlaneChannelList& plane, size_t channel, int x, int y) const {
+    const Channel& of = *plane.channels[channel];
+    const double value = of.value(file_pixel(plane, x, y));
+    if (std::isnan(value))
+      fail_at(plane, x, y, "which is not a number", "find what the shader divides by, or capture another frame");
+    PackedNumber number{value, step_of(of, value), 0};
+    if (of.is_code() || of.kind == ChannelKind::snorm) number.fetch = 2.5 * 0x1p-23 * std::fabs(value);
+    if (plane.mapped.unorm_bits == 0 || of.is_code()) return number;
+    const double largest = double((1u << plane.mapped.unorm_bits) - 1), code = std::nearbyint(value * largest);
+    if (!(code >= 0 && code <= largest) || std::fabs(value - code / largest) > (of.bits == 16 ? 0x1p-10 : 0x1p-20))
+      fail_at(plane, x, y, "which is no code of " + std::to_string(plane.mapped.unorm_bits) + " bits",
+              "say unorm where floats are stored");
+    return {code / largest, 1 / largest, 2.5 * 0x1p-23 * code / largest};
+  }
+
+  PackedNumber component_at(const PlaneChannelList& plane, size_t channel, int x, int y) const {
+    const PackedNumber number = number_at(plane, channel, x, y);
+    if (!plane.mapped.unorm || plane.mapped.packing == Packing::spheremap) return number;
+    if (!(number.value >= 0 && number.value <= 1))
+      fail_at(plane, x, y, "and unorm numbers are from 0 to 1", "leave out 'unorm' where the plane holds -1 to 1");
+    return signed_number(number);
+  }
+
+  void add_normals(const PlaneChannelList& plane) {
+    const MappedPlane& mapped = plane.mapped;
+    if (plane.channels[0]->kind == ChannelKind::integer || plane.channels[0]->kind == ChannelKind::srgb)
+      fail(plane, "a normal is stored as integers or sRGB", "save it as floats or unorm codes");
+    if (plane.channels[0]->is_code() && !mapped.unorm && mapped.packing != Packing::spheremap)
+      fail(plane, "normal is stored in codes from 0 to 1, which hold no negative numbers", "say unorm");
+    if (mapped.space != CapturedSpace::world) frame_.check_axes();
+    const bool packed = mapped.packing != Packing::none;
+    add_vectors(plane, packed || mapped.unit, [&](int x, int y) { return unpacked_normal(plane, x, y); });
+    if (packed) note_normal_steps();
+  }
+
+  UnpackedVector unpacked_normal(const PlaneChannelList& plane, int x, int y) const {
+    const auto component = [&](size_t k) { return component_at(plane, k, x, y); };
+    std::optional<UnpackedVector> v;
+    switch (plane.mapped.packing) {
+      case Packing::none:
+        v = unpacked_components({component(0), component(1), component(2)});
+        break;
+      case Packing::octahedral:
+        v = unpacked_octahedral(component(0), component(1));
+        if (!v) fail_at(plane, x, y, "and octahedral numbers are from -1 to 1", "say what the channels hold");
+        break;
+      case Packing::spheremap:
+        v = unpacked_spheremap(component(0), component(1));
+        if (!v) fail_at(plane, x, y, "to which no direction is packed", "say what the channels hold");
+        break;
+    }
+    if (plane.mapped.space == CapturedSpace::world) return *v;
+    const double turned = kComputed * length_of(v->value);
+    return {frame_.world_direction(plane.mapped.space, v->value), std::sqrt(3.0) * v->reading_error + turned,
+            std::sqrt(3.0) * v->packing_error + turned};
+  }
+
+  void note_normal_steps() {
+    const std::vector<float>& errors = out_.capture.decoded.back().packing_error;
+    const float most = errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+    if (most < 1e-4f) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "plane normal is packed: the G-buffer's stage tells no normals apart that differ by less than %.2g",
+                  double(most));
+    note(text);
+  }
+
+  void add_view_positions(const PlaneChannelList& plane) {
+    frame_.check_axes();
+    const double eye = length_of(frame_.eye());
+    add_vectors(plane, false, [&](int x, int y) {
+      Real3 p{};
+      double step = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        const PackedNumber number = number_at(plane, k, x, y);
+        p[k] = number.value, step = std::max(step, number.step);
+      }
+      const double computed = kComputed * (length_of(p) + 2 * eye);
+      return UnpackedVector{frame_.world_position(plane.mapped.space, p), computed + kComputed * farthest_light_,
+                            computed + std::sqrt(3.0) * step};
+    });
+  }
+
+  /// A depth out of a channel, checked to be one.
+  double depth_at(const PlaneChannelList& plane, int x, int y) const {
+    const double depth = number_at(plane, 0, x, y).value;
+    return plane.mapped.depth == CapturedDepth::reversed ? 1 - depth : depth;
+  }
+
+  Real3 point_at(CapturedDepth kind, int x, int y, double depth) const {
+    if (kind == CapturedDepth::linear) return frame_.at_linear(x, y, depth);
+    if (kind == CapturedDepth::distance) return frame_.at_distance(x, y, depth);
+    return frame_.at_window(x, y, depth);
+  }
+
+  /// What of a depth the shader may have computed otherwise.
+  double depth_error(const PlaneChannelList& plane, double depth) const {
+    return is_linear(plane) ? kComputed * std::fabs(depth) : kWindowComputed;
+  }
+
+  /// The point's own error is that of its depth, seen by where the points of the depths at its ends are, and of a
+  /// transformation. The G-buffer's stage leaves it out: the depth is that of the snapped triangle.
+  void add_position_of_depth(const PlaneChannelList& plane) {
+    frame_.check_axes();
+    const CapturedDepth kind = plane.mapped.depth;
+    add_vectors(plane, false, [&](int x, int y) {
+      const double depth = depth_at(plane, x, y), error = depth_error(plane, depth);
+      if (is_linear(plane) && !(depth > 0 && std::isfinite(depth))) return UnpackedVector{{}, 0, HUGE_VAL};
+      const Real3 p = point_at(kind, x, y, depth);
+      double off = 0;
+      for (const double other : {depth - error, depth + error}) {
+        const Real3 q = point_at(kind, x, y, other);
+        off = std::max(off, length_of({q[0] - p[0], q[1] - p[1], q[2] - p[2]}));
+      }
+      const double computed = kComputed * (length_of(p) + length_of(frame_.eye()));
+      return UnpackedVector{p, 1.01 * off + computed, HUGE_VAL};
+    });
+    note(
+        "plane position is rebuilt from a depth: it is the less sure the farther away, and the G-buffer's stage leaves "
+        "it out (its depth is judged as plane depth)");
+  }
+
+  void check_float_depth(const PlaneChannelList& plane) const {
+    if (pipeline_.geometry.depth_format == Format::d32f) return;
+    fail(plane,
+         "a depth that was computed from the buffer's does not tell its codes of " +
+             std::string(info(pipeline_.geometry.depth_format).name),
+         "state depth_format d32f, or capture the buffer itself");
+  }
+
+  /// Codes k as largest - k, which is exact; floats with the rounding of 1 - z.
+  void add_reversed_depth(const PlaneChannelList& plane) {
+    check_halves(plane);
+    const Channel& channel = *plane.channels[0];
+    Image image(files_.width(), files_.height(), Format::d32f);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const double depth = number_at(plane, 0, x, y).value;
+        if (!(depth >= 0 && depth <= 1)) fail_at(plane, x, y, "and depths are from 0 to 1", "say linear or distance");
+        image.set_code(x, y, 0, std::bit_cast<uint32_t>(float(1 - depth)));
+      }
+    out_.capture.planes.push_back({"depth", std::move(image)});
+    if (channel.is_code()) return;
+    check_float_depth(plane);
+    out_.capture.decoded.push_back({"depth", false, {float(kWindowComputed)}, {float(kWindowComputed)}, true});
+    note(
+        "plane depth is taken as 1 minus the pipeline's; where your matrix itself is reversed, state that matrix with "
+        "depth_func greater and clear_depth 0, and take the depth as it is");
+  }
+
+  /// No distance, or one beyond the clear depth, is where nothing was drawn.
+  void add_linear_depth(const PlaneChannelList& plane) {
+    check_float_depth(plane);
+    frame_.check_axes();
+    const float clear = pipeline_.geometry.clear_depth;
+    Image image(files_.width(), files_.height(), Format::d32f);
+    const size_t pixels = size_t(image.width) * size_t(image.height);
+    oracle::DecodedPlane decoded{"depth", false, std::vector<float>(pixels), std::vector<float>(pixels), true};
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const PackedNumber number = number_at(plane, 0, x, y);
+        const double error = depth_error(plane, number.value);
+        const auto window = [&](double d) { return frame_.window_depth(point_at(plane.mapped.depth, x, y, d)); };
+        float& reading = decoded.reading_error[at(x, y)];
+        double depth = double(clear);
+        if (number.value > 0 && std::isfinite(number.value)) {
+          depth = window(number.value);
+          const double off = std::max(std::fabs(window(number.value + error) - depth),
+                                      std::fabs(window(std::max(number.value - error, 1e-30)) - depth));
+          const double step = std::fabs(window(number.value + number.step) - depth);
+          reading = rounded_up(1.01 * off + 0x1p-24);
+          decoded.packing_error[at(x, y)] = rounded_up(1.01 * (off + step) + kWindowComputed);
+          if (clear > 0.5f ? depth >= double(clear) : depth <= double(clear)) depth = double(clear);
+        }
+        image.set_code(x, y, 0, std::bit_cast<uint32_t>(float(depth)));
+      }
+    out_.capture.planes.push_back({"depth", std::move(image)});
+    out_.capture.decoded.push_back(std::move(decoded));
+    note(
+        "a distance does not tell which of two surfaces is in front that are nearer to each other than a millionth of "
+        "it");
+  }
+
+  const CaptureFiles& files_;
+  const Pipeline& pipeline_;
+  const CameraFrame frame_;
+  double farthest_light_ = 0;
+  std::vector<uint8_t> covered_;  ///< empty where no plane tells
+  CapturedPlanes out_;
+};
+
+}  // namespace
+
+CapturedPlanes captured_planes(const CaptureFiles& files, const Scene& scene, const Pipeline& pipeline) {
+  return PlaneUnpacker(files, scene, pipeline).run();
+}
+
+}  // namespace trueshade

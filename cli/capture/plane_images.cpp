@@ -1,0 +1,79 @@
+#include "cli/capture/plane_images.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "core/error.h"
+#include "core/half.h"
+
+namespace trueshade {
+namespace {
+
+bool all_bits(const PlaneChannelList& plane, int bits) {
+  return std::all_of(plane.channels.begin(), plane.channels.end(),
+                     [bits](const Channel* c) { return c->bits == bits; });
+}
+
+bool is_one_number(const std::string& plane) { return plane.starts_with("id.") || plane == "light.count"; }
+
+/// The format that holds the channels as they are.
+Format format_of_channels(const PlaneChannelList& plane) {
+  const Channel& first = *plane.channels[0];
+  const size_t count = plane.channels.size();
+  if (count == 1 && (first.kind == ChannelKind::integer || (first.is_code() && is_one_number(plane.mapped.plane))))
+    return Format::r32ui;
+  const bool pads = count == 3 && plane.mapped.plane != "position" && plane.mapped.plane != "normal";
+  if (first.is_code() && (count == 4 || pads)) {
+    if (all_bits(plane, 8)) return first.kind == ChannelKind::srgb ? Format::srgb8_a8 : Format::rgba8;
+    if (all_bits(plane, 16)) return Format::rgba16;
+    if (count == 4 && first.bits == 10 && plane.channels[3]->bits == 2) return Format::rgb10_a2;
+  }
+  const bool halves = first.kind == ChannelKind::floating && all_bits(plane, 16);
+  if (count >= 3 && halves) return count == 3 ? Format::rgb16f : Format::rgba16f;
+  constexpr Format kFloats[] = {Format::d32f, Format::rg32f, Format::rgb32f, Format::rgba32f};
+  return kFloats[count - 1];
+}
+
+Error bad_plane(const PlaneChannelList& plane, int x, int y, const std::string& reason, const std::string& remedy) {
+  return {ErrorKind::bad_input, plane.file->path,
+          plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + ' ' + reason, remedy};
+}
+
+}  // namespace
+
+Image stored_plane_image(const PlaneChannelList& plane) {
+  const std::string& name = plane.mapped.plane;
+  const Channel& first = *plane.channels[0];
+  if (first.kind == ChannelKind::integer && !is_one_number(name))
+    throw Error(ErrorKind::bad_input, plane.file->path, name + " is stored as integers",
+                "save it as floats, or as codes of 8 or 16 bits");
+  Image image(plane.file->width, plane.file->height, format_of_channels(plane));
+  const FormatInfo layout = info(image.format);
+  const bool keeps_codes = layout.number_class != NumberClass::floating;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const size_t pixel = file_pixel(plane, x, y);
+      for (size_t c = 0; c < size_t(layout.channels); ++c) {
+        if (c >= plane.channels.size()) {
+          image.set_code(x, y, int(c), layout.largest_code(int(c)));
+          continue;
+        }
+        const Channel& channel = *plane.channels[c];
+        const auto value = float(channel.value(pixel));
+        if (std::isnan(value) && name != "color")
+          throw bad_plane(plane, x, y, "is not a number", "find what the shader divides by, or capture another frame");
+        if (keeps_codes)
+          image.set_code(x, y, int(c), channel.words[pixel]);
+        else if (layout.small_float())
+          image.set_code(x, y, int(c), half_from_float(value, HalfRound::toward_zero));
+        else
+          image.set_code(x, y, int(c), std::bit_cast<uint32_t>(value));
+      }
+    }
+  return image;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <optional>
+
+// Normals out of few numbers, in double. u = 2^-23 is one rounding of a shader's float arithmetic in any direction
+// (GLSL 4.60, 4.7.1), a division 2.5 u, an inverse square root 2 u.
+namespace trueshade {
+
+/// A number as a file holds it, on the way to what a shader makes of it.
+struct PackedNumber {
+  double value = 0;
+  double step = 0;   ///< between this number and the next that the storage holds; 0 of 32-bit floats
+  double fetch = 0;  ///< bound on |value - what a shader reads|: 2.5 u of a code, 0 of a float
+};
+
+/// A vector that was unpacked. Bounds on each component, of value rounded to float.
+struct UnpackedVector {
+  std::array<double, 3> value{};
+  double reading_error = 0;  ///< to what the engine's shader unpacks from the same numbers
+  double packing_error = 0;  ///< to what was packed: a store may take either neighbouring number
+};
+
+/// 2 c - 1, what an unorm number c stands for: doubling is exact, the difference is rounded once.
+PackedNumber signed_number(const PackedNumber& c);
+
+/// Three components as they are.
+UnpackedVector unpacked_components(const std::array<PackedNumber, 3>& n);
+
+/// Octahedral: v = (x, y, 1 - |x| - |y|); where v.z < 0, v.xy = (1 - |v.yx|) sign(v.xy); n = v / |v|. Quirin Meyer et
+/// al., "On Floating-Point Normal Vectors", EGSR 2010; Zina H. Cigolle et al., "A Survey of Efficient Representations
+/// for Independent Unit Vectors", JCGT 3 (2), 2014. Nothing where x or y is outside [-1, 1].
+std::optional<UnpackedVector> unpacked_octahedral(const PackedNumber& x, const PackedNumber& y);
+
+/// Lambert's azimuthal equal-area projection of the sphere: f = 4 c - 2, n.xy = f sqrt(1 - f.f / 4), n.z = 1 - f.f / 2;
+/// packed as c = n.xy / sqrt(8 n.z + 8) + 1/2. Martin Mittring, "A bit more Deferred - CryEngine 3", Triangle Game
+/// Conference 2009; Aras Pranckevicius, "Compact Normal Storage for small G-Buffers", 2010, method 4. Nothing where c
+/// is farther from the middle than any direction is packed to.
+std::optional<UnpackedVector> unpacked_spheremap(const PackedNumber& x, const PackedNumber& y);
+
+}  // namespace trueshade

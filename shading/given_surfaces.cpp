@@ -1,0 +1,78 @@
+#include "shading/given_surfaces.h"
+
+#include <bit>
+#include <string>
+
+#include "core/error.h"
+
+namespace trueshade {
+namespace {
+
+void check_plane(const Image* image, const char* name, bool needed, const Pipeline& pipeline) {
+  const std::string where = std::string("plane ") + name;
+  if (image == nullptr && needed) throw Error(ErrorKind::bad_input, where, "is missing", "the lights read it");
+  if (image != nullptr && (image->width != pipeline.width || image->height != pipeline.height))
+    throw Error(ErrorKind::bad_input, where,
+                "is " + std::to_string(image->width) + "x" + std::to_string(image->height) + ", not " +
+                    std::to_string(pipeline.width) + "x" + std::to_string(pipeline.height),
+                "give planes of the picture's size");
+}
+
+float plane_value(const Image* image, int x, int y, int channel, float absent) {
+  if (image == nullptr || channel >= info(image->format).channels) return absent;
+  return float(image->value(x, y, channel));
+}
+
+}  // namespace
+
+void check_surfaces(const GivenSurfaces& given, const Pipeline& pipeline) {
+  if (pipeline.strategy == Strategy::forward_multipass)
+    throw Error(ErrorKind::usage, "--strategy",
+                "forward-multipass blends every fragment at the visible depth, which no G-buffer has",
+                "another strategy");
+  if (pipeline.post.samples > 1)
+    throw Error(ErrorKind::usage, "post", "samples light more pixels than a G-buffer has", "one sample a pixel");
+  if (pipeline.view != ImageView::lit)
+    throw Error(ErrorKind::usage, "--view", "a G-buffer that is lit is shown lit", "leave the view out");
+  const bool reads_depth = given.object == nullptr || given.position == nullptr || pipeline.post.marker_radius > 0.0f;
+  check_plane(given.depth, "depth", reads_depth, pipeline);
+  check_plane(given.object, "id.object", false, pipeline);
+  check_plane(given.position, "position", false, pipeline);
+  check_plane(given.normal, "normal", true, pipeline);
+  check_plane(given.albedo, "albedo", true, pipeline);
+  check_plane(given.specular, "specular", reads_specular_plane(pipeline.light_model), pipeline);
+  check_plane(given.emission, "emission", false, pipeline);
+}
+
+void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect& rect, VisibilityTile& visible,
+                   SurfaceTile& out) {
+  const bool halved = info(given.normal->format).number_class == NumberClass::unorm;
+  out.covered_pixels = 0;
+  for (int in_tile_y = 0; in_tile_y < rect.size; ++in_tile_y)
+    for (int in_tile_x = 0; in_tile_x < rect.size; ++in_tile_x) {
+      const int i = tile_index(rect.size, in_tile_x, in_tile_y);
+      const int x = rect.x + in_tile_x, y = view.height - 1 - (rect.y + in_tile_y);
+      const bool inside = x < view.width && y >= 0;
+      const float depth = inside ? plane_value(given.depth, x, y, 0, given.clear_depth) : given.clear_depth;
+      const bool covered =
+          inside && (given.object != nullptr ? given.object->code(x, y, 0) != 0 : depth != given.clear_depth);
+      visible.depth[i] = depth;
+      out.covered[i] = covered ? -1 : 0;
+      out.object[i] = out.material[i] = covered ? 1u : 0u;
+      out.covered_pixels += covered;
+      if (!covered) continue;
+      for (int c = 0; c < 3; ++c) {
+        const float normal = plane_value(given.normal, x, y, c, 0.0f);
+        out.plane[kPosition + c][i] = plane_value(given.position, x, y, c, 0.0f);
+        out.plane[kNormal + c][i] = halved ? (normal + normal) - 1.0f : normal;
+      }
+      for (int c = 0; c < 4; ++c) {
+        out.plane[kAlbedo + c][i] = plane_value(given.albedo, x, y, c, 1.0f);
+        out.plane[kSpecular + c][i] = plane_value(given.specular, x, y, c, 0.0f);
+        out.plane[kEmission + c][i] = plane_value(given.emission, x, y, c, c < 3 ? 0.0f : 1.0f);
+      }
+    }
+  if (given.position == nullptr) positions_from_depth(view, rect, visible.depth, out);
+}
+
+}  // namespace trueshade
