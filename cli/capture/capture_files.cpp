@@ -192,7 +192,7 @@ class CaptureReader {
   bool add_usual(const MappedPlane& plane) {
     const std::vector<std::string> names = exr_channels_of(plane.plane, int(channels_of_plane(plane.plane)->most));
     std::optional<size_t> holder;
-    for (size_t f = 0; f < out_.files.size(); ++f) {
+    for (size_t f = 0; f < gbuffer_files_; ++f) {
       std::vector<size_t> places;
       for (const std::string& name : names)
         for (size_t i = 0; i < out_.files[f].channels.size(); ++i)
@@ -220,6 +220,7 @@ class CaptureReader {
 
   void read(const std::vector<std::string>& gbuffer) {
     for (const std::string& path : gbuffer) load(path);
+    gbuffer_files_ = out_.files.size();
     if (!map_.planes.empty()) {
       for (const MappedPlane& plane : map_.planes) add_mapped(plane);
     } else {
@@ -280,6 +281,7 @@ class CaptureReader {
   const CaptureMap& map_;
   const uint64_t most_expansion_;
   CaptureFiles out_;
+  size_t gbuffer_files_ = 0;  ///< the first files, whose usual channels count
   std::vector<Found> found_;
 };
 

@@ -93,6 +93,7 @@ class PlaneUnpacker {
       if (plane.file->path != files_.name) out_.capture.driver += " and " + plane.file->path;
     } else {
       check_halves(plane);
+      if (name == "normal" && !is_stored_normal(plane)) check_signed(plane);
       out_.capture.planes.push_back({name, stored_plane_image(plane)});
       if (lacks_alpha && info(out_.capture.planes.back().image.format).channels == 4)
         out_.capture.decoded.push_back({name, false, {}, {}, false});
@@ -185,12 +186,16 @@ class PlaneUnpacker {
     return signed_number(number);
   }
 
+  void check_signed(const PlaneChannelList& plane) const {
+    if (plane.channels[0]->is_code())
+      fail(plane, "normal is stored in codes from 0 to 1, which hold no negative numbers", "say unorm");
+  }
+
   void add_normals(const PlaneChannelList& plane) {
     const MappedPlane& mapped = plane.mapped;
     if (plane.channels[0]->kind == ChannelKind::integer || plane.channels[0]->kind == ChannelKind::srgb)
       fail(plane, "a normal is stored as integers or sRGB", "save it as floats or unorm codes");
-    if (plane.channels[0]->is_code() && !mapped.unorm && mapped.packing != Packing::spheremap)
-      fail(plane, "normal is stored in codes from 0 to 1, which hold no negative numbers", "say unorm");
+    if (!mapped.unorm && mapped.packing != Packing::spheremap) check_signed(plane);
     if (mapped.space != CapturedSpace::world) frame_.check_axes();
     const bool packed = mapped.packing != Packing::none;
     add_vectors(plane, packed || mapped.unit, [&](int x, int y) { return unpacked_normal(plane, x, y); });

@@ -14,7 +14,7 @@ const double kSqrt2 = std::sqrt(2.0), kSqrt6 = std::sqrt(6.0);
 }  // namespace
 
 PackedNumber signed_number(const PackedNumber& c) {
-  return {2 * c.value - 1, 2 * c.step, c.fetch == 0 ? 0 : 2 * c.fetch + kRounding};
+  return {2 * c.value - 1, 2 * c.step, 2 * c.fetch + kRounding};
 }
 
 /// A store may be a step off, and what it was computed from (a product and a sum) two roundings.
