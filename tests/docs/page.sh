@@ -2,7 +2,7 @@
 # Runs what a page of the guides shows, in the page's order, in a scratch folder. The blocks of a page, by language:
 #   sh      commands, a line each (a backslash at a line's end goes on); `# exit 3` states another exit code than 0
 #   text    after sh: lines that the commands before print, in this order; `...` stands for any text
-#   json    a scene or a pipeline, which is drawn; ply, csv, cpp, bash: a file. Each is written under the name in `backticks`
+#   json    a scene or a pipeline, which is drawn; ply, csv, cpp, python, bash: a file. Each is written under the name in `backticks`
 #           that the line before the block gives last; a json without a name gets one, a cpp is left out.
 # The cpp blocks of pages with a cmake block are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is
 # not run.
@@ -16,6 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin" "$work/page"
 ln -s "$command" "$work/bin/trueshade"
+[[ ! -x /usr/bin/python3 ]] || ln -s /usr/bin/python3 "$work/bin/python3"  # the system's, which has NumPy
 cp -r "$source_folder/tests/docs/files/." "$work/page"
 export PATH="$work/bin:$PATH"
 printed=$work/printed
@@ -128,6 +129,7 @@ while IFS= read -r line || [[ -n $line ]]; do
       text) [[ $before_language != sh ]] || expect_output "$first" "${block[@]}" ;;
       json | ply | csv | cpp) write_file "$first" "$language" "$before" "${block[@]}" ;;
       bash) write_file "$first" sh "$before" "${block[@]}" ;;
+      python) write_file "$first" py "$before" "${block[@]}" ;;
     esac
     before_language=$language language=
   fi
