@@ -313,10 +313,10 @@ Texel likely_texel(const BlendState& state, Format format, const Profile& profil
   std::array<Range, 4> loose = source;
   const FormatInfo layout = info(format);
   for (size_t k = 0; k < 4 && state.enabled && layout.small_float(); ++k) {
-    // One float more or less, as a fused or truncated sum has it; none where the source is lost in the sum anyway.
+    // One float more or less, as a fused or truncated sum has it; none where a source above 0 is lost in the sum anyway.
     const double ulp = 0x1p-23 * std::max(std::fabs(source[k].value), std::fabs(stored[k].nominal));
     Range& s = loose[k];
-    if (s.low < s.high && s.low - ulp > 0) s.low -= ulp, s.high += ulp;
+    if (s.low < s.high && (s.low - ulp > 0 || s.high < 0)) s.low -= ulp, s.high += ulp;
   }
   return blended_texel(state, format, likely, loose, stored);
 }

@@ -10,13 +10,24 @@ void BlendingJudge::find_layers(const Capture& capture) {
     layers_.emplace(scene_, pipeline_, profile_, capture);
 }
 
-/// What the likely rule leaves after a fragment's nominal draws. Sums that are kept in floats are carried as such.
+/// A fragment blended into a sum that is kept in floats, which those of fixed-point targets are between 0 and 1.
+Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const {
+  std::array<Range, 4> source = f.output.nominal;
+  const auto clamp = [this](double& v) {
+    if (color_.unorm()) v = std::clamp(v, 0.0, 1.0);
+  };
+  for (Range& s : source) clamp(s.value), clamp(s.low), clamp(s.high);
+  Texel t = blended_texel(blend, Format::rgba32f, likely_, source, sum);
+  for (LegalTexel& c : t) clamp(c.nominal), clamp(c.low), clamp(c.high);
+  return t;
+}
+
+/// What the likely rule leaves after a fragment's nominal draws.
 void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const {
   const bool in_floats = profile_.likely.sums_in_floats;
-  const Format format = in_floats ? Format::rgba32f : color_.image->format;
   for (int i = 0; i < f.nominal; ++i) {
-    p.likely = in_floats ? blended_texel(blend, format, likely_, f.output.nominal, p.likely)
-                         : likely_texel(blend, format, profile_, likely_, f.output.nominal, p.likely);
+    p.likely = in_floats ? kept_in_floats(f, blend, p.likely)
+                         : likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely);
     for (size_t k = 0; k < 4; ++k) {
       p.value[k] += float(f.output.nominal[k].value);
       p.chance[k] += float(p.likely[k].second_chance);

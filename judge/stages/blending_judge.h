@@ -95,6 +95,7 @@ class BlendingJudge {
   void judge(int x, int y, int light, const Image* before, const Image* given, std::span<const DrawnFragment> fragments,
              const BlendState& blend);
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
+  Texel kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const;
   void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const;
   void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
   void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,

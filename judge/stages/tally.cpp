@@ -1,8 +1,10 @@
 #include "judge/stages/tally.h"
 
+#include <cstring>
 #include <limits>
 
 #include "core/error.h"
+#include "core/image_rows.h"
 
 namespace trueshade::oracle {
 
@@ -49,7 +51,14 @@ PlaneView::PlaneView(const Image* i) : image(i) {
 }
 
 double PlaneView::stored(int x, int y, int channel) const {
-  return unorm() ? double(image->code(x, y, channel)) : image->value(x, y, channel);
+  uint32_t code = 0;
+  if (layout.packed()) {
+    code = image->code(x, y, channel);
+  } else {
+    const size_t texel = size_t(y) * size_t(image->width) + size_t(x), bytes = size_t(layout.bytes_per_channel);
+    std::memcpy(&code, &image->texels[(texel * size_t(layout.channels) + size_t(channel)) * bytes], bytes);
+  }
+  return unorm() ? double(code) : value_of_code(layout, channel, code);
 }
 
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
