@@ -10,11 +10,12 @@ void BlendingJudge::find_layers(const Capture& capture) {
     layers_.emplace(scene_, pipeline_, profile_, capture);
 }
 
-/// A fragment blended into a sum that is kept in floats, which those of fixed-point targets are between 0 and 1.
+/// A fragment blended into a sum that is kept in floats: of fixed-point targets one between 0 and 1, but for what is
+/// stored without blending (softpipe).
 Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const {
   std::array<Range, 4> source = f.output.nominal;
-  const auto clamp = [this](double& v) {
-    if (color_.unorm()) v = std::clamp(v, 0.0, 1.0);
+  const auto clamp = [&](double& v) {
+    if (color_.unorm() && blend.enabled) v = std::clamp(v, 0.0, 1.0);
   };
   for (Range& s : source) clamp(s.value), clamp(s.low), clamp(s.high);
   Texel t = blended_texel(blend, Format::rgba32f, likely_, source, sum);
