@@ -262,7 +262,8 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   add_pipeline_options(command, options, texts.size);
   add_value(command, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
   add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
-  add_value(command, "--driver", "NAME", options.driver, "OpenGL driver to open: default, llvmpipe or softpipe");
+  add_value(command, "--driver", "NAME", options.driver,
+            "Driver to open: default, llvmpipe or softpipe of OpenGL, vulkan, or lavapipe");
   add_capture_options(command, options.capture, "--gbuffer",
                       "Judge this capture instead: planes as .exr, .dds, .tif, .npy or .png, channels as --aov names "
                       "them or as --map says; may be repeated (docs/captures.md)");
@@ -293,7 +294,7 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
 }
 
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
-  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe"};
+  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);

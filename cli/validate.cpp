@@ -12,6 +12,7 @@
 #include "cli/driver_capture.h"
 #include "cli/preparation.h"
 #include "cli/validation.h"
+#include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
 #include "scenes/pipeline/fit_lights.h"
@@ -28,8 +29,13 @@ double timed(Job job) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+bool names_vulkan(const ValidationOptions& options) {
+  return options.driver && (*options.driver == "vulkan" || *options.driver == "lavapipe");
+}
+
 DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
-  DriverFrame frame = drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
+  DriverFrame frame = names_vulkan(options) ? drawn_by_vulkan_device(*options.driver == "lavapipe", scene, v.pipeline)
+                                            : drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
   v.timed_frames = frame.timed_frames;
@@ -97,6 +103,7 @@ bool judge_opengl(const ValidationOptions& options) {
   fit_lights_of_ours(scene, v.pipeline.light_model);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
+  if (names_vulkan(options)) v.profile = *oracle::profile_named("vulkan");
   if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.scene_notes = notes_of(scene, v.pipeline);

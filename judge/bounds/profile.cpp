@@ -24,6 +24,17 @@ Profile d3d_class() {
   return p;
 }
 
+/// Vulkan 1.3's specification: "Precision and Operation of SPIR-V Instructions" (+ - * rounded either way, division 2.5
+/// ulp, inversesqrt 2 ulp, exp2 3 + 2|x| ulp, log2 3 ulp or 2^-21, sqrt and pow by these), which are GLSL's numbers;
+/// "Fixed-Point Data Conversions" (either neighbour of a code, an integer exactly); "Texel Input Operations" (sRGB is
+/// decoded before it is filtered). Rasterization promises no more than OpenGL's: subPixelPrecisionBits of 4 and more.
+Profile vulkan() {
+  Profile p;
+  p.name = "vulkan";
+  p.sampling.decodes_late = false;
+  return p;
+}
+
 /// docs/gl_rules.md sections 1 to 6: 24.8 to nearest even, planes from unsnapped positions, clipping at the viewport.
 Profile llvmpipe() {
   Profile p;
@@ -71,7 +82,7 @@ Profile ideal() {
 
 std::optional<Profile> profile_named(std::string_view name) {
   if (name == "unknown") return Profile{};
-  for (const Profile& profile : {d3d_class(), llvmpipe(), ideal()})
+  for (const Profile& profile : {vulkan(), d3d_class(), llvmpipe(), ideal()})
     if (name == profile.name) return profile;
   return std::nullopt;
 }

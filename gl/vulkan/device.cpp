@@ -1,0 +1,327 @@
+#include "gl/vulkan/device.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/error.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// A structure with its type set and all else zero.
+template <typename T>
+T made(VkStructureType type) {
+  T value{};
+  value.sType = type;
+  return value;
+}
+
+Error no_device(const std::string& reason) {
+  return {ErrorKind::no_gl_driver, "Vulkan", reason, "install mesa-vulkan-drivers, or a GPU's driver of Vulkan 1.3"};
+}
+
+VkFormat texture_format(TextureFormat format) {
+  constexpr VkFormat kFormats[] = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                   VK_FORMAT_R32G32B32A32_SFLOAT};
+  return kFormats[size_t(format)];
+}
+
+VkSamplerAddressMode address_mode(Wrap wrap) {
+  constexpr VkSamplerAddressMode kModes[] = {
+      VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER, VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE};
+  return kModes[size_t(wrap)];
+}
+
+/// One of the three borders that every device has.
+VkBorderColor border_of(const Sampler& s) {
+  if (s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+  if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_BLACK;
+  if (s.border == glm::vec4(1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
+  throw no_device("a texture's border is no colour that Vulkan has");
+}
+
+}  // namespace
+
+void check_vulkan(VkResult result, const char* where) {
+  if (result != VK_SUCCESS)
+    throw std::runtime_error("Vulkan error " + std::to_string(result) + " in " + std::string(where));
+}
+
+VkFormat vulkan_format(Format format) {
+  switch (format) {
+    case Format::rgba8:
+      return VK_FORMAT_R8G8B8A8_UNORM;
+    case Format::srgb8_a8:
+      return VK_FORMAT_R8G8B8A8_SRGB;
+    case Format::rgb10_a2:
+      return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+    case Format::rgba16:
+      return VK_FORMAT_R16G16B16A16_UNORM;
+    case Format::r11g11b10f:
+      return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    case Format::rgb16f:
+      return VK_FORMAT_R16G16B16_SFLOAT;
+    case Format::rgba16f:
+      return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case Format::rgba32f:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Format::rgb32f:
+      return VK_FORMAT_R32G32B32_SFLOAT;
+    case Format::rg32f:
+      return VK_FORMAT_R32G32_SFLOAT;
+    case Format::r32ui:
+      return VK_FORMAT_R32_UINT;
+    case Format::d32f:
+      return VK_FORMAT_D32_SFLOAT;
+    case Format::d24:
+      return VK_FORMAT_X8_D24_UNORM_PACK32;
+    case Format::d16:
+      return VK_FORMAT_D16_UNORM;
+  }
+  return VK_FORMAT_UNDEFINED;
+}
+
+VulkanDevice::VulkanDevice(bool software) {
+  instance_ = make_instance(vk_);
+  at_end([this] { vk_.vkDestroyInstance(instance_, nullptr); });
+  uint32_t count = 0;
+  vk_.vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+  std::vector<VkPhysicalDevice> devices(count);
+  vk_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+  for (const VkPhysicalDevice device : devices) {
+    VkPhysicalDeviceProperties properties{};
+    vk_.vkGetPhysicalDeviceProperties(device, &properties);
+    if (software && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) continue;
+    if (properties.apiVersion < VK_API_VERSION_1_3) continue;
+    physical_ = device;
+    info_.subpixel_bits = int(properties.limits.subPixelPrecisionBits);
+    info_.line = std::string(properties.deviceName) + ", Vulkan " +
+                 std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+                 std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + "." +
+                 std::to_string(VK_API_VERSION_PATCH(properties.apiVersion));
+    break;
+  }
+  if (physical_ == VK_NULL_HANDLE)
+    throw no_device(software ? "there is no software device of Vulkan 1.3" : "there is no device of Vulkan 1.3");
+  open_device();
+}
+
+void VulkanDevice::open_device() {
+  uint32_t count = 0;
+  vk_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vk_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+  while (family_ + 1 < count && (families[family_].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) ++family_;
+  count = 0;
+  vk_.vkEnumerateDeviceExtensionProperties(physical_, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> offered(count);
+  vk_.vkEnumerateDeviceExtensionProperties(physical_, nullptr, &count, offered.data());
+  std::vector<const char*> extensions;
+  const auto take = [&](const char* name) {
+    const bool there = std::any_of(offered.begin(), offered.end(), [&](const VkExtensionProperties& e) {
+      return std::string_view(e.extensionName) == name;
+    });
+    if (there) extensions.push_back(name);
+    return there;
+  };
+  auto clip = made<VkPhysicalDeviceDepthClipControlFeaturesEXT>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT);
+  auto provoking =
+      made<VkPhysicalDeviceProvokingVertexFeaturesEXT>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT);
+  auto rendering =
+      made<VkPhysicalDeviceDynamicRenderingFeatures>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES);
+  auto has = made<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  has.pNext = &rendering;
+  if (take(VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) clip.pNext = has.pNext, has.pNext = &clip;
+  if (take(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) provoking.pNext = has.pNext, has.pNext = &provoking;
+  info_.mirrors_once = take(VK_KHR_SAMPLER_MIRROR_CLAMP_TO_EDGE_EXTENSION_NAME);
+  vk_.vkGetPhysicalDeviceFeatures2(physical_, &has);
+  info_.clip_control = clip.depthClipControl == VK_TRUE;
+  info_.last_provokes = provoking.provokingVertexLast == VK_TRUE;
+  info_.primitive_ids = has.features.geometryShader == VK_TRUE;
+  if (has.features.depthClamp == VK_FALSE || has.features.independentBlend == VK_FALSE)
+    throw no_device(info_.line + " has no depth clamp, or blends all attachments alike");
+  provoking.transformFeedbackPreservesProvokingVertex = VK_FALSE;
+  VkPhysicalDeviceFeatures wanted{};
+  wanted.depthClamp = wanted.independentBlend = VK_TRUE;
+  wanted.geometryShader = has.features.geometryShader;
+  has.features = wanted;
+  const float priority = 1.0f;
+  auto queue = made<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+  queue.queueFamilyIndex = family_, queue.queueCount = 1, queue.pQueuePriorities = &priority;
+  auto info = made<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+  info.pNext = &has;
+  info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = uint32_t(extensions.size()), info.ppEnabledExtensionNames = extensions.data();
+  check_vulkan(vk_.vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");
+  at_end([this] { vk_.vkDestroyDevice(device_, nullptr); });
+  vk_.vkGetDeviceQueue(device_, family_, 0, &queue_);
+  auto pool = made<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  pool.queueFamilyIndex = family_;
+  check_vulkan(vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_), "making a command pool");
+  at_end([this] { vk_.vkDestroyCommandPool(device_, pool_, nullptr); });
+  auto allocation = made<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  allocation.commandPool = pool_, allocation.commandBufferCount = 1;
+  check_vulkan(vk_.vkAllocateCommandBuffers(device_, &allocation, &commands_), "making a command buffer");
+}
+
+VulkanDevice::AtEnd::~AtEnd() {
+  for (auto one = destroy.rbegin(); one != destroy.rend(); ++one) (*one)();
+}
+
+bool VulkanDevice::draws_into(VkFormat format, bool depth) const {
+  VkFormatProperties properties{};
+  vk_.vkGetPhysicalDeviceFormatProperties(physical_, format, &properties);
+  const VkFormatFeatureFlags needs =
+      depth ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+  return (properties.optimalTilingFeatures & needs) == needs;
+}
+
+VkDeviceMemory VulkanDevice::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted) {
+  VkPhysicalDeviceMemoryProperties memory{};
+  vk_.vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+    if ((needs.memoryTypeBits >> i & 1) == 0 || (memory.memoryTypes[i].propertyFlags & wanted) != wanted) continue;
+    auto info = made<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    info.allocationSize = needs.size, info.memoryTypeIndex = i;
+    VkDeviceMemory made_memory = VK_NULL_HANDLE;
+    check_vulkan(vk_.vkAllocateMemory(device_, &info, nullptr, &made_memory), "allocating memory");
+    at_end([this, made_memory] { vk_.vkFreeMemory(device_, made_memory, nullptr); });
+    return made_memory;
+  }
+  throw std::runtime_error("Vulkan has no memory of the kind that is needed");
+}
+
+VulkanBuffer VulkanDevice::make_buffer(size_t size, VkBufferUsageFlags usage, std::span<const uint8_t> bytes,
+                                       bool texels) {
+  VulkanBuffer out;
+  auto info = made<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+  info.size = std::max<size_t>(size, 16), info.usage = usage;
+  check_vulkan(vk_.vkCreateBuffer(device_, &info, nullptr, &out.buffer), "making a buffer");
+  VkMemoryRequirements needs{};
+  vk_.vkGetBufferMemoryRequirements(device_, out.buffer, &needs);
+  const VkDeviceMemory memory =
+      allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  check_vulkan(vk_.vkBindBufferMemory(device_, out.buffer, memory, 0), "binding a buffer");
+  void* mapped = nullptr;
+  check_vulkan(vk_.vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping a buffer");
+  out.bytes = static_cast<uint8_t*>(mapped);
+  if (!bytes.empty()) std::memcpy(out.bytes, bytes.data(), bytes.size());
+  at_end([this, buffer = out.buffer] { vk_.vkDestroyBuffer(device_, buffer, nullptr); });
+  if (!texels) return out;
+  auto view = made<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+  view.buffer = out.buffer, view.format = VK_FORMAT_R32G32B32A32_SFLOAT, view.range = VK_WHOLE_SIZE;
+  check_vulkan(vk_.vkCreateBufferView(device_, &view, nullptr, &out.view), "viewing a buffer");
+  at_end([this, made_view = out.view] { vk_.vkDestroyBufferView(device_, made_view, nullptr); });
+  return out;
+}
+
+VulkanImage VulkanDevice::make_image(VkFormat format, int width, int height, int levels, VkImageUsageFlags usage,
+                                     VkImageAspectFlags aspect) {
+  VulkanImage out;
+  out.aspect = aspect;
+  auto info = made<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
+  info.imageType = VK_IMAGE_TYPE_2D, info.format = format;
+  info.extent = {uint32_t(width), uint32_t(height), 1};
+  info.mipLevels = uint32_t(levels), info.arrayLayers = 1, info.samples = VK_SAMPLE_COUNT_1_BIT, info.usage = usage;
+  check_vulkan(vk_.vkCreateImage(device_, &info, nullptr, &out.image), "making an image");
+  at_end([this, image = out.image] { vk_.vkDestroyImage(device_, image, nullptr); });
+  VkMemoryRequirements needs{};
+  vk_.vkGetImageMemoryRequirements(device_, out.image, &needs);
+  check_vulkan(vk_.vkBindImageMemory(device_, out.image, allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), 0),
+               "binding an image");
+  auto view = made<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+  view.image = out.image, view.viewType = VK_IMAGE_VIEW_TYPE_2D, view.format = format;
+  view.subresourceRange = {aspect, 0, uint32_t(levels), 0, 1};
+  check_vulkan(vk_.vkCreateImageView(device_, &view, nullptr, &out.view), "viewing an image");
+  at_end([this, made_view = out.view] { vk_.vkDestroyImageView(device_, made_view, nullptr); });
+  run([&](VkCommandBuffer commands) {
+    auto barrier = made<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
+    barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = out.image, barrier.subresourceRange = view.subresourceRange;
+    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    vk_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                             nullptr, 0, nullptr, 1, &barrier);
+  });
+  return out;
+}
+
+VulkanImage VulkanDevice::make_picture(Format format, int width, int height) {
+  const bool depth = format == Format::d32f || format == Format::d24 || format == Format::d16;
+  const VkImageUsageFlags attachment =
+      depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  if (!draws_into(vulkan_format(format), depth))
+    throw no_device(info_.line + " does not draw into " + std::string(trueshade::info(format).name));
+  return make_image(
+      vulkan_format(format), width, height, 1,
+      attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+      depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+VulkanImage VulkanDevice::make_texture(const Texture& texture) {
+  const TextureLevel& first = texture.levels[0];
+  const VulkanImage out =
+      make_image(texture_format(texture.format), first.width, first.height, int(texture.levels.size()),
+                 VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+  for (size_t k = 0; k < texture.levels.size(); ++k) {
+    const TextureLevel& level = texture.levels[k];
+    const VulkanBuffer staging = make_buffer(level.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, level.bytes);
+    run([&](VkCommandBuffer commands) {
+      VkBufferImageCopy copy{};
+      copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(k), 0, 1};
+      copy.imageExtent = {uint32_t(level.width), uint32_t(level.height), 1};
+      vk_.vkCmdCopyBufferToImage(commands, staging.buffer, out.image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
+      order(commands);
+    });
+  }
+  return out;
+}
+
+VkSampler VulkanDevice::make_sampler(const Sampler& s, int levels) {
+  auto info = made<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+  const auto filter = [](Filter f) { return f == Filter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST; };
+  info.magFilter = filter(s.mag_filter), info.minFilter = filter(s.min_filter);
+  info.mipmapMode = s.mip_filter == MipFilter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  info.addressModeU = address_mode(s.wrap[0]), info.addressModeV = address_mode(s.wrap[1]);
+  for (const Wrap wrap : s.wrap)
+    if (wrap == Wrap::mirror_clamp_to_edge && !info_.mirrors_once)
+      throw no_device(info_.line + " has no samplers that mirror once");
+  // Without levels the first alone is read, magnified or not: as Vulkan's manual has it of GL_LINEAR and GL_NEAREST.
+  info.mipLodBias = s.lod_bias, info.minLod = std::max(s.lod_min, 0.0f), info.maxLod = std::max(s.lod_max, 0.0f);
+  if (s.mip_filter == MipFilter::none) info.minLod = 0.0f, info.maxLod = 0.25f;
+  info.maxLod = std::min(info.maxLod, float(levels));
+  info.minLod = std::min(info.minLod, info.maxLod);
+  info.borderColor = border_of(s);
+  VkSampler sampler = VK_NULL_HANDLE;
+  check_vulkan(vk_.vkCreateSampler(device_, &info, nullptr, &sampler), "making a sampler");
+  at_end([this, sampler] { vk_.vkDestroySampler(device_, sampler, nullptr); });
+  return sampler;
+}
+
+void VulkanDevice::run(const std::function<void(VkCommandBuffer)>& record) {
+  check_vulkan(vk_.vkResetCommandPool(device_, pool_, 0), "starting anew");
+  const VkCommandBuffer commands = commands_;
+  auto begin = made<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check_vulkan(vk_.vkBeginCommandBuffer(commands, &begin), "beginning");
+  record(commands);
+  check_vulkan(vk_.vkEndCommandBuffer(commands), "recording");
+  auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+  submit.commandBufferCount = 1, submit.pCommandBuffers = &commands;
+  check_vulkan(vk_.vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "submitting");
+  check_vulkan(vk_.vkQueueWaitIdle(queue_), "drawing");
+}
+
+void VulkanDevice::order(VkCommandBuffer commands) const {
+  auto barrier = made<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+  barrier.srcAccessMask = barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vk_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                           VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,
+                           0, nullptr);
+}
+
+}  // namespace trueshade::oracle

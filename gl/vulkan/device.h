@@ -1,0 +1,89 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/format.h"
+#include "gl/vulkan/functions.h"
+#include "scenes/texture.h"
+
+namespace trueshade::oracle {
+
+struct VulkanBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkBufferView view = VK_NULL_HANDLE;  ///< of RGBA32F texels
+  uint8_t* bytes = nullptr;            ///< where the host sees it
+};
+
+struct VulkanImage {
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+};
+
+/// What a device is and can do.
+struct VulkanInfo {
+  std::string line;  ///< its name, driver and version
+  int subpixel_bits = 0;
+  bool primitive_ids = false;  ///< fragment shaders may read gl_PrimitiveID
+  bool clip_control = false;   ///< z may run from -w to w (VK_EXT_depth_clip_control)
+  bool last_provokes = false;  ///< flat attributes may follow the last vertex (VK_EXT_provoking_vertex)
+  bool mirrors_once = false;   ///< samplers may mirror once
+};
+
+VkFormat vulkan_format(Format format);
+
+/// A device without a window, with one queue. What is made on it lives as long as it does.
+class VulkanDevice {
+ public:
+  /// Of the machine's devices the first of Vulkan 1.3 that draws; with `software`, the first that is a CPU. Throws
+  /// Error(no_gl_driver) that says what is missing.
+  explicit VulkanDevice(bool software);
+  VulkanDevice(const VulkanDevice&) = delete;
+  VulkanDevice& operator=(const VulkanDevice&) = delete;
+
+  const VulkanInfo& info() const { return info_; }
+  const VulkanFunctions& vk() const { return vk_; }
+  VkDevice device() const { return device_; }
+  bool draws_into(VkFormat format, bool depth) const;
+
+  VulkanBuffer make_buffer(size_t size, VkBufferUsageFlags usage, std::span<const uint8_t> bytes, bool texels = false);
+  VulkanImage make_picture(Format format, int width, int height);
+  VulkanImage make_texture(const Texture& texture);
+  VkSampler make_sampler(const Sampler& sampler, int levels);
+
+  /// Records commands, carries them out, and waits.
+  void run(const std::function<void(VkCommandBuffer)>& record);
+  /// All that was written before is seen by all that follows.
+  void order(VkCommandBuffer commands) const;
+  /// What is to be freed at the end, in reverse order.
+  void at_end(std::function<void()> destroy) { at_end_.destroy.push_back(std::move(destroy)); }
+
+ private:
+  struct AtEnd {
+    std::vector<std::function<void()>> destroy;
+    ~AtEnd();
+  };
+  void open_device();
+  VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted);
+  VulkanImage make_image(VkFormat format, int width, int height, int levels, VkImageUsageFlags usage,
+                         VkImageAspectFlags aspect);
+
+  VulkanFunctions vk_;
+  VulkanInfo info_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  uint32_t family_ = 0;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  AtEnd at_end_;  ///< last, and a member, so that it runs first, and where the constructor throws too
+};
+
+/// Throws std::runtime_error where a call did not succeed.
+void check_vulkan(VkResult result, const char* where);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gl/emit/glsl_terms.h"
+#include "gl/lists/frame_list.h"
+#include "gl/vulkan/device.h"
+
+namespace trueshade::oracle {
+
+/// A sampler of a pass and where it is bound.
+struct BoundSampler {
+  ShaderVariable variable;
+  uint32_t binding = 0;
+};
+
+/// A pass made ready: its pipeline, what its blocks of uniforms hold (vertex, fragment), and its samplers.
+struct PassPipeline {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  std::array<std::vector<BlockMember>, 2> blocks;
+  std::vector<BoundSampler> samplers;
+};
+
+/// Lives as long as the device.
+PassPipeline make_pass_pipeline(VulkanDevice& device, const FrameList& list, const ListedPass& pass);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,118 @@
+// Vulkan as a second judge of the same scenes: what lavapipe draws is explained under Vulkan's rules, whatever state
+// the pipeline asks for, and what it should not draw is found.
+#include "core/error.h"
+#include "gl/vulkan/vulkan_renderer.h"
+#include "judge/stages/validate.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
+#include "tests/catch.hpp"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+
+namespace {
+
+/// Whether there is a software device; otherwise the test has said SKIPPED.
+bool has_lavapipe() {
+  static const bool there = [] {
+    try {
+      Pipeline tiny;
+      tiny.width = tiny.height = 1;
+      drawn_by_vulkan(builtin_scene("cornell"), tiny, true);
+      return true;
+    } catch (const Error& error) {
+      WARN("SKIPPED: " << error.what());
+      return false;
+    }
+  }();
+  return there;
+}
+
+/// City, a third of whose materials are glass.
+Scene city_of_glass() {
+  Scene scene = builtin_scene("city,objects=60,lights=4");
+  for (size_t i = 0; i < scene.materials.size(); i += 3) {
+    scene.materials[i].base_color.a = 0.5f;
+    scene.materials[i].transparent = true;
+  }
+  return scene;
+}
+
+Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+  ValidateOptions options;
+  options.profile = *profile_named("vulkan");
+  options.profile.subpixel_bits = 8;
+  if (blends_lights(pipeline.strategy))
+    options.steps = [&](const StepSink& sink) { drawn_by_vulkan(scene, pipeline, true, {sink, {}}); };
+  if (draws_transparent(scene, pipeline))
+    options.objects = [&](const StepSink& sink) { drawn_by_vulkan(scene, pipeline, true, {{}, sink}); };
+  return validate_capture(scene, pipeline, capture, options);
+}
+
+void check_lavapipe(const Scene& scene, const Pipeline& pipeline) {
+  const VulkanFrame frame = drawn_by_vulkan(scene, pipeline, true);
+  CHECK(frame.subpixel_bits == 8);
+  const Verdict verdict = judged(scene, pipeline, frame.capture);
+  CHECK(verdict.violations() == 0);
+  CHECK(verdict.stages.size() >= 2);
+  CHECK(verdict.stages[0].covered > 500);
+}
+
+Pipeline small(Pipeline pipeline, Strategy strategy) {
+  pipeline.width = 64, pipeline.height = 48;
+  pipeline.strategy = strategy;
+  return pipeline;
+}
+
+}  // namespace
+
+TEST_CASE("lavapipe is explained under every strategy, with glass and with textures") {
+  if (!has_lavapipe()) return;
+  const Scene glass = city_of_glass(), textured = builtin_scene("lecture,lights=3");
+  for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
+    CAPTURE(kStrategyNames[i]);
+    check_lavapipe(glass, small(presets()[i].pipeline, Strategy(i)));
+    check_lavapipe(textured, small(presets()[presets().size() - 1 - i].pipeline, Strategy(i)));
+  }
+}
+
+TEST_CASE("lavapipe is explained under every preset and strategy", "[long]") {
+  if (!has_lavapipe()) return;
+  const Scene scenes[] = {city_of_glass(), builtin_scene("lecture,lights=3"), builtin_scene("atrium,lights=4,glass=1")};
+  for (const Scene& scene : scenes)
+    for (const Preset& preset : presets())
+      for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
+        CAPTURE(scene.spec, preset.name, kStrategyNames[i]);
+        check_lavapipe(scene, small(preset.pipeline, Strategy(i)));
+      }
+}
+
+TEST_CASE("lavapipe is explained whatever the pipeline's state") {
+  if (!has_lavapipe()) return;
+  const Scene scene = city_of_glass();
+  const char* const changes[] = {
+      R"({"geometry": {"cull_face": "front", "front_face": "cw", "depth_func": "lequal", "depth_format": "d16", "depth_far": 0.75}})",
+      R"({"geometry": {"depth_func": "greater", "clear_depth": 0, "clip_origin": "upper_left", "cull_face": "back",
+          "viewport": {"x": 8, "y": 4, "width": 50, "height": 40}}})",
+      R"({"geometry": {"clip_depth": "zero_to_one", "depth_clamp": true, "provoking": "first"},
+          "gbuffer": {"normal": {"format": "rgba16f", "interpolation": "flat"}, "position_from_depth": true}})",
+      R"({"target": "srgb8_a8", "transparency": {"mode": "into-albedo"}})",
+      R"({"target": "rgba16f", "blend": {"rgb": {"equation": "add", "src": "constant_color", "dst": "one"},
+          "constant": [0.5, 0.25, 0.75, 1]}, "light_volumes": {"point": "sphere", "cull_face": "front"}})",
+      R"({"target": "rgb10_a2", "gbuffer": {"normal": {"format": "rgb10_a2"}, "albedo": {"format": "rgba16f"}}})"};
+  for (const char* change : changes)
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
+      CAPTURE(change, name_of(strategy));
+      const Pipeline pipeline = pipeline_from_json(change, "change", presets().front().pipeline);
+      check_lavapipe(scene, small(pipeline, strategy));
+    }
+}
+
+TEST_CASE("A frame of lavapipe's under another light is in no legal set") {
+  if (!has_lavapipe()) return;
+  const Scene scene = builtin_scene("city,objects=60,lights=4");
+  Scene brighter = scene;
+  for (Light& light : brighter.lights) light.color *= 1.1f;
+  const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
+  CHECK(judged(scene, pipeline, drawn_by_vulkan(brighter, pipeline, true).capture).violations() > 100);
+}
