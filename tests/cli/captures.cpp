@@ -357,6 +357,119 @@ TEST_CASE("A capture whose values are packed is judged by what its codes say, an
   check("position,normal,albedo=c.albedo.RGB,depth,color=c.png.RGB", false, most);
 }
 
+TEST_CASE(
+    "Faults in a packed capture are convicted: normals a few codes off, and a picture that is not what they say") {
+  const DrawnCapture c;
+  const std::string map = "position,albedo,depth,id.object,normal=oct.dds:octahedral:unorm";
+  EnginePlane codes = repacked(c.normal, 2, octahedral);
+  for (double& e : codes.values) e = std::round(255 * (e * 0.5 + 0.5)) / 255;
+  const auto counts = [&](const Words& picture) {
+    write_dds(c.path("oct.dds"), codes, 49);
+    Words options = {"--gbuffer", "c.exr", "--map", map};
+    options.insert(options.end(), picture.begin(), picture.end());
+    return c.counts(options);
+  };
+  // The picture was lit from the normals before they were packed: codes of 8 bits say another one.
+  const nlohmann::json unpacked = counts({"--image", "c.exr"});
+  CHECK(unpacked["gbuffer"]["VIOLATION"] == 0);
+  CHECK(unpacked["lighting"]["VIOLATION"].get<int>() > 100);
+  const auto light = [&] {
+    write_dds(c.path("oct.dds"), codes, 49);
+    const Outcome lit =
+        run_command({"shade", "c.exr", "--lights", kScene, "--map", map, "-o", "lit.png", "-q"}, c.path(""));
+    INFO(lit.err);
+    REQUIRE(lit.exit_code == 0);
+  };
+  light();
+  Image picture = read_planes(c.path("lit.png")).front().image;
+  picture.texel(60, 70)[1] = uint8_t(picture.texel(60, 70)[1] + 2);
+  write_image(c.path("off.png"), picture, {}, {});
+  const nlohmann::json off = counts({"--image", "off.png"});
+  CHECK(off["gbuffer"]["VIOLATION"] == 0);
+  CHECK(off["lighting"]["VIOLATION"] == 1);
+  codes.at(60, 60, 0) += 8.0 / 255;
+  light();
+  const nlohmann::json bent = counts({"--image", "lit.png"});
+  CHECK(bent["gbuffer"]["VIOLATION"] == 1);
+  CHECK(bent["lighting"]["VIOLATION"] == 0);
+}
+
+TEST_CASE("View space and distances are told from an engine's matrix too, Vulkan's and Direct3D's among them") {
+  const DrawnCapture c;
+  const Axes axes = axes_of(c);
+  struct Convention {
+    const char *pipeline, *word;
+    bool z_away, y_down, zero_to_one, upper_left;
+  };
+  constexpr Convention kConventions[] = {
+      {R"({"geometry": {}})", "view", false, false, false, false},
+      {R"({"geometry": {"clip_depth": "zero_to_one"}})", "view_z_away", true, false, true, false},
+      {R"({"geometry": {"clip_depth": "zero_to_one", "clip_origin": "upper_left"}})", "view_y_down_z_away", true, true,
+       true, true}};
+  for (const Convention& convention : kConventions) {
+    INFO(convention.pipeline);
+    // Rows of the matrix: projection times view, z from 0.1 to 50.
+    const double g = 1 / std::tan(0.5 * 45 * 3.14159265358979323846 / 180), near = 0.1, far = 50;
+    const double x_scale = g * 90 / 120, y_scale = convention.upper_left ? -g : g;
+    const double z_scale = convention.zero_to_one ? -far / (far - near) : -(far + near) / (far - near);
+    const double z_offset = (convention.zero_to_one ? -1 : -2) * far * near / (far - near);
+    double rows[4][4] = {};
+    for (int k = 0; k < 3; ++k) {
+      rows[0][k] = x_scale * axes.right[k], rows[1][k] = y_scale * axes.up[k];
+      rows[2][k] = z_scale * axes.back[k], rows[3][k] = -axes.back[k];
+    }
+    rows[0][3] = -x_scale * along(axes.right, axes.eye), rows[1][3] = -y_scale * along(axes.up, axes.eye);
+    rows[2][3] = -z_scale * along(axes.back, axes.eye) + z_offset, rows[3][3] = along(axes.back, axes.eye);
+    auto scene = nlohmann::json::parse(kSceneText);
+    nlohmann::json matrix = nlohmann::json::array();
+    for (int column = 0; column < 4; ++column)
+      for (const auto& row : rows) matrix.push_back(double(float(row[column])));
+    scene["camera"] = {{"eye", {3, 2.5, 5}}, {"clip_from_world", matrix}};
+    write_bytes(c.path("m.json"), scene.dump());
+    write_bytes(c.path("p.json"), convention.pipeline);
+    const Outcome drawn = run_command({"render", "m.json", "--pipeline", "p.json", "--size", "120x90", "-o", "m.exr",
+                                       "-q", "--aov", "depth,position,normal,albedo,id.object"},
+                                      c.path(""));
+    INFO(drawn.err);
+    REQUIRE(drawn.exit_code == 0);
+    EnginePlane position, normal;
+    for (const NamedImage& plane : read_planes(c.path("m.exr"))) {
+      if (plane.name == "position") position = engine_plane(plane.image);
+      if (plane.name == "normal") normal = engine_plane(plane.image);
+    }
+    const double y = convention.y_down ? -1 : 1, z = convention.z_away ? -1 : 1;
+    write_npy(c.path("n.npy"),
+              repacked(normal, 3,
+                       [&](const double* n, double* e) {
+                         to_view(axes, n, e);
+                         e[1] *= y, e[2] *= z;
+                       }),
+              "<f4");
+    write_npy(c.path("p.npy"),
+              repacked(position, 3,
+                       [&](const double* p, double* e) {
+                         const double from_eye[] = {p[0] - axes.eye[0], p[1] - axes.eye[1], p[2] - axes.eye[2]};
+                         to_view(axes, from_eye, e);
+                         e[1] *= y, e[2] *= z;
+                       }),
+              "<f4");
+    write_npy(c.path("d.npy"),
+              repacked(position, 1,
+                       [&](const double* p, double* e) {
+                         const double from_eye[] = {p[0] - axes.eye[0], p[1] - axes.eye[1], p[2] - axes.eye[2]};
+                         e[0] = p[0] == 0 && p[1] == 0 && p[2] == 0 ? 0 : -along(axes.back, from_eye);
+                       }),
+              "<f4");
+    const std::string word = convention.word;
+    const Outcome judged =
+        run_command({"validate", "m.json", "--pipeline", "p.json", "--quick", "--gbuffer", "m.exr", "--map",
+                     "position=p.npy:" + word + ",normal=n.npy:" + word + ",depth=d.npy:linear,albedo,id.object,color"},
+                    c.path(""));
+    INFO(judged.out << judged.err);
+    CHECK(judged.exit_code == 0);
+  }
+}
+
 TEST_CASE("A wrong map is convicted or refused") {
   const DrawnCapture c;
   const Axes axes = axes_of(c);
@@ -475,7 +588,7 @@ TEST_CASE("shade makes of a frame's planes the picture that render made", "[slow
   const ScratchFolder folder;
   for (const std::string scene : {"builtin:cornell", "builtin:city,lights=60"})
     for (const std::string preset : {"many-lights", "touchdesigner", "gl-fixed", "punctual", "lecture", "light-volumes",
-                               "light-volumes-literal", "redsdk"})
+                                     "light-volumes-literal", "redsdk"})
       for (const char* strategy : {"deferred-loop", "forward-loop", "deferred-volumes"}) {
         if (scene != "builtin:cornell" && preset != "many-lights" && preset != "punctual") continue;
         INFO(scene << ' ' << preset << ' ' << strategy);
@@ -490,6 +603,24 @@ TEST_CASE("shade makes of a frame's planes the picture that render made", "[slow
         INFO(lit.err);
         CHECK(lit.out == drawn.out);
       }
+}
+
+TEST_CASE("shade rebuilds positions from depth as render does, and blends into the target as it does") {
+  const DrawnCapture c;
+  write_bytes(c.path("p.json"), R"({"gbuffer": {"position_from_depth": true, "normal": {"format": "rgb10_a2"},
+                                    "albedo": {"format": "rgba16f"}}})");
+  for (const std::string strategy : {"deferred-loop", "deferred-volumes"})
+    for (const std::string profile : {"ideal", "mesa-llvmpipe-22.3"}) {
+      INFO(strategy << ' ' << profile);
+      const Words how = {"--pipeline", "p.json", "--strategy", strategy, "--profile", profile, "-q", "--hash"};
+      Words drawn = {"render", kScene, "--size", "120x90", "-o", "g.exr", "--aov", "depth,normal,albedo,id.object"};
+      Words lit = {"shade", "g.exr", "--lights", kScene};
+      drawn.insert(drawn.end(), how.begin(), how.end()), lit.insert(lit.end(), how.begin(), how.end());
+      const Outcome frame = run_command(drawn, c.path("")), again = run_command(lit, c.path(""));
+      INFO(frame.err << again.err);
+      CHECK(frame.exit_code == 0);
+      CHECK(frame.out == again.out);
+    }
 }
 
 TEST_CASE("shade refuses what a G-buffer cannot tell") {

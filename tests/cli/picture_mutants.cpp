@@ -22,11 +22,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/image_files/channel_file.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
 #include "tests/scratch_folder.h"
@@ -72,6 +74,26 @@ Bytes exr_of(const std::string& compression, int tile) {
   return bytes;
 }
 
+/// An EXR of two parts.
+Bytes exr_of_parts() {
+  std::vector<OIIO::ImageSpec> specs(2, OIIO::ImageSpec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT));
+  specs[0].attribute("oiio:subimagename", "normals");
+  specs[1].attribute("oiio:subimagename", "positions");
+  std::vector<float> values;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int channel = 0; channel < 3; ++channel) values.push_back(value_at(x, y, channel));
+  const ScratchFolder folder;  // OpenImageIO writes parts into files alone
+  const std::string path = folder.path("seed.exr");
+  const auto file = OIIO::ImageOutput::create("openexr");
+  if (!file || !file->open(path, 2, specs.data()) || !file->write_image(OIIO::TypeDesc::FLOAT, values.data()) ||
+      !file->open(path, specs[1], OIIO::ImageOutput::AppendSubimage) ||
+      !file->write_image(OIIO::TypeDesc::FLOAT, values.data()) || !file->close())
+    fail("no EXR of parts");
+  std::ifstream written(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(written), {});
+}
+
 struct JpegKind {
   int components, sampling;
   bool progressive;
@@ -109,12 +131,13 @@ Bytes jpeg_of(const JpegKind& kind) {
   return bytes;
 }
 
-constexpr const char* kKinds[] = {"exr-none",  "exr-rle",   "exr-zips",   "exr-zip",          "exr-piz",
-                                  "exr-pxr24", "exr-b44",   "exr-b44a",   "exr-dwaa",         "exr-dwab",
-                                  "exr-tiles", "jpeg-grey", "jpeg-color", "jpeg-progressive", "jpeg-restarts"};
+constexpr const char* kKinds[] = {
+    "exr-none", "exr-rle",  "exr-zips",  "exr-zip",   "exr-piz",   "exr-pxr24",  "exr-b44",          "exr-b44a",
+    "exr-dwaa", "exr-dwab", "exr-tiles", "exr-parts", "jpeg-grey", "jpeg-color", "jpeg-progressive", "jpeg-restarts"};
 
 Bytes seed_of(const std::string& kind) {
   if (kind == "exr-tiles") return exr_of("zip", 16);
+  if (kind == "exr-parts") return exr_of_parts();
   if (kind.starts_with("exr-")) return exr_of(kind.substr(4), 0);
   if (kind == "jpeg-grey") return jpeg_of({1, 1, false, 0});
   if (kind == "jpeg-color") return jpeg_of({3, 2, false, 0});
@@ -227,6 +250,7 @@ int run_child(const std::string& kind, uint64_t first, uint64_t end, unsigned se
       write_at_start(file, bytes);
       succeeds([&] { read_image_info(path); });
       succeeds([&] { read_planes(path); });
+      succeeds([&] { read_channel_file(path, kMostExpansion); });
     }
     alarm(0);
     most = std::max(most, peak_memory());

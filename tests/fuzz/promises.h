@@ -38,6 +38,12 @@ SceneLimits small_limits();
 /// A scene that was read is in range, and stays so at any time or says so.
 void check_scene(Scene scene);
 
+/// Targets of captures.
+void run_npy(Bytes bytes);
+void run_dds(Bytes bytes);
+void run_tiff(Bytes bytes);
+void run_capture_map(Bytes bytes);
+
 /// Targets of OBJ and MTL files.
 void run_obj(Bytes bytes);
 void run_mtl(Bytes bytes);

@@ -177,7 +177,11 @@ constexpr Target kTargets[] = {{"gltf", run_gltf},
                                {"png", run_png},
                                {"jpeg", run_jpeg},
                                {"exr", run_exr},
-                               {"csv", run_csv}};
+                               {"csv", run_csv},
+                               {"npy", run_npy},
+                               {"dds", run_dds},
+                               {"tiff", run_tiff},
+                               {"capture_map", run_capture_map}};
 
 }  // namespace
 
