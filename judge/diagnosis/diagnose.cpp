@@ -51,9 +51,9 @@ Supposed supposed_of(std::span<const std::string> names) {
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
     const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults()});
     if (picture != nullptr && given == (picture->search != Search::none))
-      out.picture.push_back({picture, parameter_of(*picture, text, name)});
+      out.picture.push_back({picture, given ? parameter_of(*picture, text, name) : 0});
     else if (plane != nullptr && given == (plane->search != PlaneFault::Search::none))
-      out.planes.push_back({plane, parameter_of(*plane, text, name)});
+      out.planes.push_back({plane, given ? parameter_of(*plane, text, name) : 0});
     else
       throw no_fault(name);
   }
@@ -68,6 +68,23 @@ std::string listed_text(std::string_view text) {
   std::string listed(text);
   if (const size_t at = listed.find("%s"); at != std::string::npos) listed.replace(at, 2, "N");
   return listed;
+}
+
+/// The likeliest of both, and then the others. What is wrong in a plane may be why the picture is: planes come first.
+std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> picture, size_t most) {
+  const auto first = [](const std::vector<Finding>& list) {
+    size_t count = std::min<size_t>(1, list.size());
+    while (count < list.size() && list[count].together) ++count;
+    return count;
+  };
+  const size_t of_planes = first(planes), of_picture = first(picture);
+  std::vector<Finding> findings;
+  const auto add = [&](std::vector<Finding>& list, size_t from, size_t to) {
+    for (size_t i = from; i < to && findings.size() < most; ++i) findings.push_back(std::move(list[i]));
+  };
+  add(planes, 0, of_planes), add(picture, 0, of_picture);
+  add(planes, of_planes, planes.size()), add(picture, of_picture, picture.size());
+  return findings;
 }
 
 std::string quoted_text(std::string_view text) {
@@ -114,10 +131,7 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     }
     findings = picture_findings(picture, only.picture);
   }
-  // What is wrong in a plane may be why the picture is: planes come first.
-  findings.insert(findings.begin(), planes.findings.begin(), planes.findings.end());
-  if (findings.size() > most) findings.resize(most);
-  return findings;
+  return merged(std::move(planes.findings), std::move(findings), most);
 }
 
 std::vector<KnownFault> known_faults() {

@@ -30,6 +30,7 @@ class Estimate {
     return s;
   }
   double stepped(double parameter) const;
+  double climbed(double count) const;
   double narrowed(double parameter) const;
   double short_number(double parameter) const;
   bool fits(const Color& value, const SampledPixel& pixel, double steps) const;
@@ -118,6 +119,12 @@ double Estimate::smooth() const {
     if (c < least) least = c, best = at;
     if (moved < 1e-5) break;
   }
+  // Codes make steps of what should be smooth: a look about, before the best place is narrowed down.
+  const double middle = best;
+  for (const double percent : {-5.0, -3.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 3.0, 5.0}) {
+    const double near = middle * (1 + percent / 100), c = cost(near);
+    if (c < least) least = c, best = near;
+  }
   return short_number(narrowed(best));
 }
 
@@ -155,7 +162,7 @@ std::vector<double> Estimate::lights(double sign) const {
   std::map<uint32_t, double> votes;
   each_voter([&](const SampledPixel& pixel, const PlainSurface& surface) {
     const PredictedPixel right = predicted_pixel(pass, surface);
-    for (const LightAdded& added : lights_added(pass, surface, Reach::adds)) {
+    for (const LightAdded& added : lights_added(pass, surface)) {
       Color without = right.value;
       for (size_t k = 0; k < 3; ++k) without[k] += sign * added.term[k];
       if (fits(without, pixel, blends ? 1.6 : 0.8)) votes[added.light] += pixel.weight;
@@ -182,20 +189,22 @@ std::vector<double> Estimate::counts(bool at_pixel) const {
   LightPass dark = pass;
   dark.lights.clear();
   std::vector<double> change(all + 2);  // of votes, from one count to the next
+  std::vector<TracedLight> trace;
   each_voter([&](const SampledPixel& pixel, const PlainSurface& surface) {
     Color sum = predicted_pixel(dark, surface).value;
     uint32_t from = 0, ordinal = 0;
     const auto vote = [&](uint32_t low, uint32_t high) {  // these counts leave `sum`
-      if (low < high && fits(sum, pixel, 1.6)) change[low] += pixel.weight, change[high] -= pixel.weight;
+      if (low < high && fits(sum, pixel, 0.8)) change[low] += pixel.weight, change[high] -= pixel.weight;
     };
-    for (const LightAdded& added : lights_added(pass, surface, at_pixel ? Reach::in_range : Reach::adds)) {
-      const uint32_t place = at_pixel ? ordinal : added.light;  // the count above which the light is drawn
-      if (added.term != std::array<double, 3>{}) {
+    trace.clear();
+    predicted_pixel(pass, surface, nullptr, &trace);
+    for (const TracedLight& traced : trace) {
+      const uint32_t place = at_pixel ? ordinal : traced.light;  // the count above which the light is drawn
+      if (traced.adds) {
         vote(from, place + 1);
-        for (size_t k = 0; k < 3; ++k) sum[k] += added.term[k];
-        from = place + 1;
+        sum = traced.value, from = place + 1;
       }
-      ++ordinal;
+      ordinal += traced.in_range ? 1 : 0;
     }
     vote(from, all + 1);
   });
@@ -203,11 +212,23 @@ std::vector<double> Estimate::counts(bool at_pixel) const {
   uint32_t low = 0, high = 0;
   for (uint32_t n = 0; n <= all; ++n) {
     votes += change[n];
-    if (votes > most * (1 + 1e-9)) most = votes, low = n;
-    if (votes >= most * (1 - 1e-9) && most > 0 && n >= low && (high < low || n == high + 1 || n == low)) high = n;
+    if (votes > most * (1 + 1e-9)) most = votes, low = high = n;
+    if (votes >= most * (1 - 1e-9) && most > 0 && n == high + 1) high = n;
   }
   if (!(most > 0)) return {};
-  return {round_number(low, std::max(low, high))};
+  return {climbed(round_number(low, high))};
+}
+
+/// The count beside which no other is better, in ever smaller steps.
+double Estimate::climbed(double count) const {
+  double least = cost(count);
+  for (double step = 8; step >= 1; step /= 2)
+    for (const double next : {count - step, count + step}) {
+      if (next < 0 || next > double(supposed_.pass.lights.size())) continue;
+      const double c = cost(next);
+      if (c < least) least = c, count = next;
+    }
+  return count;
 }
 
 }  // namespace

@@ -50,6 +50,15 @@ double smooth(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
+/// x^p: an integer's power by squaring.
+double power_of(double x, double p) {
+  if (!(p >= 0 && p <= 8192 && p == std::floor(p))) return std::pow(x, p);
+  double result = 1;
+  for (auto n = uint32_t(p); n != 0; n /= 2, x *= x)
+    if (n % 2 != 0) result *= x;
+  return result;
+}
+
 /// A direction by the camera's axes: right, up, towards the viewer.
 Triple3 in_view(const Camera& camera, const Triple3& v) {
   const auto unit = [](const Triple3& a) { return times(a, 1 / std::sqrt(std::max(inner(a, a), 1e-300))); };
@@ -198,7 +207,7 @@ Triple3 TermMaker::term(const PlainSurface& surface, const Light& light) const {
   double specular = 0;
   if (model_.specular != Specular::none && fault.specular != 0 && !(model_.specular_masked && n_l <= 0)) {
     const double cosine = cosine_to_half(l, n_l), s = (own ? surface.shininess : double(model_.shininess));
-    specular = (cosine > 0 || s == 0 ? std::pow(cosine, s * fault.shininess) : 0) * fault.specular;
+    specular = (cosine > 0 || s == 0 ? power_of(cosine, s * fault.shininess) : 0) * fault.specular;
   }
   for (size_t k = 0; k < 3; ++k) {
     const double albedo = surface.albedo[k];
@@ -246,8 +255,8 @@ double output_of(const LightPass& pass, double x) {
 /// Stores, and adds, as a target's texels are: codes, or floats.
 class Texels {
  public:
-  explicit Texels(const LightPass& pass) : pipeline_(pass.pipeline), layout_(info(pass.pipeline.target)) {
-    rule_ = pass.fault.store;
+  Texels(const Pipeline& pipeline, LightFault::Store rule)
+      : pipeline_(pipeline), layout_(info(pipeline.target)), rule_(rule) {
     const bool nearest = pipeline_.gbuffer.half_round == HalfRound::nearest;
     if (rule_ == LightFault::Store::right && layout_.small_float())
       rule_ = nearest ? LightFault::Store::nearest : LightFault::Store::truncated;
@@ -320,7 +329,7 @@ void each_light(const LightPass& pass, const PlainSurface& surface, const TermMa
       if (!maker.in_range(surface, light)) continue;
       if (light.type != LightType::ambient && ++reached > fault.most_at_pixel) continue;
     }
-    draw(light, int64_t(i) == fault.twice ? 2 : 1);
+    draw(uint32_t(i), light, int64_t(i) == fault.twice ? 2 : 1);
   }
 }
 
@@ -332,10 +341,8 @@ LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline) {
   return pass;
 }
 
-double stored_value(const Pipeline& pipeline, double value, int channel) {
-  LightPass pass;
-  pass.pipeline = pipeline;
-  return Texels(pass).stored(value, channel);
+double stored_value(const Pipeline& pipeline, LightFault::Store rule, double value, int channel) {
+  return Texels(pipeline, rule).stored(value, channel);
 }
 
 double value_of_stored(Format target, double stored, int channel) {
@@ -346,8 +353,9 @@ double value_of_stored(Format target, double stored, int channel) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface, const std::vector<uint8_t>* listed) {
-  const Texels texels(pass);
+PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface, const std::vector<uint8_t>* listed,
+                               std::vector<TracedLight>* trace) {
+  const Texels texels(pass.pipeline, pass.fault.store);
   PredictedPixel out;
   if (!surface.covered) {
     for (int k = 0; k < 4; ++k) {
@@ -366,12 +374,15 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
   };
   Triple3 sum = start_of(pass, surface);
   if (!blends_lights(strategy)) {
-    each_light(pass, surface, maker, listed, [&](const Light& light, int times_drawn) {
+    each_light(pass, surface, maker, listed, [&](uint32_t index, const Light& light, int times_drawn) {
       const Triple3 term = maker.term(surface, light);
       for (size_t k = 0; k < 3; ++k) {
         sum[k] += times_drawn * term[k];
         if (pass.fault.sum == LightFault::Sum::halves) sum[k] = rounded_to(sum[k], 10, -14, LightFault::Store::nearest);
       }
+      if (trace == nullptr) return;
+      const Triple3 now = colored(sum);
+      trace->push_back({index, maker.in_range(surface, light), term != Triple3{}, {now[0], now[1], now[2], alpha}});
     });
     sum = colored(sum);
     for (int k = 0; k < 4; ++k) {
@@ -387,7 +398,7 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
     const Triple3 start = colored(sum);
     for (int k = 0; k < 4; ++k) out.stored[size_t(k)] = texels.stored(k < 3 ? start[size_t(k)] : alpha, k);
   }
-  each_light(pass, surface, maker, listed, [&](const Light& light, int times_drawn) {
+  each_light(pass, surface, maker, listed, [&](uint32_t index, const Light& light, int times_drawn) {
     Triple3 term = maker.term(surface, light);
     if (first) {  // the first draw of forward-multipass stores, with what the sum starts from
       first = false;
@@ -398,6 +409,11 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
     term = colored(term);
     const int draws = multipass ? times_drawn : times_drawn * draws_of(pass, light);
     for (int i = 0; i < draws; ++i) texels.blend(term, alpha, multipass ? kAddLight : pass.pipeline.blend, out.stored);
+    if (trace == nullptr) return;
+    TracedLight traced{index, maker.in_range(surface, light), term != Triple3{}, {}};
+    for (int k = 0; k < 4; ++k)
+      traced.value[size_t(k)] = value_of_stored(pass.pipeline.target, out.stored[size_t(k)], k);
+    trace->push_back(traced);
   });
   if (first) {
     const Triple3 start = colored(sum);
@@ -407,14 +423,13 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
   return out;
 }
 
-std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface, Reach reach) {
+std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface) {
   const TermMaker maker(pass, surface);
   const bool last = pass.pipeline.light_model.order == TermOrder::albedo_last;
   std::vector<LightAdded> added;
   for (uint32_t i = 0; i < pass.lights.size(); ++i) {
-    if (reach == Reach::in_range && !maker.in_range(surface, pass.lights[i])) continue;
     Triple3 term = maker.term(surface, pass.lights[i]);
-    if (reach == Reach::adds && term == Triple3{}) continue;
+    if (term == Triple3{}) continue;
     for (size_t k = 0; k < 3 && last; ++k) term[k] *= surface.albedo[k];
     added.push_back({i, term});
   }

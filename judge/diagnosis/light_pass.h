@@ -62,20 +62,27 @@ struct PredictedPixel {
   std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
   std::array<double, 4> value{};   ///< before the only store; of strategies that blend what `stored` stands for
 };
+/// What the pixel stands for once a light is added, light by light.
+struct TracedLight {
+  uint32_t light = 0;
+  bool in_range = true, adds = false;
+  std::array<double, 4> value{};
+};
+
 ///   listed: whether each light is in the list that the pixel is lit from; null: all are
+///   trace: null, or what takes the lights in the order in which they are added
 PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface,
-                               const std::vector<uint8_t>* listed = nullptr);
+                               const std::vector<uint8_t>* listed = nullptr, std::vector<TracedLight>* trace = nullptr);
 
 /// A value as the target stores it, and what a stored one stands for.
-double stored_value(const Pipeline& pipeline, double value, int channel);
+double stored_value(const Pipeline& pipeline, LightFault::Store rule, double value, int channel);
 double value_of_stored(Format target, double stored, int channel);
 
-/// What the lights of the pass add to the pixel, in order: those that add something, or those in range.
+/// What the lights of the pass add to the pixel, in order, of those that add something.
 struct LightAdded {
   uint32_t light = 0;
   std::array<double, 3> term{};
 };
-enum class Reach : uint8_t { adds, in_range };
-std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface, Reach reach);
+std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface);
 
 }  // namespace trueshade::oracle

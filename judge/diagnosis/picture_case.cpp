@@ -29,10 +29,8 @@ void thin_out(std::vector<uint32_t>& pixels, size_t most) {
 }
 
 /// What a plane of that format gives back for a value.
-double held_value(const Pipeline& pipeline, Format format, double value, int channel) {
-  Pipeline of_plane = pipeline;
-  of_plane.target = format;
-  return value_of_stored(format, stored_value(of_plane, value, channel), channel);
+double held_value(const Pipeline& of_plane, double value, int channel) {
+  return value_of_stored(of_plane.target, stored_value(of_plane, LightFault::Store::right, value, channel), channel);
 }
 
 }  // namespace
@@ -64,10 +62,12 @@ std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::a
 
 void PictureSupposition::suppose(const PictureFault& fault, double parameter) {
   if (fault.light != nullptr) fault.light(pass, parameter);
+  if (fault.light != nullptr || fault.tile > 0) known = nullptr;
   if (fault.value != nullptr) steps.push_back({fault.value, parameter});
   if (fault.move != nullptr) fault.move(move, parameter);
   if (fault.tile > 0) tile = fault.tile, tile_from = int(parameter);
   reach = std::max(reach, fault.reach);
+  if (fault.stale > 0) stale = fault.stale;
 }
 
 PictureCase::PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
@@ -78,6 +78,7 @@ PictureCase::PictureCase(const Scene& scene, const Pipeline& pipeline, const Pro
       color_(target_of(capture, pipeline)),
       right_(light_pass_of(scene, pipeline)) {
   draw_sample(stage, profile, capture);
+  find_stale(stage);
 }
 
 /// Pixels under transparent surfaces are not predicted.
@@ -95,7 +96,11 @@ void PictureCase::draw_sample(const StageVerdict& stage, const Profile& profile,
                                                                                               : PixelUse::usual;
     }
   sample_ = sampled_pixels(stage, kSample, uses);
-  few_ = sampled_pixels(stage, kFew, uses);
+  // A first look costs about the same however many lights there are.
+  const size_t share = std::clamp<size_t>(scene_.lights.size() / 100, 1, 4);
+  std::array<size_t, 4> few = kFew;
+  for (size_t& f : few) f = f / share + 8;
+  few_ = sampled_pixels(stage, few, uses);
 }
 
 PlainSurface PictureCase::surface(int x, int y) const {
@@ -115,24 +120,62 @@ PlainSurface PictureCase::surface(int x, int y) const {
 
 void PictureCase::heal_surface(int x, int y, PlainSurface& surface) const {
   const PlaneValues v = expected_->at(x, y).value;
+  Pipeline of_plane = pipeline_;
+  const auto held = [&](Format format, double value, int channel) {
+    of_plane.target = format;
+    return held_value(of_plane, value, channel);
+  };
   const GBufferState& g = pipeline_.gbuffer;
   const bool halved = info(g.normal.format).number_class == NumberClass::unorm;
   for (int i = 0; i < 4; ++i) {
     const auto k = size_t(i);
-    if (wrong_[size_t(Plane::albedo)]) surface.albedo[k] = held_value(pipeline_, g.albedo.format, v.albedo[k], i);
+    if (wrong_[size_t(Plane::albedo)]) surface.albedo[k] = held(g.albedo.format, v.albedo[k], i);
     if (i == 3) continue;
-    if (wrong_[size_t(Plane::position)])
-      surface.position[k] = held_value(pipeline_, g.position.format, v.position[k], i);
+    if (wrong_[size_t(Plane::position)]) surface.position[k] = held(g.position.format, v.position[k], i);
     if (!wrong_[size_t(Plane::normal)]) continue;
-    const double n = halved ? v.normal[k] * 0.5 + 0.5 : v.normal[k],
-                 held = held_value(pipeline_, g.normal.format, n, i);
-    surface.normal[k] = halved ? held * 2 - 1 : held;
+    const double n = held(g.normal.format, halved ? v.normal[k] * 0.5 + 0.5 : v.normal[k], i);
+    surface.normal[k] = halved ? n * 2 - 1 : n;
   }
 }
 
 std::array<int, 2> PictureCase::source(const Move& move, int x, int y) const {
   x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
   return {move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y};
+}
+
+/// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is.
+void PictureCase::find_stale(const StageVerdict& stage) {
+  const auto odd = [&](int x, int y) {
+    const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
+    return c == PixelClass::violation || c == PixelClass::store_2;
+  };
+  for (const int side : {8, 16, 32, 64}) {
+    const int across = (stage.width + side - 1) / side, down = (stage.height + side - 1) / side;
+    std::vector<int> odd_in(size_t(across) * size_t(down)), all_in(odd_in.size());
+    for (int y = 0; y < stage.height; ++y)
+      for (int x = 0; x < stage.width; ++x) {
+        const size_t tile = size_t(y / side) * size_t(across) + size_t(x / side);
+        odd_in[tile] += odd(x, y) ? 1 : 0, ++all_in[tile];
+      }
+    StaleTiles& tiles = stale_[side];
+    tiles.stale.resize(odd_in.size());
+    double odd_stale = 0, all_stale = 0, odd_other = 0, all_other = 0;
+    for (size_t i = 0; i < odd_in.size(); ++i) {
+      const bool stale = 5 * odd_in[i] >= 2 * all_in[i];
+      tiles.stale[i] = stale ? 1 : 0, tiles.count += stale ? 1 : 0;
+      (stale ? odd_stale : odd_other) += odd_in[i], (stale ? all_stale : all_other) += all_in[i];
+    }
+    if (10 * odd_other > all_other || size_t(10 * tiles.count) > std::max<size_t>(odd_in.size(), 30)) {
+      std::fill(tiles.stale.begin(), tiles.stale.end(), 0);
+      tiles.count = 0;
+    }
+    tiles.filled = tiles.count > 0 ? odd_stale / all_stale : 0;
+  }
+}
+
+double PictureCase::stale_cost(int side) const {
+  const StaleTiles& tiles = stale_.at(side);
+  return 0.02 + 0.004 * tiles.count + 0.05 * (1 - tiles.filled);
 }
 
 void PictureCase::make_tiles() {
@@ -200,9 +243,12 @@ std::vector<uint8_t> PictureCase::list_of(const PictureSupposition& supposed, in
 
 PictureCase::Prediction PictureCase::predicted(const PictureSupposition& supposed, int x, int y) const {
   const auto [sx, sy] = source(supposed.move, x, y);
-  std::vector<uint8_t> listed;
-  if (supposed.tile > 0) listed = list_of(supposed, sx, sy);
-  const PredictedPixel pixel = predicted_pixel(supposed.pass, surface(sx, sy), supposed.tile > 0 ? &listed : nullptr);
+  const auto make = [&, sx = sx, sy = sy] {
+    std::vector<uint8_t> listed;
+    if (supposed.tile > 0) listed = list_of(supposed, sx, sy);
+    return predicted_pixel(supposed.pass, surface(sx, sy), supposed.tile > 0 ? &listed : nullptr);
+  };
+  const PredictedPixel pixel = supposed.known != nullptr ? supposed.known->at(sx, sy, make) : make();
   Prediction out;
   out.value = pixel.value;
   if (supposed.steps.empty()) {
@@ -215,12 +261,12 @@ PictureCase::Prediction PictureCase::predicted(const PictureSupposition& suppose
     step.change(out.value, step.parameter, x, y);
     step.change(after, step.parameter, x, y);
   }
-  Pipeline nearest = supposed.pass.pipeline;
-  nearest.gbuffer.half_round = HalfRound::nearest;
+  const LightFault::Store rule = supposed.pass.fault.store;
+  const LightFault::Store other = color_.layout.small_float() ? LightFault::Store::nearest : rule;
   for (int k = 0; k < 4; ++k) {
-    out.drawn[size_t(k)] = stored_value(supposed.pass.pipeline, out.value[size_t(k)], k);
-    out.stored[size_t(k)] = stored_value(supposed.pass.pipeline, after[size_t(k)], k);
-    out.nearest[size_t(k)] = stored_value(nearest, after[size_t(k)], k);
+    out.drawn[size_t(k)] = stored_value(pipeline_, rule, out.value[size_t(k)], k);
+    out.stored[size_t(k)] = stored_value(pipeline_, rule, after[size_t(k)], k);
+    out.nearest[size_t(k)] = stored_value(pipeline_, other, after[size_t(k)], k);
   }
   return out;
 }
@@ -260,12 +306,17 @@ double PictureCase::steps_off(const PictureSupposition& supposed, const Predicti
   if (off > 1.5 || blends_lights(pipeline_.strategy)) return off;
   // Floats are off a little: the other side of a threshold is as good.
   for (const double moved : {1 - 3e-6, 1 + 3e-6})
-    if (std::fabs(stored - stored_value(supposed.pass.pipeline, p.value[k] * moved, channel)) < kSameSteps * unit)
+    if (std::fabs(stored - stored_value(pipeline_, supposed.pass.fault.store, p.value[k] * moved, channel)) <
+        kSameSteps * unit)
       return 0;
   return off;
 }
 
 double PictureCase::steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const {
+  if (const int side = supposed.stale; side > 0) {
+    const size_t across = size_t((pipeline_.width + side - 1) / side);
+    if (stale_.at(side).stale[size_t(pixel.y / side) * across + size_t(pixel.x / side)] != 0) return 0;
+  }
   const Prediction p = predicted(supposed, pixel.x, pixel.y);
   double off = 0;
   for (int k = 0; k < channels(); ++k) off = std::max(off, steps_off(supposed, p, pixel.x, pixel.y, k));

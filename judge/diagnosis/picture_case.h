@@ -2,7 +2,10 @@
 // A captured picture against what its own G-buffer should have made it, under any faults that are supposed.
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <shared_mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "judge/diagnosis/disagreement.h"
@@ -12,6 +15,26 @@
 #include "judge/stages/captured_surface.h"
 
 namespace trueshade::oracle {
+
+/// Pixels as a light pass made them, so that what is done to the picture afterwards can be tried again and again.
+class KnownPixels {
+ public:
+  template <class Make>
+  PredictedPixel at(int x, int y, const Make& make) {
+    const uint64_t key = uint64_t(uint32_t(y)) << 32 | uint32_t(x);
+    {
+      const std::shared_lock lock(asked_);
+      if (const auto found = pixels_.find(key); found != pixels_.end()) return found->second;
+    }
+    const PredictedPixel pixel = make();
+    const std::unique_lock lock(asked_);
+    return pixels_.emplace(key, pixel).first->second;
+  }
+
+ private:
+  std::shared_mutex asked_;
+  std::unordered_map<uint64_t, PredictedPixel> pixels_;
+};
 
 /// Faults that a picture is supposed to have, all at once; they are predicted in this order.
 struct PictureSupposition {
@@ -24,6 +47,8 @@ struct PictureSupposition {
   Move move;
   int tile = 0, tile_from = 0;  ///< pixels a side of tiles; whose lists they have, of eight neighbours
   double reach = 0;
+  int stale = 0;  ///< pixels a side of tiles, those of which that stand out hold anything
+  std::shared_ptr<KnownPixels> known = std::make_shared<KnownPixels>();  ///< by the pass; null: not worth keeping
 
   void suppose(const PictureFault& fault, double parameter);
 };
@@ -34,7 +59,7 @@ class PictureCase {
   PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
               const StageVerdict& stage);
 
-  PictureSupposition right() const { return {right_, {}, {}, 0, 0, 0}; }
+  PictureSupposition right() const { return {right_, {}, {}, 0, 0, 0, 0, known_}; }
   const std::vector<SampledPixel>& sample() const { return sample_; }
   const std::vector<SampledPixel>& few() const { return few_; }  ///< of the sample, for a first look
 
@@ -63,9 +88,13 @@ class PictureCase {
   /// From now on the planes that are wrong are read as they should be. Not while others ask.
   void heal(std::shared_ptr<const ExpectedPlanes> expected, const std::array<bool, kPlanes>& wrong) {
     expected_ = std::move(expected), wrong_ = wrong;
+    known_ = std::make_shared<KnownPixels>();
   }
   /// The pixel that is shown at (x, y).
   std::array<int, 2> source(const Move& move, int x, int y) const;
+  /// What it costs to suppose that the tiles of that side which stand out are stale: more for many tiles, and for tiles
+  /// that are mostly as they should be. Nothing stands out where pixels everywhere are not as they should be.
+  double stale_cost(int side) const;
   /// Makes the tiles' boxes, which lists of lights are made from. Not while others ask.
   void make_tiles();
 
@@ -75,6 +104,7 @@ class PictureCase {
     bool empty = true;
   };
   std::vector<uint8_t> list_of(const PictureSupposition& supposed, int x, int y) const;
+  void find_stale(const StageVerdict& stage);
   void heal_surface(int x, int y, PlainSurface& surface) const;
   void draw_sample(const StageVerdict& stage, const Profile& profile, const Capture& capture);
 
@@ -85,6 +115,13 @@ class PictureCase {
   LightPass right_;
   std::vector<SampledPixel> sample_, few_;
   std::map<int, std::vector<Box>> tiles_;  ///< by side
+  struct StaleTiles {
+    std::vector<uint8_t> stale;  ///< by tile
+    int count = 0;
+    double filled = 0;  ///< share of their pixels that are not as they should be
+  };
+  std::map<int, StaleTiles> stale_;                                       ///< by side
+  std::shared_ptr<KnownPixels> known_ = std::make_shared<KnownPixels>();  ///< where nothing is wrong
   std::shared_ptr<const ExpectedPlanes> expected_;
   std::array<bool, kPlanes> wrong_{};
 };

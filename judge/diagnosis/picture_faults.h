@@ -40,6 +40,7 @@ struct PictureFault {
   double reach = 0;  ///< steps that it may be off: of what is noise
   int tile = 0;      ///< pixels a side of tiles whose light lists are those of other tiles; parameter: which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
+  int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
 };
 
 std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp

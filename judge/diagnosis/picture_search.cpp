@@ -14,8 +14,9 @@ namespace {
 // Shares of the pixels that are not as they should be.
 constexpr double kNamed = 1.0 / 3;        ///< that a finding explains at least
 constexpr double kParameterCost = 0.004;  ///< what a parameter must earn
-constexpr double kRival = 0.08;           ///< that a lesser finding may cost more than the best
+constexpr double kRival = 0.04;           ///< that a lesser finding may cost more than the best
 constexpr double kPairGain = 0.55;        ///< of a single fault's cost, that two may cost at most
+constexpr double kLeastGain = 0.02;       ///< and that a second fault must earn
 constexpr double kLeastChanged = 8;       ///< pixels below which there is nothing to explain
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
 
@@ -48,7 +49,8 @@ class PictureSearch {
  private:
   std::vector<double> off(const std::vector<SampledPixel>& pixels) const;
   PictureSupposition supposed(std::span<const NamedFault> faults) const;
-  Candidate judged(std::vector<NamedFault> faults, bool all) const;
+  Candidate judged(std::vector<NamedFault> faults, bool all) const { return judged(faults, supposed(faults), all); }
+  Candidate judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const;
   std::vector<Candidate> beside(std::span<const NamedFault> faults) const;
   void refine(Candidate& candidate) const;
   Finding finding(const Candidate& candidate, size_t which) const;
@@ -72,11 +74,14 @@ PictureSupposition PictureSearch::supposed(std::span<const NamedFault> faults) c
   return s;
 }
 
-Candidate PictureSearch::judged(std::vector<NamedFault> faults, bool all) const {
+Candidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const {
   Candidate c;
-  c.found = picture_.disagreement(supposed(faults), all ? picture_.sample() : picture_.few(), all ? off_ : off_few_);
+  c.found = picture_.disagreement(supposed, all ? picture_.sample() : picture_.few(), all ? off_ : off_few_);
   c.cost = c.found.cost / (all ? changed_ : changed_few_);
-  for (const NamedFault& f : faults) c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+  for (const NamedFault& f : faults) {
+    c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+    if (f.fault->stale > 0) c.cost += picture_.stale_cost(f.fault->stale);
+  }
   c.faults = std::move(faults);
   return c;
 }
@@ -84,7 +89,8 @@ Candidate PictureSearch::judged(std::vector<NamedFault> faults, bool all) const 
 /// Every fault beside those that are supposed, by a first look, the best first.
 std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
   const std::vector<const PictureFault*> rows = all_faults();
-  const PictureSupposition base = supposed(faults);
+  PictureSupposition base = supposed(faults);
+  if (base.known == nullptr) base.known = std::make_shared<KnownPixels>();
   std::vector<std::vector<Candidate>> found(rows.size());
   parallel_for(int(rows.size()), 0, [&](int i) {
     const PictureFault& fault = *rows[size_t(i)];
@@ -94,7 +100,9 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
     for (const double parameter : likely_parameters(picture_, base, fault, picture_.few(), off_few_)) {
       std::vector<NamedFault> together(faults.begin(), faults.end());
       together.push_back({&fault, parameter});
-      found[size_t(i)].push_back(judged(std::move(together), false));
+      PictureSupposition both = base;
+      both.suppose(fault, parameter);
+      found[size_t(i)].push_back(judged(std::move(together), both, false));
     }
   });
   std::vector<Candidate> candidates;
@@ -193,7 +201,8 @@ std::vector<Finding> PictureSearch::look() const {
   };
   std::vector<Finding> findings;
   const Candidate& best = singles.front();
-  if (!pairs.empty() && pairs.front().cost < kPairGain * best.cost && explains(pairs.front())) {
+  if (!pairs.empty() && pairs.front().cost < std::min(kPairGain * best.cost, best.cost - kLeastGain) &&
+      explains(pairs.front())) {
     for (size_t i = 0; i < 2; ++i) findings.push_back(finding(pairs.front(), i));
     return findings;
   }

@@ -73,7 +73,7 @@ std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, co
 }
 
 /// What a plane shows at a pixel: from where its content came, encoded.
-ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, int x, int y) const {
+ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const {
   PlaneMove move;
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->move != nullptr && (f.fault->plane == plane || f.fault->plane == Plane::all))
@@ -81,6 +81,11 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
   x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
   ExpectedPixel p =
       supposed.drawn->at(move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y);
+  if (after && plane == Plane::albedo)
+    for (PlaneValues* v : {&p.value, &p.low, &p.high})
+      for (int k = 0; k < 4; ++k)
+        v->albedo[size_t(k)] =
+            std::nearbyint(stored(plane, v->albedo[size_t(k)], k)) / views_[size_t(plane)].layout.largest_code(k);
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->change != nullptr && f.fault->plane == plane)
       for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter);
@@ -125,14 +130,20 @@ std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& suppose
     double reach = 0;
     for (const NamedPlaneFault& f : supposed.faults)
       if (f.fault->plane == Plane(i)) reach = std::max(reach, f.fault->reach);
-    const ExpectedPixel p = moved ? changed(supposed, Plane(i), x, y) : plain;
-    for (int k = 0; k < views_[i].channels; ++k) off[i] = std::max(off[i], channel_off(Plane(i), p, reach, x, y, k));
+    const auto off_by = [&](const ExpectedPixel& p) {
+      double most = 0;
+      for (int k = 0; k < views_[i].channels; ++k) most = std::max(most, channel_off(Plane(i), p, reach, x, y, k));
+      return most;
+    };
+    off[i] = off_by(moved ? changed(supposed, Plane(i), x, y, false) : plain);
+    if (moved && off[i] >= kSameSteps && Plane(i) == Plane::albedo && views_[i].unorm())
+      off[i] = std::min(off[i], off_by(changed(supposed, Plane(i), x, y, true)));
   }
   return off;
 }
 
 double PlaneCase::predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const {
-  const double v = stored(plane, number_of(changed(supposed, plane, x, y).value, plane, channel), channel);
+  const double v = stored(plane, number_of(changed(supposed, plane, x, y, false).value, plane, channel), channel);
   return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
 }
 

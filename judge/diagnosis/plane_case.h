@@ -40,7 +40,8 @@ class PlaneCase {
   std::shared_ptr<const ExpectedPlanes> expected() const { return right_; }
 
  private:
-  ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y) const;
+  /// `after`: the fault comes after the plane's format has rounded its numbers.
+  ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
   double channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const;
   double stored(Plane plane, double value, int channel) const;
 

@@ -14,6 +14,7 @@ namespace {
 using Search = PlaneFault::Search;
 
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
+constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
 constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
 
@@ -142,7 +143,9 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
     }
   };
   tries(plane_faults());
-  if (redraw) tries(redraw_faults());
+  // Drawing again costs far more than encoding otherwise, and nobody does it for planes that are explained.
+  const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
+  if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) tries(redraw_faults());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   return candidates;
@@ -154,7 +157,7 @@ std::vector<Candidate> PlaneSearch::look() const {
   std::vector<Candidate> singles = beside(planes_.right(), redraw);
   if (singles.empty()) return {};
   std::vector<Candidate> pairs;
-  if (singles.front().cost > 0.03)
+  if (singles.front().cost > kExplained)
     for (size_t i = 0; i < std::min(kFirstOfPairs, singles.size()); ++i) {
       std::vector<Candidate> both = beside(singles[i].supposed, redraw && i == 0);
       both.resize(std::min<size_t>(both.size(), 2));

@@ -121,6 +121,12 @@ TEST_CASE("What is supposed is tried alone, and names that are no fault's are re
   CHECK(wrong[0].explained < 0.1);
   CHECK(right[0].proof.predicted == right[0].proof.given);
   CHECK(right[0].proof.right != right[0].proof.given);
+  for (const std::string name : {"picture-flip-y", "falloff-other=quadratic"}) {
+    const std::vector<Finding> other = supposed(name);
+    REQUIRE(other.size() == 1);
+    CHECK(other[0].name == name);
+    CHECK(other[0].explained < 0.5);
+  }
   for (const Finding& f : supposed("cull-face=front")) CHECK(f.explained < 0.5);  // of a few pixels at edges
   for (const char* name :
        {"light-intensity", "light-intensity=", "light-intensity=much", "picture-flip-y=1", "no-fault"}) {

@@ -1,11 +1,14 @@
 // Plants every fault in captures of three scenes, and writes what the diagnosis says: a line a try, tab-separated.
 //
 //   diagnosis_rows FILE [PART-OF-A-NAME [VIEWS [STEP]]]
+//   diagnosis_rows FILE --pairs COUNT
 //
-// STEP: of the tries one in so many.
+// STEP: of the tries one in so many. Pairs: two faults at once; the fault is `one + other`, `named first` says whether
+// the first of them is named, `named` whether both are.
 //
 // Fault, scene, preset, strategy, target, variant, view, pixels changed, convicted, named first, named, plane blamed,
 // ms, findings. Made into docs/data/diagnosis.md by scripts/diagnosis_table.sh.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,10 +18,34 @@
 using namespace trueshade;
 using namespace trueshade::testing;
 
+namespace {
+
+void write(FILE* file, const std::string& name, const Ground& ground, int variant, uint64_t changed, bool convicted,
+           bool first, bool named, const PlantedTry& t) {
+  std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%d\t%d\t%llu\t%d\t%d\t%d\t%d\t%.0f\t%s\n", name.c_str(), ground.scene.c_str(),
+               ground.preset.c_str(), std::string(name_of(ground.strategy)).c_str(),
+               std::string(info(ground.target).name).c_str(), variant, ground.view,
+               static_cast<unsigned long long>(changed), int(convicted), int(first), int(named), int(t.blamed), t.ms,
+               t.found.c_str());
+  std::fflush(file);
+}
+
+}  // namespace
+
 int main(int count, char** arguments) {
   if (count < 2) return 2;
   FILE* file = std::fopen(arguments[1], "w");
   if (file == nullptr) return 5;
+  if (count > 3 && std::strcmp(arguments[2], "--pairs") == 0) {
+    int variant = 0;
+    for (const PlantedPair& pair : pairs_of_plants(std::atoi(arguments[3]))) {
+      const PlantedTry t = planted_try(pair.ground, *pair.one, variant++, pair.other);
+      const std::string name = std::string(pair.one->name) + " + " + std::string(pair.other->name);
+      write(file, name, pair.ground, variant - 1, std::min(t.changed, t.both_matter), t.convicted, t.named,
+            t.named && t.second, t);
+    }
+    return std::fclose(file) == 0 ? 0 : 5;
+  }
   const char* part = count > 2 ? arguments[2] : "";
   const int views = count > 3 ? std::atoi(arguments[3]) : 2;
   const int step = count > 4 ? std::atoi(arguments[4]) : 1;
@@ -31,12 +58,7 @@ int main(int count, char** arguments) {
           if (plant.loops_only && blends_lights(ground.strategy)) continue;
           if (tries++ % step != 0) continue;
           const PlantedTry t = planted_try(ground, plant, variant);
-          std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%d\t%d\t%llu\t%d\t%d\t%d\t%d\t%.0f\t%s\n",
-                       std::string(plant.name).c_str(), ground.scene.c_str(), ground.preset.c_str(),
-                       std::string(name_of(ground.strategy)).c_str(), std::string(info(ground.target).name).c_str(),
-                       variant, ground.view, static_cast<unsigned long long>(t.changed), int(t.convicted), int(t.first),
-                       int(t.named), int(t.blamed), t.ms, t.found.c_str());
-          std::fflush(file);
+          write(file, std::string(plant.name), ground, variant, t.changed, t.convicted, t.first, t.named, t);
         }
   }
   return std::fclose(file) == 0 ? 0 : 5;

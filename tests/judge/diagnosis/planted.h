@@ -24,6 +24,7 @@ struct Plant {
   /// What is done to what it drew.
   std::function<void(const Scene&, const Pipeline&, oracle::Capture&, int variant)> output = nullptr;
   bool loops_only = false;
+  bool lights_again = false;  ///< `output` lights the picture anew from its planes: before any other
   /// What right and wrong renderer are both given.
   void (*base)(Scene&, Pipeline&) = nullptr;
 };
@@ -42,10 +43,19 @@ std::vector<Ground> grounds(std::string_view preset, int views);
 struct PlantedTry {
   uint64_t changed = 0;  ///< pixels of the blamed plane by a step of its format
   bool convicted = false, first = false, named = false, blamed = false;
-  bool second = false;  ///< of two faults, the other one is named too
-  double ms = 0;        ///< that the diagnosis took
-  std::string found;    ///< names, ranked
+  bool second = false;       ///< of two faults, the other one is named too
+  uint64_t both_matter = 0;  ///< pixels that the lesser of the two changes beside the other
+  double ms = 0;             ///< that the diagnosis took
+  std::string found;         ///< names, ranked
 };
+
+/// Two faults that can be in one capture.
+struct PlantedPair {
+  const Plant *one = nullptr, *other = nullptr;
+  Ground ground;
+};
+/// So many of them, every fault about as often as the others.
+std::vector<PlantedPair> pairs_of_plants(int count);
 
 /// Plants and judges; `other` may be null.
 PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, const Plant* other = nullptr);

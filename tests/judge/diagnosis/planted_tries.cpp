@@ -1,7 +1,6 @@
+#include <algorithm>
 #include <chrono>
-#include <map>
-#include <memory>
-#include <mutex>
+#include <optional>
 
 #include "judge/diagnosis/finding.h"
 #include "judge/stages/validate.h"
@@ -73,37 +72,80 @@ std::vector<Ground> grounds(std::string_view preset, int views) {
   return all;
 }
 
-PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, const Plant* other) {
-  Scene scene = scene_of(ground);
-  Pipeline pipeline = pipeline_of(ground);
-  for (const Plant* p : {&plant, other})
-    if (p != nullptr && p->base != nullptr) p->base(scene, pipeline);
-  const Capture right = captured(scene, pipeline);
-  PlantedTry out;
+namespace {
+
+/// What a renderer with these faults captures; nothing where one of them changes nothing.
+std::optional<Capture> planted(const Scene& scene, const Pipeline& pipeline, const Capture& right,
+                               std::span<const Plant* const> faults, int variant) {
   Scene wrong_scene = scene;
   Pipeline wrong_pipeline = pipeline;
   bool plain = true;
-  for (const Plant* p : {&plant, other}) {
-    if (p == nullptr || p->input == nullptr) continue;
-    if (!p->input(wrong_scene, wrong_pipeline, variant)) return out;
+  for (const Plant* p : faults) {
+    if (p->input == nullptr) continue;
+    if (!p->input(wrong_scene, wrong_pipeline, variant % p->variants)) return std::nullopt;
     plain = false;
   }
   Capture wrong = plain ? right : captured(wrong_scene, wrong_pipeline);
-  for (const Plant* p : {&plant, other})
-    if (p != nullptr && p->output != nullptr) p->output(wrong_scene, wrong_pipeline, wrong, variant);
-  out.changed = changed_pixels(right, wrong, plant.plane);
+  for (const bool lights_again : {true, false})
+    for (const Plant* p : faults)
+      if (p->output != nullptr && p->lights_again == lights_again)
+        p->output(wrong_scene, wrong_pipeline, wrong, variant % p->variants);
+  return wrong;
+}
+
+}  // namespace
+
+std::vector<PlantedPair> pairs_of_plants(int count) {
+  const std::span<const Plant> all = plants();
+  std::vector<PlantedPair> pairs;
+  for (size_t i = 0; int(pairs.size()) < count; ++i) {
+    const Plant &one = all[i % all.size()], &other = all[(i * 17 + 11 + i / all.size() * 5) % all.size()];
+    if (&one == &other || (one.lights_again && other.lights_again)) continue;
+    std::string_view preset;
+    for (const std::string_view p : one.presets)
+      if (std::find(other.presets.begin(), other.presets.end(), p) != other.presets.end()) preset = p;
+    if (preset.empty()) continue;
+    const std::vector<Ground> on = grounds(preset, 1);
+    const Ground& ground = on[(i * 5) % on.size()];
+    if ((one.loops_only || other.loops_only) && blends_lights(ground.strategy)) continue;
+    pairs.push_back({&one, &other, ground});
+  }
+  return pairs;
+}
+
+PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, const Plant* other) {
+  Scene scene = scene_of(ground);
+  Pipeline pipeline = pipeline_of(ground);
+  std::vector<const Plant*> faults = {&plant};
+  if (other != nullptr) faults.push_back(other);
+  for (const Plant* p : faults)
+    if (p->base != nullptr) p->base(scene, pipeline);
+  const Capture right = captured(scene, pipeline);
+  PlantedTry out;
+  const std::optional<Capture> wrong = planted(scene, pipeline, right, faults, variant);
+  if (!wrong) return out;
+  out.changed = changed_pixels(right, *wrong, plant.plane);
+  if (other != nullptr) {  // what each adds to the other
+    const std::optional<Capture> one = planted(scene, pipeline, right, {&faults[0], 1}, variant),
+                                 two = planted(scene, pipeline, right, {&faults[1], 1}, variant);
+    if (!one || !two) return out;
+    out.both_matter = std::min(changed_pixels(*one, *wrong, other->plane), changed_pixels(*two, *wrong, plant.plane));
+    if (out.both_matter < 100) return out;
+  }
   if (out.changed < 100) return out;
   Profile profile;
   profile.subpixel_bits = 8;
-  const Verdict verdict = validate_capture(scene, pipeline, wrong, {profile, false, {}, {}});
+  const Verdict verdict = validate_capture(scene, pipeline, *wrong, {profile, false, {}, {}});
   out.convicted = verdict.violations() > 0 || verdict.convicted();
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Finding> findings = diagnose(scene, pipeline, profile, wrong, verdict.stages);
+  const std::vector<Finding> findings = diagnose(scene, pipeline, profile, *wrong, verdict.stages);
   out.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (size_t i = 0; i < findings.size(); ++i) {
     out.found += (i > 0 ? " " : "") + findings[i].name;
-    if (says(findings[i], plant))
-      out.named = true, out.first = out.first || i == 0, out.blamed = findings[i].plane == plant.plane;
+    if (says(findings[i], plant)) {
+      out.named = true, out.first = out.first || i == 0;
+      out.blamed = out.blamed || findings[i].plane == plant.plane;
+    }
     if (other != nullptr && says(findings[i], *other)) out.second = true;
   }
   return out;

@@ -91,6 +91,10 @@ std::vector<Plant> made() {
   const auto out = [&](std::string_view name, Names names, Output output, int variants = 1, Names presets = kModels) {
     all.push_back({name, std::move(names), "picture", std::move(presets), variants, nullptr, std::move(output)});
   };
+  const auto slip = [&](std::string_view name, Names names, Output output, int variants = 1, Names presets = kModels) {
+    out(name, std::move(names), std::move(output), variants, std::move(presets));
+    all.back().lights_again = true;
+  };
   const auto in = [&](std::string_view name, Names names, Input input, int variants = 1, Names presets = kModels) {
     all.push_back({name, std::move(names), "picture", std::move(presets), variants, std::move(input)});
   };
@@ -123,7 +127,7 @@ std::vector<Plant> made() {
         for (int k = 0; k < 3; ++k) c[size_t(k)] = std::pow(std::max(0.0, c[size_t(k)]), v == 0 ? 1 / 2.2 : 1 / 1.8);
       }),
       2);
-  out("premultiplied alpha", {"picture-premultiplied"}, slipped(LightSlip::premultiplied), 1, {"touchdesigner"});
+  slip("premultiplied alpha", {"picture-premultiplied"}, slipped(LightSlip::premultiplied), 1, {"touchdesigner"});
   all.back().loops_only = true;
   all.back().base = [](Scene& s, Pipeline&) {
     for (Material& m : s.materials) m.base_color.a = 0.6f;
@@ -132,8 +136,8 @@ std::vector<Plant> made() {
         for (int k = 0; k < 3; ++k) c[size_t(k)] *= pick({0.5f, 0.9f, 1.02f, 1.25f}, v);
       }),
       4);
-  out("truncating stores", {"store-truncated"}, slipped(LightSlip::truncated_stores));
-  out("dithering", {"picture-dithered"}, slipped(LightSlip::dithered), 2);
+  slip("truncating stores", {"store-truncated"}, slipped(LightSlip::truncated_stores));
+  slip("dithering", {"picture-dithered"}, slipped(LightSlip::dithered), 2);
   all.back().loops_only = true;
   in("intensity a little off", {"light-intensity", "picture-exposure"}, lamps([](Light& l, int v) {
        l.color *= pick({0.99f, 0.98f, 1.01f, 1.05f}, v);
@@ -154,29 +158,30 @@ std::vector<Plant> made() {
      2);
   in("light z mirrored", {"light-mirrored-z"}, lamps([](Light& l, int) { l.position.z = -l.position.z; }));
   in("light colours as BGR", {"light-colors-bgr"}, lamps([](Light& l, int) { std::swap(l.color.x, l.color.z); }));
-  out("d for d^2", {"falloff-distance-once"}, slipped(LightSlip::distance_once), 2, {"touchdesigner", "punctual"});
-  out("d^2 for d", {"falloff-distance-squared"}, slipped(LightSlip::distance_squared), 2,
-      {"many-lights", "touchdesigner"});
+  slip("d for d^2", {"falloff-distance-once"}, slipped(LightSlip::distance_once), 2, {"touchdesigner", "punctual"});
+  slip("d^2 for d", {"falloff-distance-squared"}, slipped(LightSlip::distance_squared), 2,
+       {"many-lights", "touchdesigner"});
   in("another falloff", {"falloff-other"}, model([](LightModel& m, int v) {
        m.falloff = m.falloff == Falloff::linear_range ? (v == 0 ? Falloff::quadratic : Falloff::inverse_square)
                                                       : (v == 0 ? Falloff::linear_range : Falloff::none);
      }),
      2, kShiny);
-  out("half vector without the viewer's sign", {"half-vector-viewer"}, slipped(LightSlip::half_without_viewer), 1,
-      kShiny);
-  out("half vector without the light's sign", {"half-vector-light"}, slipped(LightSlip::half_without_light), 1, kShiny);
-  out("R.V for N.H", {"specular-reflected"}, slipped(LightSlip::reflection), 1, kShiny);
-  out("unmasked specular, or masked", {"specular-mask"}, slipped(LightSlip::highlight_mask), 1, kShiny);
-  in("no highlight", {"specular-missing", "specular-factor"},
+  slip("half vector without the viewer's sign", {"half-vector-viewer"}, slipped(LightSlip::half_without_viewer), 1,
+       kShiny);
+  slip("half vector without the light's sign", {"half-vector-light", "specular-missing"},
+       slipped(LightSlip::half_without_light), 1, kShiny);
+  slip("R.V for N.H", {"specular-reflected"}, slipped(LightSlip::reflection), 1, kShiny);
+  slip("unmasked specular, or masked", {"specular-mask"}, slipped(LightSlip::highlight_mask), 1, kShiny);
+  in("no highlight", {"specular-missing", "specular-factor", "half-vector-light"},
      model([](LightModel& m, int) { m.specular = Specular::none; }), 1, kShiny);
   in("shininess off", {"shininess"}, model([](LightModel& m, int v) {
        m.shininess *= pick({0.5f, 0.25f, 2.0f}, v);
      }),
      3, kShiny);
-  out("normals not normalised", {"lighting-normal-length"}, slipped(LightSlip::normals_raw), 1, kShiny);
-  out("normals of 8 bits", {"lighting-normal-rounded"}, slipped(LightSlip::normals_of_8_bits), 1, kShiny);
-  out("normals in view space", {"lighting-normal-in-view"}, slipped(LightSlip::normals_in_view), 1, kShiny);
-  out("N.L by its magnitude", {"diffuse-two-sided"}, slipped(LightSlip::two_sided), 1, kShiny);
+  slip("normals not normalised", {"lighting-normal-length"}, slipped(LightSlip::normals_raw), 1, kShiny);
+  slip("normals of 8 bits", {"lighting-normal-rounded"}, slipped(LightSlip::normals_of_8_bits), 1, kShiny);
+  slip("normals in view space", {"lighting-normal-in-view"}, slipped(LightSlip::normals_in_view), 1, kShiny);
+  slip("N.L by its magnitude", {"diffuse-two-sided"}, slipped(LightSlip::two_sided), 1, kShiny);
   in(
       "a light missing", {"light-missing"},
       [](Scene& s, Pipeline&, int v) {
@@ -204,21 +209,21 @@ std::vector<Plant> made() {
         return true;
       },
       3);
-  out("lights at a pixel capped", {"light-count-pixel", "light-count"}, slipped(LightSlip::most_at_pixel, {2, 4, 8}),
-      3);
+  slip("lights at a pixel capped", {"light-count-pixel", "light-count"}, slipped(LightSlip::most_at_pixel, {2, 4, 8}),
+       3);
   in("lights out of order", {"light-order"}, [](Scene& s, Pipeline&, int) {
     std::reverse(s.lights.begin(), s.lights.end());
     return true;
   });
-  out("tiles with their neighbours' lists", {"tile-lists-16"}, slipped(LightSlip::shifted_tiles), 2);
-  out("a stale tile", {"tile-stale-16"}, slipped(LightSlip::stale_tile), 2);
-  out(
+  slip("tiles with their neighbours' lists", {"tile-lists-16"}, slipped(LightSlip::shifted_tiles), 2);
+  slip("a stale tile", {"tile-stale-16"}, slipped(LightSlip::stale_tile), 2);
+  slip(
       "estimated roots", {"root-newton", "root-12-bits"},
       [](const Scene& s, const Pipeline& p, Capture& c, int v) {
         c.color = slipped_picture(s, p, c, v == 0 ? LightSlip::quake_root : LightSlip::short_root);
       },
       2, kShiny);
-  out("half-precision sums", {"sum-halves"}, slipped(LightSlip::half_sums), 2, kShiny);
+  slip("half-precision sums", {"sum-halves"}, slipped(LightSlip::half_sums), 2, kShiny);
   all.back().loops_only = true;
   return all;
 }

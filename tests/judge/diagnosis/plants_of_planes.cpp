@@ -306,13 +306,14 @@ std::vector<Plant> made_planes() {
     for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(i % 4 == 0 ? -m[i] : m[i]);
     return true;
   });
-  in("the other range of clip depth", {"clip-depth"}, [](Scene& s, Pipeline& p, int) {
+  in("the other range of clip depth", {"clip-depth", "depth-ndc"}, [](Scene& s, Pipeline& p, int) {
     const Matrix4 m = clip_from_world(s.camera, double(p.width) / p.height);
     s.camera.clip_from_world.emplace();
     for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(m[i]);
     p.geometry.clip_depth = ClipDepth::zero_to_one;
     return true;
   });
+  all.back().plane = "depth";  // where nothing is nearer than the middle of the range, it is the depths alone
   in(
       "another texture filter", {"texture-filter", "texture-lod-bias"},
       [](Scene& s, Pipeline&, int v) {
