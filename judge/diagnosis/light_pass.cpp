@@ -355,12 +355,12 @@ double value_of_stored(Format target, double stored, int channel) {
 
 PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface, const std::vector<uint8_t>* listed,
                                std::vector<TracedLight>* trace) {
-  const Texels texels(pass.pipeline, pass.fault.store);
+  const Texels texels(pass.pipeline, pass.fault.store), cleared(pass.pipeline, LightFault::Store::right);
   PredictedPixel out;
   if (!surface.covered) {
     for (int k = 0; k < 4; ++k) {
       out.value[size_t(k)] = double(pass.clear[k]);
-      out.stored[size_t(k)] = texels.stored(double(pass.clear[k]), k);
+      out.stored[size_t(k)] = cleared.stored(double(pass.clear[k]), k);
     }
     return out;
   }
@@ -392,7 +392,7 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
     return out;
   }
   const bool multipass = strategy == Strategy::forward_multipass;
-  for (int k = 0; k < 4; ++k) out.stored[size_t(k)] = texels.stored(double(pass.clear[k]), k);
+  for (int k = 0; k < 4; ++k) out.stored[size_t(k)] = cleared.stored(double(pass.clear[k]), k);
   bool first = multipass;
   if (!multipass && pass.pipeline.light_volumes.base) {
     const Triple3 start = colored(sum);
