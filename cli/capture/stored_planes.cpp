@@ -11,6 +11,7 @@
 #include "core/half.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
+#include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {
@@ -120,16 +121,25 @@ Image converted(const std::string& where, const std::string& name, const Image& 
     throw bad_capture(where, name + " is stored as half, and the pipeline's as " + std::string(info(wanted).name),
                       "write it as float, or name half formats in --pipeline");
   Image image(given.width, given.height, format);
-  for (int y = 0; y < given.height; ++y)
-    for (int x = 0; x < given.width; ++x) {
-      const double last = pads_normal && untouched(given, x, y) ? 0.0 : 1.0;  // w of what is drawn is 1
+  const auto value_at = [&](int x, int y, int k) {
+    if (k < from.channels) return given.value(x, y, k);
+    if (k < 3) return 0.0;
+    return pads_normal && untouched(given, x, y) ? 0.0 : 1.0;  // w of what is drawn is 1
+  };
+  std::vector<std::array<int, 2>> unheld(size_t(given.height), {-1, 0});  // the first x and channel of each row
+  parallel_for(given.height, 0, [&](int y) {
+    for (int x = 0; x < given.width; ++x)
       for (int k = 0; k < to.channels; ++k) {
-        const double value = k < from.channels ? given.value(x, y, k) : k == 3 ? last : 0.0;
-        const std::optional<uint32_t> bits = bits_of(value, to, k, from);
-        if (!bits) throw unheld_value(where, name + " at " + std::to_string(x) + ',' + std::to_string(y), value, to);
-        image.set_code(x, y, k, *bits);
+        const std::optional<uint32_t> bits = bits_of(value_at(x, y, k), to, k, from);
+        if (bits)
+          image.set_code(x, y, k, *bits);
+        else if (unheld[size_t(y)][0] < 0)
+          unheld[size_t(y)] = {x, k};
       }
-    }
+  });
+  for (int y = 0; y < given.height; ++y)
+    if (const auto [x, k] = unheld[size_t(y)]; x >= 0)
+      throw unheld_value(where, name + " at " + std::to_string(x) + ',' + std::to_string(y), value_at(x, y, k), to);
   return image;
 }
 

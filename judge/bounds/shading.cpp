@@ -1,5 +1,8 @@
 #include "judge/bounds/shading.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "judge/bounds/light_term.h"
 
 namespace trueshade::oracle {
@@ -103,18 +106,35 @@ LightBounds::LightBounds(const Scene& scene, const LightModel& model, const std:
   columns_.pad();
 }
 
-LitRange LightBounds::at(const ShadedSurface& surface) const {
+void LightBounds::take_near(const std::array<Span, 3>& box, LightColumns& near) const {
+  constexpr double kRoom = 1 + 0x1p-8;  // for all that rounding may move a distance
+  const Falloff falloff = model_.falloff;
+  const bool ends = lanes_.extents || falloff == Falloff::linear_range || falloff == Falloff::inverse_square;
+  std::vector<uint32_t> places;
+  for (size_t i = 0; i < columns_.count; ++i) {
+    double square = 0, size = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const double p = columns_.position[k][i], off = std::max({box[k].low - p, p - box[k].high, 0.0});
+      square += off * off, size = std::max({size, std::fabs(box[k].low), std::fabs(box[k].high), std::fabs(p)});
+    }
+    const double reach = columns_.range[i] * kRoom + size * 0x1p-16;
+    if (!(ends && square > reach * reach)) places.push_back(uint32_t(i));
+  }
+  near.take(columns_, places);
+}
+
+LitRange LightBounds::at(const ShadedSurface& surface, const LightColumns& near) const {
   const LightSum term(surface, scene_, model_, view_axis_, arithmetic_, exact_, volumes_);
   LanePixel pixel;
   if (columns_.count == 0 || !term.for_lanes(pixel)) return one_by_one(surface);
   Total total;
   total.start(term);
   LaneSums sums;
-  judge_lanes(columns_, lanes_, pixel, sums);
+  judge_lanes(near, lanes_, pixel, sums);
   total.add(sums);
   for (const uint32_t i : others_) total.add(scene_.lights[i], term(scene_.lights[i]));
   for (const uint32_t at : sums.left) {
-    const Light& light = scene_.lights[columns_.index[at]];
+    const Light& light = scene_.lights[near.index[at]];
     total.add(light, term(light));
   }
   return total.finished(surface, model_, arithmetic_);

@@ -50,6 +50,10 @@ struct LitApart {
 /// A cone whose cosine may lie on either side of its edge counts as either branch. Not clamped to [0, 1].
 class LightBounds {
  public:
+  struct Span {
+    double low, high;
+  };
+
   ///   view_axis: of the pipeline's camera, where the model's viewer is infinite
   ///   volumes: a light whose extent is bounded has no term from its range on
   ///   exact: normalize(0) = 0 and 0^0 = 1 are promised, not undefined
@@ -57,7 +61,12 @@ class LightBounds {
               const Arithmetic& arithmetic, bool exact, const LightVolumes& volumes = {});
 
   /// Lights in lanes where the model lets them (light_lanes.h), the others one by one.
-  LitRange at(const ShadedSurface& surface) const;
+  LitRange at(const ShadedSurface& surface) const { return at(surface, columns_); }
+
+  /// Of the lights in lanes those that may reach a surface whose position is in the box. Sums of these alone are the
+  /// same: a light that ends at its range adds nothing beyond.
+  void take_near(const std::array<Span, 3>& box, LightColumns& near) const;
+  LitRange at(const ShadedSurface& surface, const LightColumns& near) const;
 
   /// All one by one, every error carried operation by operation. The same lights, branches and counts; bounds of at()
   /// are no smaller, and less than 1.1 times as large.

@@ -202,6 +202,24 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   return {m.value * factor + r.value * units, low(m, factor) + low(r, units), high(m, factor) + high(r, units)};
 }
 
+SurfacePoint::Divisors SurfacePoint::divisors_of(bool smooth) const {
+  Divisors out;
+  std::array<double, 3> u{};
+  for (size_t i = 0; i < 3; ++i) u[i] = piece_.v[i].u;
+  for (size_t k = 0; k < size_t(points_); ++k) {
+    double d = 0, u_moves = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      d += lambda_[k][i] * (smooth ? u[i] : 1);
+      if (smooth) u_moves += std::fabs(lambda_[k][i]) * piece_.v[i].u_error;
+    }
+    out.above_zero = out.above_zero && d - u_moves > 0;
+    out.value[k] = d, out.moves[k] = u_moves;
+    out.least = std::min(out.least, d - u_moves);
+  }
+  out.error = plane_error(u);
+  return out;
+}
+
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
@@ -213,19 +231,19 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
   const bool smooth = interpolation == Interpolation::smooth;
   if (!smooth && !profile_.exact_planes) return affine(value, error);
 
+  if (smooth && !smooth_) smooth_ = divisors_of(true);
+  const Divisors divisors = smooth ? *smooth_ : divisors_of(false);
+  if (!divisors.above_zero) return kAnyValue;
   Range r;
-  double inherited = 0, least_divisor = HUGE_VAL, u_scale = 0;
-  for (const WindowVertex& p : piece_.v) u_scale = std::max(u_scale, p.u);
+  double inherited = 0;
   for (size_t k = 0; k < size_t(points_); ++k) {
-    double n = 0, d = 0, carried = 0, u_moves = 0;
+    double n = 0, carried = 0;
     for (size_t i = 0; i < 3; ++i) {
       const double u = smooth ? piece_.v[i].u : 1;
       n += lambda_[k][i] * u * (value[i] - value[0]);
-      d += lambda_[k][i] * u;
       carried += std::fabs(lambda_[k][i]) * u * error[i];
-      if (smooth) u_moves += std::fabs(lambda_[k][i]) * piece_.v[i].u_error;
     }
-    if (!(d - u_moves > 0)) return kAnyValue;
+    const double d = divisors.value[k], u_moves = divisors.moves[k];
     const double at = value[0] + n / d;
     double moved = carried;
     if (smooth)
@@ -233,16 +251,15 @@ Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::arr
     if (k == 0) r = {at, at, at};
     r.low = std::min(r.low, at), r.high = std::max(r.high, at);
     inherited = std::max(inherited, moved / (d - u_moves));
-    least_divisor = std::min(least_divisor, d - u_moves);
   }
   const double largest = std::max(std::fabs(low), std::fabs(high));
   if (profile_.exact_planes) {
     const double ulp = low == high ? 0 : float_spacing(largest);
     return {std::clamp(r.value, low, high), std::max(low, r.value - ulp), std::min(high, r.value + ulp)};
   }
-  std::array<double, 3> n{}, u{};
-  for (size_t i = 0; i < 3; ++i) u[i] = piece_.v[i].u, n[i] = value[i] * u[i];
-  const double d_error = plane_error(u);
+  std::array<double, 3> n{};
+  for (size_t i = 0; i < 3; ++i) n[i] = value[i] * piece_.v[i].u;
+  const double d_error = divisors.error, least_divisor = divisors.least;
   if (!(least_divisor - d_error > 0)) return kAnyValue;
   const double v = profile_.arithmetic.roundoff;
   double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) +

@@ -2,10 +2,12 @@
 // What a piece's planes may give at a sample: depth and attributes as ranges (docs/gl_rules.md section 9, "plane
 // origin").
 #include <array>
+#include <cmath>
 #include <memory>
+#include <optional>
 
-#include "judge/legal/store.h"
 #include "judge/bounds/window.h"
+#include "judge/legal/store.h"
 #include "oracle/scalar_renderer.h"
 
 namespace trueshade::oracle {
@@ -61,6 +63,14 @@ class SurfacePoint {
   double plane_error(const std::array<double, 3>& vertex) const;
   Range affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const;
 
+  /// What attributes are divided by, at each of the points: the same for all that are interpolated alike.
+  struct Divisors {
+    bool above_zero = true;
+    std::array<double, 5> value{}, moves{};
+    double least = HUGE_VAL, error = 0;
+  };
+  Divisors divisors_of(bool smooth) const;
+
   const Piece& piece_;
   const Profile& profile_;
   bool bounded_ = true;
@@ -72,6 +82,7 @@ class SurfacePoint {
   std::array<double, 3> dx_{}, dy_{};              ///< their gradients, 1/pixel
   const Pair window_reach_;                        ///< X, Y
   double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
+  mutable std::optional<Divisors> smooth_;  ///< once asked for
 };
 
 /// Attributes of the vertices of a triangle as floats and how far a legal vertex shader may be off.

@@ -32,14 +32,31 @@ class LightingJudge {
       layers_.emplace(scene, pipeline, profile, capture);
   }
 
-  void judge_row(int y, RowTally& row) const {
-    for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y, row);
+  /// Rows from y on, tile by tile: pixels that are near each other have few lights.
+  void judge_rows(int y, int end, std::vector<RowTally>& rows) const {
+    Tile tile;
+    for (int x = 0; x < pipeline_.width; x += kTile) {
+      look_at(x, y, std::min(x + kTile, pipeline_.width), end, tile);
+      for (int row = y; row < end; ++row)
+        for (int column = x; column < tile.x1; ++column) judge_pixel(column, row, tile, rows[size_t(row)]);
+    }
   }
 
+  static constexpr int kTile = 16;
+
  private:
+  /// The surfaces of some pixels, and the lights that may reach one of them.
+  struct Tile {
+    int x0 = 0, y0 = 0, x1 = 0;
+    std::vector<ShadedSurface> surfaces;  ///< row by row; of pixels without one any
+    LightColumns near;
+    const ShadedSurface& at(int x, int y) const { return surfaces[size_t((y - y0) * (x1 - x0) + x - x0)]; }
+  };
+
+  void look_at(int x0, int y0, int x1, int y1, Tile& tile) const;
   uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
   bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
-  void judge_pixel(int x, int y, RowTally& row) const;
+  void judge_pixel(int x, int y, const Tile& tile, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
   void judge_layered(int x, int y, RowTally& row) const;
   bool count_is(const LitRange& lit, int x, int y, Match& m) const;
@@ -123,12 +140,32 @@ void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
            m, "nothing drawn");
 }
 
-void LightingJudge::judge_pixel(int x, int y, RowTally& row) const {
+void LightingJudge::look_at(int x0, int y0, int x1, int y1, Tile& tile) const {
+  tile.x0 = x0, tile.y0 = y0, tile.x1 = x1;
+  tile.surfaces.resize(size_t(x1 - x0) * size_t(y1 - y0));
+  std::array<LightBounds::Span, 3> box;
+  box.fill({HUGE_VAL, -HUGE_VAL});
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      if (!surface_.covered(x, y)) continue;
+      ShadedSurface& surface = tile.surfaces[size_t((y - y0) * (x1 - x0) + x - x0)];
+      surface = surface_.at(x, y);
+      for (size_t k = 0; k < 3; ++k) {
+        const double low = surface.position[k].low(), high = surface.position[k].high();
+        const bool is_known = std::isfinite(low) && std::isfinite(high);
+        box[k].low = is_known ? std::min(box[k].low, low) : -HUGE_VAL;
+        box[k].high = is_known ? std::max(box[k].high, high) : HUGE_VAL;
+      }
+    }
+  lights_.take_near(box, tile.near);
+}
+
+void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) const {
   if (layers_ && layers_->any(x, y)) return judge_layered(x, y, row);
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
-  const ShadedSurface surface = surface_.at(x, y);
-  const LitRange lit = lights_.at(surface);
+  const ShadedSurface& surface = tile.at(x, y);
+  const LitRange lit = lights_.at(surface, tile.near);
   if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(pixel_at(x, y), pixel_at(x, y), 0.5);
   Match nominal;
@@ -175,7 +212,9 @@ StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const 
   const Profile p = resolved(profile, pipeline);
   const LightingJudge judge(scene, pipeline, p, capture);
   std::vector<RowTally> rows(size_t(pipeline.height));
-  parallel_for(pipeline.height, 0, [&](int y) { judge.judge_row(y, rows[size_t(y)]); });
+  constexpr int kRows = LightingJudge::kTile;
+  parallel_for((pipeline.height + kRows - 1) / kRows, 0,
+               [&](int i) { judge.judge_rows(i * kRows, std::min((i + 1) * kRows, pipeline.height), rows); });
   return verdict_of("lighting", p, pipeline.width, pipeline.height, rows);
 }
 

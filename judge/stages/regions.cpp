@@ -1,8 +1,13 @@
 #include "judge/stages/regions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <tuple>
+
+#include "core/threads/parallel_for.h"
 
 namespace trueshade::oracle {
 
@@ -66,11 +71,15 @@ AggregateTest least_likely_region(const char* name, double least_share, std::vec
                       {"64x64", 64, 64},
                       {"half", half_width, height},
                       {"half", width, half_height}};
-  AggregateTest least{name, 0, 0, 0, 1};
-  std::vector<Placed> placed(choices.size());
-  double regions_tried = 0;
-  for (const Cut& cut : cuts) {
-    if (cut.width >= width && cut.height >= height) continue;
+  constexpr size_t kCuts = std::size(cuts);
+  std::array<AggregateTest, kCuts> rarest;
+  std::array<double, kCuts> tried{};
+  rarest.fill({name, 0, 0, 0, 1});
+  parallel_for(int(kCuts), 0, [&](int c) {
+    const Cut& cut = cuts[c];
+    if (cut.width >= width && cut.height >= height) return;
+    AggregateTest& least = rarest[size_t(c)];
+    std::vector<Placed> placed(choices.size());
     const auto across = uint32_t((width + cut.width - 1) / cut.width),
                down = uint32_t((height + cut.height - 1) / cut.height);
     for (size_t i = 0; i < choices.size(); ++i) {
@@ -83,7 +92,7 @@ AggregateTest least_likely_region(const char* name, double least_share, std::vec
     for (size_t i = 0; i < sums.size(); ++i) {
       const Sums& s = sums[i];
       if (s.other == 0 && s.expected == 0) continue;
-      ++regions_tried;
+      ++tried[size_t(c)];
       const double outside = all.expected - s.expected, seen = with_room(all.other - s.other);
       const double share = outside > seen ? std::max(least_share, seen / outside) : 1;
       const double most = share * s.expected;
@@ -92,8 +101,10 @@ AggregateTest least_likely_region(const char* name, double least_share, std::vec
       least.chance = chance, least.observed = s.other, least.high = most;
       least.where = place(cut, int(i % across) * cut.width, int(i / across) * cut.height);
     }
-  }
-  least.chance = std::min(1.0, least.chance * std::max(1.0, regions_tried));
+  });
+  AggregateTest least =
+      *std::min_element(rarest.begin(), rarest.end(), [](const auto& a, const auto& b) { return a.chance < b.chance; });
+  least.chance = std::min(1.0, least.chance * std::max(1.0, std::accumulate(tried.begin(), tried.end(), 0.0)));
   return least;
 }
 
