@@ -36,6 +36,15 @@ ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
+LoopProgress::LoopProgress(std::string_view what, std::string_view unit)
+    : what_(what), unit_(unit), watch_([this](int done, int count) { see(done, count); }) {}
+
+void LoopProgress::see(int done, int count) {
+  if (!bar_ || done < last_) bar_.emplace(what_, unit_);
+  last_ = done;
+  bar_->show(done, count);
+}
+
 void ProgressBar::show(int done, int total) {
   const Clock::time_point now = Clock::now();
   if (!terminal_ || seconds(now - begin_) < kQuietSeconds || seconds(now - shown_) < kRedrawSeconds) return;

@@ -1,7 +1,10 @@
 #pragma once
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "core/threads/loop_watch.h"
 
 namespace trueshade {
 
@@ -22,6 +25,19 @@ class ProgressBar {
   std::string what_, unit_;
   Clock::time_point begin_, shown_;
   bool terminal_, drawn_ = false;
+};
+
+/// For its lifetime shows how far each parallel_for() of this thread is.
+class LoopProgress {
+ public:
+  LoopProgress(std::string_view what, std::string_view unit);
+
+ private:
+  void see(int done, int count);
+  std::string what_, unit_;
+  std::optional<ProgressBar> bar_;  ///< of the loop at hand
+  int last_ = 0;                    ///< of its tasks
+  LoopWatch watch_;
 };
 
 /// The line for `done` of `total` after `seconds`, without control characters.

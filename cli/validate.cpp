@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
 #include "cli/preparation.h"
+#include "cli/progress_bar.h"
 #include "cli/validation.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
@@ -121,6 +122,7 @@ bool judge_opengl(const ValidationOptions& options) {
   files.reset();
   for (const std::string& path : options.saved) save(v.capture, path);
   v.judge_ms = timed([&] {
+    const LoopProgress progress("judging", "bands");
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
                                          {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance});
   });

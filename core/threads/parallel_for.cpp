@@ -1,10 +1,12 @@
 #include "core/threads/parallel_for.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
 #include "core/fp_env.h"
+#include "core/threads/loop_watch.h"
 #include "core/threads/thread_pool.h"
 
 namespace trueshade {
@@ -16,16 +18,44 @@ int thread_count(int requested) {
 
 namespace {
 thread_local LoopTimes* current = nullptr;
-}
+thread_local LoopWatch* watching = nullptr;
+}  // namespace
+
+LoopWatch::LoopWatch(std::function<void(int, int)> see) : see_(std::move(see)), outer_(std::exchange(watching, this)) {}
+LoopWatch::~LoopWatch() { watching = outer_; }
+
+/// One loop, told of by the thread that called it. Loops inside it are not.
+class WatchedLoop {
+ public:
+  explicit WatchedLoop(int count) : watch_(std::exchange(watching, nullptr)), count_(count) {}
+  ~WatchedLoop() { watching = watch_; }
+  WatchedLoop(const WatchedLoop&) = delete;
+  WatchedLoop& operator=(const WatchedLoop&) = delete;
+  void task_done() {
+    if (watch_ == nullptr) return;
+    const int done = ++done_;
+    if (std::this_thread::get_id() == caller_) watch_->see_(done, count_);
+  }
+
+ private:
+  LoopWatch* const watch_;
+  const int count_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  std::atomic<int> done_{0};
+};
 
 LoopTimes::LoopTimes() : outer_(std::exchange(current, this)) {}
 LoopTimes::~LoopTimes() { current = outer_; }
 
 void parallel_for(int count, int threads, TaskRef body) {
   const FpScope fp;
-  const auto one = [body](int i) {
-    const FpScope ieee;
-    body(i);
+  WatchedLoop watched(count);
+  const auto one = [&watched, body](int i) {
+    {
+      const FpScope ieee;
+      body(i);
+    }
+    watched.task_done();
   };
   threads = std::min(thread_count(threads), count);
   using Clock = std::chrono::steady_clock;

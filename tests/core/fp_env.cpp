@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/threads/loop_watch.h"
 #include "core/threads/parallel_for.h"
 
 #if defined(__x86_64__)
@@ -159,6 +160,27 @@ TEST_CASE("an exception of a body reaches the caller of parallel_for") {
                                    if (i == 37) throw std::runtime_error("37");
                                  }),
                     std::runtime_error);
+}
+
+TEST_CASE("a watch sees how far this thread's loops are, and not those inside of them") {
+  std::vector<std::pair<int, int>> seen;
+  {
+    const LoopWatch watch([&seen](int done, int count) { seen.emplace_back(done, count); });
+    parallel_for(5, 1, [](int) { parallel_for(3, 1, [](int) {}); });
+    CHECK(seen == std::vector<std::pair<int, int>>{{1, 5}, {2, 5}, {3, 5}, {4, 5}, {5, 5}});
+    seen.clear();
+    CHECK_THROWS(parallel_for(4, 1, [](int i) {
+      if (i == 2) throw std::runtime_error("ends");
+    }));
+    CHECK(seen == std::vector<std::pair<int, int>>{{1, 4}, {2, 4}});
+    seen.clear();
+    parallel_for(1000, 4, [](int) {});
+    for (size_t i = 0; i + 1 < seen.size(); ++i) CHECK(seen[i].first < seen[i + 1].first);
+    CHECK((seen.empty() || seen.back().first <= 1000));
+  }
+  seen.clear();
+  parallel_for(5, 1, [](int) {});
+  CHECK(seen.empty());
 }
 
 }  // namespace
