@@ -168,7 +168,7 @@ class StageTexts {
     }
     for (const ShaderVariable& v : shader.uniforms) {
       if (!v.is_sampler()) continue;
-      std::vector<std::string> members;
+      std::vector<std::string> members{member("type", quoted(v.type))};
       for (const ListedBinding& b : pass.bindings)
         if (b.sampler == v.name) members.push_back(member("reads", quoted(b.source)));
       if (api == ShaderApi::vulkan)

@@ -16,13 +16,18 @@ CODES_SRGB = [srgb_decoded(k) for k in range(256)]
 def channel_values(kind, texels, k):
     """Component k of texels as they were read back: an array of floats, or of integers for ids.
 
-    kind: "uint" (one 32-bit integer a texel), "depth" (one float), "float" (four floats), "8" and "srgb8" (four
-    bytes), "16" (four 16-bit codes), "10" (R, G, B of ten bits and A of two in 32 bits).
+    kind: "uint" (one 32-bit integer a texel), "depth" (one float), "depth16" (one 16-bit code), "float" (four floats),
+    "half" (four halves), "8" and "srgb8" (four bytes), "16" (four 16-bit codes), "10" (R, G, B of ten bits and A of two
+    in 32 bits).
     """
     if kind in ("uint", "depth"):
         return array.array("I" if kind == "uint" else "f", bytes(texels))
     if kind == "float":
         return array.array("f", bytes(texels))[k::4]
+    if kind == "half":
+        return array.array("f", (v for v, in struct.iter_unpack("<e", bytes(texels))))[k::4]
+    if kind == "depth16":
+        return array.array("f", (code / 65535 for code in array.array("H", bytes(texels))))
     if kind == "16":
         return array.array("f", (code / 65535 for code in array.array("H", bytes(texels))[k::4]))
     if kind == "10":

@@ -36,10 +36,11 @@ bool written(const Asked& asked, const std::string& api, const ScratchFolder& fo
 }
 
 /// Whether there is what the replay needs; otherwise the test has said SKIPPED.
-bool replayed(const ScratchFolder& folder) {
+bool replayed(const std::string& api, const ScratchFolder& folder) {
   const int code = exit_code_of(std::string("LIBGL_ALWAYS_SOFTWARE=1 python3 -B '") + TRUESHADE_SOURCE_DIR +
-                                "/gl/replay/replay.py' '" + folder.path("") + "' '" + folder.path("capture.exr") + "'");
-  if (code == 7) WARN("SKIPPED: no EGL driver without a window");
+                                "/gl/replay/" + (api == "vulkan" ? "replay_vulkan.py" : "replay.py") + "' '" +
+                                folder.path("") + "' '" + folder.path("capture.exr") + "'");
+  if (code == 7) WARN("SKIPPED: no driver of " << api << " without a window");
   if (code == 127) WARN("SKIPPED: there is no python3");
   if (code != 7 && code != 127) REQUIRE(code == 0);
   return code == 0;
@@ -55,7 +56,7 @@ void check_explained(const Asked& asked, const std::string& api) {
   const ScratchFolder folder;
   INFO(api << ": " << asked.arguments());
   REQUIRE(written(asked, api, folder));
-  if (replayed(folder)) CHECK(judged(asked, folder) == 0);
+  if (replayed(api, folder)) CHECK(judged(asked, folder) == 0);
 }
 
 const char* const kCity = "builtin:city,objects=60,lights=6";
@@ -68,6 +69,12 @@ TEST_CASE("Three presets, replayed from their files in OpenGL 3.3, are judged wi
   check_explained({"builtin:lecture,lights=4", "punctual", "forward-multipass", ""}, "gl33");
 }
 
+TEST_CASE("Three presets, replayed from their files in Vulkan, are judged without a violation") {
+  check_explained({kCity, "light-volumes", "deferred-volumes", ""}, "vulkan");
+  check_explained({kCity, "many-lights", "deferred-loop", ""}, "vulkan");
+  check_explained({"builtin:lecture,lights=4", "punctual", "forward-multipass", ""}, "vulkan");
+}
+
 TEST_CASE("The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation") {
   for (const char* api : {"gl", "es31"}) {
     check_explained({kCity, "light-volumes", "deferred-volumes", ""}, api);
@@ -76,7 +83,7 @@ TEST_CASE("The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged
 }
 
 TEST_CASE("Every preset and strategy, replayed from its files, is judged without a violation", "[long]") {
-  for (const char* api : {"gl33", "es31"})
+  for (const char* api : {"gl33", "es31", "vulkan"})
     for (const char* scene : {kCity, "builtin:lecture,lights=4"})
       for (const Preset& preset : presets())
         for (const std::string_view strategy : kStrategyNames)
@@ -91,7 +98,7 @@ TEST_CASE("A replayed frame whose files were changed is in no legal set") {
   for (json& pass : frame["passes"])
     if (pass["uniforms"].contains("light_count")) pass["uniforms"]["light_count"]["value"] = {5};  // of 6
   std::ofstream(folder.path("state.json")) << frame;
-  if (replayed(folder)) CHECK(judged(asked, folder) == 1);
+  if (replayed("gl33", folder)) CHECK(judged(asked, folder) == 1);
 }
 
 TEST_CASE("A scene's files name what the shaders read and nothing else") {
