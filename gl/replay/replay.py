@@ -39,7 +39,8 @@ FORMATS = dict(
     GL_R11F_G11F_B10F=(0x8C3A, RGB, FLOAT, FLOAT, 16, "float"), GL_RGBA16F=(0x881A, RGBA, HALF, FLOAT, 16, "float"),
     GL_RGBA32F=(0x8814, RGBA, FLOAT, FLOAT, 16, "float"), GL_RGB32F=(0x8815, RGB, FLOAT, FLOAT, 16, "float"),
     GL_RG32F=(0x8230, 0x8227, FLOAT, FLOAT, 16, "float"), GL_RGB16F=(0x881B, RGB, HALF, FLOAT, 16, "float"),
-    GL_R32UI=(0x8236, RED_INTEGER, UINT, UINT, 4, "uint"), GL_DEPTH_COMPONENT32F=(0x8CAC, DEPTH, FLOAT, FLOAT, 4, "depth"),
+    GL_R32UI=(0x8236, RED_INTEGER, UINT, UINT, 4, "uint"),
+    GL_DEPTH_COMPONENT32F=(0x8CAC, DEPTH, FLOAT, FLOAT, 4, "depth"),
     GL_DEPTH_COMPONENT24=(0x81A6, DEPTH, UINT, FLOAT, 4, "depth"),
     GL_DEPTH_COMPONENT16=(0x81A5, DEPTH, SHORT, FLOAT, 4, "depth"))
 C_TYPES = dict(i=ctypes.c_int, f=ctypes.c_float, d=ctypes.c_double, p=ctypes.c_void_p)

@@ -139,13 +139,13 @@ class Device:
         return handle, place.value
 
     def image(self, form, width, height, levels, usage, aspect):
-        handle = self.create("Image", info(14, "uuuuuuuuuuuuupu", 0, 1, form, width, height, 1, levels, 1, 1, 0, usage, 0,
-                                           0, None, 0))
+        handle = self.create("Image", info(14, "uuuuuuuuuuuuupu", 0, 1, form, width, height, 1, levels, 1, 1, 0,
+                                           usage, 0, 0, None, 0))
         self.bind_memory("Image", handle, 0)
         view = self.create("ImageView", info(15, "usuuuuuuuuuuu", 0, handle, 1, form, 0, 0, 0, 0, aspect, 0, levels, 0,
                                              1))
-        barrier = info(45, "uuuuuusuuuuu", 0, READ_WRITE, 0, GENERAL, 2 ** 32 - 1, 2 ** 32 - 1, handle, aspect, 0, levels,
-                       0, 1)
+        barrier = info(45, "uuuuuusuuuuu", 0, READ_WRITE, 0, GENERAL, 2 ** 32 - 1, 2 ** 32 - 1, handle, aspect, 0,
+                       levels, 0, 1)
         self.run(lambda: self.vkCmdPipelineBarrier(self.commands, 1, ALL_STAGES, 0, 0, None, 0, None, 1, at(barrier)))
         return handle, view
 
@@ -180,10 +180,12 @@ class Replay:
             usage = 0x4 if "texels" in b else 0xC0
             self.buffers[name], _ = vk.buffer(b["bytes"], usage, self.bytes_of(b))
             if "texels" in b:
-                self.views[name] = vk.create("BufferView", info(13, "ususs", 0, self.buffers[name], 109, 0, 2 ** 64 - 1))
+                view = info(13, "ususs", 0, self.buffers[name], 109, 0, 2 ** 64 - 1)
+                self.views[name] = vk.create("BufferView", view)
         for name, t in self.frame["textures"].items():
             self.add_texture(name, t)
-        self.nearest = vk.create("Sampler", info(31, "uuuuuuufufuuffuu", 0, 0, 0, 0, 2, 2, 2, 0, 0, 1, 0, 0, 0, 0, 0, 0))
+        nearest = info(31, "uuuuuuufufuuffuu", 0, 0, 0, 0, 2, 2, 2, 0, 0, 1, 0, 0, 0, 0, 0, 0)
+        self.nearest = vk.create("Sampler", nearest)
 
     def bytes_of(self, block):
         return self.data[block["offset"]:block["offset"] + block["bytes"]]
@@ -202,8 +204,8 @@ class Replay:
         low, high = (max(s["lod_min"], 0), min(max(s["lod_max"], 0), len(levels))) if mip else (0, 0.25)
         self.samplers[name] = vk.create("Sampler", info(
             31, "uuuuuuufufuuffuu", 0, *(number(FILTERS, "FILTER_", s[f]) for f in ("mag_filter", "min_filter")),
-            number(FILTERS, "SAMPLER_MIPMAP_MODE_", mip) if mip else 0, *address, 2, s["lod_bias"], 0, 1, 0, 0, min(low, high),
-            high, 2 * border.index([int(b) for b in s["border"]]) if s["border"] in border else 0, 0))
+            number(FILTERS, "SAMPLER_MIPMAP_MODE_", mip) if mip else 0, *address, 2, s["lod_bias"], 0, 1, 0, 0,
+            min(low, high), high, 2 * border.index([int(b) for b in s["border"]]) if s["border"] in border else 0, 0))
 
     def module(self, name):
         if name not in self.modules:
@@ -226,7 +228,8 @@ class Replay:
     def pipeline(self, p, layout):
         s, size = p["state"], self.pictures["target"]["size"]
         main = ctypes.create_string_buffer(b"main")
-        stages = [info(18, "uuspp", 0, bit, self.module(name), at(main), None) for name, bit in zip(p["shaders"], (1, 16))]
+        stages = [info(18, "uuspp", 0, bit, self.module(name), at(main), None)
+                  for name, bit in zip(p["shaders"], (1, 16))]
         KEPT.append(main)
         strides = {a["of"]: a["stride"] for a in p["attributes"]}
         bound = [record("uuu", k, strides[of], k) for k, of in enumerate(("vertices", "instances")) if of in strides]
@@ -244,7 +247,8 @@ class Replay:
             mask = sum(1 << k for k, c in enumerate("RGBA") if c in b["colorWriteMask"])
             integers = self.pictures[name]["format"] == "VK_FORMAT_R32_UINT"
             blends.append(record("u" * 8, int(b["blendEnable"] and not integers), *terms, mask))
-        forms = [FORMATS[self.pictures[n]["format"].removeprefix("VK_FORMAT_")][0] for n in [*p["colors"], p["depth"]] if n]
+        forms = [FORMATS[self.pictures[name]["format"].removeprefix("VK_FORMAT_")][0]
+                 for name in [*p["colors"], p["depth"]] if name]
         colors = record("u" * max(len(p["colors"]), 1), *forms[:len(p["colors"])])
         targets = info(1000044002, "uupuu", 0, len(p["colors"]), at(colors), forms[-1] if p["depth"] else 0, 0)
         clip = info(1000355001, "u", int(s["negativeOneToOne"]))
@@ -252,7 +256,8 @@ class Replay:
         parts = [
             info(19, "uupup", 0, len(bound), many(bound), len(read), many(read)),
             info(20, "uuu", 0, 4 if p["topology"] == "triangle_strip" else 3, 0), None,
-            info(22, "uupup", 0, 1, at(record("f" * 6, *s["viewport"])), 1, at(record("iiuu", 0, 0, *size)), after=clip),
+            info(22, "uupup", 0, 1, at(record("f" * 6, *s["viewport"])), 1, at(record("iiuu", 0, 0, *size)),
+                 after=clip),
             info(23, "uuuuuuuffff", 0, int(s["depthClampEnable"]), 0, 0, number(CULL, "CULL_MODE_", s["cullMode"]),
                  int(s["frontFace"] == "VK_FRONT_FACE_CLOCKWISE"), int(s["depthBiasEnable"]),
                  s["depthBiasConstantFactor"], 0, s["depthBiasSlopeFactor"], 1, after=provoking),
@@ -260,8 +265,8 @@ class Replay:
             info(25, "uuuuuu" + "u" * 14 + "ff", 0, int(s["depthTestEnable"]), int(s["depthWriteEnable"]),
                  number(COMPARE, "COMPARE_OP_", s["depthCompareOp"]), 0, 0, *[0] * 14, 0, 0),
             info(26, "uuuupffff", 0, 0, 0, len(blends), many(blends), *s["blendConstants"]), None]
-        create = info(28, "uup" + "p" * 9 + "ssusi", 0, 2, many(stages), *(at(x) if x is not None else None for x in parts),
-                      layout, 0, 0, 0, 0, after=targets)
+        places = [at(part) if part is not None else None for part in parts]
+        create = info(28, "uup" + "p" * 9 + "ssusi", 0, 2, many(stages), *places, layout, 0, 0, 0, 0, after=targets)
         return self.vk.made("vkCreateGraphicsPipelines", self.vk.device, 0, 1, at(create), None)
 
     def blocks(self, p):
@@ -288,12 +293,13 @@ class Replay:
         writes = []
         for binding, stage in enumerate(("vertex", "fragment")):
             size = (max(p["blocks"][stage], 16) + 255) // 256 * 256
-            writes.append(info(35, "suuuuppp", handle, binding, 0, 1, 8, None, at(record("sss", uniforms, 0, size)), None))
+            block = at(record("sss", uniforms, 0, size))
+            writes.append(info(35, "suuuuppp", handle, binding, 0, 1, 8, None, block, None))
         for name, s in p["samplers"].items():
             source = draw["samplers"].get(name, s.get("reads"))
             texels = at(record("s", self.views[source])) if s["type"] == "samplerBuffer" else None
-            image = None if texels else at(record("ssu", self.samplers.get(source, self.nearest), self.images[source][1],
-                                                  GENERAL))
+            image = None if texels else at(
+                record("ssu", self.samplers.get(source, self.nearest), self.images[source][1], GENERAL))
             writes.append(info(35, "suuuuppp", handle, s["binding"], 0, 1, 4 if texels else 1, image, None, texels))
         vk.vkUpdateDescriptorSets(vk.device, len(writes), many(writes), 0, None)
         return handle
@@ -308,7 +314,8 @@ class Replay:
                                                     at(record("fu", value[0], 0)), 1, at(all_of_it))
             else:
                 texel = record("uuuu", *map(int, value)) if form == "VK_FORMAT_R32_UINT" else record("ffff", *value)
-                self.vk.vkCmdClearColorImage(self.vk.commands, self.images[name][0], GENERAL, at(texel), 1, at(all_of_it))
+                self.vk.vkCmdClearColorImage(self.vk.commands, self.images[name][0], GENERAL, at(texel), 1,
+                                             at(all_of_it))
         self.vk.order()
 
     def draw_pass(self, p):
@@ -355,7 +362,8 @@ class Replay:
         p, vk = self.pictures[name], self.vk
         (_, size, called), (width, height) = FORMATS[p["format"].removeprefix("VK_FORMAT_")], p["size"]
         buffer, place = vk.buffer(width * height * size, 2)
-        copy = record("suuuuuuiiiuuu", 0, 0, 0, 2 if called.startswith("depth") else 1, 0, 0, 1, 0, 0, 0, width, height, 1)
+        aspect = 2 if called.startswith("depth") else 1
+        copy = record("suuuuuuiiiuuu", 0, 0, 0, aspect, 0, 0, 1, 0, 0, 0, width, height, 1)
         vk.run(lambda: (vk.order(), vk.vkCmdCopyImageToBuffer(vk.commands, self.images[name][0], GENERAL, buffer, 1,
                                                               at(copy)), vk.order()))
         texels = ctypes.string_at(place, width * height * size)
