@@ -1,10 +1,21 @@
 #!/bin/bash
-# The table of docs/data/diagnosis.md, from the lines that diagnosis_rows wrote (tests/judge/diagnosis/diagnosis_rows.cpp
-# says how to make them): a row a fault.
-# Usage: diagnosis_table.sh FILE... >docs/data/diagnosis.md
+# The tables of docs/data/diagnosis.md, from the lines that diagnosis_rows wrote: a row a fault.
+# tests/judge/diagnosis/diagnosis_rows.cpp says how to make them.
+# Usage: diagnosis_table.sh FILE... [--pairs FILE...] >docs/data/diagnosis.md
+#   --pairs: lines of two faults at once
 #   tries: captures in which the fault changes 100 pixels of the plane by a step of its format
 set -euo pipefail
-(($# >= 1)) || { echo "usage: diagnosis_table.sh FILE..." >&2; exit 2; }
+(($# >= 1)) || { echo "usage: diagnosis_table.sh FILE... [--pairs FILE...]" >&2; exit 2; }
+singles=() pairs=() list=singles
+for file in "$@"; do
+  if [[ $file == --pairs ]]; then
+    list=pairs
+  elif [[ $list == pairs ]]; then
+    pairs+=("$file")
+  else
+    singles+=("$file")
+  fi
+done
 awk -F'\t' '
   function share(part, whole) { return whole ? sprintf("%.1f %%", 100 * part / whole) : "-" }
   function row(name, t, c, f, n, b) {
@@ -17,18 +28,23 @@ awk -F'\t' '
     ++all; c += $9; f += $10; n += $11; b += $12
     way = $4 ", " $5
     if (!(way in of_way)) ways[++kinds] = way
-    ++of_way[way]; way_first[way] += $10; way_convicted[way] += $9; way_named[way] += $11; way_blamed[way] += $12
+    ++of_way[way]; way_convicted[way] += $9
+    way_first[way] += $10; way_named[way] += $11; way_blamed[way] += $12
   }
   END {
     print "# Faults planted in captures: convicted, and named"
     print ""
-    print "Made by scripts/diagnosis_table.sh. Each fault is planted in captures of `city` (60 lights, 300 objects), `cornell`"
-    print "and `circle` (24 lights) of 128x96 pixels, as rgba8 and rgba16f, by `deferred-loop` and `deferred-volumes`, under one or"
-    print "two presets, from several views and in several sizes; tries in which it changes fewer than 100 pixels are left out."
-    print "The verdict is that of a capture from a file, whose driver has 8 subpixel bits. *Convicted*: the command ends with exit"
-    print "code 1. *Named first*: the first finding is the fault. *Named*: one of three is. *Its plane*: of those named, the plane"
-    print "that is blamed is the one that is wrong. How faults are planted: `tests/judge/diagnosis/plants_of_*.cpp`; a fault whose"
-    print "predictions are those of another, such as exposure and intensity where nothing but lights shines, may go by either name."
+    print "By scripts/diagnosis_table.sh. Each fault is planted in captures of `city` (60 lights, 300 objects), `cornell`"
+    print "and `circle` (24 lights) of 128x96 pixels, as rgba8 and rgba16f, by `deferred-loop` and `deferred-volumes`,"
+    print "under one or two presets and in several sizes; of these one in three is tried, and tries in which the fault"
+    print "changes fewer than 100 pixels are left out. The capture is a file whose driver has 8 subpixel bits."
+    print ""
+    print "- *Convicted*: the command ends with exit code 1."
+    print "- *Named first*: the first finding is the fault. *Named*: one of three is."
+    print "- *Its plane*: of those named, the plane that is blamed is the one that is wrong."
+    print ""
+    print "How faults are planted: `tests/judge/diagnosis/plants_of_*.cpp`. A fault whose predictions are those of another,"
+    print "such as exposure and intensity where nothing but lights shines, may go by either name."
     print ""
     print "| fault | tries | convicted | named first | named | its plane |"
     print "|---|---:|---:|---:|---:|---:|"
@@ -46,4 +62,14 @@ awk -F'\t' '
     }
     print ""
     printf "A diagnosis took %.0f ms on average and %.0f ms at most.\n", ms / all, slowest
-  }' "$@"
+  }' "${singles[@]}"
+((${#pairs[@]})) || exit 0
+awk -F'\t' '
+  $8 >= 100 { ++tries; convicted += $9; both += $11; if (!$11) missed[++count] = "| " $1 " | " $14 " |" }
+  END {
+    printf "\n## Two faults at once\n"
+    printf "Of %d pairs, each fault of which changes 100 pixels beside the other, %d are convicted.\n", tries, convicted
+    printf "Of %d both faults are named (%.1f %%). The others:\n\n", both, 100 * both / tries
+    print "| faults | findings |\n|---|---|"
+    for (i = 1; i <= count; ++i) print missed[i]
+  }' "${pairs[@]}"

@@ -1,0 +1,71 @@
+// What `trueshade validate` says of a capture with a known fault.
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/catch.hpp"
+#include "tests/cli/run_command.h"
+#include "tests/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Our own frame of builtin:cornell with fronts culled, as c.exr.
+void write_culled(const ScratchFolder& folder) {
+  folder.write("culled.json", R"({"geometry": {"cull_face": "front"}})");
+  const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "96x72", "--pipeline", "culled.json",
+                                       "-o", "c.exr", "--aov", "depth,position,normal,albedo,id.object"},
+                                      folder.path(""));
+  REQUIRE(outcome.exit_code == 0);
+}
+
+Outcome judged(const ScratchFolder& folder, const Arguments& options) {
+  Arguments arguments = {"validate", "builtin:cornell", "--gbuffer", "c.exr", "--quick"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return run_command(arguments, folder.path(""));
+}
+
+}  // namespace
+
+TEST_CASE("A capture with a known fault: text, JSON and page name it, prove it, and say what shows it") {
+  const ScratchFolder folder;
+  write_culled(folder);
+  const Outcome text = judged(folder, {});
+  INFO(text.out << text.err);
+  CHECK(text.exit_code == 1);
+  CHECK(has(text.out, "looks like  cull-face=front (G-buffer): the face culled is `front`; explains "));
+  CHECK(has(text.out, ", by this fault "));
+  CHECK(has(text.out, "try: trueshade validate builtin:cornell --gbuffer c.exr --quick --suppose cull-face=front\n"));
+  const Outcome json = judged(folder, {"--json", "-o", "page.html"});
+  const nlohmann::json first = nlohmann::json::parse(json.out).at("diagnosis").at(0);
+  CHECK(first.at("name") == "cull-face=front");
+  CHECK(first.at("plane") == "G-buffer");
+  CHECK(first.at("explained") > 0.95);
+  CHECK(first.at("proof").at("given") == first.at("proof").at("predicted"));
+  CHECK(has(first.at("command"), "--suppose cull-face=front"));
+  std::ifstream page(folder.path("page.html"));
+  CHECK(has({std::istreambuf_iterator<char>(page), {}}, "<h2>What it looks like</h2>"));
+}
+
+TEST_CASE("What is supposed is answered alone, and a fault that is not known is a usage error") {
+  const ScratchFolder folder;
+  write_culled(folder);
+  const Outcome right = judged(folder, {"--suppose", "cull-face=front"}),
+                wrong = judged(folder, {"--suppose", "depth-reversed"});
+  CHECK(right.exit_code == 1);  // whatever explains it, the capture does not pass
+  CHECK(has(right.out, "looks like  cull-face=front"));
+  CHECK(has(wrong.out, "looks like  depth-reversed (depth): the depths are reversed: 1 - z; explains 0.0 %"));
+  CHECK_FALSE(has(wrong.out, "cull-face"));
+  for (const char* name : {"cull-face", "cull-face=sideways", "no-such-fault"}) {
+    const Outcome refused = judged(folder, {"--suppose", name});
+    CAPTURE(name, refused.err);
+    CHECK(refused.exit_code == 2);
+    CHECK(has(refused.err, "--suppose: '" + std::string(name) + "' is no fault that is known"));
+  }
+}
+
+}  // namespace trueshade
