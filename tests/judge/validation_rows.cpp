@@ -1,6 +1,7 @@
-// Draws built-in scenes under every preset and some strategies with a driver of this machine, each frame once, and
-// judges it by several profiles: one line a stage, appended to a file. A frame whose lines are there already is not
-// drawn again, so a long run may be broken off and gone on with. Made into tables by scripts/validation_table.sh.
+// Draws built-in scenes under every preset and some strategies with a driver of this machine (llvmpipe, softpipe, or
+// lavapipe of Vulkan), each frame once, and judges it by several profiles: one line a stage, appended to a file. A
+// frame whose lines are there already is not drawn again, so a long run may be broken off and gone on with. Made
+// into tables by scripts/validation_table.sh.
 //
 //   validation_rows DRIVER SUBPIXEL-BITS SIZE PROFILE,... STRATEGY,... FILE SCENE...
 //
@@ -12,6 +13,8 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -20,6 +23,7 @@
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
+#include "tests/judge/row_drawer.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -88,11 +92,23 @@ void append(const Request& r, const std::string& key, const StageVerdict& v, dou
 /// A scene on the driver, and the G-buffers of it that were judged.
 class Table {
  public:
-  Table(const Request& request, const GlContext& context, std::string name)
-      : r_(request), name_(std::move(name)), scene_(builtin_scene(name_)), renderer_(context, scene_) {}
+  /// `context`: null for lavapipe.
+  Table(const Request& request, const GlContext* context, std::string name)
+      : r_(request), name_(std::move(name)), scene_(builtin_scene(name_)) {
+    if (context == nullptr) {
+      draw_ = testing::lavapipe_drawer(scene_);
+      return;
+    }
+    renderer_ = std::make_unique<GlRenderer>(*context, scene_);
+    draw_ = [this](const Pipeline& pipeline, const StepSink& sink) {
+      GlDraw draw;
+      draw.after_light = sink;
+      return renderer_->draw(pipeline, draw).capture;
+    };
+  }
 
   void add(const Pipeline& asked, std::vector<Profile> profiles) {
-    const Capture capture = renderer_.draw(asked).capture;
+    const Capture capture = draw_(asked, {});
     Pipeline pipeline = asked;
     pipeline.gbuffer = surface_planes(asked);
     for (const Profile& profile : profiles) {
@@ -118,12 +134,10 @@ class Table {
                     const std::vector<Profile>& profiles) {
     bool same = true;
     const LightSteps steps = [&](const StepSink& sink) {
-      GlDraw draw;
-      draw.after_light = [&](int light, const Image& target) {
+      draw_(asked, [&](int light, const Image& target) {
         if (light + 1 == int(scene_.lights.size())) same = target.texels == capture.color.texels;
         sink(light, target);
-      };
-      renderer_.draw(asked, draw);
+      });
     };
     std::vector<StageVerdict> verdicts;
     const double seconds = timed([&] { verdicts = judge_blending(scene_, pipeline, profiles, capture, steps); });
@@ -164,7 +178,8 @@ class Table {
   const Request& r_;
   const std::string name_;
   const Scene scene_;
-  GlRenderer renderer_;
+  std::unique_ptr<GlRenderer> renderer_;  ///< of an OpenGL driver
+  testing::RowDrawer draw_;
   std::map<std::string, std::pair<StageVerdict, double>> judged_;
 };
 
@@ -196,7 +211,8 @@ int main(int count, char** argument) {
   try {
     if (count < 8) throw Error(ErrorKind::usage, "arguments", "are missing", "see the head of this file");
     const Request request = request_of(argument);
-    const GlContext context(request.driver);
+    std::optional<GlContext> context;
+    if (request.driver_name != "lavapipe") context.emplace(request.driver);
     for (int i = 7; i < count; ++i) {
       std::optional<Table> table;
       const std::set<std::string> done = keys_in(request.file);
@@ -210,7 +226,7 @@ int main(int count, char** argument) {
           for (const Profile& profile : request.profiles)
             if (!done.contains(key_of(request, argument[i], pipeline, profile))) left.push_back(profile);
           if (left.empty()) continue;
-          if (!table) table.emplace(request, context, argument[i]);
+          if (!table) table.emplace(request, context ? &*context : nullptr, argument[i]);
           try {
             table->add(pipeline, left);
           } catch (const Error& error) {

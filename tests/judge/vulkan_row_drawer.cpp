@@ -1,0 +1,12 @@
+#include "gl/vulkan/vulkan_renderer.h"
+#include "tests/judge/row_drawer.h"
+
+namespace trueshade::testing {
+
+RowDrawer lavapipe_drawer(const Scene& scene) {
+  return [&scene](const Pipeline& pipeline, const oracle::StepSink& sink) {
+    return oracle::drawn_by_vulkan(scene, pipeline, true, {sink, {}}).capture;
+  };
+}
+
+}  // namespace trueshade::testing
