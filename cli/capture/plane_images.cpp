@@ -62,15 +62,16 @@ Image stored_plane_image(const PlaneChannelList& plane) {
           continue;
         }
         const Channel& channel = *plane.channels[c];
+        if (keeps_codes) {
+          image.set_code(x, y, int(c), channel.words[pixel]);
+          continue;
+        }
         const auto value = float(channel.value(pixel));
         if (std::isnan(value) && name != "color")
           throw bad_plane(plane, x, y, "is not a number", "find what the shader divides by, or capture another frame");
-        if (keeps_codes)
-          image.set_code(x, y, int(c), channel.words[pixel]);
-        else if (layout.small_float())
-          image.set_code(x, y, int(c), half_from_float(value, HalfRound::toward_zero));
-        else
-          image.set_code(x, y, int(c), std::bit_cast<uint32_t>(value));
+        const uint16_t half = layout.small_float() ? half_from_float(value, HalfRound::toward_zero) : uint16_t(0);
+        const void* const bits = layout.small_float() ? static_cast<const void*>(&half) : &value;
+        std::memcpy(image.texel(x, y) + c * size_t(layout.bytes_per_channel), bits, size_t(layout.bytes_per_channel));
       }
     }
   return image;
