@@ -36,8 +36,8 @@ awk -F'\t' '
     print ""
     print "By scripts/diagnosis_table.sh. Each fault is planted in captures of `city` (60 lights, 300 objects), `cornell`"
     print "and `circle` (24 lights) of 128x96 pixels, as rgba8 and rgba16f, by `deferred-loop` and `deferred-volumes`,"
-    print "under one or two presets and in several sizes; of these one in three is tried, and tries in which the fault"
-    print "changes fewer than 100 pixels are left out. The capture is a file whose driver has 8 subpixel bits."
+    print "under one or two presets and in several sizes; of these one in three or four is tried, and tries in which the"
+    print "fault changes fewer than 100 pixels are left out. The capture is a file whose driver has 8 subpixel bits."
     print ""
     print "- *Convicted*: the command ends with exit code 1."
     print "- *Named first*: the first finding is the fault. *Named*: one of three is."
@@ -69,7 +69,7 @@ awk -F'\t' '
   END {
     printf "\n## Two faults at once\n"
     printf "Of %d pairs, each fault of which changes 100 pixels beside the other, %d are convicted.\n", tries, convicted
-    printf "Of %d both faults are named (%.1f %%). The others:\n\n", both, 100 * both / tries
+    printf "Both faults are named in %d (%.1f %%). The others:\n\n", both, 100 * both / tries
     print "| faults | findings |\n|---|---|"
     for (i = 1; i <= count; ++i) print missed[i]
   }' "${pairs[@]}"
