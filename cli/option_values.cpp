@@ -187,6 +187,10 @@ PngEncoding encoding_from_text(const std::string& text) {
   throw usage("--encode", "there is no encoding '" + text + "'", "one of: srgb raw");
 }
 
+void check_scene(const std::string& scene) {
+  if (scene.empty()) throw usage("SCENE", "its name is empty", "name a scene file or builtin:NAME");
+}
+
 void check_preset(const std::optional<std::string>& preset) {
   if (preset && !preset_pipeline(*preset))
     throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");

@@ -39,6 +39,7 @@ struct Variant {
 /// Of strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE...
 Variant variant_from_text(const std::string& text);
 
+void check_scene(const std::string& scene);
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& option, const std::string& name);
 

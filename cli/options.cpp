@@ -2,9 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 
-#include "cli/frame_name.h"
+#include "cli/option_texts.h"
 #include "cli/option_values.h"
 #include "cli/unknown_option.h"
 #include "cli/version.h"
@@ -17,56 +16,6 @@
 
 namespace trueshade {
 namespace {
-
-/// One file cannot hold two documents, and who wants two has mistyped a name.
-void check_named_once(const std::string& option, std::vector<std::string> files) {
-  for (std::string& file : files) file = std::filesystem::path(file).lexically_normal().string();
-  std::sort(files.begin(), files.end());
-  const auto twice = std::adjacent_find(files.begin(), files.end());
-  if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
-}
-
-/// Files of several frames, or of several outputs in one frame, have names of their own.
-void check_frame_names(const std::vector<std::string>& outputs, FrameRange frames) {
-  std::vector<std::string> names;
-  for (int frame = frames.first; frame <= frames.last; ++frame)
-    for (const std::string& path : outputs) names.push_back(frame_name(path, frame));
-  std::sort(names.begin(), names.end());
-  const auto twice = std::adjacent_find(names.begin(), names.end());
-  if (twice != names.end())
-    throw usage("-o", "two frames or two outputs would be written to '" + *twice + "'",
-                "give each -o a name of its own, with %04d or #### once");
-}
-
-void check_scene(const std::string& scene) {
-  if (scene.empty()) throw usage("SCENE", "its name is empty", "name a scene file or builtin:NAME");
-}
-
-void check_outputs(const RenderOptions& options) {
-  check_named_once("-o", options.outputs);
-  bool exr = false, png = false;
-  for (const std::string& path : options.outputs) {
-    exr = exr || has_ending(path, ".exr");
-    png = png || has_ending(path, ".png");
-    if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !has_ending(path, ".html"))
-      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
-  }
-  if (!options.aovs.empty() && !exr && !options.json)
-    throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
-  if (options.encode && !png)
-    throw usage(
-        "--encode",
-        "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
-        "report shows them as screens take them",
-        "add -o FILE.png, or leave out --encode");
-  if (options.frames) check_frame_names(options.outputs, *options.frames);
-}
-
-/// Option values as text, read by us so that every error is of one form.
-struct RenderTexts {
-  std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, encode, threads, tile;
-  bool no_light_culling = false;
-};
 
 /// Adds an option of one value, which help calls `value_name`. Values are taken as text.
 template <typename Text>
@@ -155,36 +104,6 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   return render;
 }
 
-RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.frames) options.frames = frames_from_text(*texts.frames);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.view) options.view = view_from_text("--view", *texts.view);
-  if (texts.encode) options.encode = encoding_from_text(*texts.encode);
-  if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
-  options.execution.light_culling = !texts.no_light_culling;
-  options.execution.count_as_gl = options.stats || options.json;
-  check_preset(options.preset);
-  check_scene(options.scene);
-  check_simd("--simd", options.simd);
-  validate(execution_of(options));
-  check_outputs(options);
-  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
-    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
-  return options;
-}
-
-/// Option values of glsl as text.
-struct GlslTexts {
-  std::optional<std::string> api, size, strategy, time;
-};
-
 CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, GlslTexts& texts) {
   CLI::App* glsl = app.add_subcommand("glsl", "Write a pipeline, or a whole frame, as shaders and state for a GPU");
   add_pipeline_options(glsl, options, texts.size)->required(false);
@@ -199,25 +118,6 @@ CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, GlslTexts& texts) {
   return glsl;
 }
 
-GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
-  check_preset(options.preset);
-  if (options.scene.empty() && !options.preset)
-    throw usage("glsl", "neither a scene nor a preset is named", "name a scene, or add --preset NAME");
-  if (!options.scene.empty() && options.maps)
-    throw usage("--maps", "the scene's materials say which maps there are", "leave out --maps or the scene");
-  if (options.scene.empty() && texts.time) throw usage("--time", "there is no scene", "name one, or leave out --time");
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.api) {
-    const auto found = std::find(std::begin(oracle::kShaderApiNames), std::end(oracle::kShaderApiNames), *texts.api);
-    if (found == std::end(oracle::kShaderApiNames))
-      throw usage("--api", "there is no '" + *texts.api + "'", "one of: " + joined(oracle::kShaderApiNames));
-    options.api = oracle::ShaderApi(found - std::begin(oracle::kShaderApiNames));
-  }
-  return options;
-}
-
 CLI::App* add_export(CLI::App& app, ExportOptions& options, std::optional<std::string>& time) {
   CLI::App* command = app.add_subcommand("export", "Write a scene as a GLB file, for other programs and for this one");
   add_value(command, "SCENE", "FILE", options.scene, "Scene as for render")->required();
@@ -228,20 +128,6 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options, std::optional<std::s
   add_limit_options(command, options);
   return command;
 }
-
-ExportOptions finished(ExportOptions options, const std::optional<std::string>& time) {
-  check_scene(options.scene);
-  if (time) options.time = time_from_text(*time);
-  if (options.output != "-" && !has_ending(options.output, ".glb"))
-    throw usage("-o", "a scene is not written to '" + options.output + "'",
-                "end the name in .glb, or - for standard output");
-  return options;
-}
-
-/// Option values of validate as text.
-struct ValidationTexts {
-  std::optional<std::string> size, subpixel_bits, strategy, time, significance;
-};
 
 /// `gbuffer`: the name of the option or argument of files of planes.
 void add_capture_options(CLI::App* command, CaptureOptions& options, const char* gbuffer, const char* help) {
@@ -254,8 +140,6 @@ void add_capture_options(CLI::App* command, CaptureOptions& options, const char*
   add_value(command, "--image", "FILE", options.image_file,
             "The picture of the capture, as a file of its own; else the channels R G B A, or color of --map");
 }
-
-void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
 
 CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationTexts& texts) {
   CLI::App* command = app.add_subcommand("validate", "Judge what OpenGL draws, here or in a capture, pixel by pixel");
@@ -293,41 +177,6 @@ CLI::App* add_validate(CLI::App& app, ValidationOptions& options, ValidationText
   return command;
 }
 
-ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
-  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  check_scene(options.scene);
-  if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
-  if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
-  check_preset(options.preset);
-  if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
-    throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
-  check_capture(options.capture);
-  if (options.driver && options.capture.given())
-    throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
-  constexpr auto& kProfiles = oracle::kDriverProfileNames;
-  if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
-    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(kProfiles));
-  if (!options.capture.given() && !options.capture.image_file.empty())
-    throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
-  for (const std::string& path : options.saved)
-    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
-      throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
-  check_named_once("--save", options.saved);
-  if (!options.saved.empty() && options.capture.given())
-    throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
-  if (options.report && !has_ending(*options.report, ".html"))
-    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
-  return options;
-}
-
-/// Option values of shade as text.
-struct ShadeTexts {
-  std::optional<std::string> time, target, strategy, profile, threads;
-};
-
 CLI::App* add_shade(CLI::App& app, ShadeOptions& options, ShadeTexts& texts) {
   CLI::App* command = app.add_subcommand("shade", "Light a G-buffer that something else has drawn");
   add_capture_options(command, options.capture, "GBUFFER",
@@ -349,30 +198,6 @@ CLI::App* add_shade(CLI::App& app, ShadeOptions& options, ShadeTexts& texts) {
   add_limit_options(command, options);
   return command;
 }
-
-ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  check_preset(options.preset);
-  check_scene(options.scene);
-  check_capture(options.capture);
-  check_named_once("-o", options.outputs);
-  for (const std::string& path : options.outputs)
-    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
-      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
-  if (!options.capture.given()) throw usage("GBUFFER", "there is no G-buffer", "name its files, or give --map");
-  if (options.outputs.empty() && !options.hash)
-    throw usage("shade", "nothing would come of it", "add -o FILE or --hash");
-  return options;
-}
-
-/// Option values of bench as text.
-struct BenchTexts {
-  std::optional<std::string> size, strategy, threads, against;
-};
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   CLI::App* bench = app.add_subcommand(
@@ -397,21 +222,6 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   add_limit_options(bench, options);
   return bench;
-}
-
-BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
-  if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.against) options.against = peers_from_text(*texts.against);
-  for (const std::string& scene : options.scenes) check_scene(scene);
-  check_preset(options.preset);
-  check_simd("--simd", options.simd);
-  if (options.report && !has_ending(*options.report, ".html"))
-    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
-  if (options.report && options.json_file) check_named_once("--json", {*options.report, *options.json_file});
-  return options;
 }
 
 /// A word as a shell reads it back.

@@ -1,0 +1,177 @@
+#include "cli/option_texts.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/frame_name.h"
+#include "cli/option_values.h"
+#include "core/error.h"
+#include "core/file_ending.h"
+#include "judge/bounds/profile_names.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+namespace {
+
+/// One file cannot hold two documents, and who wants two has mistyped a name.
+void check_named_once(const std::string& option, std::vector<std::string> files) {
+  for (std::string& file : files) file = std::filesystem::path(file).lexically_normal().string();
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
+}
+
+/// Files of several frames, or of several outputs in one frame, have names of their own.
+void check_frame_names(const std::vector<std::string>& outputs, FrameRange frames) {
+  std::vector<std::string> names;
+  for (int frame = frames.first; frame <= frames.last; ++frame)
+    for (const std::string& path : outputs) names.push_back(frame_name(path, frame));
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end())
+    throw usage("-o", "two frames or two outputs would be written to '" + *twice + "'",
+                "give each -o a name of its own, with %04d or #### once");
+}
+
+void check_outputs(const RenderOptions& options) {
+  check_named_once("-o", options.outputs);
+  bool exr = false, png = false;
+  for (const std::string& path : options.outputs) {
+    exr = exr || has_ending(path, ".exr");
+    png = png || has_ending(path, ".png");
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !has_ending(path, ".html"))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
+  }
+  if (!options.aovs.empty() && !exr && !options.json)
+    throw usage("--aov", "planes go into an EXR only", "add -o FILE.exr");
+  if (options.encode && !png)
+    throw usage(
+        "--encode",
+        "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
+        "report shows them as screens take them",
+        "add -o FILE.png, or leave out --encode");
+  if (options.frames) check_frame_names(options.outputs, *options.frames);
+}
+
+void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
+
+}  // namespace
+
+RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.frames) options.frames = frames_from_text(*texts.frames);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.view) options.view = view_from_text("--view", *texts.view);
+  if (texts.encode) options.encode = encoding_from_text(*texts.encode);
+  if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
+  options.execution.light_culling = !texts.no_light_culling;
+  options.execution.count_as_gl = options.stats || options.json;
+  check_preset(options.preset);
+  check_scene(options.scene);
+  check_simd("--simd", options.simd);
+  validate(execution_of(options));
+  check_outputs(options);
+  if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
+    throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
+  return options;
+}
+
+GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
+  check_preset(options.preset);
+  if (options.scene.empty() && !options.preset)
+    throw usage("glsl", "neither a scene nor a preset is named", "name a scene, or add --preset NAME");
+  if (!options.scene.empty() && options.maps)
+    throw usage("--maps", "the scene's materials say which maps there are", "leave out --maps or the scene");
+  if (options.scene.empty() && texts.time) throw usage("--time", "there is no scene", "name one, or leave out --time");
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.api) {
+    const auto found = std::find(std::begin(oracle::kShaderApiNames), std::end(oracle::kShaderApiNames), *texts.api);
+    if (found == std::end(oracle::kShaderApiNames))
+      throw usage("--api", "there is no '" + *texts.api + "'", "one of: " + joined(oracle::kShaderApiNames));
+    options.api = oracle::ShaderApi(found - std::begin(oracle::kShaderApiNames));
+  }
+  return options;
+}
+
+ExportOptions finished(ExportOptions options, const std::optional<std::string>& time) {
+  check_scene(options.scene);
+  if (time) options.time = time_from_text(*time);
+  if (options.output != "-" && !has_ending(options.output, ".glb"))
+    throw usage("-o", "a scene is not written to '" + options.output + "'",
+                "end the name in .glb, or - for standard output");
+  return options;
+}
+
+ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
+  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  check_scene(options.scene);
+  if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
+  if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
+  check_preset(options.preset);
+  if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
+    throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
+  check_capture(options.capture);
+  if (options.driver && options.capture.given())
+    throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
+  constexpr auto& kProfiles = oracle::kDriverProfileNames;
+  if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
+    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(kProfiles));
+  if (!options.capture.given() && !options.capture.image_file.empty())
+    throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
+  for (const std::string& path : options.saved)
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
+      throw usage("--save", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+  check_named_once("--save", options.saved);
+  if (!options.saved.empty() && options.capture.given())
+    throw usage("--save", "a capture is judged, nothing is drawn", "leave out --save or --gbuffer");
+  if (options.report && !has_ending(*options.report, ".html"))
+    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  return options;
+}
+
+ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  check_preset(options.preset);
+  check_scene(options.scene);
+  check_capture(options.capture);
+  check_named_once("-o", options.outputs);
+  for (const std::string& path : options.outputs)
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+  if (!options.capture.given()) throw usage("GBUFFER", "there is no G-buffer", "name its files, or give --map");
+  if (options.outputs.empty() && !options.hash)
+    throw usage("shade", "nothing would come of it", "add -o FILE or --hash");
+  return options;
+}
+
+BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
+  if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  if (texts.against) options.against = peers_from_text(*texts.against);
+  for (const std::string& scene : options.scenes) check_scene(scene);
+  check_preset(options.preset);
+  check_simd("--simd", options.simd);
+  if (options.report && !has_ending(*options.report, ".html"))
+    throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  if (options.report && options.json_file) check_named_once("--json", {*options.report, *options.json_file});
+  return options;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,45 @@
+#pragma once
+// Option values as text, and what the commands make of them: so every error is of one form.
+#include <optional>
+#include <string>
+
+#include "cli/options.h"
+
+namespace trueshade {
+
+/// Of render.
+struct RenderTexts {
+  std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, encode, threads, tile;
+  bool no_light_culling = false;
+};
+
+/// Of glsl.
+struct GlslTexts {
+  std::optional<std::string> api, size, strategy, time;
+};
+
+/// Of validate.
+struct ValidationTexts {
+  std::optional<std::string> size, subpixel_bits, strategy, time, significance;
+};
+
+/// Of shade.
+struct ShadeTexts {
+  std::optional<std::string> time, target, strategy, profile, threads;
+};
+
+/// Of bench.
+struct BenchTexts {
+  std::optional<std::string> size, strategy, threads, against;
+};
+
+/// The options of a command with the values of their texts, checked by themselves and together. Error(usage) names the
+/// option.
+RenderOptions finished(RenderOptions options, const RenderTexts& texts);
+GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts);
+ExportOptions finished(ExportOptions options, const std::optional<std::string>& time);
+ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts);
+ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);
+BenchOptions finished(BenchOptions options, const BenchTexts& texts);
+
+}  // namespace trueshade
