@@ -126,7 +126,8 @@ bool judge_opengl(const ValidationOptions& options) {
     v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
                                          {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance});
   });
-  if (v.verdict.violations() > 0 || v.verdict.suspicious() || !options.supposed.empty())
+  v.is_diagnosed = v.verdict.violations() > 0 || v.verdict.convicted() || !options.supposed.empty();
+  if (v.is_diagnosed)
     v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, options.supposed);
   for (size_t i = 0; i < v.findings.size(); ++i) {
     v.findings[i].command = "trueshade" + options.command_line;

@@ -20,6 +20,7 @@ struct Validation {
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
   bool lenient = false;                   ///< what the tests of the whole image find is no failure
+  bool is_diagnosed = false;              ///< faults were tried
   std::vector<oracle::Finding> findings;  ///< what explains a capture that does not pass, or what was supposed
   std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
   int timed_frames = 0;                   ///< whose median the passes are
@@ -32,6 +33,9 @@ struct Validation {
 /// Whether every pixel is in its legal set, the driver drew the same again and, unless that is lenient, the image is
 /// one that a known rounding makes.
 bool passes(const Validation& validation);
+
+/// Pixels that some stage finds in no legal set.
+uint64_t violating_pixels(const oracle::Verdict& verdict);
 
 /// EXACT and STORE-2 pixels among all of a stage.
 double exact_share(const oracle::StageVerdict& stage);

@@ -89,15 +89,19 @@ std::string counts_table(const StageVerdict& s) {
   return html + "</table>\n";
 }
 
+std::string how_rare(const AggregateTest& t, double least_chance) {
+  constexpr double kUsual = 0.01;
+  if (t.chance >= kUsual) return "as chance makes it";
+  const std::string rare = "one legal image in " + oracle::one_in(t.chance);
+  return t.passes(least_chance) ? rare + ", which passes" : "<span class=bad>" + rare + "</span>";
+}
+
 std::string aggregates_table(const oracle::Evidence& evidence, double least_chance) {
   std::string html = "<table class=wide><tr><th>test of the whole image<th>found<th>expected<th>where<th>\n";
   for (const AggregateTest& t : evidence.tests)
     html += "<tr><td>" + escaped(t.name) + "<td>" + number(t.observed, "%.5g") + "<td>" +
             (t.low < 0 ? number(t.low, "%.5g") + " to " : "at most ") + number(t.high, "%.5g") + "<td>" +
-            escaped(t.where) + "<td>" +
-            (t.passes(least_chance) ? "as chance makes it"
-                                    : "<span class=bad>one legal image in " + oracle::one_in(t.chance) + "</span>") +
-            '\n';
+            escaped(t.where) + "<td>" + how_rare(t, least_chance) + '\n';
   return html + "</table>\n<p class=quiet>By this rounding: " + escaped(text(evidence.rule)) + ".</p>\n";
 }
 
@@ -176,7 +180,7 @@ std::string heading(const Validation& v) {
                      "<br>held to " + escaped(profile_line(v.profile)) + "</p>\n";
   for (const std::string& note : v.notes) html += "<p class=quiet>" + escaped(note) + "</p>\n";
   html += notes_part(v.scene_notes.lines);
-  html += "<div class=facts>" + fact(grouped(std::to_string(v.verdict.violations())), "pixels in no legal set");
+  html += "<div class=facts>" + fact(grouped(std::to_string(violating_pixels(v.verdict))), "pixels in no legal set");
   for (const StageVerdict& s : v.verdict.stages)
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage);
   for (const DriverFrame::Pass& pass : v.passes) html += fact(number(pass.ms, "%.1f") + " ms", pass.name);
@@ -187,7 +191,7 @@ std::string heading(const Validation& v) {
 }  // namespace
 
 std::string validation_page(const Validation& v) {
-  std::string html = page_head(v.verdict.scene + " on OpenGL") + kTableStyle + heading(v) + diagnosis_part(v);
+  std::string html = page_head(v.verdict.scene + ", judged") + kTableStyle + heading(v) + diagnosis_part(v);
   html += pictures(v);
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
     html += stage_part(v.verdict.stages[i], v.verdict.evidence[i], v.verdict.least_chance(v.verdict.stages.size()));

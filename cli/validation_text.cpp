@@ -85,8 +85,9 @@ std::string stage_text(const StageVerdict& s, const Evidence& evidence, double l
 }  // namespace
 
 std::string profile_line(const oracle::Profile& p) {
-  return p.name + ": " + std::to_string(p.subpixel_bits) + " subpixel bits, " + oracle::text(p.snap) + "; planes " +
-         oracle::text(p.plane_origin) + "; half " + oracle::text(p.half) + "; unorm within " + real(p.unorm_reach);
+  return p.name + ": " + std::to_string(p.subpixel_bits) + " subpixel bits, rounding " + oracle::text(p.snap) +
+         "; planes " + oracle::text(p.plane_origin) + "; half " + oracle::text(p.half) + "; unorm within " +
+         real(p.unorm_reach);
 }
 
 std::string tightest_line(const oracle::Inference& inferred) {
@@ -124,12 +125,35 @@ std::string invariance_line(const Validation& v) {
   return v.move_changes ? again + "; moved by (64, 32) " + std::to_string(*v.move_changes) + " do" : again;
 }
 
+uint64_t violating_pixels(const oracle::Verdict& v) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < v.stages.front().classes.size(); ++i)
+    count += std::any_of(v.stages.begin(), v.stages.end(),
+                         [i](const StageVerdict& s) { return s.classes[i] == PixelClass::violation; });
+  return count;
+}
+
+namespace {
+
+/// Where they are, if more than one stage was judged: ` (gbuffer 12, lighting 307)`.
+std::string stages_of_violations(const oracle::Verdict& v) {
+  if (v.stages.size() < 2) return {};
+  std::string line;
+  for (const StageVerdict& s : v.stages)
+    if (const uint64_t count = s.count(PixelClass::violation); count > 0)
+      line += (line.empty() ? " (" : ", ") + s.stage + ' ' + std::to_string(count);
+  return line + ')';
+}
+
+}  // namespace
+
 std::string conclusion(const Validation& validation) {
   const oracle::Verdict& v = validation.verdict;
-  const uint64_t violations = v.violations();
+  const uint64_t violations = violating_pixels(v);
   const std::string post = validation.pipeline.post.active() ? "; the post chain is not judged" : "";
   if (violations > 0)
-    return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" + post;
+    return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" +
+           stages_of_violations(v) + post;
   if (validation.repeat_changes.value_or(0) > 0)
     return "every pixel is explained, yet the same frame drawn again is another" + post;
   if (!v.convicted()) return "every pixel is explained" + post;
@@ -195,6 +219,7 @@ std::string validation_text(const Validation& v) {
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   lines += verdict_row("verdict", conclusion(v));
+  if (v.is_diagnosed && v.findings.empty()) lines += verdict_row("looks like", "no fault that is known");
   for (const oracle::Finding& f : v.findings)
     lines += verdict_row(f.together ? "and" : "looks like", finding_line(f)) + verdict_row("", proof_line(f)) +
              verdict_row("", "try: " + f.command);
