@@ -220,6 +220,9 @@ class CaptureReader {
 
   void read(const std::vector<std::string>& gbuffer) {
     for (const std::string& path : gbuffer) load(path);
+    if (gbuffer.empty() && map_.planes.empty())
+      refuse_capture("--map", "it names no plane, and there is no file of planes",
+                     "name planes, or add --gbuffer FILE");
     gbuffer_files_ = out_.files.size();
     if (!map_.planes.empty()) {
       for (const MappedPlane& plane : map_.planes) add_mapped(plane);

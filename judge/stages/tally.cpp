@@ -87,10 +87,11 @@ void Match::lookup_is(const PlaneView& view, const char* name, int at, const Ran
   const bool before = second;
   const size_t count = choices.size();
   const uint64_t values = stored_values;
+  const size_t seen = store_count;
   second = false;
   channel_is(view, name, at, range, stored, pixel, profile);
   tex = tex || second;
-  second = before, stored_values = values;
+  second = before, stored_values = values, store_count = seen;
   choices.erase(choices.begin() + int64_t(count), choices.end());
 }
 
@@ -119,6 +120,7 @@ void Match::texel_is(const PlaneView& view, const char* name, int at, const Lega
   ++stored_values;
   const auto taken = int8_t(stored < texel.nominal ? -1 : stored > texel.nominal ? 1 : 0);
   second = second || taken != 0;
+  if (store_count < kMostStores) stores[store_count++] = {float(value), !(texel.second_chance > 0), taken};
   if (taken == 0 && !(texel.second_chance > 0)) return;
   choices.push_back(choice_of(view, at, pixel, value, texel, stored, profile));
 }
@@ -147,7 +149,18 @@ void RowTally::may_be_other(uint32_t pixel, uint64_t surface, double chance) {
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
   classes.push_back(c);
+  compare(x, match);
   record(x, y, c, match, surface);
+}
+
+void RowTally::compare(int x, const Match& match) {
+  if (x == before_x + 1 && match.store_count == before_count)
+    for (size_t i = 0; i < before_count; ++i) {
+      const SeenStore &a = before[i], &b = match.stores[i];
+      stored_apart += a.value == b.value && a.is_sure && b.is_sure && a.taken != b.taken ? 1 : 0;
+    }
+  std::copy_n(match.stores.begin(), match.store_count, before.begin());
+  before_count = match.legal ? match.store_count : 0, before_x = x;
 }
 
 void RowTally::record(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
@@ -182,6 +195,7 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
   for (RowTally& row : rows) {
     v.classes.insert(v.classes.end(), row.classes.begin(), row.classes.end());
     v.covered += row.covered, v.ambiguous += row.ambiguous, v.stored_values += row.stored_values;
+    v.stored_apart += row.stored_apart;
     v.predicted_other += row.predicted_other;
     v.worst_error = std::max(v.worst_error, row.worst_error);
     v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());

@@ -45,6 +45,13 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
 /// The target. Error(bad_input) if there is none.
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
 
+/// A store of codes or small floats.
+struct SeenStore {
+  float value;   ///< the real value before it
+  bool is_sure;  ///< the likely rule leaves one outcome
+  int8_t taken;  ///< as in StoreChoice
+};
+
 /// How one pixel fares against one surface.
 struct Match {
   bool legal = true;
@@ -57,6 +64,9 @@ struct Match {
   LegalTexel legal_value;
   double given = 0;
   std::vector<StoreChoice> choices;
+  static constexpr size_t kMostStores = 24;  // that are compared with the next pixel's
+  std::array<SeenStore, kMostStores> stores;
+  size_t store_count = 0;
   uint64_t stored_values = 0;
   PixelClass layered = PixelClass::exact;  ///< of transparent fragments, another number than the nominal one
 
@@ -80,7 +90,7 @@ StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double
 /// One row's share of a verdict.
 struct RowTally {
   std::vector<PixelClass> classes;
-  uint64_t covered = 0, ambiguous = 0, stored_values = 0;
+  uint64_t covered = 0, ambiguous = 0, stored_values = 0, stored_apart = 0;
   double predicted_other = 0, worst_error = 0;
   std::vector<SurfaceChoice> surface_choices;
   std::vector<StoreChoice> choices;
@@ -91,6 +101,12 @@ struct RowTally {
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
   /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+
+ private:
+  void compare(int x, const Match& match);
+  std::array<SeenStore, Match::kMostStores> before;  ///< of the pixel to the left, if there is one
+  size_t before_count = 0;
+  int before_x = -2;
 };
 
 /// The profile as it applies: `ideal` follows the pipeline's half_round; of others that allow either, it is nominal.

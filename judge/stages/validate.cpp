@@ -123,11 +123,12 @@ std::string Verdict::evidence_line() const {
     if (strongest == nullptr || t.chance < strongest->chance) strongest = &t, stage = stages[i].stage;
   }
   if (strongest == nullptr) return {};
+  const auto tests = double(stages.size() * kAggregateTests);  // of which one is the rarest
   char text[256];
-  std::snprintf(text, sizeof text,
-                "%s, %s%s%s: %.6g, where %.6g to %.6g are expected: one legal image in %s makes that", stage.c_str(),
-                strongest->name.c_str(), strongest->where.empty() ? "" : ", ", strongest->where.c_str(),
-                strongest->observed, strongest->low, strongest->high, one_in(strongest->chance).c_str());
+  std::snprintf(
+      text, sizeof text, "%s, %s%s%s: %.6g, where %.6g to %.6g are expected: one legal image in %s makes that",
+      stage.c_str(), strongest->name.c_str(), strongest->where.empty() ? "" : ", ", strongest->where.c_str(),
+      strongest->observed, strongest->low, strongest->high, one_in(std::min(1.0, strongest->chance * tests)).c_str());
   return text;
 }
 

@@ -48,9 +48,11 @@ struct StageVerdict {
   uint64_t stored_values = 0;                    ///< unorm and half channels judged
   std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
-  StoreRule rule;                                ///< by which `choices` are choices
-  double worst_error = 0;                        ///< float planes: largest |given - value| / bound
-  std::vector<WorstPixel> worst;                 ///< at most 32
+  uint64_t stored_apart = 0;  ///< stores whose value is that of the pixel to the left, which stored another code,
+                              ///< although the likely rule leaves one outcome
+  StoreRule rule;                 ///< by which `choices` are choices
+  double worst_error = 0;         ///< float planes: largest |given - value| / bound
+  std::vector<WorstPixel> worst;  ///< at most 32
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   bool passes() const { return count(PixelClass::violation) == 0; }

@@ -198,6 +198,7 @@ TEST_CASE("A bad file of a capture is refused in one line, and no report is left
   check_bad("x.npy", 3, "x.npy");
   write_bytes(c.path("x.jpg"), "\xff\xd8\xff\xe0 and more");
   check_refused(c.judge({"--gbuffer", "x.jpg"}), 3, "it is JPEG, which does not keep a plane's values");
+  check_refused(c.judge({"--map", "rows=bottom_up"}), 3, "it names no plane, and there is no file of planes");
 }
 
 TEST_CASE("A fourth channel beside a plane of three is left out where it says nothing, and refused where it does") {

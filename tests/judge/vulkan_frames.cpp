@@ -54,6 +54,7 @@ void check_lavapipe(const Scene& scene, const Pipeline& pipeline) {
   CHECK(frame.subpixel_bits == 8);
   const Verdict verdict = judged(scene, pipeline, frame.capture);
   CHECK(verdict.violations() == 0);
+  CHECK_FALSE(verdict.convicted());
   CHECK(verdict.stages.size() >= 2);
   CHECK(verdict.stages[0].covered > 500);
 }
