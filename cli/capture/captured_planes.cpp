@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 
 #include "cli/capture/camera_frame.h"
@@ -52,6 +53,10 @@ class PlaneUnpacker {
     find_surfaces();
     for (const PlaneChannelList& plane : files_.planes)
       if (plane.mapped.plane != "depth" && !plane.mapped.plane.starts_with("id.")) add(plane);
+    if (!covered_.empty())
+      for (NamedImage& plane : out_.capture.planes)
+        if (plane.name != "depth" && !plane.name.starts_with("id.") && plane.name != "light.count")
+          forget_clear_value(plane);
     return std::move(out_);
   }
 
@@ -73,6 +78,22 @@ class PlaneUnpacker {
          remedy);
   }
   void note(const std::string& line) { out_.notes.push_back(line); }
+
+  /// A value of the engine's own, the same wherever there is no surface: it says nothing, and 0 stands for it.
+  void forget_clear_value(NamedImage& plane) {
+    const auto bytes = size_t(info(plane.image.format).bytes_per_texel());
+    std::vector<uint8_t> clear;
+    for (size_t i = 0; i < covered_.size(); ++i) {
+      if (covered_[i] != 0) continue;
+      const uint8_t* const texel = &plane.image.texels[i * bytes];
+      if (clear.empty()) clear.assign(texel, texel + bytes);
+      if (std::memcmp(texel, clear.data(), bytes) != 0) return;
+    }
+    if (std::all_of(clear.begin(), clear.end(), [](uint8_t b) { return b == 0; })) return;
+    for (size_t i = 0; i < covered_.size(); ++i)
+      if (covered_[i] == 0) std::fill_n(&plane.image.texels[i * bytes], bytes, uint8_t(0));
+    note(plane.name + " holds one value wherever there is no surface: it is taken for the plane's clear value");
+  }
 
   void add(const PlaneChannelList& plane) {
     const std::string& name = plane.mapped.plane;

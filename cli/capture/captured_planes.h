@@ -16,7 +16,8 @@ struct CapturedPlanes {
 };
 
 /// Puts the planes of files together. Packed ones are unpacked, with their bounds in Capture::decoded; where there is
-/// no surface, as depth or id.object say, an unpacked plane is 0, since nothing was packed there. Planes that are as
+/// no surface, as depth or id.object say, an unpacked plane is 0, since nothing was packed there, and so is one that
+/// holds a single value there, which it was cleared to. Planes that are as
 /// they were stored are still in the files' formats (stored_planes.h).
 ///   pipeline: of the capture's size; its geometry is the camera's clip space and the depth buffer's
 /// Error(bad_input) naming the pixel: values that no packing has, depths that are none, NaN; a camera without a view

@@ -161,6 +161,31 @@ TEST_CASE("A wrong map is convicted or refused") {
   check_map_refused("@map.txt", 3, "map.txt: line 2: there is no word 'wiev'");
 }
 
+TEST_CASE("A value that a plane was cleared to says nothing, and what is left there of something else does") {
+  const DrawnCapture c;
+  EnginePlane cleared = c.normal;
+  uint64_t empty = 0;
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) {
+      if (cleared.at(x, y, 0) != 0 || cleared.at(x, y, 1) != 0 || cleared.at(x, y, 2) != 0) continue;
+      ++empty;
+      cleared.at(x, y, 0) = cleared.at(x, y, 1) = 0.5, cleared.at(x, y, 2) = 1;
+    }
+  REQUIRE(empty > 100);
+  const std::vector<std::string> map = {"--gbuffer", "c.exr", "--map",
+                                        "position,albedo,depth,id.object,color,normal=cleared.npy"};
+  write_npy(c.path("cleared.npy"), cleared, "<f4");
+  const Outcome passed = c.judge(map);
+  INFO(passed.out);
+  CHECK(passed.exit_code == 0);
+  CHECK(passed.out.find("normal holds one value wherever there is no surface") != std::string::npos);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x)
+      if (cleared.at(x, y, 2) == 1 && cleared.at(x, y, 0) == 0.5) cleared.at(x, y, 1) = 0.5 + 0.001 * x;
+  write_npy(c.path("cleared.npy"), cleared, "<f4");
+  CHECK(c.judge(map).exit_code == 1);
+}
+
 TEST_CASE("A bad file of a capture is refused in one line, and no report is left behind") {
   const DrawnCapture c;
   const auto check_bad = [&](const std::string& normal, int code, const std::string& about) {
