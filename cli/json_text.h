@@ -3,11 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace trueshade {
+#include "core/json_string.h"
 
-/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD, and what printable() does not show is
-/// escaped, so that the text is JSON and does nothing to a terminal whatever a file is called.
-std::string json_string(std::string_view text);
+namespace trueshade {
 
 /// Numbers as JSON: integers whole, a double in the fewest digits that give it back, and what is not finite as the
 /// string "inf", "-inf" or "nan".

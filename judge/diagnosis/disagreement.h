@@ -29,7 +29,7 @@ struct Disagreement {
   double contradicted = 0;  ///< weight of those that do not agree, of those that do without it
 };
 
-/// A number as a fault's name has it: at most five digits that count.
+/// A number as a fault's name has it: a whole one with all its digits, others with at most five that count.
 std::string parameter_text(double value);
 
 /// The parameter of a fault as its name has it: a word, where there is one without spaces.

@@ -36,7 +36,7 @@ struct Finding {
 /// explains a third of what is wrong. Works on samples of some thousands of pixels, the same ones every time.
 ///   stages: of validate_capture(), by the same pipeline and profile
 ///   supposed: names of faults; if there are any, these are tried and no others
-/// Error(usage) for a name that no fault has, or a parameter that is no number.
+/// Error(usage) for a name that no fault has, or a parameter that the fault does not take.
 std::vector<Finding> diagnose(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                               const Capture& capture, std::span<const StageVerdict> stages,
                               std::span<const std::string> supposed = {}, size_t most = 3);

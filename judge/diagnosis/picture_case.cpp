@@ -37,7 +37,8 @@ double held_value(const Pipeline& of_plane, double value, int channel) {
 
 std::string parameter_text(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.5g", value);
+  const bool whole = value == std::floor(value) && std::fabs(value) < 1e15;  // a light's number has all its digits
+  std::snprintf(text, sizeof text, whole ? "%.0f" : "%.5g", value);
   return text;
 }
 

@@ -60,11 +60,19 @@ TEST_CASE("What is supposed is answered alone, and a fault that is not known is 
   CHECK(has(right.out, "looks like  cull-face=front"));
   CHECK(has(wrong.out, "looks like  depth-reversed (depth): the depths are reversed: 1 - z; explains 0.0 %"));
   CHECK_FALSE(has(wrong.out, "cull-face"));
-  for (const char* name : {"cull-face", "cull-face=sideways", "no-such-fault"}) {
+  const std::pair<const char*, const char*> refusals[] = {
+      {"no-such-fault", "is no fault that is known"},
+      {"light-missing", "needs its parameter after `=` (light-missing takes a whole number from 0 to "},
+      {"cull-face=sideways", "has a parameter that it does not take (cull-face takes none, front, back)"},
+      {"tile-lists-16=1e10", "has a parameter that it does not take (tile-lists-16 takes 0, 1, 2, 3, 4, 5, 6, 7)"},
+      {"light-intensity=nan",
+       "has a parameter that it does not take (light-intensity takes a number from 0.001 to 1000)"},
+      {"picture-flip-y=1", "has a parameter (picture-flip-y takes none)"}};
+  for (const auto& [name, reason] : refusals) {
     const Outcome refused = judged(folder, {"--suppose", name});
     CAPTURE(name, refused.err);
     CHECK(refused.exit_code == 2);
-    CHECK(has(refused.err, "--suppose: '" + std::string(name) + "' is no fault that is known"));
+    CHECK(has(refused.err, "--suppose: '" + std::string(name) + "' " + reason));
   }
 }
 

@@ -1,5 +1,6 @@
 // Faults planted in captures are convicted and named; legal captures have no finding.
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "core/error.h"
@@ -146,6 +147,69 @@ TEST_CASE("What is supposed is tried alone, and names that are no fault's are re
     CAPTURE(name);
     CHECK_THROWS_AS(supposed(name), Error);
   }
+}
+
+TEST_CASE("A parameter that a fault does not take is refused in a line that says what it takes") {
+  const Scene scene = builtin_scene("cornell");
+  REQUIRE(scene.lights.size() < 100);
+  Pipeline pipeline;
+  pipeline.width = 32, pipeline.height = 24;
+  Scene wrong = scene;
+  for (Light& l : wrong.lights) l.color *= 0.5f;
+  Pipeline culled = pipeline;
+  culled.geometry.cull_face = CullFace::front;
+  const Capture capture = captured(wrong, culled);
+  Profile profile;
+  profile.subpixel_bits = 8;
+  const Verdict verdict = validate_capture(scene, pipeline, capture, {profile, false, {}, {}});
+  REQUIRE(verdict.violations() > 100);
+  // Empty where the name is taken.
+  const auto refusal = [&](const std::string& name) -> std::string {
+    try {
+      diagnose(scene, pipeline, profile, capture, verdict.stages, {&name, 1});
+    } catch (const Error& e) {
+      CHECK(e.kind() == ErrorKind::usage);
+      return e.what();
+    }
+    return {};
+  };
+  for (const KnownFault& fault : known_faults()) {
+    const std::string bare = fault.name.substr(0, fault.name.find('='));
+    const bool has_parameter = bare != fault.name;
+    CAPTURE(bare);
+    CHECK(refusal(bare).empty() != has_parameter);
+    for (const char* garbage : {"", "nan", "-nan", "inf", "-inf", "1e10", "-1e300", "2147483648", "much", "1x"}) {
+      CAPTURE(garbage);
+      const std::string line = refusal(bare + "=" + garbage);
+      CHECK(line.find(bare + " takes ") != std::string::npos);
+      CHECK(line.find('\n') == std::string::npos);
+    }
+    for (const char* odd : {"-1", "0.5", "0", "1", "3", "7", "8"}) {
+      CAPTURE(odd);
+      const std::string line = refusal(bare + "=" + odd);
+      CHECK((line.empty() || line.find(bare + " takes ") != std::string::npos));
+    }
+  }
+  const std::string first_beyond = std::to_string(scene.lights.size());
+  CHECK(refusal("light-missing=0").empty());
+  CHECK(refusal("light-count=" + first_beyond).empty());
+  CHECK(refusal("light-missing=" + first_beyond).find("light-missing takes a whole number from 0 to ") !=
+        std::string::npos);
+  CHECK(refusal("light-missing").find("'light-missing' needs its parameter after `=`") != std::string::npos);
+  CHECK(refusal("object-missing=" + std::to_string(scene.instances.size())) != "");
+  CHECK(refusal("tile-lists-16=0.5").find("tile-lists-16 takes 0, 1, 2, 3, 4, 5, 6, 7") != std::string::npos);
+  CHECK(refusal("cull-face=sideways").find("cull-face takes none, front, back") != std::string::npos);
+}
+
+TEST_CASE("Findings are JSON whatever a file is called and whatever a number is") {
+  Finding finding;
+  finding.command = "trueshade validate 'a\n\"b\"\\.obj'";
+  finding.proof.given = std::numeric_limits<double>::infinity();
+  finding.proof.right = std::numeric_limits<double>::quiet_NaN();
+  const std::string json = findings_json({&finding, 1});
+  CAPTURE(json);
+  CHECK(json.find(R"("command":"trueshade validate 'a\n\"b\"\\.obj'")") != std::string::npos);
+  CHECK(json.find(R"("given":"inf","right":"nan","predicted":0)") != std::string::npos);
 }
 
 TEST_CASE("Every fault that is known has a name and a sentence of its own") {

@@ -1,0 +1,149 @@
+#include "judge/diagnosis/supposed_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// What a parameter may be.
+struct Range {
+  double low = 0, high = 0;
+  bool whole = false;
+};
+
+/// Of the faults whose name ends so; a fault that has several values to try, and none of these rows, takes no others.
+struct NamedRange {
+  std::string_view ending;
+  Range range;
+};
+constexpr double kMostShift = 16384, kMostNumbers = 65535;
+constexpr NamedRange kRanges[] = {
+    {"-shift-x", {-kMostShift, kMostShift, true}},
+    {"-shift-y", {-kMostShift, kMostShift, true}},
+    {"picture-bits", {1, 7, true}},
+    {"picture-offset", {-255, 255}},
+    {"-alpha", {0, 1}},
+    {"depth-bits", {1, 32, true}},
+    {"normal-bits", {1, 32, true}},
+    {"normal-octahedral-halved", {0, 1}},
+    {"object-offset", {-kMostNumbers, kMostNumbers, true}},
+    {"material-offset", {-kMostNumbers, kMostNumbers, true}},
+    {"texture-lod-bias", {-16, 16}},
+    {"polygon-offset", {-1000, 1000}},
+    {"lighting-normal-rounded", {1, kMostNumbers, true}},
+};
+constexpr Range kFactors{0.001, 1000}, kDepths{-1e9, 1e9};
+
+Error refused(const std::string& name, const std::string& reason, const std::string& remedy) {
+  return {ErrorKind::usage, "--suppose", "'" + name + "' " + reason, remedy};
+}
+Error no_fault(const std::string& name) {
+  return refused(name, "is no fault that is known", "`trueshade list` names them; a parameter follows `=`");
+}
+
+template <class Fault>
+const Fault* fault_named(std::string_view name, std::initializer_list<std::span<const Fault>> tables) {
+  for (const auto table : tables)
+    for (const Fault& f : table)
+      if (f.name == name) return &f;
+  return nullptr;
+}
+
+Range numbers_of(size_t count) { return {0, double(count) - 1, true}; }
+
+/// What the search looks for, where that says it; otherwise a range that is empty.
+Range range_sought(const PictureFault& fault, const Scene& scene) {
+  switch (fault.search) {
+    case Search::smooth:
+      return kFactors;
+    case Search::missing_light:
+    case Search::doubled_light:
+      return numbers_of(scene.lights.size());
+    case Search::count:
+    case Search::count_at_pixel:
+      return numbers_of(scene.lights.size() + 1);
+    case Search::none:
+    case Search::one_of:
+      break;
+  }
+  return {1, 0};
+}
+Range range_sought(const PlaneFault& fault, const Scene& scene) {
+  if (fault.search == PlaneFault::Search::object) return numbers_of(scene.instances.size());
+  return fault.search == PlaneFault::Search::depth_offset ? kDepths : Range{1, 0};
+}
+
+template <class Fault>
+const Range* range_listed(const Fault& fault) {
+  for (const NamedRange& row : kRanges)
+    if (fault.says == nullptr && fault.name.ends_with(row.ending)) return &row.range;
+  return nullptr;
+}
+
+std::string text_of(const Range& range) {
+  if (range.high < range.low) return "nothing here: the scene has none";
+  return std::string(range.whole ? "a whole number from " : "a number from ") + parameter_text(range.low) + " to " +
+         parameter_text(range.high);
+}
+
+/// A number, or a word that the fault has for one.
+template <class Fault>
+double parameter_of(const Fault& fault, const Scene& scene, const std::string* text, const std::string& name) {
+  char* end = nullptr;
+  const double number = text != nullptr ? std::strtod(text->c_str(), &end) : 0;
+  const bool is_number = text != nullptr && !text->empty() && end == text->c_str() + text->size();
+  const auto refuse = [&](const std::string& taken) {
+    return refused(name, text == nullptr ? "needs its parameter after `=`" : "has a parameter that it does not take",
+                   std::string(fault.name) + " takes " + taken);
+  };
+  const Range* listed = range_listed(fault);
+  if (fault.search == decltype(fault.search)::one_of && listed == nullptr) {
+    std::string words;
+    for (const double start : fault.starts) {
+      const std::string word = parameter_word(fault, start);
+      if ((text != nullptr && word == *text) || (is_number && number == start)) return start;
+      words += (words.empty() ? "" : ", ") + word;
+    }
+    throw refuse(words);
+  }
+  const Range range = listed != nullptr ? *listed : range_sought(fault, scene);
+  const bool in_range = number >= range.low && number <= range.high;  // not a number: no
+  if (is_number && in_range && (!range.whole || number == std::floor(number))) return number;
+  throw refuse(text_of(range));
+}
+
+/// Adds the fault if there is one in the tables.
+template <class Named, class Fault>
+bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene, const std::string* text,
+                  const std::string& name) {
+  if (fault == nullptr) return false;
+  const bool none = fault->search == decltype(fault->search)::none;
+  if (none && text != nullptr) throw refused(name, "has a parameter", std::string(fault->name) + " takes none");
+  to.push_back({fault, none ? 0 : parameter_of(*fault, scene, text, name)});
+  return true;
+}
+
+}  // namespace
+
+SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& scene) {
+  SupposedFaults out;
+  for (const std::string& name : names) {
+    const size_t equals = name.find('=');
+    const bool given = equals != std::string::npos;
+    const std::string_view bare = std::string_view(name).substr(0, equals);
+    const std::string after = given ? name.substr(equals + 1) : "";
+    const std::string* text = given ? &after : nullptr;
+    const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
+    const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults()});
+    if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name))
+      throw no_fault(name);
+  }
+  return out;
+}
+
+}  // namespace trueshade::oracle
