@@ -10,6 +10,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kMostVoters = 120;
+constexpr double kRight = 1;  ///< a factor that changes nothing
 
 class Estimate {
  public:
@@ -29,6 +30,14 @@ class Estimate {
     s.suppose(fault_, parameter);
     return s;
   }
+  struct Best {
+    double parameter, cost;
+  };
+  void better(double parameter, Best& best) const {
+    const double c = cost(parameter);
+    if (c < best.cost) best = {parameter, c};
+  }
+  void descend(double from, Best& best) const;
   double stepped(double parameter) const;
   double climbed(double count) const;
   double narrowed(double parameter) const;
@@ -108,24 +117,31 @@ double Estimate::short_number(double parameter) const {
   return parameter;
 }
 
-double Estimate::smooth() const {
-  double best = best_of(fault_.starts, 1).front(), least = cost(best), at = best;
-  if (least >= picture_.disagreement(supposed_, pixels_, off_).cost) return best;  // it comes no nearer
+/// Steps of least squares from a parameter, for as long as they lead elsewhere.
+void Estimate::descend(double from, Best& best) const {
   for (int i = 0; i < 6; ++i) {
-    const double next = stepped(at);
-    const double moved = std::fabs(next / at - 1);
-    at = next;
-    const double c = cost(at);
-    if (c < least) least = c, best = at;
+    const double next = stepped(from), moved = std::fabs(next / from - 1);
+    from = next;
+    if (next != kRight) better(next, best);
     if (moved < 1e-5) break;
   }
+}
+
+double Estimate::smooth() const {
+  const double if_right = picture_.disagreement(supposed_, pixels_, off_).cost;
+  const double start = best_of(fault_.starts, 1).front();
+  Best best{start, cost(start)};
+  // What is nearly right is nearer to being right than to any of the starts.
+  if (best.cost < if_right)
+    descend(start, best);
+  else
+    descend(kRight, best);
+  if (best.cost >= if_right) return best.parameter;  // it comes no nearer
   // Codes make steps of what should be smooth: a look about, before the best place is narrowed down.
-  const double middle = best;
-  for (const double percent : {-5.0, -3.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 3.0, 5.0}) {
-    const double near = middle * (1 + percent / 100), c = cost(near);
-    if (c < least) least = c, best = near;
-  }
-  return short_number(narrowed(best));
+  const double middle = best.parameter;
+  for (const double percent : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0})
+    for (const double sign : {-1.0, 1.0}) better(middle * (1 + sign * percent / 100), best);
+  return short_number(narrowed(best.parameter));
 }
 
 /// Pixels that are not as they should be, with what was predicted.

@@ -74,6 +74,34 @@ TEST_CASE("Ten faults planted in three scenes are convicted and named first, by 
   CHECK(all.blamed == all.named);
 }
 
+TEST_CASE("Lights that are one to five thousandths too bright or reach too far are named in planes of halves") {
+  for (const char* spec : {"cornell", "circle,lights=24"})
+    for (const float factor : {0.995f, 0.997f, 0.999f, 1.001f, 1.003f, 1.005f})
+      for (const bool range : {false, true}) {
+        const Scene scene = builtin_scene(spec);
+        Pipeline pipeline = *preset_pipeline("many-lights");
+        pipeline.width = 96, pipeline.height = 72, pipeline.target = Format::rgba16f;
+        Scene wrong = scene;
+        for (Light& l : wrong.lights)
+          if (range)
+            l.range *= factor;
+          else
+            l.color *= factor;
+        const Capture capture = captured(wrong, pipeline);
+        Profile profile;
+        profile.subpixel_bits = 8;
+        const Verdict verdict = validate_capture(scene, pipeline, capture, {profile, false, {}, {}});
+        const std::vector<Finding> found = diagnose(scene, pipeline, profile, capture, verdict.stages);
+        CAPTURE(spec, factor, range, verdict.violations(), findings_json(found));
+        REQUIRE(found.size() >= 1);
+        const std::string name = found[0].name;
+        CHECK((name.starts_with(range ? "light-range=" : "light-intensity=") ||
+               (!range && name.starts_with("picture-exposure="))));
+        CHECK(std::stof(name.substr(name.find('=') + 1)) == Approx(factor).epsilon(0.0003));
+        CHECK(found[0].explained > 0.9);
+      }
+}
+
 TEST_CASE("Every fault planted in three scenes is convicted in 98 of 100 and named first in 90", "[long]") {
   std::vector<const Plant*> every;
   for (const Plant& p : plants()) every.push_back(&p);

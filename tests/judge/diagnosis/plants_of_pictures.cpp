@@ -86,6 +86,13 @@ Input model(Change change) {
 using Color4 = std::array<double, 4>;
 using Where = std::pair<int, int>;
 
+/// Of targets of floats alone: codes of 8 bits hide faults so small, or leave them legal.
+Input in_floats(Input input) {
+  return [input](Scene& s, Pipeline& p, int variant) {
+    return info(p.target).number_class == NumberClass::floating && input(s, p, variant);
+  };
+}
+
 std::vector<Plant> made() {
   std::vector<Plant> all;
   const auto out = [&](std::string_view name, Names names, Output output, int variants = 1, Names presets = kModels) {
@@ -143,6 +150,14 @@ std::vector<Plant> made() {
        l.color *= pick({0.99f, 0.98f, 1.01f, 1.05f}, v);
      }),
      4);
+  in("intensity hardly off", {"light-intensity", "picture-exposure"}, in_floats(lamps([](Light& l, int v) {
+       l.color *= pick({1.003f, 0.999f, 1.005f, 0.997f, 1.001f, 0.995f}, v);
+     })),
+     6);
+  in("range hardly off", {"light-range"}, in_floats(lamps([](Light& l, int v) {
+       l.range *= pick({1.003f, 0.997f}, v);
+     })),
+     2);
   in("range a little off", {"light-range"}, lamps([](Light& l, int v) {
        l.range *= pick({0.99f, 0.97f, 1.01f, 1.05f}, v);
      }),
