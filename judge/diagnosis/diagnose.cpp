@@ -82,14 +82,17 @@ std::string findings_json(std::span<const Finding> findings) {
   std::string json = "[";
   for (const Finding& f : findings) {
     if (json.size() > 1) json += ",";
-    json +=
-        "{\"name\":" + json_string(f.name) + ",\"plane\":" + json_string(f.plane) + ",\"text\":" + json_string(f.text) +
-        ",\"changed\":" + std::to_string(f.changed) + ",\"explained\":" + json_in_nine_digits(f.explained) +
-        ",\"contradicted\":" + json_in_nine_digits(f.contradicted) +
-        ",\"together\":" + (f.together ? "true" : "false") + ",\"proof\":{\"x\":" + std::to_string(f.proof.x) +
-        ",\"y\":" + std::to_string(f.proof.y) + ",\"plane\":" + json_string(f.proof.plane) +
-        ",\"given\":" + json_in_nine_digits(f.proof.given) + ",\"right\":" + json_in_nine_digits(f.proof.right) +
-        ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) + "},\"command\":" + json_string(f.command) + "}";
+    json += "{\"name\":" + json_string(f.name) + ",\"plane\":" + json_string(f.plane) +
+            ",\"text\":" + json_string(f.text) + ",\"changed\":" + std::to_string(f.changed) +
+            ",\"explained\":" + json_in_nine_digits(f.explained) +
+            ",\"contradicted\":" + json_in_nine_digits(f.contradicted) +
+            ",\"together\":" + (f.together ? "true" : "false") + ",\"alone\":" + json_in_nine_digits(f.alone) +
+            ",\"proof\":{\"x\":" + std::to_string(f.proof.x) + ",\"y\":" + std::to_string(f.proof.y) +
+            ",\"plane\":" + json_string(f.proof.plane) + ",\"given\":" + json_in_nine_digits(f.proof.given) +
+            ",\"right\":" + json_in_nine_digits(f.proof.right) +
+            ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
+            ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
+            ",\"anything\":" + (f.proof.anything ? "true" : "false") + "},\"command\":" + json_string(f.command) + "}";
   }
   return json + "]";
 }

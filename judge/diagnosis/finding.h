@@ -17,6 +17,8 @@ struct Proof {
   int x = 0, y = 0;   ///< from the top left
   std::string plane;  ///< `color.R`; unorm values are codes
   double given = 0, right = 0, predicted = 0;
+  bool by_both = false;   ///< predicted of this fault and the one that is named beside it
+  bool anything = false;  ///< the fault predicts no number there: `predicted` is what was given
 };
 
 /// A fault that explains pixels which are not what they should be.
@@ -25,9 +27,10 @@ struct Finding {
   std::string plane;        ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`
   std::string text;         ///< a sentence without its full stop
   uint64_t changed = 0;     ///< pixels of the plane that differ from what is predicted of a right renderer, estimated
-  double explained = 0;     ///< the share of these that the fault predicts
+  double explained = 0;     ///< the share of these that the fault predicts; of `together`, that both predict
   double contradicted = 0;  ///< of the pixels that were as predicted, the share that the fault predicts otherwise
-  bool together = false;    ///< it explains that share only beside the finding before it
+  bool together = false;    ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
+  double alone = 0;         ///< the share that it explains without the other; `explained`, unless `together`
   Proof proof;
   std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
 };
@@ -47,8 +50,8 @@ struct KnownFault {
 };
 std::vector<KnownFault> known_faults();
 
-/// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, proof {x, y, plane,
-/// given, right, predicted}, command}.
+/// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, proof {x, y,
+/// plane, given, right, predicted, by_both, anything}, command}.
 std::string findings_json(std::span<const Finding> findings);
 
 }  // namespace trueshade::oracle

@@ -144,19 +144,42 @@ std::array<int, 2> PictureCase::source(const Move& move, int x, int y) const {
   return {move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y};
 }
 
+namespace {
+
+/// Whether the pixel is not as it should be.
+bool is_odd(const StageVerdict& stage, int x, int y) {
+  const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
+  return c == PixelClass::violation || c == PixelClass::store_2;
+}
+
+/// Whether of the pixels just outside these tiles far fewer are odd than of those just inside.
+bool ends_sharply(const StageVerdict& stage, const std::vector<uint8_t>& tiles, int side) {
+  constexpr int kBand = 2;
+  const int across = (stage.width + side - 1) / side;
+  const auto in = [&](int x, int y) { return tiles[size_t(y / side) * size_t(across) + size_t(x / side)] != 0; };
+  double odd[2] = {}, all[2] = {};
+  for (int y = 0; y < stage.height; ++y)
+    for (int x = 0; x < stage.width; ++x) {
+      const bool here = in(x, y);
+      const bool at_border = in(std::max(x - kBand, 0), y) != here || in(x, std::max(y - kBand, 0)) != here ||
+                             in(std::min(x + kBand, stage.width - 1), y) != here ||
+                             in(x, std::min(y + kBand, stage.height - 1)) != here;
+      if (at_border) odd[here ? 1 : 0] += is_odd(stage, x, y) ? 1 : 0, ++all[here ? 1 : 0];
+    }
+  return 4 * odd[0] * all[1] <= odd[1] * all[0];
+}
+
+}  // namespace
+
 /// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is.
 void PictureCase::find_stale(const StageVerdict& stage) {
-  const auto odd = [&](int x, int y) {
-    const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
-    return c == PixelClass::violation || c == PixelClass::store_2;
-  };
   for (const int side : {8, 16, 32, 64}) {
     const int across = (stage.width + side - 1) / side, down = (stage.height + side - 1) / side;
     std::vector<int> odd_in(size_t(across) * size_t(down)), all_in(odd_in.size());
     for (int y = 0; y < stage.height; ++y)
       for (int x = 0; x < stage.width; ++x) {
         const size_t tile = size_t(y / side) * size_t(across) + size_t(x / side);
-        odd_in[tile] += odd(x, y) ? 1 : 0, ++all_in[tile];
+        odd_in[tile] += is_odd(stage, x, y) ? 1 : 0, ++all_in[tile];
       }
     StaleTiles& tiles = stale_[side];
     tiles.stale.resize(odd_in.size());
@@ -166,7 +189,8 @@ void PictureCase::find_stale(const StageVerdict& stage) {
       tiles.stale[i] = stale ? 1 : 0, tiles.count += stale ? 1 : 0;
       (stale ? odd_stale : odd_other) += odd_in[i], (stale ? all_stale : all_other) += all_in[i];
     }
-    if (10 * odd_other > all_other || size_t(10 * tiles.count) > std::max<size_t>(odd_in.size(), 30)) {
+    if (10 * odd_other > all_other || size_t(10 * tiles.count) > std::max<size_t>(odd_in.size(), 30) ||
+        !ends_sharply(stage, tiles.stale, side)) {
       std::fill(tiles.stale.begin(), tiles.stale.end(), 0);
       tiles.count = 0;
     }
@@ -302,7 +326,7 @@ double PictureCase::steps_off(const PictureSupposition& supposed, const Predicti
   if (off < kSameSteps) return 0;
   if (supposed.reach > 0) {
     const double value = color_.unorm() ? p.value[k] * color_.layout.largest_code(channel) : p.value[k];
-    off = std::min(off, std::max(0.0, std::fabs(stored - value) / unit - supposed.reach));
+    if (std::fabs(stored - value) <= supposed.reach * unit) return 0;
   }
   if (off > 1.5 || blends_lights(pipeline_.strategy)) return off;
   // Floats are off a little: the other side of a threshold is as good.
@@ -313,11 +337,58 @@ double PictureCase::steps_off(const PictureSupposition& supposed, const Predicti
   return off;
 }
 
+bool PictureCase::in_stale_tile(const PictureSupposition& supposed, int x, int y) const {
+  const int side = supposed.stale;
+  if (side == 0) return false;
+  const size_t across = size_t((pipeline_.width + side - 1) / side);
+  return stale_.at(side).stale[size_t(y / side) * across + size_t(x / side)] != 0;
+}
+
+double PictureCase::shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y,
+                          int channel) const {
+  if (in_stale_tile(supposed, x, y) || steps_off(supposed, predicted, x, y, channel) < kSameSteps)
+    return given(x, y, channel);
+  return predicted.stored[size_t(channel)];
+}
+
+/// A dither adds to a value of fraction f either -f or 1 - f codes, on the average nothing, whatever the pixels beside
+/// it get. The mean square of that is f (1 - f); rounding to nearest alone makes half of it.
+bool PictureCase::looks_dithered(const PictureSupposition& supposed) const {
+  constexpr double kLeastSquares = 0.75, kMostSquares = 1.3, kMostMean = 0.08, kMostAlike = 0.2, kMostBeyond = 0.1;
+  struct Added {
+    double codes = 0, chance = 0;
+  };
+  const auto added = [&](int x, int y, int channel) -> std::optional<Added> {
+    if (x >= pipeline_.width || y >= pipeline_.height || !captured_.covered(x, y)) return std::nullopt;
+    const double largest = color_.layout.largest_code(channel);
+    const double value = predicted(supposed, x, y).value[size_t(channel)] * largest, f = value - std::floor(value);
+    if (!(value > 0) || value >= largest) return std::nullopt;
+    return Added{given(x, y, channel) - value, f * (1 - f)};
+  };
+  double weight = 0, beyond = 0, squares = 0, chances = 0, sum = 0, alike = 0, pairs = 0;
+  for (const SampledPixel& p : few_)
+    for (int k = 0; k < std::min(3, channels()); ++k) {
+      const std::optional<Added> here = added(p.x, p.y, k);
+      if (!here) continue;
+      weight += p.weight;
+      if (std::fabs(here->codes) > 1.02) {
+        beyond += p.weight;
+        continue;
+      }
+      squares += p.weight * here->codes * here->codes, chances += p.weight * here->chance;
+      sum += p.weight * here->codes;
+      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)})
+        if (const std::optional<Added> beside = added(p.x + dx, p.y + dy, k)) {
+          alike += p.weight * here->codes * beside->codes;
+          pairs += p.weight * 0.5 * (here->codes * here->codes + beside->codes * beside->codes);
+        }
+    }
+  return chances > 0.02 * weight && beyond < kMostBeyond * weight && squares > kLeastSquares * chances &&
+         squares < kMostSquares * chances && std::fabs(sum) < kMostMean * weight && alike < kMostAlike * pairs;
+}
+
 double PictureCase::steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const {
-  if (const int side = supposed.stale; side > 0) {
-    const size_t across = size_t((pipeline_.width + side - 1) / side);
-    if (stale_.at(side).stale[size_t(pixel.y / side) * across + size_t(pixel.x / side)] != 0) return 0;
-  }
+  if (in_stale_tile(supposed, pixel.x, pixel.y)) return 0;
   const Prediction p = predicted(supposed, pixel.x, pixel.y);
   double off = 0;
   for (int k = 0; k < channels(); ++k) off = std::max(off, steps_off(supposed, p, pixel.x, pixel.y, k));

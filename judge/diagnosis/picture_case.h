@@ -81,6 +81,11 @@ class PictureCase {
   Color given_value(int x, int y) const;
   int channels() const { return std::min(color_.channels, 4); }
   double steps_off(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
+  /// The number that a supposition predicts: what was given, where it is as good as what is predicted.
+  double shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
+  bool in_stale_tile(const PictureSupposition& supposed, int x, int y) const;
+  /// Whether what is left beside the values that are predicted is a dither's. Of codes that are stored once.
+  bool looks_dithered(const PictureSupposition& supposed) const;
   /// One step of the format, in values, about a value.
   double step_at(double value, int channel) const;
 

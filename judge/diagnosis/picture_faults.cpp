@@ -21,6 +21,9 @@ void each_of_rgb(Color& c, const Change& change) {
 }
 
 void encode(Color& c, double, int, int) { each_of_rgb(c, encoded); }
+void encode_twice(Color& c, double, int, int) {
+  each_of_rgb(c, [](double v) { return encoded(encoded(v)); });
+}
 void decode(Color& c, double, int, int) { each_of_rgb(c, decoded); }
 void power(Color& c, double p, int, int) {
   each_of_rgb(c, [p](double v) { return v > 0 ? std::pow(v, p) : 0; });
@@ -71,6 +74,10 @@ constexpr double kCodes[] = {-4, -3, -2, -1, 1, 2, 3, 4};
 
 bool of_floats(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::floating; }
 bool of_codes(const LightPass& p) { return !of_floats(p); }
+/// The value before the only store is known, and a code is a step of it.
+bool shows_dither(const LightPass& p) {
+  return of_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
+}
 
 constexpr auto kNone = Search::none;
 constexpr auto kOneOf = Search::one_of;
@@ -93,6 +100,8 @@ constexpr PictureFault kFaults[] = {
     {"picture-abgr", "the picture's channels are in the order ABGR", nullptr, show<3, 2, 1, 0>},
     {"picture-gbar", "the picture's channels are in the order GBAR", nullptr, show<1, 2, 3, 0>},
     {"picture-srgb-encoded", "the picture is sRGB-encoded once more than the target says", nullptr, encode},
+    {"picture-srgb-encoded-twice", "the picture is sRGB-encoded twice more than the target says", nullptr,
+     encode_twice},
     {"picture-srgb-missing", "the picture is not sRGB-encoded, or decoded once more than the target says", nullptr,
      decode},
     {"picture-gamma", "the picture is raised to the power of %s", nullptr, power, nullptr, Search::smooth, kGammas,
@@ -112,7 +121,7 @@ constexpr PictureFault kFaults[] = {
      "the picture is dithered: each code is one of the two beside the value",
      nullptr,
      nothing,
-     of_codes,
+     shows_dither,
      kNone,
      {},
      nullptr,

@@ -37,7 +37,7 @@ struct PictureFault {
   std::span<const double> starts{};
   void (*move)(Move&, double) = nullptr;
   double doubt = 0;  ///< what naming it costs beyond its parameter: the more it can explain by chance
-  double reach = 0;  ///< steps that it may be off: of what is noise
+  double reach = 0;  ///< steps from the value before its store that it may be off: of a dither
   int tile = 0;      ///< pixels a side of tiles whose light lists are those of other tiles; parameter: which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
   int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else

@@ -18,6 +18,8 @@ constexpr double kRival = 0.04;           ///< that a lesser finding may cost mo
 constexpr double kPairGain = 0.55;        ///< of a single fault's cost, that two may cost at most
 constexpr double kLeastGain = 0.02;       ///< and that a second fault must earn
 constexpr double kLeastChanged = 8;       ///< pixels below which there is nothing to explain
+constexpr double kNearOne = 0.015;        ///< factors that change values by about a code
+constexpr double kLeftByFew = 0.35;       ///< of what disagrees, that such a factor may leave
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
 
 struct Candidate {
@@ -37,14 +39,18 @@ class PictureSearch {
  public:
   explicit PictureSearch(PictureCase& picture) : picture_(picture) {
     off_few_ = off(picture.few()), off_ = off(picture.sample());
-    for (size_t i = 0; i < off_.size(); ++i) changed_ += off_[i] >= kSameSteps ? picture.sample()[i].weight : 0;
+    for (size_t i = 0; i < off_.size(); ++i) {
+      const double weight = picture.sample()[i].weight;
+      (off_[i] >= kSameSteps ? changed_ : same_) += weight, cost_ += weight * cost_of(off_[i]);
+    }
     for (size_t i = 0; i < off_few_.size(); ++i)
       changed_few_ += off_few_[i] >= kSameSteps ? picture.few()[i].weight : 0;
   }
 
   double changed() const { return changed_; }
+  /// Without findings that no pixel shows.
   std::vector<Finding> look() const;
-  std::vector<Finding> suppose(std::span<const NamedFault> faults) const;
+  std::vector<Finding> findings(std::span<const NamedFault> faults) const;
 
  private:
   std::vector<double> off(const std::vector<SampledPixel>& pixels) const;
@@ -53,12 +59,17 @@ class PictureSearch {
   Candidate judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const;
   std::vector<Candidate> beside(std::span<const NamedFault> faults) const;
   void refine(Candidate& candidate) const;
-  Finding finding(const Candidate& candidate, size_t which) const;
-  Proof proof(const PictureSupposition& supposed) const;
+  Finding finding(std::span<const NamedFault> faults, size_t which) const;
+  std::vector<Candidate> named(std::vector<Candidate> singles) const;
+  Proof proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const;
+  bool explains(const Candidate& c) const {
+    return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
+  }
 
   PictureCase& picture_;
   std::vector<double> off_few_, off_;
-  double changed_ = 0, changed_few_ = 0;
+  double changed_ = 0, changed_few_ = 0, same_ = 0;
+  double cost_ = 0;  ///< where nothing is wrong
 };
 
 std::vector<double> PictureSearch::off(const std::vector<SampledPixel>& pixels) const {
@@ -102,6 +113,7 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
       together.push_back({&fault, parameter});
       PictureSupposition both = base;
       both.suppose(fault, parameter);
+      if (fault.reach > 0 && !picture_.looks_dithered(both)) continue;
       found[size_t(i)].push_back(judged(std::move(together), both, false));
     }
   });
@@ -132,55 +144,80 @@ void PictureSearch::refine(Candidate& candidate) const {
 }
 
 /// The pixel that is farthest off where nothing is wrong, of those that the faults explain.
-Proof PictureSearch::proof(const PictureSupposition& supposed) const {
+///   too_few: faults that do not explain the pixel; empty: any will do
+Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const {
+  const PictureSupposition right = picture_.right(), all = supposed(faults), few = supposed(too_few);
   Proof proof;
   double farthest = 0;
-  const PictureSupposition right = picture_.right();
   for (size_t i = 0; i < off_.size(); ++i) {
     const SampledPixel& pixel = picture_.sample()[i];
-    if (off_[i] <= farthest || picture_.steps_off(supposed, pixel) >= kSameSteps) continue;
-    farthest = off_[i];
-    const PictureCase::Prediction should = picture_.predicted(right, pixel.x, pixel.y),
-                                  does = picture_.predicted(supposed, pixel.x, pixel.y);
+    const auto [x, y, weight] = pixel;
+    if (off_[i] < kSameSteps || off_[i] <= farthest || picture_.steps_off(all, pixel) >= kSameSteps) continue;
+    if (!too_few.empty() && picture_.steps_off(few, pixel) < kSameSteps) continue;
+    const PictureCase::Prediction should = picture_.predicted(right, x, y), does = picture_.predicted(all, x, y);
     double most = -1;
     for (int k = 0; k < picture_.channels(); ++k) {
-      const double steps = picture_.steps_off(right, should, pixel.x, pixel.y, k);
-      if (steps <= most) continue;
-      most = steps;
-      proof = {pixel.x,
-               pixel.y,
-               channel_of("color", k),
-               picture_.given(pixel.x, pixel.y, k),
-               should.stored[size_t(k)],
-               does.stored[size_t(k)]};
+      const double steps = picture_.steps_off(right, should, x, y, k), predicted = picture_.shown(all, does, x, y, k);
+      if (steps <= most || predicted == should.stored[size_t(k)]) continue;
+      most = steps, farthest = off_[i];
+      proof = {x, y, channel_of("color", k), picture_.given(x, y, k), should.stored[size_t(k)], predicted};
+      proof.anything = picture_.in_stale_tile(all, x, y);
     }
   }
+  proof.by_both = faults.size() > 1;
   return proof;
 }
 
-Finding PictureSearch::finding(const Candidate& candidate, size_t which) const {
-  const NamedFault& fault = candidate.faults[which];
+/// The fault with those that come before it.
+Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which) const {
+  const NamedFault& fault = faults[which];
+  const auto up_to_it = faults.first(which + 1), before = faults.first(which);
+  const Candidate together = judged({up_to_it.begin(), up_to_it.end()}, true);
   Finding f;
   f.name = name_of(*fault.fault, fault.parameter), f.plane = "picture", f.text = text_of(*fault.fault, fault.parameter);
   f.changed = uint64_t(std::llround(changed_));
-  f.explained = candidate.found.explained / changed_;
-  double same = 0;
-  for (size_t i = 0; i < off_.size(); ++i) same += off_[i] < kSameSteps ? picture_.sample()[i].weight : 0;
-  f.contradicted = same > 0 ? candidate.found.contradicted / same : 0;
+  f.explained = together.found.explained / changed_;
+  f.contradicted = same_ > 0 ? together.found.contradicted / same_ : 0;
   f.together = which > 0;
-  f.proof = proof(supposed(candidate.faults));
+  f.alone = f.together ? judged({fault}, true).found.explained / changed_ : f.explained;
+  f.proof = proof(up_to_it, before);
+  if (f.proof.plane.empty() && which == 0 && faults.size() > 1) f.proof = proof(faults, faults.subspan(1));
   return f;
 }
 
-std::vector<Finding> PictureSearch::suppose(std::span<const NamedFault> faults) const {
-  const Candidate candidate = judged({faults.begin(), faults.end()}, true);
+std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults) const {
   std::vector<Finding> findings;
-  for (size_t i = 0; i < faults.size(); ++i) findings.push_back(finding(candidate, i));
+  for (size_t i = 0; i < faults.size(); ++i) findings.push_back(finding(faults, i));
   return findings;
+}
+
+/// Whether half of what it explains may be chance: where values are off by a code, any factor near 1 is right for many.
+/// Two explain more by chance than one.
+bool explains_by_chance(const Candidate& c, double cost_of_right) {
+  const auto near_one = [](const NamedFault& f) {
+    return f.fault->search == Search::smooth && std::fabs(f.parameter - 1) < kNearOne;
+  };
+  return std::any_of(c.faults.begin(), c.faults.end(), near_one) &&
+         c.found.cost > kLeftByFew / double(c.faults.size()) * cost_of_right;
+}
+
+/// Of single faults those that may be named, ranked. Dithering explains what is off by a code: it comes after every
+/// fault that predicts values.
+std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) const {
+  std::erase_if(singles, [&](const Candidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
+  std::stable_sort(singles.begin(), singles.end(), [](const Candidate& a, const Candidate& b) {
+    const bool dither_a = a.faults[0].fault->reach > 0, dither_b = b.faults[0].fault->reach > 0;
+    return dither_a != dither_b ? dither_b : a.cost < b.cost;
+  });
+  if (singles.empty()) return singles;
+  const double most = singles.front().cost + kRival;
+  std::erase_if(singles, [&](const Candidate& c) { return c.cost > most; });
+  return singles;
 }
 
 std::vector<Finding> PictureSearch::look() const {
   const auto by_cost = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+  const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
   std::vector<Candidate> singles = beside({});
   if (singles.empty()) return {};
   // Two faults: each of the likeliest with any other beside it.
@@ -193,22 +230,18 @@ std::vector<Finding> PictureSearch::look() const {
     }
   singles.resize(std::min(kFinalists, singles.size()));
   for (Candidate& c : singles) c = judged(c.faults, true);
-  std::stable_sort(singles.begin(), singles.end(), by_cost);
   for (Candidate& c : pairs) c = judged(c.faults, true);
   std::stable_sort(pairs.begin(), pairs.end(), by_cost);
-  const auto explains = [&](const Candidate& c) {
-    return c.found.explained - c.found.contradicted >= kNamed * changed_;
-  };
-  std::vector<Finding> findings;
-  const Candidate& best = singles.front();
-  if (!pairs.empty() && pairs.front().cost < std::min(kPairGain * best.cost, best.cost - kLeastGain) &&
-      explains(pairs.front())) {
-    for (size_t i = 0; i < 2; ++i) findings.push_back(finding(pairs.front(), i));
-    return findings;
+  const double best = std::min_element(singles.begin(), singles.end(), by_cost)->cost;
+  if (!pairs.empty() && pairs.front().cost < std::min(kPairGain * best, best - kLeastGain) && explains(pairs.front()) &&
+      !explains_by_chance(pairs.front(), cost_)) {
+    std::vector<Finding> both = findings(pairs.front().faults);
+    if (std::none_of(both.begin(), both.end(), unproved)) return both;
   }
-  for (const Candidate& c : singles)
-    if (explains(c) && c.cost <= best.cost + kRival) findings.push_back(finding(c, 0));
-  return findings;
+  std::vector<Finding> found;
+  for (const Candidate& c : named(std::move(singles))) found.push_back(finding(c.faults, 0));
+  std::erase_if(found, unproved);
+  return found;
 }
 
 }  // namespace
@@ -236,7 +269,7 @@ std::vector<Finding> picture_findings(PictureCase& picture, std::span<const Name
   const PictureSearch search(picture);
   if (search.changed() < kLeastChanged) return {};
   picture.make_tiles();
-  return only.empty() ? search.look() : search.suppose(only);
+  return only.empty() ? search.look() : search.findings(only);
 }
 
 }  // namespace trueshade::oracle

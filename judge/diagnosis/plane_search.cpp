@@ -33,7 +33,6 @@ class PlaneSearch {
       const double weight = planes.sample()[i].weight;
       for (size_t k = 0; k < kPlanes; ++k) wrong_[k] += off_[i][k] >= kSameSteps ? weight : 0;
       changed_ += agrees(off_[i]) ? 0 : weight;
-      same_ += agrees(off_[i]) ? weight : 0;
     }
     for (size_t i = 0; i < off_few_.size(); ++i) cost_few_ += planes.few()[i].weight * cost(off_few_[i]);
     for (size_t i = 0; i < off_.size(); ++i) cost_ += planes.sample()[i].weight * cost(off_[i]);
@@ -43,11 +42,16 @@ class PlaneSearch {
   double wrong(size_t plane) const { return wrong_[plane]; }
   std::vector<Candidate> look() const;
   Candidate judged(PlaneSupposition supposed, bool all) const;
-  Finding finding(const Candidate& candidate, size_t which) const;
+  Finding finding(std::span<const NamedPlaneFault> faults, size_t which) const;
 
  private:
   using Steps = std::vector<std::array<double, kPlanes>>;
-  static bool agrees(const std::array<double, kPlanes>& off) {
+  /// How many pixels are not as they should be, and shares of these and of the others.
+  struct Share {
+    double changed = 0, explained = 0, contradicted = 0;
+  };
+  static bool agrees(const std::array<double, kPlanes>& off, Plane plane = Plane::all) {
+    if (plane != Plane::all) return off[size_t(plane)] < kSameSteps;
     return std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; });
   }
   double cost(const std::array<double, kPlanes>& off) const {
@@ -59,12 +63,14 @@ class PlaneSearch {
   std::vector<double> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
-  Proof proof(const Candidate& candidate) const;
+  PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
+  Share share(const PlaneSupposition& supposed, Plane plane) const;
+  Proof proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const;
 
   const PlaneCase& planes_;
   Steps off_few_, off_;
   std::array<double, kPlanes> wrong_{};
-  double changed_ = 0, same_ = 0, cost_few_ = 0, cost_ = 0;
+  double changed_ = 0, cost_few_ = 0, cost_ = 0;
 };
 
 PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const {
@@ -168,7 +174,7 @@ std::vector<Candidate> PlaneSearch::look() const {
   std::stable_sort(singles.begin(), singles.end(), by_cost);
   std::stable_sort(pairs.begin(), pairs.end(), by_cost);
   const auto explains = [&](const Candidate& c) {
-    return c.found.explained - c.found.contradicted >= kNamed * changed_;
+    return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
   };
   if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front()))
     return {std::move(pairs.front())};
@@ -179,38 +185,75 @@ std::vector<Candidate> PlaneSearch::look() const {
   return singles;
 }
 
-Proof PlaneSearch::proof(const Candidate& candidate) const {
+PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) const {
+  PlaneSupposition s = planes_.right();
+  for (const NamedPlaneFault& f : faults)
+    if (std::optional<PlaneSupposition> more = planes_.with(s, f)) s = std::move(*more);
+  return s;
+}
+
+/// Of the pixels of one plane, or of all.
+PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
+  const Steps now = off(supposed, planes_.sample());
+  Share out;
+  double same = 0;
+  for (size_t i = 0; i < off_.size(); ++i) {
+    const double weight = planes_.sample()[i].weight;
+    const bool was = agrees(off_[i], plane), is = agrees(now[i], plane);
+    (was ? same : out.changed) += weight;
+    if (!was && is) out.explained += weight;
+    if (was && !is) out.contradicted += weight;
+  }
+  if (out.changed > 0) out.explained /= out.changed;
+  if (same > 0) out.contradicted /= same;
+  return out;
+}
+
+/// The pixel of the plane that is farthest off where nothing is wrong, of those that are explained.
+///   too_few: what does not explain the pixel; null: any will do
+Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const {
   Proof proof;
   double farthest = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
     const auto [x, y, weight] = planes_.sample()[i];
-    const size_t worst = size_t(std::max_element(off_[i].begin(), off_[i].end()) - off_[i].begin());
-    if (off_[i][worst] <= farthest || !agrees(planes_.steps_off(candidate.supposed, x, y))) continue;
-    farthest = off_[i][worst];
-    const auto plane = Plane(worst);
-    double most = -1;
-    for (int k = 0; k < planes_.view(plane).channels; ++k) {
-      const double given = planes_.view(plane).stored(x, y, k),
-                   right = planes_.predicted(planes_.right(), plane, x, y, k);
-      if (std::fabs(given - right) <= most) continue;
-      most = std::fabs(given - right);
-      proof = {x,     y,     channel_of(kPlaneNames[worst], k),
-               given, right, planes_.predicted(candidate.supposed, plane, x, y, k)};
+    const size_t worst = plane != Plane::all
+                             ? size_t(plane)
+                             : size_t(std::max_element(off_[i].begin(), off_[i].end()) - off_[i].begin());
+    if (off_[i][worst] < kSameSteps || off_[i][worst] <= farthest) continue;
+    if (!agrees(planes_.steps_off(supposed, x, y), plane)) continue;
+    if (too_few != nullptr && agrees(planes_.steps_off(*too_few, x, y), plane)) continue;
+    double most = 0;
+    for (int k = 0; k < planes_.view(Plane(worst)).channels; ++k) {
+      const double given = planes_.view(Plane(worst)).stored(x, y, k),
+                   right = planes_.predicted(planes_.right(), Plane(worst), x, y, k),
+                   predicted = planes_.predicted(supposed, Plane(worst), x, y, k);
+      if (!(std::fabs(given - right) > most) || !(std::fabs(given - predicted) < std::fabs(given - right))) continue;
+      most = std::fabs(given - right), farthest = off_[i][worst];
+      proof = {x, y, channel_of(kPlaneNames[worst], k), given, right, predicted};
     }
   }
+  proof.by_both = supposed.faults.size() > 1;
   return proof;
 }
 
-Finding PlaneSearch::finding(const Candidate& candidate, size_t which) const {
-  const NamedPlaneFault& fault = candidate.supposed.faults[which];
+/// The fault with those that come before it. Alone, it answers for its own plane.
+Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t which) const {
+  const NamedPlaneFault& fault = faults[which];
+  const Plane own = fault.fault->plane;
+  const PlaneSupposition up_to_it = supposed(faults.first(which + 1)), before = supposed(faults.first(which));
+  const Share found = share(up_to_it, which > 0 ? Plane::all : own);
   Finding f;
   f.name = name_of(*fault.fault, fault.parameter), f.text = text_of(*fault.fault, fault.parameter);
-  f.plane = kPlaneNames[size_t(fault.fault->plane)];
-  f.changed = uint64_t(std::llround(changed_));
-  f.explained = candidate.found.explained / changed_;
-  f.contradicted = same_ > 0 ? candidate.found.contradicted / same_ : 0;
+  f.plane = kPlaneNames[size_t(own)];
+  f.changed = uint64_t(std::llround(found.changed));
+  f.explained = found.explained, f.contradicted = found.contradicted;
   f.together = which > 0;
-  f.proof = proof(candidate);
+  f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
+  f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
+  if (f.proof.plane.empty() && which == 0 && faults.size() > 1) {
+    const PlaneSupposition others = supposed(faults.subspan(1));
+    f.proof = proof(supposed(faults), own, &others);
+  }
   return f;
 }
 
@@ -245,11 +288,13 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
       if (std::optional<PlaneSupposition> s = planes.with(supposed, f)) supposed = std::move(*s);
     if (!supposed.faults.empty()) found.push_back(search.judged(std::move(supposed), true));
   }
-  for (const Candidate& c : found)
-    for (size_t i = 0; i < c.supposed.faults.size(); ++i) {
-      out.findings.push_back(search.finding(c, i));
-      out.faults.push_back(c.supposed.faults);
-    }
+  for (const Candidate& c : found) {
+    std::vector<Finding> named;
+    for (size_t i = 0; i < c.supposed.faults.size(); ++i) named.push_back(search.finding(c.supposed.faults, i));
+    const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
+    if (only.empty() && std::any_of(named.begin(), named.end(), unproved)) continue;
+    for (Finding& f : named) out.findings.push_back(std::move(f));
+  }
   return out;
 }
 

@@ -18,9 +18,8 @@ struct NamedPlaneFault {
 /// Findings about the G-buffer, the likeliest first, as diagnose() has them, and the planes that are not as expected.
 struct PlaneFindings {
   std::vector<Finding> findings;
-  std::vector<std::vector<NamedPlaneFault>> faults;  ///< of each finding
-  std::array<bool, kPlanes> wrong{};                 ///< by Plane
-  std::shared_ptr<const ExpectedPlanes> expected;    ///< of a right renderer; null where no plane is wrong
+  std::array<bool, kPlanes> wrong{};               ///< by Plane
+  std::shared_ptr<const ExpectedPlanes> expected;  ///< of a right renderer; null where no plane is wrong
 };
 
 ///   only: faults that are supposed, all together; empty: look for the likeliest

@@ -127,6 +127,9 @@ std::vector<Plant> made() {
   out("sRGB once too often", {"picture-srgb-encoded"}, repainted([](Color4& c, int) {
         for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_of(c[size_t(k)]);
       }));
+  out("sRGB twice too often", {"picture-srgb-encoded-twice"}, repainted([](Color4& c, int) {
+        for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_of(srgb_of(c[size_t(k)]));
+      }));
   out("sRGB decoded once too often", {"picture-srgb-missing"}, repainted([](Color4& c, int) {
         for (int k = 0; k < 3; ++k) c[size_t(k)] = linear_of(c[size_t(k)]);
       }));
