@@ -111,8 +111,9 @@ std::string finding_line(const oracle::Finding& f) {
 std::string proof_line(const oracle::Finding& f) {
   if (f.proof.plane.empty()) return "no pixel of those looked at is explained";
   return "at " + std::to_string(f.proof.x) + ',' + std::to_string(f.proof.y) + ' ' + f.proof.plane + " is " +
-         real(f.proof.given, "%.9g") + "; expected " + real(f.proof.right, "%.9g") + ", by this fault " +
-         real(f.proof.predicted, "%.9g");
+         real(f.proof.given, "%.9g") + "; expected " + real(f.proof.right, "%.9g") +
+         (f.proof.by_both ? ", by both faults " : ", by this fault ") +
+         (f.proof.anything ? "anything" : real(f.proof.predicted, "%.9g"));
 }
 
 bool passes(const Validation& v) {
