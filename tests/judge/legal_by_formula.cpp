@@ -40,7 +40,8 @@ class Edges {
   }
 
   /// How much a driver's attribute may be off for making its plane from the window's corner in floats
-  /// (docs/data/drivers.md, False alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen.
+  /// (docs/data/drivers.md, False alarms): 10 u (|da/dx| X + |da/dy| Y) of the triangle that is seen. And for snapping
+  /// vertices to within 0.6 of 1/256 pixel (D3D11.3 functional spec, 3.2.4.1): 0.6/256 (|da/dx| + |da/dy|).
   double plane_error(size_t value, Interpolation interpolation, const GeometryState& state, int x,
                      int y_from_top) const {
     const int y = height_ - 1 - y_from_top;
@@ -48,8 +49,8 @@ class Edges {
     if (!seen.fragment) return 0;
     const DrawnTriangle& t = frame_.triangles[frame_.at(x, y)[*seen.fragment].window];
     const auto at = [&](int dx, int dy) { return value_at(t, value, interpolation, x + dx, y + dy).value; };
-    return double(10 * 0x1p-23L *
-                  (std::fabs(at(1, 0) - at(0, 0)) * (x + 1) + std::fabs(at(0, 1) - at(0, 0)) * (y + 1)));
+    const auto along_x = std::fabs(at(1, 0) - at(0, 0)), along_y = std::fabs(at(0, 1) - at(0, 0));
+    return double(10 * 0x1p-23L * (along_x * (x + 1) + along_y * (y + 1)) + 0.6L / 256 * (along_x + along_y));
   }
 
  private:
