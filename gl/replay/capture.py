@@ -1,6 +1,8 @@
 """A capture as `trueshade validate --gbuffer` takes it: an EXR of scan lines, written without a library."""
 import array
+import os
 import struct
+import sys
 
 
 def srgb_decoded(code):
@@ -64,3 +66,20 @@ def write_exr(path, width, height, channels):
             file.write(struct.pack("<ii", y, row_bytes))
             for name in names:
                 file.write(channels[name][start:start + width].tobytes())
+
+
+def run(main):
+    """Calls main(FOLDER, CAPTURE.exr) with the command line's two words. What is wrong with them is one line."""
+    if len(sys.argv) != 3:
+        print(f"usage: {sys.argv[0]} FOLDER CAPTURE.exr", file=sys.stderr)
+        return 2
+    state = os.path.join(sys.argv[1], "state.json")
+    if not os.path.isfile(state):
+        print(f"{state}: there is none (`trueshade glsl SCENE -o FOLDER` writes one)", file=sys.stderr)
+        return 3
+    try:
+        return main(*sys.argv[1:])
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        print(f"{state}: not a frame of this program's interface: {error!r} (`trueshade glsl SCENE --api` names it)",
+              file=sys.stderr)
+        return 3

@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-from capture import channel_values, write_exr
+from capture import channel_values, run, write_exr
 
 # Values of the Khronos registry (gl.xml).
 CONSTANTS = dict(
@@ -287,4 +287,4 @@ def main(folder, path):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(run(main))

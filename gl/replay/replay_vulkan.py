@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-from capture import channel_values, write_exr
+from capture import channel_values, run, write_exr
 
 TYPES = dict(u=ctypes.c_uint32, i=ctypes.c_int32, f=ctypes.c_float, s=ctypes.c_uint64, p=ctypes.c_void_p)
 GENERAL, ALL_STAGES, READ_WRITE = 1, 0x10000, 0x18000  # a layout, pipeline stages, kinds of access
@@ -388,4 +388,4 @@ def main(folder, path):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(run(main))
