@@ -36,7 +36,7 @@ class LoopProgress {
   void see(int done, int count);
   std::string what_, unit_;
   std::optional<ProgressBar> bar_;  ///< of the loop at hand
-  int last_ = 0;                    ///< of its tasks
+  int last_ = 0;                    ///< how many of its tasks were done when it was last seen
   LoopWatch watch_;
 };
 

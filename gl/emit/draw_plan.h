@@ -21,7 +21,7 @@ enum class DrawnGeometry : uint8_t {
 /// Of which lights: how often it is drawn.
 enum class DrawnLights : uint8_t { none, all, first, others, each };
 
-/// A kind of draw: its shaders (files of `trueshade glsl`), what it is of, and all of its state.
+/// A kind of draw: the names of its shaders' files (`trueshade glsl`), the geometry that it draws, and its state.
 struct PlannedDraw {
   std::string vert, frag;
   DrawnGeometry geometry;

@@ -4,7 +4,7 @@
 
 namespace trueshade::oracle {
 
-// Functions of an instance, each a member of its name.
+// The functions that Vulkan hands out for an instance. Each is a member that has the function's name.
 #define TRUESHADE_VULKAN_FUNCTIONS(X)                                                                                  \
   X(vkDestroyInstance)                                                                                                 \
   X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties) X(vkGetPhysicalDeviceFeatures2)                       \

@@ -108,7 +108,7 @@ class VulkanDrawing {
     VulkanImage image;
     VkSampler sampler = VK_NULL_HANDLE;
   };
-  /// A pass with the descriptor set and the uniforms of each of its draws.
+  /// A pass, and for each of its draws a descriptor set and a block of uniforms.
   struct Prepared {
     PassPipeline pipeline;
     std::vector<VkDescriptorSet> sets;             ///< one a draw; the same where draws have no samplers of their own

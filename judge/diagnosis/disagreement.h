@@ -16,7 +16,7 @@ inline double cost_of(double steps) {
   return std::min(1.0, 0.15 + 0.085 * std::log2(std::max(1.0, steps)));
 }
 
-/// A pixel that stands for `weight` pixels of its kind.
+/// A pixel of the sample. It stands for `weight` pixels of the image.
 struct SampledPixel {
   int x = 0, y = 0;
   double weight = 1;

@@ -103,7 +103,7 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   return changed_ >= kLeastChanged;
 }
 
-/// What the fault's parameter may be: those of its table, or what the pixels say.
+/// The parameters that are tried for a fault: its table's, or one that is estimated from the pixels.
 std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
   if (fault.search == Search::none) return {0};
   if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
@@ -149,7 +149,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
     }
   };
   tries(plane_faults());
-  // Drawing again costs far more than encoding otherwise, and nobody does it for planes that are explained.
+  // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
   const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
   if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) tries(redraw_faults());
   std::stable_sort(candidates.begin(), candidates.end(),
