@@ -10,14 +10,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// A structure with its type set and all else zero.
-template <typename T>
-T made(VkStructureType type) {
-  T value{};
-  value.sType = type;
-  return value;
-}
-
 Error no_device(const std::string& reason) {
   return {ErrorKind::no_gl_driver, "Vulkan", reason, "install mesa-vulkan-drivers, or a GPU's driver of Vulkan 1.3"};
 }
@@ -127,13 +119,13 @@ void VulkanDevice::open_device() {
     if (there) extensions.push_back(name);
     return there;
   };
-  auto clip = made<VkPhysicalDeviceDepthClipControlFeaturesEXT>(
+  auto clip = typed<VkPhysicalDeviceDepthClipControlFeaturesEXT>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT);
-  auto provoking =
-      made<VkPhysicalDeviceProvokingVertexFeaturesEXT>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT);
+  auto provoking = typed<VkPhysicalDeviceProvokingVertexFeaturesEXT>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT);
   auto rendering =
-      made<VkPhysicalDeviceDynamicRenderingFeatures>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES);
-  auto has = made<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+      typed<VkPhysicalDeviceDynamicRenderingFeatures>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES);
+  auto has = typed<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   has.pNext = &rendering;
   if (take(VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) clip.pNext = has.pNext, has.pNext = &clip;
   if (take(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) provoking.pNext = has.pNext, has.pNext = &provoking;
@@ -150,20 +142,20 @@ void VulkanDevice::open_device() {
   wanted.geometryShader = has.features.geometryShader;
   has.features = wanted;
   const float priority = 1.0f;
-  auto queue = made<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+  auto queue = typed<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue.queueFamilyIndex = family_, queue.queueCount = 1, queue.pQueuePriorities = &priority;
-  auto info = made<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+  auto info = typed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.pNext = &has;
   info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = uint32_t(extensions.size()), info.ppEnabledExtensionNames = extensions.data();
   check_vulkan(vk_.vkCreateDevice(physical_, &info, nullptr, &device_), "opening the device");
   at_end([this] { vk_.vkDestroyDevice(device_, nullptr); });
   vk_.vkGetDeviceQueue(device_, family_, 0, &queue_);
-  auto pool = made<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  auto pool = typed<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
   pool.queueFamilyIndex = family_;
   check_vulkan(vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_), "making a command pool");
   at_end([this] { vk_.vkDestroyCommandPool(device_, pool_, nullptr); });
-  auto allocation = made<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  auto allocation = typed<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
   allocation.commandPool = pool_, allocation.commandBufferCount = 1;
   check_vulkan(vk_.vkAllocateCommandBuffers(device_, &allocation, &commands_), "making a command buffer");
 }
@@ -185,7 +177,7 @@ VkDeviceMemory VulkanDevice::allocate(const VkMemoryRequirements& needs, VkMemor
   vk_.vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
   for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
     if ((needs.memoryTypeBits >> i & 1) == 0 || (memory.memoryTypes[i].propertyFlags & wanted) != wanted) continue;
-    auto info = made<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    auto info = typed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = needs.size, info.memoryTypeIndex = i;
     VkDeviceMemory made_memory = VK_NULL_HANDLE;
     check_vulkan(vk_.vkAllocateMemory(device_, &info, nullptr, &made_memory), "allocating memory");
@@ -198,7 +190,7 @@ VkDeviceMemory VulkanDevice::allocate(const VkMemoryRequirements& needs, VkMemor
 VulkanBuffer VulkanDevice::make_buffer(size_t size, VkBufferUsageFlags usage, std::span<const uint8_t> bytes,
                                        bool texels) {
   VulkanBuffer out;
-  auto info = made<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+  auto info = typed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = std::max<size_t>(size, 16), info.usage = usage;
   check_vulkan(vk_.vkCreateBuffer(device_, &info, nullptr, &out.buffer), "making a buffer");
   VkMemoryRequirements needs{};
@@ -212,7 +204,7 @@ VulkanBuffer VulkanDevice::make_buffer(size_t size, VkBufferUsageFlags usage, st
   if (!bytes.empty()) std::memcpy(out.bytes, bytes.data(), bytes.size());
   at_end([this, buffer = out.buffer] { vk_.vkDestroyBuffer(device_, buffer, nullptr); });
   if (!texels) return out;
-  auto view = made<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+  auto view = typed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
   view.buffer = out.buffer, view.format = VK_FORMAT_R32G32B32A32_SFLOAT, view.range = VK_WHOLE_SIZE;
   check_vulkan(vk_.vkCreateBufferView(device_, &view, nullptr, &out.view), "viewing a buffer");
   at_end([this, made_view = out.view] { vk_.vkDestroyBufferView(device_, made_view, nullptr); });
@@ -223,7 +215,7 @@ VulkanImage VulkanDevice::make_image(VkFormat format, int width, int height, int
                                      VkImageAspectFlags aspect) {
   VulkanImage out;
   out.aspect = aspect;
-  auto info = made<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
+  auto info = typed<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
   info.imageType = VK_IMAGE_TYPE_2D, info.format = format;
   info.extent = {uint32_t(width), uint32_t(height), 1};
   info.mipLevels = uint32_t(levels), info.arrayLayers = 1, info.samples = VK_SAMPLE_COUNT_1_BIT, info.usage = usage;
@@ -233,13 +225,13 @@ VulkanImage VulkanDevice::make_image(VkFormat format, int width, int height, int
   vk_.vkGetImageMemoryRequirements(device_, out.image, &needs);
   check_vulkan(vk_.vkBindImageMemory(device_, out.image, allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), 0),
                "binding an image");
-  auto view = made<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+  auto view = typed<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
   view.image = out.image, view.viewType = VK_IMAGE_VIEW_TYPE_2D, view.format = format;
   view.subresourceRange = {aspect, 0, uint32_t(levels), 0, 1};
   check_vulkan(vk_.vkCreateImageView(device_, &view, nullptr, &out.view), "viewing an image");
   at_end([this, made_view = out.view] { vk_.vkDestroyImageView(device_, made_view, nullptr); });
   run([&](VkCommandBuffer commands) {
-    auto barrier = made<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
+    auto barrier = typed<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
     barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = out.image, barrier.subresourceRange = view.subresourceRange;
@@ -282,7 +274,7 @@ VulkanImage VulkanDevice::make_texture(const Texture& texture) {
 }
 
 VkSampler VulkanDevice::make_sampler(const Sampler& s, int levels) {
-  auto info = made<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+  auto info = typed<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
   const auto filter = [](Filter f) { return f == Filter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST; };
   info.magFilter = filter(s.mag_filter), info.minFilter = filter(s.min_filter);
   info.mipmapMode = s.mip_filter == MipFilter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
@@ -305,19 +297,19 @@ VkSampler VulkanDevice::make_sampler(const Sampler& s, int levels) {
 void VulkanDevice::run(const std::function<void(VkCommandBuffer)>& record) {
   check_vulkan(vk_.vkResetCommandPool(device_, pool_, 0), "starting anew");
   const VkCommandBuffer commands = commands_;
-  auto begin = made<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+  auto begin = typed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check_vulkan(vk_.vkBeginCommandBuffer(commands, &begin), "beginning");
   record(commands);
   check_vulkan(vk_.vkEndCommandBuffer(commands), "recording");
-  auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+  auto submit = typed<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   submit.commandBufferCount = 1, submit.pCommandBuffers = &commands;
   check_vulkan(vk_.vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "submitting");
   check_vulkan(vk_.vkQueueWaitIdle(queue_), "drawing");
 }
 
 void VulkanDevice::order(VkCommandBuffer commands) const {
-  auto barrier = made<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+  auto barrier = typed<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
   barrier.srcAccessMask = barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
   vk_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,

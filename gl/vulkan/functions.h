@@ -41,4 +41,12 @@ struct VulkanFunctions {
 /// An instance of Vulkan 1.3, and its functions. Throws Error(no_gl_driver) where there is no libvulkan.so.1.
 VkInstance make_instance(VulkanFunctions& functions);
 
+/// A structure with its type set and all else zero.
+template <typename T>
+T typed(VkStructureType type) {
+  T value{};
+  value.sType = type;
+  return value;
+}
+
 }  // namespace trueshade::oracle

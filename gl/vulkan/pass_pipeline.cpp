@@ -9,14 +9,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// A structure with its type set and all else zero.
-template <typename T>
-T typed(VkStructureType type) {
-  T value{};
-  value.sType = type;
-  return value;
-}
-
 // In the order of the enumerators.
 constexpr VkCompareOp kCompareOps[] = {VK_COMPARE_OP_NEVER,
                                        VK_COMPARE_OP_LESS,
