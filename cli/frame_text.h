@@ -21,6 +21,8 @@ struct RenderedFrame {
   std::string scene_hash;           ///< 64 hex digits; empty where nobody asks
   std::vector<double> repeated_ms;  ///< the frame drawn again without planes, for a report's time per frame; ascending
   Notes notes{};
+  std::string command{};          ///< as it was given, for a report
+  std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.

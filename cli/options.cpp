@@ -317,7 +317,9 @@ Command command_from_arguments(int count, const char* const* arguments) {
     words.push_back("--help");
   }
   if (!words.empty()) check_first_argument(app, words[0]);
-  for (const std::string& word : words) validation.command_line += ' ' + for_shell(word);
+  std::string command_line;
+  for (const std::string& word : words) command_line += ' ' + for_shell(word);
+  render.command_line = validation.command_line = benchmark.command_line = command_line;
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     app.parse(words);

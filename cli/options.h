@@ -44,6 +44,7 @@ struct PipelineOptions : LimitedOptions {
   std::optional<NumericProfile> profile;
   std::optional<Strategy> strategy;
   std::optional<ImageView> view;
+  std::string command_line;  ///< as it was given, for a shell: all after `trueshade`, with a space before each word
 };
 
 /// `trueshade render`
@@ -106,7 +107,6 @@ struct ValidationOptions : PipelineOptions {
   bool lenient = false;                ///< what the tests of the whole image find is no failure
   double significance = 1e-6;          ///< of these tests: how many legal images may fail them
   std::vector<std::string> supposed;   ///< names of faults, as diagnose() takes them
-  std::string command_line;            ///< as it was given, for a shell
   bool json = false;
 };
 

@@ -94,6 +94,7 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
 RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const Pipeline& pipeline, double time) {
   RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
   result.notes = notes_of(scene, pipeline);
+  if (!options.command_line.empty()) result.command = "trueshade" + options.command_line;
   if (std::string note = encoding_note(options, pipeline); !note.empty()) result.notes.lines.push_back(std::move(note));
   return result;
 }

@@ -77,6 +77,18 @@ void fit_capture(const ValidationOptions& options, const CaptureFiles& files, co
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
+/// Our own frame of what was judged, with the planes that a page shows. Nothing of a capture without a target unless one
+/// of these is in it.
+Frame reference_of(const Scene& scene, const Validation& v) {
+  Pipeline pipeline = v.pipeline;
+  pipeline.post = {};
+  std::vector<std::string> planes{"id.object", "light.count"};
+  if (v.capture.color.width == 0)
+    for (const char* name : {"albedo", "normal", "position", "uv"})
+      if (v.capture.plane(name) != nullptr) planes.push_back(name);
+  return render_frame(scene, pipeline, {}, planes);
+}
+
 void say_files(const ValidationOptions& options, const Validation& v) {
   const StandardOutput output = options.json ? StandardOutput::answer : StandardOutput::files;
   const Image& color = v.capture.color;
@@ -138,6 +150,8 @@ bool judge_opengl(const ValidationOptions& options) {
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);
   if (options.report) {
+    v.command = "trueshade" + options.command_line;
+    v.reference = reference_of(scene, v);
     const std::string page = validation_page(v);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }

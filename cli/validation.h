@@ -6,10 +6,12 @@
 
 #include "cli/driver_capture.h"
 #include "cli/notes.h"
+#include "cli/pixel_explanation.h"
 #include "judge/diagnosis/finding.h"
 #include "judge/stages/validate.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
+#include "shading/frame.h"
 
 namespace trueshade {
 
@@ -28,6 +30,10 @@ struct Validation {
   std::vector<std::string> notes;                        ///< what a reader must know before the figures
   Notes scene_notes;                                     ///< what the picture does not show of the scene
   double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
+  std::string command;                                   ///< as it was given
+  std::optional<Frame> reference;                        ///< our own frame, for a page; its planes that a page shows
+  std::string explain_command;                           ///< of PixelExplanation, with {x} and {y}; or empty
+  std::vector<PixelExplanation> explanations;            ///< of single pixels, for a page
 };
 
 /// Whether every pixel is in its legal set, the driver drew the same again and, unless that is lenient, the image is
@@ -62,7 +68,8 @@ std::string proof_line(const oracle::Finding& finding);
 std::string validation_text(const Validation& validation);
 std::string validation_json(const Validation& validation);
 
-/// A page of HTML that needs no other file: the picture, a map of the classes a stage, tables, the worst pixels.
+/// A page of HTML that needs no other file: the pictures to look into, a map of the classes a stage, tables, the worst
+/// pixels.
 std::string validation_page(const Validation& validation);
 
 }  // namespace trueshade

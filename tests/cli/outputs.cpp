@@ -268,7 +268,10 @@ TEST_CASE("a report is one page that needs no other file") {
   size_t pictures = 0;
   for (size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at) ++pictures;
   CHECK(pictures == 6);
-  for (const char* outside : {"http:", "https:", "<script", "<link"}) CHECK(page.find(outside) == std::string::npos);
+  for (const char* outside : {"http:", "https:", "<script src", "<link", "@import", "url("})
+    CHECK(page.find(outside) == std::string::npos);
+  CHECK(page.find("default-src 'none'") != std::string::npos);
+  CHECK(page.find("<code>trueshade render builtin:cornell --size 50x40 -o report.html</code>") != std::string::npos);
 }
 
 TEST_CASE("help, version and lists go to standard output") {

@@ -1,5 +1,5 @@
 // Texts of charts: all of each is in the picture, and none covers another.
-#include "cli/svg_chart.h"
+#include "cli/pages/svg_chart.h"
 
 #include <cmath>
 #include <regex>

@@ -1,8 +1,8 @@
 #include <utility>
 
 #include "cli/bench.h"
-#include "cli/page.h"
-#include "cli/svg_chart.h"
+#include "cli/pages/page.h"
+#include "cli/pages/svg_chart.h"
 #include "cli/version.h"
 
 namespace trueshade {
@@ -86,7 +86,7 @@ std::string bench_page(const BenchResult& bench) {
   for (const SceneTime& s : bench.scenes) html += scheduled(s);
   html += "</div>\n<h2>Counts</h2>\n";
   for (const SceneTime& s : bench.scenes) html += counts(s, bench);
-  return html + std::string(kPageEnd);
+  return html + page_end();
 }
 
 }  // namespace trueshade

@@ -1,11 +1,11 @@
-#include "cli/svg_chart.h"
+#include "cli/pages/svg_chart.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "cli/page.h"
+#include "cli/pages/page.h"
 
 namespace trueshade {
 namespace {
@@ -17,8 +17,8 @@ constexpr int kPlotHeight = 230, kLeft = 56, kRight = 56, kTop = 26, kBottom = 4
 std::string text_at(double x, double y, const std::string& text, const char* anchor,
                     const char* color = "var(--text)") {
   char start[160];
-  std::snprintf(start, sizeof start, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"%g\">", x, y,
-                anchor, color, kFontSize);
+  std::snprintf(start, sizeof start, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"%g\">", x,
+                y, anchor, color, kFontSize);
   return start + escaped(text) + "</text>\n";
 }
 
@@ -135,14 +135,15 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
   for (const double value : ticks_of(y)) {
     const double py = kTop + (1 - y.at(value)) * room_y;
     char line[160];
-    std::snprintf(line, sizeof line, "<path d=\"M%d %.1f h%.0f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n", kLeft,
-                  py, room_x);
+    std::snprintf(line, sizeof line, "<path d=\"M%d %.1f h%.0f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n",
+                  kLeft, py, room_x);
     char label[32];
     std::snprintf(label, sizeof label, "%g", value);
     svg += line + text_at(kLeft - 6, py + 4, label, "end", "var(--quiet)");
   }
   svg += text_at(4, kTop / 2, "ms a frame", "start", "var(--quiet)");
-  svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks + labels.svg();
+  svg +=
+      "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks + labels.svg();
   return svg + text_at(kLeft + room_x / 2, kPlotHeight - 8, axis, "middle", "var(--quiet)") + "</svg>\n";
 }
 

@@ -1,0 +1,18 @@
+# Writes files of a page as one source of C++. Usage: cmake -DOUT=... -DSTYLE=... -DSCRIPTS="a.js;b.js" -P embed.cmake
+# A string literal may be no longer than 64 KiB (ISO/IEC 14882 annex B), so each file is one of its own.
+set(delimiter trueshade_page)
+file(READ "${STYLE}" style)
+set(text "// Made by cli/pages/embed.cmake of page.css and script/*.js.\n#include \"cli/pages/embedded.h\"\n\nnamespace trueshade {\n\n")
+string(APPEND text "const std::string_view kPageStyle = R\"${delimiter}(${style})${delimiter}\";\n\n")
+set(parts "")
+foreach(script IN LISTS SCRIPTS)
+  file(READ "${script}" content)
+  string(FIND "${content}" "</script" closing)
+  if(closing GREATER -1)
+    message(FATAL_ERROR "${script} would end the element that holds it")
+  endif()
+  string(APPEND parts "    R\"${delimiter}(${content})${delimiter}\",\n")
+endforeach()
+string(APPEND text "namespace {\nconstexpr std::string_view kParts[] = {\n${parts}};\n}  // namespace\n\n")
+string(APPEND text "const std::span<const std::string_view> kPageScript = kParts;\n\n}  // namespace trueshade\n")
+file(WRITE "${OUT}" "${text}")

@@ -1,0 +1,138 @@
+#include "cli/pages/layer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/fp_env.h"
+#include "core/image_rows.h"
+#include "shading/output/heat_map.h"
+
+namespace trueshade {
+namespace {
+
+std::string json_of_rgb(const Rgb& rgb) {
+  return JsonArray()
+      .add_raw(std::to_string(rgb[0]))
+      .add_raw(std::to_string(rgb[1]))
+      .add_raw(std::to_string(rgb[2]))
+      .text();
+}
+
+/// Channels go by the letters that the plane's own names have.
+std::vector<std::string> letters_of(const std::string& id, int channels) {
+  std::string_view letters = "RGBA";
+  if (id == "position" || id == "normal") letters = "XYZW";
+  if (id == "uv") letters = "UV";
+  if (channels == 1) return {""};
+  std::vector<std::string> names;
+  for (int k = 0; k < channels; ++k) names.emplace_back(1, letters[size_t(k) % letters.size()]);
+  return names;
+}
+
+PageLayer plain_layer(const std::string& id, const std::string& name, const std::string& about, const Image& image) {
+  const FormatInfo layout = info(image.format);
+  PageLayer layer;
+  layer.id = id, layer.name = name, layer.about = about;
+  layer.width = image.width, layer.height = image.height;
+  layer.is_float = layout.number_class == NumberClass::floating;
+  layer.channel_names = letters_of(id, layout.channels);
+  layer.widths.assign(layout.bits.begin(), layout.bits.begin() + layout.channels);
+  layer.read = [&image, channels = layout.channels](int x, int y, int count, uint32_t* codes) {
+    for (int i = 0; i < count; ++i)
+      for (int k = 0; k < channels; ++k) *codes++ = image.code(x + i, y, k);
+  };
+  layer.value = [layout](uint32_t code, int channel) { return value_of_code(layout, channel, code); };
+  return layer;
+}
+
+/// Least and most finite value of each channel.
+std::string extents_of(const Image& image) {
+  const FpScope exact_arithmetic;
+  const FormatInfo layout = info(image.format);
+  const size_t channels = size_t(layout.channels);
+  std::vector<std::array<double, 2>> extents(channels, {HUGE_VAL, -HUGE_VAL});
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (size_t k = 0; k < channels; ++k) {
+        const uint32_t code = image.code(x, y, int(k));
+        const double value = layout.number_class == NumberClass::floating ? value_of_code(layout, int(k), code) : code;
+        if (!std::isfinite(value)) continue;
+        extents[k] = {std::min(extents[k][0], value), std::max(extents[k][1], value)};
+      }
+  JsonArray all;
+  for (const auto& [low, high] : extents)
+    all.add_raw(low > high ? "[0, 0]" : JsonArray().add_raw(json_number(low)).add_raw(json_number(high)).text());
+  return all.text();
+}
+
+/// How far two codes of a channel are apart: in codes; of floats the bits of a float, infinite where one alone is NaN.
+uint32_t apart(const PageLayer& layer, int channel, uint32_t a, uint32_t b) {
+  if (a == b) return 0;
+  if (!layer.is_float) return a > b ? a - b : b - a;
+  const double from = layer.value(a, channel), to = layer.value(b, channel);
+  if (from == to || (std::isnan(from) && std::isnan(to))) return 0;
+  const double distance = std::fabs(from - to);
+  return std::bit_cast<uint32_t>(std::isnan(distance) ? float(HUGE_VAL) : float(distance));
+}
+
+}  // namespace
+
+int PageLayer::bits() const {
+  const int most = *std::max_element(widths.begin(), widths.end());
+  return most <= 8 ? 8 : most <= 16 ? 16 : 32;
+}
+
+PageLayer layer_of_image(const std::string& id, const std::string& name, const std::string& about, const Image& image) {
+  PageLayer layer = plain_layer(id, name, about, image);
+  layer.look = layer.is_float ? Look::linear : Look::codes;
+  if (!layer.is_float) layer.reduction = Reduction::average;
+  return layer;
+}
+
+PageLayer layer_of_ids(const std::string& id, const std::string& name, const std::string& about, const Image& image) {
+  PageLayer layer = plain_layer(id, name, about, image);
+  layer.look = Look::ids;
+  return layer;
+}
+
+PageLayer layer_of_counts(const std::string& id, const std::string& name, const std::string& about,
+                          const Image& image) {
+  PageLayer layer = plain_layer(id, name, about, image);
+  layer.look = Look::counts;
+  JsonArray heat;
+  for (int step = 0; step <= 256; ++step) heat.add_raw(json_of_rgb(heat_color(step)));
+  layer.details.put_raw("heat", heat.text()).put("most", uint64_t(heat_scale(image)));
+  return layer;
+}
+
+PageLayer layer_of_extents(const std::string& id, const std::string& name, const std::string& about,
+                           const Image& image) {
+  PageLayer layer = plain_layer(id, name, about, image);
+  layer.look = Look::extent;
+  layer.details.put_raw("extent", extents_of(image));
+  return layer;
+}
+
+PageLayer layer_of_difference(const std::string& name, const std::string& about, const PageLayer& from,
+                              const PageLayer& to) {
+  PageLayer layer = from;
+  layer.id = "difference", layer.name = name, layer.about = about;
+  layer.look = Look::difference, layer.reduction = Reduction::largest, layer.is_read = false;
+  layer.base.clear();
+  if (layer.is_float) layer.widths.assign(layer.channels(), 32);
+  layer.details = JsonObject();
+  layer.details.put_raw("of", JsonArray().add_raw(json_string(from.id)).add_raw(json_string(to.id)).text());
+  layer.read = [from, to](int x, int y, int count, uint32_t* codes) {
+    const FpScope exact_arithmetic;
+    std::vector<uint32_t> others(size_t(count) * to.channels());
+    from.read(x, y, count, codes);
+    to.read(x, y, count, others.data());
+    for (size_t i = 0; i < others.size(); ++i) codes[i] = apart(from, int(i % from.channels()), codes[i], others[i]);
+  };
+  return layer;
+}
+
+}  // namespace trueshade

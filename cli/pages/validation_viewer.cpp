@@ -1,0 +1,204 @@
+#include "cli/pages/validation_viewer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+#include "cli/pages/page.h"
+#include "cli/pages/pixel_classes.h"
+#include "cli/pages/viewer.h"
+
+namespace trueshade {
+namespace {
+
+using oracle::kPixelClasses;
+using oracle::PixelClass;
+using oracle::StageVerdict;
+using oracle::WorstPixel;
+
+constexpr size_t kMostViolations = 2000, kSamples = 20;  // to go through; samples are spread over the image
+
+/// The captured plane that is looked at: the target, or of a capture without one the first plane that both have.
+struct ComparedPlane {
+  const Image *reference = nullptr, *test = nullptr;
+  std::string name = "color";
+};
+
+ComparedPlane compared_plane(const Validation& v) {
+  if (!v.reference) return {};
+  if (v.capture.color.width > 0) return {&v.reference->color, &v.capture.color};
+  for (const NamedImage& ours : v.reference->aovs) {
+    const Image* theirs = v.capture.plane(ours.name);
+    if (theirs != nullptr && theirs->format == ours.image.format && info(ours.image.format).channels > 1)
+      return {&ours.image, theirs, ours.name};
+  }
+  return {};
+}
+
+/// Of several pixels' values: floats as linear light, directions and positions between their least and their most.
+PageLayer value_layer(const std::string& id, const std::string& name, const std::string& about, const Image& image,
+                      const std::string& plane) {
+  const bool is_light = plane == "color" || plane == "albedo" || plane == "specular" || plane == "emission";
+  PageLayer layer = is_light ? layer_of_image(id, name, about, image) : layer_of_extents(id, name, about, image);
+  const std::string axes = plane == "position" || plane == "normal" ? "XYZW" : plane == "uv" ? "UV" : "RGBA";
+  for (size_t k = 0; k < layer.channels() && layer.channels() > 1; ++k)
+    layer.channel_names[k] = std::string(1, axes[std::min(k, axes.size() - 1)]);
+  return layer;
+}
+
+PageLayer class_layer(const StageVerdict& s, const std::string& under) {
+  PageLayer layer;
+  layer.id = "classes-" + s.stage, layer.name = "Classes, " + s.stage;
+  layer.about = "How each pixel of the stage " + s.stage + " was judged, a colour a class.";
+  layer.look = Look::classes, layer.reduction = Reduction::largest;
+  layer.channel_names = {""}, layer.widths = {8};
+  layer.width = s.width, layer.height = s.height;
+  layer.classes = classes_of(s);
+  layer.details.put("stage", s.stage);
+  if (!under.empty()) layer.details.put("under", under);
+  layer.read = [&s](int x, int y, int count, uint32_t* codes) {
+    for (int i = 0; i < count; ++i) codes[i] = uint32_t(s.classes[size_t(y) * size_t(s.width) + size_t(x + i)]);
+  };
+  return layer;
+}
+
+std::string digits_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string text_of(const WorstPixel& w) {
+  std::string text;
+  if (!w.plane.empty())
+    text = w.plane + " is " + digits_of(w.given) + ";\nlegal is " + digits_of(w.low) + " to " + digits_of(w.high) +
+           ",\nnominal " + digits_of(w.nominal) + ".";
+  if (!w.note.empty()) text += (text.empty() ? "" : "\n") + std::string("Surface: ") + w.note + ".";
+  return text;
+}
+
+Places violations_of(const Validation& v) {
+  Places places{"Violations", "Pixels in no legal set, the worst of each stage first.", {}, true, {255, 40, 80}};
+  for (const StageVerdict& s : v.verdict.stages) {
+    std::vector<Places::Pixel> found;
+    for (const WorstPixel& w : s.worst)
+      if (w.pixel_class == PixelClass::violation) found.push_back({w.x, w.y, "classes-" + s.stage});
+    const size_t worst = found.size();
+    for (size_t i = 0; i < s.classes.size() && found.size() < kMostViolations; ++i) {
+      if (s.classes[i] != PixelClass::violation) continue;
+      const int x = int(i % size_t(s.width)), y = int(i / size_t(s.width));
+      if (std::none_of(found.begin(), found.begin() + int64_t(worst),
+                       [&](const auto& p) { return p.x == x && p.y == y; }))
+        found.push_back({x, y, "classes-" + s.stage});
+    }
+    places.pixels.insert(places.pixels.end(), found.begin(), found.end());
+  }
+  const uint64_t all = v.verdict.violations();
+  if (places.pixels.size() < all)
+    places.about =
+        "The first of " + grouped(std::to_string(all)) + " pixels in no legal set, the worst of each stage first.";
+  return places;
+}
+
+/// Some pixels of a class in each stage, evenly spread over those that there are.
+Places samples_of(const Validation& v, PixelClass c) {
+  const std::string name(text(c));
+  Places places{"Samples of " + name, "Some of the pixels that are " + name + ".", {}};
+  for (const StageVerdict& s : v.verdict.stages) {
+    const uint64_t step = std::max<uint64_t>(1, s.count(c) / kSamples);
+    uint64_t seen = 0;
+    for (size_t i = 0; i < s.classes.size(); ++i)
+      if (s.classes[i] == c && seen++ % step == 0 && places.pixels.size() < 2 * kSamples)
+        places.pixels.push_back({int(i % size_t(s.width)), int(i / size_t(s.width))});
+  }
+  return places;
+}
+
+/// A picture of how far two are apart, each difference enlarged, for paper and pages without scripts.
+Image difference_picture(const Image& from, const Image& to, int gain) {
+  Image picture(from.width, from.height, Format::rgba8);
+  const FormatInfo layout = info(from.format);
+  for (int y = 0; y < from.height; ++y)
+    for (int x = 0; x < from.width; ++x) {
+      uint8_t* texel = picture.texel(x, y);
+      for (int k = 0; k < std::min(layout.channels, 3); ++k) {
+        const uint32_t a = from.code(x, y, k), b = to.code(x, y, k);
+        const double apart = layout.number_class == NumberClass::floating
+                                 ? (a == b ? 0.0 : std::abs(from.value(x, y, k) - to.value(x, y, k)))
+                                 : (a > b ? a - b : b - a) / double(layout.largest_code(k));
+        texel[k] = apart * gain < 1 ? uint8_t(apart * gain * 255 + 0.5) : 255;  // NaN is shown as white
+      }
+      texel[3] = 255;
+    }
+  return picture;
+}
+
+std::string pictures_of(const Validation& v, const ComparedPlane& plane, int gain) {
+  std::string html = "<div class=pictures>\n";
+  if (plane.reference != nullptr) {
+    html += figure(*plane.reference, "Reference", "what Trueshade draws of the same scene and pipeline");
+    html += figure(*plane.test, "Test", "as captured");
+    html += figure(difference_picture(*plane.reference, *plane.test, gain), "Difference",
+                   "how far both are apart, enlarged " + std::to_string(gain) + " times");
+  }
+  for (const StageVerdict& s : v.verdict.stages)
+    html += figure(class_picture(s), "Classes of stage " + s.stage, "a colour each; violations enlarged");
+  return html + "</div>\n";
+}
+
+void add_planes(const Validation& v, PageViewer& viewer) {
+  if (!v.reference) return;
+  for (const NamedImage& plane : v.reference->aovs) {
+    if (plane.name == "id.object")
+      viewer.add(layer_of_ids("object", "Object", "The object that the reference shows, from 1; 0 is nothing drawn.",
+                              plane.image));
+    if (plane.name == "light.count")
+      viewer.add(layer_of_counts("lights", "Lights", "How many lights reach and face the surface in the reference.",
+                                 plane.image));
+  }
+}
+
+}  // namespace
+
+std::string validation_viewer(const Validation& v) {
+  constexpr int kGain = 16;
+  const ComparedPlane plane = compared_plane(v);
+  PageViewer viewer;
+  viewer.gain = kGain;
+  if (plane.reference != nullptr) {
+    viewer.add(value_layer("reference", "Reference", "What Trueshade draws of the same scene and pipeline.",
+                           *plane.reference, plane.name));
+    viewer.add(value_layer("test", "Test", "What was captured, as it is stored.", *plane.test, plane.name));
+    const bool is_same_layout = plane.reference->format == plane.test->format;
+    if (is_same_layout) {
+      viewer.layers.back().base = "reference";
+      viewer.add(layer_of_difference("Difference",
+                                     "How far test and reference are apart, channel by channel, enlarged.",
+                                     viewer.layers[0], viewer.layers[1]));
+      const bool is_float = info(plane.test->format).number_class == NumberClass::floating;
+      viewer.compared = Compared{"reference",
+                                 "test",
+                                 {},
+                                 {},
+                                 std::string(is_float ? "Floats" : "Codes") + " as they are stored in " +
+                                     std::string(info(plane.test->format).name) +
+                                     ". The reference is one legal picture; others are legal too."};
+    }
+  }
+  for (const StageVerdict& s : v.verdict.stages) viewer.add(class_layer(s, plane.test != nullptr ? "test" : ""));
+  add_planes(v, viewer);
+  viewer.places.push_back(violations_of(v));
+  for (const PixelClass c : {PixelClass::edge, PixelClass::depth_tie, PixelClass::clip, PixelClass::branch,
+                             PixelClass::tex, PixelClass::undefined, PixelClass::store_2})
+    viewer.places.push_back(samples_of(v, c));
+  viewer.explanations = v.explanations;
+  for (const StageVerdict& s : v.verdict.stages)
+    for (const WorstPixel& w : s.worst)
+      if (!w.plane.empty() || !w.note.empty())
+        viewer.explanations.push_back(
+            {w.x, w.y, "Stage " + s.stage + ": " + std::string(text(w.pixel_class)), text_of(w)});
+  viewer.explain_command = v.explain_command;
+  return viewer_part(viewer, pictures_of(v, plane, kGain), 0);
+}
+
+}  // namespace trueshade

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+namespace trueshade {
+
+/// What is known of one pixel, for whoever clicks it on a page: a line, and as much text as there is.
+struct PixelExplanation {
+  int x = 0, y = 0;  ///< from the top left
+  std::string title, text;
+};
+
+}  // namespace trueshade
