@@ -19,6 +19,7 @@ void write_glsl(const GlslFilesOptions& options);
 void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
 void shade(const ShadeOptions& options);
+void explain(const ExplainOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
 /// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full

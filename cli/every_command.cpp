@@ -23,6 +23,7 @@ int execute(const Command& command) {
   if (const auto* options = std::get_if<GlslFilesOptions>(&command)) write_glsl(*options);
   if (const auto* options = std::get_if<ExportOptions>(&command)) export_scene(*options);
   if (const auto* options = std::get_if<ShadeOptions>(&command)) shade(*options);
+  if (const auto* options = std::get_if<ExplainOptions>(&command)) explain(*options);
   if (const auto* options = std::get_if<BenchOptions>(&command)) bench(*options);
   if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
   if (const auto* options = std::get_if<PrintText>(&command)) print(options->text);

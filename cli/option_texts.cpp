@@ -159,6 +159,20 @@ ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
   return options;
 }
 
+ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (!texts.pixel) throw usage("--pixel", "no pixel is named", "add --pixel X,Y, counted from the top left");
+  const PixelPlace place = place_from_text("--pixel", *texts.pixel);
+  options.x = place.x, options.y = place.y;
+  check_preset(options.preset);
+  check_scene(options.scene);
+  return options;
+}
+
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
   if (texts.size) options.size = size_from_text(*texts.size);

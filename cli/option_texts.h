@@ -28,6 +28,11 @@ struct ShadeTexts {
   std::optional<std::string> time, target, strategy, profile, threads;
 };
 
+/// Of explain.
+struct ExplainTexts {
+  std::optional<std::string> size, pixel, time, target, strategy, profile;
+};
+
 /// Of bench.
 struct BenchTexts {
   std::optional<std::string> size, strategy, threads, against;
@@ -40,6 +45,7 @@ GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts);
 ExportOptions finished(ExportOptions options, const std::optional<std::string>& time);
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts);
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);
+ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts);
 BenchOptions finished(BenchOptions options, const BenchTexts& texts);
 
 }  // namespace trueshade

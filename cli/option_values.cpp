@@ -56,6 +56,15 @@ Size size_from_text(const std::string& text) {
   return {int(*width), int(*height)};
 }
 
+PixelPlace place_from_text(const std::string& option, const std::string& text) {
+  const size_t comma = text.find(',');
+  const auto x = integer(std::string_view(text).substr(0, comma));
+  const auto y = integer(comma == std::string::npos ? "" : std::string_view(text).substr(comma + 1));
+  if (!x || !y || *x < 0 || *y < 0 || *x >= kMaxSide || *y >= kMaxSide)
+    throw usage(option, "'" + text + "' is not a pixel", "give X,Y, counted from the top left, like 412,310");
+  return {int(*x), int(*y)};
+}
+
 double time_from_text(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

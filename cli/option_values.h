@@ -56,4 +56,11 @@ std::string joined(const Names& names) {
   return text;
 }
 
+/// A pixel by column and row, from the top left.
+struct PixelPlace {
+  int x, y;
+};
+/// `412,310`. Error(usage) for anything but two whole numbers from 0 to 65,535.
+PixelPlace place_from_text(const std::string& option, const std::string& text);
+
 }  // namespace trueshade

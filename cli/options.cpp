@@ -199,6 +199,25 @@ CLI::App* add_shade(CLI::App& app, ShadeOptions& options, ShadeTexts& texts) {
   return command;
 }
 
+CLI::App* add_explain(CLI::App& app, ExplainOptions& options, ExplainTexts& texts) {
+  CLI::App* command = app.add_subcommand(
+      "explain", "Say how one pixel got its value: every triangle, light, blend and rounding, with their numbers");
+  add_pipeline_options(command, options, texts.size);
+  add_value(command, "--pixel", "X,Y", texts.pixel, "Column and row of the pixel, from the top left");
+  add_value(command, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_value(command, "--target", "FORMAT", texts.target, "Format the image is stored in, as for render");
+  add_value(command, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(command, "--profile", "NAME", texts.profile, "Whose bits where OpenGL leaves a choice, as for render");
+  add_value(command, "--against", "IMAGE", options.against,
+            "A picture of the same frame, .png, .exr, .tif, .dds or .npy: whether its value is legal there, and what "
+            "would have made it");
+  add_switch(command, "--all-lights", options.all_lights, "Show lights that add nothing too, one by one");
+  add_switch(command, "--json", options.json, "Print all of it as one JSON document");
+  add_limit_options(command, options);
+  command->footer("The last line is the stored pixel, as render stores it.");
+  return command;
+}
+
 CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   CLI::App* bench = app.add_subcommand(
       "bench", "Time frames, in turn with others that draw the same: up to 15 of each, within some 2.5 s a contender");
@@ -262,10 +281,14 @@ Error unexpected_argument(const CLI::App& command, const std::vector<std::string
 
 /// The first argument is a command, or an option of the program itself. Error(usage) for any other.
 void check_first_argument(const CLI::App& app, const std::string& first) {
-  constexpr std::string_view kCommands[] = {"render", "info", "list", "glsl", "export", "validate", "shade", "bench"};
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
   if (!first_unknown_option({&first, 1}, option_names(app)).empty()) throw unexpected_argument(app, {first});
-  if (first[0] != '-' && std::find(std::begin(kCommands), std::end(kCommands), first) == std::end(kCommands))
-    throw usage("command line", "there is no command '" + first + "'", "one of: " + joined(kCommands));
+  if (first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end()) {
+    std::string names;
+    for (const std::string& name : commands) names += (names.empty() ? "" : " ") + name;
+    throw usage("command line", "there is no command '" + first + "'", "one of: " + names);
+  }
 }
 
 }  // namespace
@@ -298,6 +321,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   ValidationTexts validation_texts;
   ShadeOptions shaded;
   ShadeTexts shade_texts;
+  ExplainOptions explained;
+  ExplainTexts explain_texts;
   BenchOptions benchmark;
   BenchTexts bench_texts;
   const CLI::App* render_command = add_render(app, render, texts);
@@ -310,6 +335,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   const CLI::App* export_command = add_export(app, exported, export_time);
   const CLI::App* validate_command = add_validate(app, validation, validation_texts);
   const CLI::App* shade_command = add_shade(app, shaded, shade_texts);
+  const CLI::App* explain_command = add_explain(app, explained, explain_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
   std::vector<std::string> words(arguments + 1, arguments + std::max(count, 1));
   if (!words.empty() && words[0] == "help") {  // `help COMMAND` is `COMMAND --help`
@@ -345,6 +371,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (export_command->parsed()) return finished(std::move(exported), export_time);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);
   if (shade_command->parsed()) return finished(std::move(shaded), shade_texts);
+  if (explain_command->parsed()) return finished(std::move(explained), explain_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
   return list;
 }

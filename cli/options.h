@@ -120,13 +120,22 @@ struct BenchOptions : PipelineOptions {
   std::optional<std::string> json_file, report;  ///< files to write; the report is .html, and JSON named - is printed
 };
 
+/// `trueshade explain`: how one pixel of `render` got its value.
+struct ExplainOptions : PipelineOptions {
+  double time = 0.0;                   ///< seconds of the scene's timeline
+  int x = 0, y = 0;                    ///< column and row of the pixel, from the top left
+  std::optional<std::string> against;  ///< a picture whose value is to be found out
+  bool all_lights = false;             ///< also those that add nothing, one by one
+  bool json = false;
+};
+
 /// `--help` and `--version`: what to print.
 struct PrintText {
   std::string text;
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, ShadeOptions, PrintText>;
+                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

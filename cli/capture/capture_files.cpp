@@ -253,6 +253,12 @@ class CaptureReader {
     add(plane, file, places);
   }
 
+  CaptureFiles finished_picture(const std::string& path) {
+    read_picture(path);
+    list_planes();
+    return std::move(out_);
+  }
+
   CaptureFiles finished() {
     for (const ChannelFile& file : out_.files)
       if (file.width != out_.width() || file.height != out_.height())
@@ -260,15 +266,9 @@ class CaptureReader {
                        "it is " + std::to_string(file.width) + 'x' + std::to_string(file.height) +
                            ", and the G-buffer " + std::to_string(out_.width()) + 'x' + std::to_string(out_.height()),
                        "capture both at one size");
-    for (const Found& f : found_) {
-      PlaneChannelList list{f.plane, &out_.files[f.file], {}};
-      list.mapped.bottom_up = list.mapped.bottom_up != map_.bottom_up;
-      for (const size_t c : f.channels) list.channels.push_back(&out_.files[f.file].channels[c]);
-      out_.planes.push_back(std::move(list));
-    }
+    list_planes();
     const bool has_plane =
         std::any_of(found_.begin(), found_.end(), [](const Found& f) { return f.plane.plane != "color"; });
-    out_.name = out_.files.front().path;
     if (!has_plane)
       refuse_capture(out_.name, "there is no G-buffer in it",
                      "write depth.Z, P.X, N.X, albedo.R, id.object ... into an EXR");
@@ -276,6 +276,16 @@ class CaptureReader {
   }
 
  private:
+  void list_planes() {
+    for (const Found& f : found_) {
+      PlaneChannelList list{f.plane, &out_.files[f.file], {}};
+      list.mapped.bottom_up = list.mapped.bottom_up != map_.bottom_up;
+      for (const size_t c : f.channels) list.channels.push_back(&out_.files[f.file].channels[c]);
+      out_.planes.push_back(std::move(list));
+    }
+    out_.name = out_.files.front().path;
+  }
+
   struct Found {
     MappedPlane plane;
     size_t file;
@@ -296,6 +306,11 @@ CaptureFiles read_capture_files(const std::vector<std::string>& gbuffer, const s
   reader.read(gbuffer);
   if (!image.empty()) reader.read_picture(image);
   return reader.finished();
+}
+
+CaptureFiles read_picture_file(const std::string& path, uint64_t most_expansion) {
+  const CaptureMap no_map;
+  return CaptureReader(no_map, most_expansion).finished_picture(path);
 }
 
 }  // namespace trueshade

@@ -34,4 +34,7 @@ struct CaptureFiles {
 CaptureFiles read_capture_files(const std::vector<std::string>& gbuffer, const std::string& image,
                                 const CaptureMap& map, uint64_t most_expansion);
 
+/// A picture alone: the channels R G B, and A if there is one, of a file.
+CaptureFiles read_picture_file(const std::string& path, uint64_t most_expansion);
+
 }  // namespace trueshade

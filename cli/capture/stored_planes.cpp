@@ -176,7 +176,7 @@ Image without_alpha(const std::string& where, const std::string& name, const Ima
 void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& capture) {
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);
-  const Image& first = capture.planes.front().image;
+  const Image& first = capture.planes.empty() ? capture.color : capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
     throw bad_capture(
         where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),

@@ -1,0 +1,117 @@
+#include "explain/account.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+
+#include "core/json_number.h"
+#include "core/json_string.h"
+
+namespace trueshade {
+namespace {
+
+template <class Number>
+std::string digits_of(Number value) {
+  char digits[64];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string digits_of(__int128 value) {
+  const bool negative = value < 0;
+  std::string digits;
+  for (auto rest = negative ? -static_cast<unsigned __int128>(value) : static_cast<unsigned __int128>(value);
+       rest != 0 || digits.empty(); rest /= 10)
+    digits += char('0' + int(rest % 10));
+  if (negative) digits += '-';
+  std::reverse(digits.begin(), digits.end());
+  return digits;
+}
+
+std::string value_json(const AccountValue& value) {
+  constexpr __int128 kExact = __int128(1) << 53;
+  const std::string text = value_text(value);
+  if (const auto* number = std::get_if<float>(&value))
+    return std::isfinite(*number) ? text : std::string(json_of_nonfinite(double(*number)));
+  if (const auto* number = std::get_if<double>(&value))
+    return std::isfinite(*number) ? text : std::string(json_of_nonfinite(*number));
+  if (const auto* number = std::get_if<__int128>(&value))
+    return *number >= -kExact && *number <= kExact ? text : json_string(text);
+  return std::holds_alternative<std::string>(value) ? json_string(text) : text;
+}
+
+std::string joined(const std::vector<AccountValue>& values, std::string (*text)(const AccountValue&)) {
+  std::string all;
+  for (const AccountValue& value : values) {
+    if (!all.empty()) all += ", ";
+    all += text(value);
+  }
+  return all;
+}
+
+void write(const Account& account, size_t depth, std::string& out) {
+  constexpr size_t kName = 11, kValues = 42;  // characters; a longer one pushes the next column
+  const std::string indent(2 * depth, ' ');
+  if (depth == 1) out += '\n';
+  out += indent + account.title + '\n';
+  for (const Quantity& quantity : account.quantities) {
+    std::string line = indent + "  " + quantity.name;
+    const auto column = [&](size_t at) {
+      line.resize(std::max(line.size() + 2, indent.size() + 2 + at), ' ');
+    };
+    column(kName);
+    line += joined(quantity.values, value_text);
+    if (!quantity.meaning.empty()) {
+      column(kName + kValues);
+      line += quantity.meaning;
+    }
+    out += line + '\n';
+  }
+  for (const Account& part : account.parts) write(part, depth + 1, out);
+}
+
+}  // namespace
+
+std::string value_text(const AccountValue& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, std::string>)
+          return v;
+        else if constexpr (std::is_same_v<T, bool>)
+          return v ? "true" : "false";
+        else
+          return digits_of(v);
+      },
+      value);
+}
+
+std::string account_text(const Account& account) {
+  std::string out;
+  write(account, 0, out);
+  return out;
+}
+
+std::string account_json(const Account& account) {
+  std::string out = "{\"step\": " + json_string(account.key) + ", \"title\": " + json_string(account.title);
+  if (!account.quantities.empty()) {
+    out += ", \"values\": {";
+    for (const Quantity& quantity : account.quantities) {
+      if (&quantity != &account.quantities.front()) out += ", ";
+      const std::string values = joined(quantity.values, value_json);
+      out += json_string(quantity.name) + ": " + (quantity.values.size() == 1 ? values : '[' + values + ']');
+    }
+    out += '}';
+  }
+  if (!account.parts.empty()) {
+    out += ", \"parts\": [";
+    for (const Account& part : account.parts) {
+      if (&part != &account.parts.front()) out += ", ";
+      out += account_json(part);
+    }
+    out += ']';
+  }
+  return out + '}';
+}
+
+}  // namespace trueshade

@@ -1,0 +1,76 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace trueshade {
+
+/// A number of an explanation. Floats and doubles are written in the fewest digits that give them back; integers, edge
+/// functions among them, whole.
+using AccountValue = std::variant<float, double, int64_t, __int128, bool, std::string>;
+
+/// One named quantity with its numbers.
+struct Quantity {
+  std::string name;     ///< as docs/arithmetic.md has it where it has one
+  std::string meaning;  ///< with space and unit
+  std::vector<AccountValue> values;
+};
+
+/// What happened at one step: a heading, quantities, and smaller steps, each in order.
+struct Account {
+  std::string key;    ///< what kind of step this is, for programs: `triangle`, `light`, ...
+  std::string title;  ///< for people
+  std::vector<Quantity> quantities;
+  std::vector<Account> parts;
+
+  Account() = default;
+  Account(std::string of_key, std::string of_title) : key(std::move(of_key)), title(std::move(of_title)) {}
+
+  template <class T>
+  Account& add(std::string_view name, const T& value, std::string_view meaning) {
+    quantities.push_back({std::string(name), std::string(meaning), {AccountValue(value)}});
+    return *this;
+  }
+  Account& add(std::string_view name, const char* value, std::string_view meaning) {
+    return add(name, std::string(value), meaning);
+  }
+  template <class T>
+  Account& add(std::string_view name, std::span<const T> values, std::string_view meaning) {
+    quantities.push_back({std::string(name), std::string(meaning), {values.begin(), values.end()}});
+    return *this;
+  }
+  template <class T>
+  Account& add(std::string_view name, const std::vector<T>& values, std::string_view meaning) {
+    return add(name, std::span<const T>(values), meaning);
+  }
+  template <class T, size_t n>
+  Account& add(std::string_view name, const T (&values)[n], std::string_view meaning) {
+    return add(name, std::span<const T>(values), meaning);
+  }
+  template <class T, size_t n>
+  Account& add(std::string_view name, const std::array<T, n>& values, std::string_view meaning) {
+    return add(name, std::span<const T>(values), meaning);
+  }
+  /// A smaller step, at the end. The reference holds until the next one.
+  Account& part(std::string of_key, std::string of_title) {
+    return parts.emplace_back(std::move(of_key), std::move(of_title));
+  }
+};
+
+/// One value: digits, or the word itself.
+std::string value_text(const AccountValue& value);
+
+/// Lines for people: a heading, then a line a quantity, `name  values  meaning`, smaller steps indented. Ends in a line
+/// feed.
+std::string account_text(const Account& account);
+
+/// {"step": key, "title": ..., "values": {name: number or list, ...}, "parts": [...]}; empty members are left out.
+/// Integers beyond 2^53 are strings of digits, and so are numbers that are not finite: "inf", "-inf", "nan".
+std::string account_json(const Account& account);
+
+}  // namespace trueshade

@@ -1,0 +1,202 @@
+#include "explain/against.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "core/fp_env.h"
+#include "core/srgb.h"
+
+namespace trueshade {
+namespace {
+
+constexpr size_t kMostLights = 256;  // that are left out or doubled, one after the other
+
+bool is_same(const StoredPixel& a, const StoredPixel& b) {
+  for (size_t c = 0; c < 4; ++c)
+    if (std::bit_cast<uint32_t>(a[c]) != std::bit_cast<uint32_t>(b[c])) return false;
+  return true;
+}
+
+/// Collects what changes would make of one pixel.
+class Search {
+ public:
+  Search(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference, const StoredPixel& given)
+      : frame_(frame), history_(history), reference_(reference), given_(given), surfaces_(lit_surfaces(frame, history)) {}
+
+  std::vector<Candidate> run(size_t most) {
+    try_surfaces();
+    try_lights();
+    try_models();
+    try_places();
+    try_stores();
+    const double here = stored_difference(frame_.target, history_.target.stored, given_);
+    std::erase_if(found_, [here](const Candidate& c) { return !(c.difference < here); });
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.difference < b.difference; });
+    if (found_.size() > most) found_.resize(most);
+    return std::move(found_);
+  }
+
+ private:
+  void add(std::string what, const StoredPixel& stored) {
+    if (is_same(stored, history_.target.stored)) return;
+    found_.push_back({std::move(what), stored, stored_difference(frame_.target, stored, given_)});
+  }
+
+  void try_surface(const PixelFragment& fragment, const std::string& how) {
+    PixelSurfaces surfaces = surfaces_;
+    surfaces.covered = true;
+    surfaces.tied.clear();
+    surfaces.visible = surface_of(frame_, fragment, surface_planes(frame_.pipeline), history_.pixel).read;
+    add("object " + std::to_string(fragment.instance) + ", triangle " + std::to_string(fragment.triangle) + how,
+        target_of(frame_, surfaces, history_.pixel).stored);
+  }
+
+  void try_surfaces() {
+    for (size_t i = 0; i < history_.opaque.covering.size(); ++i)
+      if (history_.visible != i) try_surface(history_.opaque.covering[i], " seen instead");
+    for (const PixelFragment& fragment : history_.opaque.nearest)
+      try_surface(fragment, ", which lies beside the sample, seen instead");
+    PixelSurfaces none = surfaces_;
+    none.covered = false, none.tied.clear();
+    add("no surface there", target_of(frame_, none, history_.pixel).stored);
+    if (surfaces_.glass.empty()) return;
+    PixelSurfaces opaque = surfaces_;
+    opaque.glass.clear();
+    add("transparent surfaces left out", target_of(frame_, opaque, history_.pixel).stored);
+  }
+
+  void try_lights() {
+    std::vector<uint8_t> times(frame_.scene.lights.size(), 1);
+    const auto with = [&](const std::string& what) {
+      add(what, target_of(frame_, surfaces_, history_.pixel, times).stored);
+    };
+    size_t tried = 0;
+    for (size_t i = 0; i < history_.target.visible.lights.size() && tried < kMostLights; ++i) {
+      if (history_.target.visible.lights[i].fate != LightFate::adds) continue;
+      ++tried;
+      times[i] = 0, with("light " + std::to_string(i) + " left out");
+      times[i] = 2, with("light " + std::to_string(i) + " counted twice");
+      times[i] = 1;
+    }
+    std::fill(times.begin(), times.end(), uint8_t(0));
+    with("no light counted");
+  }
+
+  void try_model(const std::string& what, const std::function<void(Pipeline&)>& change) {
+    Pipeline changed = frame_.pipeline;
+    change(changed);
+    if (changed == frame_.pipeline) return;
+    const ExplainedFrame frame(frame_.scene, changed);
+    add(what, target_of(frame, surfaces_, history_.pixel).stored);
+  }
+
+  void try_models() {
+    if (!surfaces_.covered) return;
+    const LightModel& model = frame_.pipeline.light_model;
+    try_model(model.renormalize ? "the normal used as it is stored" : "the normal made unit",
+              [](Pipeline& p) { p.light_model.renormalize = !p.light_model.renormalize; });
+    try_model("no specular term", [](Pipeline& p) { p.light_model.specular = Specular::none; });
+    try_model(model.specular_masked ? "specular where N.L is not above 0 too" : "specular only where N.L is above 0",
+              [](Pipeline& p) { p.light_model.specular_masked = !p.light_model.specular_masked; });
+    try_model(model.viewer == Viewer::local ? "the viewer at infinity" : "the viewer at the eye", [](Pipeline& p) {
+      p.light_model.viewer = p.light_model.viewer == Viewer::local ? Viewer::infinite : Viewer::local;
+    });
+    try_model("spot lights without their cones", [](Pipeline& p) { p.light_model.cone = Cone::none; });
+    try_model("lights without falloff", [](Pipeline& p) { p.light_model.falloff = Falloff::none; });
+    try_model("falloff inverse_square",
+              [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
+    try_model("light extents not applied", [](Pipeline& p) {
+      p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;
+    });
+    try_model("lights summed and stored once", [](Pipeline& p) {
+      p.strategy = is_forward(p.strategy) ? Strategy::forward_loop : Strategy::deferred_loop;
+    });
+  }
+
+  void try_places() {
+    constexpr int kRadius = 3;
+    const int w = reference_.width, h = reference_.height;
+    const int x = history_.pixel.x, y = h - 1 - history_.pixel.y;
+    const auto place = [&](int px, int py, const std::string& why) {
+      if (px < 0 || py < 0 || px >= w || py >= h || (px == x && py == y)) return;
+      add("the value of the pixel " + std::to_string(px) + ',' + std::to_string(py) + why, stored_in(reference_, px, py));
+    };
+    for (int dy = -kRadius; dy <= kRadius; ++dy)
+      for (int dx = -kRadius; dx <= kRadius; ++dx) place(x + dx, y + dy, "");
+    place(x, h - 1 - y, ": the picture upside down");
+    place(w - 1 - x, y, ": left and right exchanged");
+    place(w - 1 - x, h - 1 - y, ": the picture turned round");
+  }
+
+  /// Stores of the same values by another rule; of the values that a shader would read, where lights are blended.
+  void try_stores() {
+    const FormatInfo layout = info(frame_.target.format);
+    const bool sums = !blends_lights(frame_.pipeline.strategy) && surfaces_.covered && surfaces_.glass.empty();
+    const std::array<float, 4> values =
+        sums ? history_.target.visible.sum : values_of(frame_.target, history_.target.stored);
+    const auto with = [&](const std::string& what, std::array<float, 4> source) {
+      add(what, stored_alone(frame_.target, source));
+    };
+    std::array<float, 4> encoded = values, decoded = values, swapped = values, multiplied = values;
+    for (size_t c = 0; c < 3; ++c) {
+      encoded[c] = float(srgb8_from_linear(values[c])) / 255.0f;
+      decoded[c] = float(linear_from_srgb(double(std::clamp(values[c], 0.0f, 1.0f))));
+      multiplied[c] = values[c] * values[3];
+    }
+    std::swap(swapped[0], swapped[2]);
+    with("values encoded as sRGB before they are stored", encoded);
+    with("values decoded from sRGB before they are stored", decoded);
+    with("red and blue exchanged", swapped);
+    with("colour multiplied by alpha", multiplied);
+    with("twice as bright", {2 * values[0], 2 * values[1], 2 * values[2], values[3]});
+    with("half as bright", {0.5f * values[0], 0.5f * values[1], 0.5f * values[2], values[3]});
+    if (!sums || layout.number_class != NumberClass::unorm || layout.srgb) return;
+    StoredPixel truncated;
+    for (size_t c = 0; c < 4; ++c)
+      truncated[c] = std::floor(std::clamp(values[c], 0.0f, 1.0f) * float(layout.largest_code(int(c))));
+    add("codes truncated instead of rounded", truncated);
+  }
+
+  const ExplainedFrame& frame_;
+  const PixelHistory& history_;
+  const Image& reference_;
+  const StoredPixel given_;
+  const PixelSurfaces surfaces_;
+  std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+StoredPixel stored_in(const Image& image, int x, int y) {
+  const FormatInfo layout = info(image.format);
+  StoredPixel out{};
+  for (int c = 0; c < layout.channels; ++c)
+    out[size_t(c)] = layout.number_class == NumberClass::unorm ? float(image.code(x, y, c)) : float(image.value(x, y, c));
+  return out;
+}
+
+double stored_difference(const BlendTarget& target, const StoredPixel& a, const StoredPixel& b) {
+  const FormatInfo layout = info(target.format);
+  constexpr double kSmall = 0x1p-14;
+  double most = 0.0;
+  for (size_t c = 0; c < size_t(layout.channels); ++c) {
+    const double u = double(a[c]), v = double(b[c]);
+    if (std::bit_cast<uint32_t>(a[c]) == std::bit_cast<uint32_t>(b[c])) continue;
+    const double apart = layout.number_class == NumberClass::unorm
+                             ? std::fabs(u - v)
+                             : std::fabs(u - v) / std::max({std::fabs(u), std::fabs(v), kSmall});
+    most = std::max(most, apart == apart ? apart : HUGE_VAL);
+  }
+  return most;
+}
+
+std::vector<Candidate> candidates_for(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference,
+                                      const StoredPixel& given, size_t most) {
+  const FpScope fp;
+  return Search(frame, history, reference, given).run(most);
+}
+
+}  // namespace trueshade

@@ -1,0 +1,21 @@
+#pragma once
+#include <array>
+
+#include "shading/blend/blend.h"
+
+namespace trueshade {
+
+/// A pixel in a target's stored form, as blend_pixels() has it: codes as floats, or the floats themselves.
+using StoredPixel = std::array<float, 4>;
+
+/// One draw into a pixel: blend_pixels() for one.
+StoredPixel after_draw(const BlendState& state, const BlendTarget& target, const std::array<float, 4>& source,
+                  const StoredPixel& stored);
+
+/// What a draw without blending stores.
+StoredPixel stored_alone(const BlendTarget& target, const std::array<float, 4>& source);
+
+/// What a shader reads of it.
+std::array<float, 4> values_of(const BlendTarget& target, const StoredPixel& stored);
+
+}  // namespace trueshade

@@ -1,0 +1,119 @@
+#include "explain/explain.h"
+
+#include "core/error.h"
+#include "core/fp_env.h"
+
+namespace trueshade {
+namespace {
+
+/// GL 4.6 core, 17.3.4.
+bool passes_depth(DepthFunc func, float z, float there) {
+  switch (func) {
+    case DepthFunc::never:
+      return false;
+    case DepthFunc::less:
+      return z < there;
+    case DepthFunc::equal:
+      return z == there;
+    case DepthFunc::lequal:
+      return z <= there;
+    case DepthFunc::greater:
+      return z > there;
+    case DepthFunc::notequal:
+      return z != there;
+    case DepthFunc::gequal:
+      return z >= there;
+    case DepthFunc::always:
+      return true;
+  }
+  return false;
+}
+
+DepthOutcome tested(const ExplainedFrame& frame, const PixelFragment& fragment, DepthFunc func, float there) {
+  DepthOutcome out{there, passes_depth(func, fragment.depth, there), std::nullopt, false};
+  if (!out.passes) return out;
+  out.alpha = tested_alpha(frame, fragment);
+  const uint32_t material = frame.scene.instances[fragment.instance].material;
+  out.drawn = !out.alpha || *out.alpha >= frame.scene.materials[material].alpha_cutoff;
+  return out;
+}
+
+void find_visible(const ExplainedFrame& frame, PixelHistory& out) {
+  const GeometryState& state = frame.pipeline.geometry;
+  out.depth = frame.view.window.depth.stored(state.clear_depth);
+  for (size_t i = 0; i < out.opaque.covering.size(); ++i) {
+    out.of_opaque.push_back(tested(frame, out.opaque.covering[i], state.depth_func, out.depth));
+    if (!out.of_opaque.back().drawn) continue;
+    out.depth = out.opaque.covering[i].depth;
+    out.visible = i;
+  }
+}
+
+/// The fragments that every light but the first draws: those at the stored depth.
+void find_tied(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
+  std::vector<const PixelFragment*> tied;
+  for (const PixelFragment& fragment : out.opaque.covering)
+    if (tested(frame, fragment, DepthFunc::equal, out.depth).drawn) tied.push_back(&fragment);
+  if (tied.empty() || (tied.size() == 1 && out.visible)) return;
+  for (const PixelFragment* fragment : tied) out.tied.push_back(surface_of(frame, *fragment, planes, out.pixel));
+}
+
+void find_glass(const ExplainedFrame& frame, PixelHistory& out) {
+  Pipeline forward = frame.pipeline;
+  forward.strategy = Strategy::forward_loop;
+  const GBufferState floats = surface_planes(forward);
+  for (const PixelFragment& fragment : out.transparent.covering) {
+    out.of_transparent.push_back(tested(frame, fragment, frame.pipeline.geometry.depth_func, out.depth));
+    if (out.of_transparent.back().drawn) out.glass.push_back(surface_of(frame, fragment, floats, out.pixel));
+  }
+}
+
+/// Blends transparent fragments into the albedo that lights read.
+void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
+  const BlendTarget plane{planes.albedo.format, frame.pipeline.profile, planes.half_round};
+  StoredPixel stored = stored_alone(plane, out.surface.computed.albedo);
+  for (const PixelSurface& glass : out.glass) {
+    const std::array<float, 4>& source = glass.read.albedo;
+    const StoredPixel after = after_draw(frame.pipeline.transparency.blend, plane, source, stored);
+    out.albedo_draws.push_back({"transparent surface " + std::to_string(out.albedo_draws.size()), -1, source, stored, after});
+    stored = after;
+  }
+  if (!out.glass.empty()) out.surface.read.albedo = values_of(plane, stored);
+}
+
+}  // namespace
+
+PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history) {
+  PixelSurfaces out;
+  out.covered = history.visible.has_value();
+  out.visible = history.surface.read;
+  for (const PixelSurface& tied : history.tied) out.tied.push_back(tied.read);
+  if (frame.transparency == TransparencyMode::after_lights)
+    for (const PixelSurface& glass : history.glass) out.glass.push_back(glass.read);
+  return out;
+}
+
+PixelHistory history_of(const ExplainedFrame& frame, int x, int y) {
+  const FpScope fp;
+  const int width = frame.pipeline.width, height = frame.pipeline.height;
+  if (x < 0 || y < 0 || x >= width || y >= height)
+    throw Error(ErrorKind::usage, "--pixel", std::to_string(x) + ',' + std::to_string(y) + " is not in the picture",
+                "columns are 0 to " + std::to_string(width - 1) + ", rows 0 to " + std::to_string(height - 1) +
+                    " from the top");
+  PixelHistory out;
+  out.pixel = {x, height - 1 - y};
+  out.opaque = triangles_at(frame, out.pixel, Surfaces::opaque);
+  find_visible(frame, out);
+  const GBufferState planes = surface_planes(frame.pipeline);
+  if (out.visible) out.surface = surface_of(frame, out.opaque.covering[*out.visible], planes, out.pixel);
+  if (frame.pipeline.strategy == Strategy::forward_multipass) find_tied(frame, planes, out);
+  if (frame.transparency != TransparencyMode::none) {
+    out.transparent = triangles_at(frame, out.pixel, Surfaces::transparent);
+    find_glass(frame, out);
+  }
+  if (frame.transparency == TransparencyMode::into_albedo && out.visible) tint_albedo(frame, planes, out);
+  out.target = target_of(frame, lit_surfaces(frame, out), out.pixel);
+  return out;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,46 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "explain/account.h"
+#include "explain/explained_frame.h"
+#include "explain/fragments.h"
+#include "explain/surface.h"
+#include "explain/target.h"
+
+namespace trueshade {
+
+/// What the depth test and the alpha test made of a covering fragment.
+struct DepthOutcome {
+  float there = 0;             ///< the depth that the fragment is compared with
+  bool passes = false;         ///< the depth test
+  std::optional<float> alpha;  ///< what the cutoff is compared with; nothing where the test was not asked
+  bool drawn = false;          ///< passes both
+};
+
+/// Everything that happened at one pixel, as numbers.
+struct PixelHistory {
+  WindowPixel pixel{};
+  PixelTriangles opaque, transparent;
+  std::vector<DepthOutcome> of_opaque, of_transparent;  ///< of each covering fragment
+  std::optional<size_t> visible;                        ///< index into opaque.covering
+  float depth = 0;                                      ///< stored, or the clear depth
+  PixelSurface surface;                                 ///< the visible one
+  std::vector<PixelSurface> tied, glass;                ///< of forward-multipass; of transparent fragments drawn
+  std::vector<TargetDraw> albedo_draws;                 ///< transparent fragments blended into the albedo plane
+  PixelTarget target;
+};
+
+/// Follows one pixel through the frame; (x, y) counts from the top left of the picture. Error(usage) for a pixel that
+/// is not in the picture. The stored pixel is what render_frame() stores, bit for bit (tests/explain).
+PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
+
+/// The surfaces that light a history's target.
+PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history);
+
+/// The same in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
+/// pixel. `every_light`: lights that add nothing are parts too, not only counted and listed.
+enum class LightDetail : uint8_t { adding, every };
+Account account_of(const ExplainedFrame& frame, const PixelHistory& history, LightDetail detail = LightDetail::adding);
+
+}  // namespace trueshade

@@ -1,0 +1,30 @@
+#pragma once
+#include <span>
+
+#include "raster/view.h"
+#include "scenes/pipeline/light_mesh.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+#include "shading/blend/blend.h"
+#include "shading/light/light_table.h"
+
+namespace trueshade {
+
+/// What every pixel's explanation reads of a frame, made once. Borrows the scene. `pipeline` is without post chain and
+/// view: what is explained is the target.
+struct ExplainedFrame {
+  const Scene& scene;
+  Pipeline pipeline;
+  View view;
+  LightTable lights;        ///< bounded as the strategy draws them
+  LightTable glass_lights;  ///< bounded by their analytic extents, as transparent fragments are lit
+  LightMeshes meshes;
+  GeometryState volume_state;     ///< that light geometry is drawn with
+  WindowTransform volume_window;  ///< of it
+  BlendTarget target;
+  TransparencyMode transparency;  ///< none too where the scene has no transparent surface
+
+  ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline);
+};
+
+}  // namespace trueshade

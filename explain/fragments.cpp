@@ -1,0 +1,217 @@
+#include "explain/fragments.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "raster/triangles/triangle_setup.h"
+
+namespace trueshade {
+namespace {
+
+constexpr float kAnywhere = std::numeric_limits<float>::quiet_NaN();
+constexpr size_t kNearest = 8;
+constexpr double kSlack = 2.0;  // pixels: more than snapping moves a corner
+
+/// Where a vertex appears, in pixels, to about 1/256 pixel; kAnywhere where that is not known so simply.
+struct RoughPosition {
+  float x, y;
+};
+
+RoughPosition rough_position(const ClipVertex& v, const WindowTransform& t) {
+  constexpr double kLeastW = 0x1p-100, kMost = 0x1p20;
+  const double w = double(v.c[3]), x = double(v.c[0]), y = double(v.c[1]);
+  if (!(w >= kLeastW) || !std::isfinite(x + y + w) || !std::isfinite(v.c[2])) return {kAnywhere, kAnywhere};
+  const double wx = (x / w * double(t.scale[0]) + double(t.offset[0])) / 256.0;
+  const double wy = (y / w * double(t.scale[1]) + double(t.offset[1])) / 256.0;
+  if (!(std::abs(wx) < kMost && std::abs(wy) < kMost)) return {kAnywhere, kAnywhere};
+  return {float(wx), float(wy)};
+}
+
+/// Whether a triangle's box surely leaves the sample out. A NaN answers no.
+bool surely_elsewhere(const RoughPosition& a, const RoughPosition& b, const RoughPosition& c, double px, double py) {
+  const auto beyond = [](double p, float u, float v, float w) {
+    const double low = p - kSlack, high = p + kSlack;
+    return (u < low && v < low && w < low) || (u > high && v > high && w > high);
+  };
+  const bool known = a.x == a.x && b.x == b.x && c.x == c.x;
+  return known && (beyond(px, a.x, b.x, c.x) || beyond(py, a.y, b.y, c.y));
+}
+
+bool finite(const ClipVertex& v) {
+  return std::isfinite(v.c[0]) && std::isfinite(v.c[1]) && std::isfinite(v.c[2]) && std::isfinite(v.c[3]);
+}
+
+/// Whether all corners are beyond one plane: a quick answer for what clipping would leave nothing of.
+bool all_beyond_a_plane(const ClipVertex v[3], const WindowTransform& t) {
+  const auto all = [&](auto beyond) { return beyond(v[0].c) && beyond(v[1].c) && beyond(v[2].c); };
+  if (all([](const float* c) { return c[3] < 0x1p-126f; })) return true;
+  if (t.depth_clamp) return false;
+  return all([](const float* c) { return c[2] > c[3]; }) ||
+         all([&](const float* c) { return t.zero_to_one ? c[2] < 0.0f : c[2] < -c[3]; });
+}
+
+/// The pieces that cover the sample, counted with the signs of their areas: the polygon covers it if the sum has the
+/// sign of the polygon's area, and the first piece of that sign gives the values.
+void cover(const WindowTransform& window, PixelFragment& out) {
+  int winding = 0, drawn = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  EdgeValues of_drawn{}, of_nearest{};
+  int nearest_piece = 0;
+  for (int i = 0; i < out.fan.count; ++i) {
+    const ClippedFan::Piece& piece = out.fan.piece[i];
+    const EdgeValues edges = edge_values(piece.triangle, window.upper_left);
+    if (const double outside = edges.pixels_outside(); outside < nearest)
+      nearest = outside, nearest_piece = i, of_nearest = edges;
+    if (!edges.covers()) continue;
+    winding += piece.sign;
+    if (drawn < 0 && piece.sign == out.fan.facing) drawn = i, of_drawn = edges;
+  }
+  const bool covered = winding * out.fan.facing > 0;
+  out.fate = covered ? Fate::covers : Fate::beside;
+  out.piece = covered ? drawn : nearest_piece;
+  out.edges = covered ? of_drawn : of_nearest;
+}
+
+/// r of docs/arithmetic.md section 5.
+double offset_unit(const DepthRule& rule, const DepthPlane& plane) {
+  if (rule.largest_code != 0.0f) return rule.unit;
+  const auto most = float(std::max(std::abs(plane.low), std::abs(plane.high)));
+  const int exponent = most == 0.0f ? -126 : std::clamp(std::ilogb(most), -126, 127);
+  return std::ldexp(1.0, exponent - 23);
+}
+
+void find_depth(const WindowTransform& window, PixelFragment& out) {
+  const EdgeValues& at = out.edges;
+  const double* const z = out.fan.piece[out.piece].triangle.z;
+  DepthPlane plane =
+      DepthPlane::of_corners(z[at.order[0]], z[at.order[1]], z[at.order[2]], double(at.area));
+  const DepthRule& rule = window.depth;
+  if (rule.offsets()) {
+    const double across = double(at.across[1]) * plane.g1 + double(at.across[2]) * plane.g2;
+    const double up = double(at.up[1]) * plane.g1 + double(at.up[2]) * plane.g2;
+    out.offset = std::max(std::abs(across), std::abs(up)) * rule.factor + offset_unit(rule, plane) * rule.units;
+    plane.z0 += out.offset, plane.low += out.offset, plane.high += out.offset;
+  }
+  plane = plane.in_range(double(window.depth_low), double(window.depth_high));
+  out.plane_depth = plane.at(double(at.e[1]), double(at.e[2]));
+  out.depth = rule.stored(float(out.plane_depth));
+}
+
+/// Keeps a triangle beside the sample if it is among the nearest.
+void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest) {
+  const auto outside = [](const PixelFragment& f) { return f.edges.pixels_outside(); };
+  const double mine = outside(fragment);
+  const auto place = std::upper_bound(nearest.begin(), nearest.end(), mine,
+                                      [&](double value, const PixelFragment& f) { return value < outside(f); });
+  if (size_t(place - nearest.begin()) >= kNearest) return;
+  nearest.insert(place, std::move(fragment));
+  if (nearest.size() > kNearest) nearest.pop_back();
+}
+
+bool is_asked(const ExplainedFrame& frame, const Instance& instance, Surfaces which) {
+  const bool apart = frame.transparency != TransparencyMode::none && frame.scene.materials[instance.material].transparent;
+  return apart == (which == Surfaces::transparent);
+}
+
+/// Asks the triangles of one instance. `clip` and `rough` are scratch.
+void ask_instance(const ExplainedFrame& frame, uint32_t instance, WindowPixel pixel, std::vector<ClipVertex>& clip,
+                  std::vector<RoughPosition>& rough, PixelTriangles& out) {
+  const Mesh& mesh = frame.scene.meshes[frame.scene.instances[instance].mesh];
+  const WindowTransform& window = frame.view.window;
+  const float* const rows = frame.view.instances[instance].clip[0];
+  clip.resize(mesh.vertex_count());
+  rough.resize(mesh.vertex_count());
+  for (size_t i = 0; i < clip.size(); ++i) {
+    const float point[3] = {mesh.position[0][i], mesh.position[1][i], mesh.position[2][i]};
+    clip[i] = clip_position(rows, point);
+    rough[i] = rough_position(clip[i], window);
+  }
+  for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
+    const uint32_t* const corner = mesh.indices.data() + 3 * size_t(triangle);
+    if (surely_elsewhere(rough[corner[0]], rough[corner[1]], rough[corner[2]], pixel.x + 0.5, pixel.y + 0.5)) {
+      ++out.count[size_t(Fate::elsewhere)];
+      continue;
+    }
+    const ClipVertex corners[3] = {clip[corner[0]], clip[corner[1]], clip[corner[2]]};
+    PixelFragment fragment = fragment_at(corners, window, frame.view.faces.of(instance), pixel);
+    fragment.instance = instance, fragment.triangle = triangle;
+    ++out.count[size_t(fragment.fate)];
+    if (fragment.fate == Fate::covers)
+      out.covering.push_back(std::move(fragment));
+    else if (fragment.fate == Fate::beside)
+      keep_nearest(std::move(fragment), out.nearest);
+  }
+}
+
+}  // namespace
+
+bool EdgeValues::covers() const {
+  for (size_t i = 0; i < 3; ++i)
+    if (e[i] < 0 || (e[i] == 0 && !owns[i])) return false;
+  return true;
+}
+
+double EdgeValues::pixels_outside() const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < 3; ++i)
+    most = std::max(most, -double(e[i]) / std::hypot(double(across[i]), double(up[i])));
+  return most;
+}
+
+EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left) {
+  EdgeValues out{};
+  canonical_order(triangle, out.order.data());
+  __int128 x[3], y[3];
+  for (size_t i = 0; i < 3; ++i) x[i] = triangle.x[out.order[i]], y[i] = triangle.y[out.order[i]];
+  const __int128 area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  const __int128 sign = area < 0 ? -1 : 1;
+  out.area = sign * area;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t a = (i + 1) % 3, b = (i + 2) % 3;
+    const __int128 dx = sign * (x[b] - x[a]), dy = sign * (y[b] - y[a]);
+    out.e[i] = dy * x[a] - dx * y[a];
+    out.across[i] = -dy * 256;
+    out.up[i] = dx * 256;
+    out.owns[i] = owns_edge(dx, dy, upper_left);
+  }
+  return out;
+}
+
+ClipVertex clip_position(const float* rows, const float point[3]) {
+  ClipVertex out;
+  for (size_t r = 0; r < 4; ++r) {
+    const float* const m = rows + 4 * r;
+    out.c[r] = ((m[0] * point[0] + m[1] * point[1]) + m[2] * point[2]) + m[3];
+  }
+  return out;
+}
+
+PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& window, const GeometryState& state,
+                          WindowPixel pixel) {
+  PixelFragment out;
+  std::copy_n(clip, 3, out.clip);
+  const auto ends = [&](Fate fate) { return out.fate = fate, out; };
+  if (!finite(clip[0]) || !finite(clip[1]) || !finite(clip[2])) return ends(Fate::not_finite);
+  if (all_beyond_a_plane(clip, window)) return ends(Fate::clipped_away);
+  out.fan = clipped_fan(clip, window, int64_t(pixel.x) * 256 + 128, int64_t(pixel.y) * 256 + 128);
+  if (out.fan.count == 0) return ends(out.fan.polygon.corners == 0 ? Fate::clipped_away : Fate::without_area);
+  if (culled(state, (out.fan.facing > 0) != window.upper_left)) return ends(Fate::culled);
+  cover(window, out);
+  const bool inside = pixel.x >= window.x0 && pixel.x < window.x1 && pixel.y >= window.y0 && pixel.y < window.y1;
+  if (!inside) out.fate = Fate::beside;
+  find_depth(window, out);
+  return out;
+}
+
+PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which) {
+  PixelTriangles out;
+  std::vector<ClipVertex> clip;
+  std::vector<RoughPosition> rough;
+  for (uint32_t i = 0; i < frame.scene.instances.size(); ++i)
+    if (is_asked(frame, frame.scene.instances[i], which)) ask_instance(frame, i, pixel, clip, rough, out);
+  return out;
+}
+
+}  // namespace trueshade

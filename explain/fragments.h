@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "explain/explained_frame.h"
+#include "raster/triangles/clipped_fan.h"
+
+namespace trueshade {
+
+/// A pixel by the place of its sample: column and row of OpenGL's window, y up.
+struct WindowPixel {
+  int x, y;
+};
+
+/// What became of a triangle at a pixel.
+enum class Fate : uint8_t {
+  elsewhere,      ///< its box, two pixels wider, does not hold the sample; nothing more was asked
+  not_finite,     ///< a corner has a clip coordinate that is no number or infinite
+  clipped_away,   ///< nothing is left of it between near and far plane
+  without_area,   ///< snapped to 1/256 pixel it has no area
+  culled,         ///< face culling drops it
+  beside,         ///< it does not cover the sample
+  covers
+};
+inline constexpr size_t kFates = 7;
+
+/// The edge functions of a window triangle at a sample, corners in canonical order, signs turned so that the area is
+/// positive; and how they grow by a pixel to the right and up. In 1/65536 pixel^2. docs/arithmetic.md section 4.
+struct EdgeValues {
+  std::array<int, 3> order;  ///< corner of the window triangle that is canonical corner i
+  std::array<__int128, 3> e, across, up;
+  std::array<bool, 3> owns;  ///< whether edge i owns samples that lie on it
+  __int128 area;
+
+  bool covers() const;
+  /// How far the sample lies outside, in pixels: over the edge that it is farthest beyond. Negative inside.
+  double pixels_outside() const;
+};
+EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left);
+
+/// One triangle near a pixel.
+struct PixelFragment {
+  uint32_t instance = 0, triangle = 0;  ///< indices into the scene's instances and the mesh's triangles
+  Fate fate = Fate::beside;
+  ClipVertex clip[3];                   ///< of the corners as submitted
+  ClippedFan fan;                       ///< window coordinates are relative to the sample
+  int piece = 0;                        ///< of the fan, whose values count
+  EdgeValues edges{};                   ///< of that piece
+  double plane_depth = 0;               ///< of the piece's plane, with its polygon offset, clamped
+  double offset = 0;                    ///< of it the polygon offset
+  float depth = 0;                      ///< what the depth test compares
+};
+
+/// The triangles of some instances at a pixel.
+struct PixelTriangles {
+  std::array<uint64_t, kFates> count{};
+  std::vector<PixelFragment> covering;  ///< in the order of submission
+  std::vector<PixelFragment> nearest;   ///< those beside the sample that come nearest to it, at most eight, nearest first
+};
+
+/// Asks every triangle of the scene's opaque instances, or of its transparent ones (all are opaque where the frame
+/// draws none apart). Time grows with the number of triangles.
+enum class Surfaces : uint8_t { opaque, transparent };
+PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which);
+
+/// What became of a triangle with these corners, drawn with a state, and its fragment.
+PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& window, const GeometryState& state,
+                          WindowPixel pixel);
+
+/// The clip position of a point: docs/arithmetic.md section 2. `rows` has four rows of four.
+ClipVertex clip_position(const float* rows, const float point[3]);
+
+}  // namespace trueshade

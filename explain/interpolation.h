@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+
+#include "explain/fragments.h"
+#include "raster/textures/texture.h"
+#include "scenes/pipeline/pipeline.h"
+
+namespace trueshade {
+
+/// The weights of corners 1 and 2 of a fragment, in canonical order, at its sample, and how they change by a pixel to
+/// the right and up. docs/arithmetic.md sections 5 and 13.
+struct CornerWeights {
+  std::array<double, 3> u;                  ///< 1 / w of the corners
+  double q = 0, area = 0;                   ///< l_0 + l_1 + l_2; the edges' exact sum, rounded once
+  std::array<double, 2> smooth{}, linear{};
+  std::array<double, 2> smooth_x{}, smooth_y{}, linear_x{}, linear_y{};
+};
+CornerWeights corner_weights(const PixelFragment& fragment);
+
+/// An attribute at the sample, from its values at the corners as submitted.
+///   provoking: the corner whose value a flat attribute takes
+float attribute_at(const PixelFragment& fragment, const CornerWeights& weights, const WindowTransform& window,
+                   Interpolation how, const std::array<float, 3>& value, int provoking);
+
+/// Texture coordinates at the sample, from u and v at the corners as submitted, with their derivatives.
+TexturePoint texture_point(const PixelFragment& fragment, const CornerWeights& weights, const WindowTransform& window,
+                           Interpolation how, const std::array<float, 3>& u, const std::array<float, 3>& v,
+                           int provoking);
+
+}  // namespace trueshade

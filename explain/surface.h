@@ -1,0 +1,47 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explain/fragments.h"
+#include "explain/interpolation.h"
+
+namespace trueshade {
+
+/// A map's lookup for a pixel.
+struct MapLookup {
+  std::string map;  ///< color, specular, normal, metallic-roughness, emission, occlusion
+  TexturePoint at;
+  std::array<float, 4> texel;
+};
+
+/// The planes of a surface: what lights read of it.
+struct SurfacePlanes {
+  std::array<float, 3> position{}, normal{};
+  std::array<float, 4> albedo{};
+  std::array<float, 2> uv{};
+  std::array<float, 4> specular{};  ///< colour and shininess
+  std::array<float, 4> emission{};  ///< and the share of ambient light that arrives
+};
+
+/// The surface of a fragment.
+struct PixelSurface {
+  CornerWeights weights;
+  bool turned = false;           ///< the normal of a double-sided back face was negated
+  std::vector<MapLookup> lookups;
+  SurfacePlanes computed;        ///< before any plane's format rounds them
+  SurfacePlanes read;            ///< as lights read them from the planes
+};
+
+/// The surface of a fragment, rounded to the formats of `planes`. docs/arithmetic.md sections 5, 7 and 13.
+PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragment, const GBufferState& planes,
+                        WindowPixel pixel);
+
+/// The alpha that is compared with the material's cutoff; nothing where the material has none.
+std::optional<float> tested_alpha(const ExplainedFrame& frame, const PixelFragment& fragment);
+
+/// What reading a channel gives after a draw has stored `values` in a plane or target of a format.
+std::array<float, 4> read_back(const std::array<float, 4>& values, const BlendTarget& target);
+
+}  // namespace trueshade
