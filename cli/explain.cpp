@@ -33,8 +33,8 @@ struct Question {
   const Pipeline& pipeline;  ///< as render has it
   const Pipeline large;      ///< before its post chain
   const ExplainedFrame frame;
-  const int x, y;            ///< of `large`
-  const Frame reference;     ///< by `large`, with the planes that judging reads
+  const int x, y;         ///< of `large`
+  const Frame reference;  ///< by `large`, with the planes that judging reads
 
   Question(const ExplainOptions& o, const Scene& of_scene, const Pipeline& of_pipeline)
       : options(o),
@@ -114,14 +114,17 @@ Account against_account(const Question& q, const PixelHistory& history) {
   const double difference = stored_difference(q.frame.target, given, history.target.stored);
   out.add("distance", difference == 0.0 ? "the same as here" : distance_words(q.frame.target, difference), "");
   capture.planes = q.reference.aovs;
-  const oracle::LegalPixel legal = oracle::legal_pixel(q.scene, q.frame.pipeline, oracle::Profile{}, capture,
-                                                       q.reference.color, q.x, q.y);
+  const oracle::LegalPixel legal =
+      oracle::legal_pixel(q.scene, q.frame.pipeline, oracle::Profile{}, capture, q.reference.color, q.x, q.y);
   constexpr const char* kChannels[] = {"legal_R", "legal_G", "legal_B", "legal_A"};
   for (int c = 0; c < legal.channels; ++c) {
     const oracle::LegalChannel& channel = legal.channel[size_t(c)];
-    if (channel.is_bounded) out.add(kChannels[c], std::array{channel.low, channel.high}, "least and most that OpenGL allows any GPU on this surface");
+    if (channel.is_bounded)
+      out.add(kChannels[c], std::array{channel.low, channel.high},
+              "least and most that OpenGL allows any GPU on this surface");
   }
-  out.add("class", std::string(oracle::text(legal.pixel_class)), "of its value on this surface, as trueshade validate has it");
+  out.add("class", std::string(oracle::text(legal.pixel_class)),
+          "of its value on this surface, as trueshade validate has it");
   if (difference == 0.0) return out;
   for (const Candidate& candidate : candidates_for(q.frame, history, q.reference.color, given)) {
     Account& part = out.part("candidate", candidate.what + ": " + distance_words(q.frame.target, candidate.difference));
@@ -140,14 +143,18 @@ std::vector<AccountValue> finished_pixel(const Question& q) {
 void add_last_lines(const Question& q, const PixelHistory& history, Account& account) {
   const std::string format(info(q.frame.target.format).name);
   if (!q.pipeline.post.active()) {
-    account.quantities.push_back({"stored", format + ", R, G, B, A", values_in_format(q.frame.target.format, history.target.stored)});
+    account.quantities.push_back(
+        {"stored", format + ", R, G, B, A", values_in_format(q.frame.target.format, history.target.stored)});
     return;
   }
   const int n = q.pipeline.post.samples;
-  const std::string which = n > 1 ? "the upper left of the pixel's " + std::to_string(n) + 'x' + std::to_string(n) + " samples, " : "";
+  const std::string which =
+      n > 1 ? "the upper left of the pixel's " + std::to_string(n) + 'x' + std::to_string(n) + " samples, " : "";
   account.quantities.push_back({"target", which + format + ", before the post chain",
                                 values_in_format(q.frame.target.format, history.target.stored)});
-  account.quantities.push_back({"stored", std::string(info(q.pipeline.post.output).name) + ", after the post chain (docs/post.md)", finished_pixel(q)});
+  account.quantities.push_back(
+      {"stored", std::string(info(q.pipeline.post.output).name) + ", after the post chain (docs/post.md)",
+       finished_pixel(q)});
 }
 
 }  // namespace
@@ -168,8 +175,7 @@ void explain(const ExplainOptions& options) {
   const Question question(options, scene, pipeline);
   const PixelHistory history = history_of(question.frame, question.x, question.y);
   check_explanation(question, history);
-  Account account =
-      account_of(question.frame, history, options.all_lights ? LightDetail::every : LightDetail::adding);
+  Account account = account_of(question.frame, history, options.all_lights ? LightDetail::every : LightDetail::adding);
   if (options.against) account.parts.push_back(against_account(question, history));
   add_last_lines(question, history, account);
   if (options.json) return print(account_json(account) + '\n');

@@ -56,9 +56,7 @@ void write(const Account& account, size_t depth, std::string& out) {
   out += indent + account.title + '\n';
   for (const Quantity& quantity : account.quantities) {
     std::string line = indent + "  " + quantity.name;
-    const auto column = [&](size_t at) {
-      line.resize(std::max(line.size() + 2, indent.size() + 2 + at), ' ');
-    };
+    const auto column = [&](size_t at) { line.resize(std::max(line.size() + 2, indent.size() + 2 + at), ' '); };
     column(kName);
     line += joined(quantity.values, value_text);
     if (!quantity.meaning.empty()) {

@@ -38,7 +38,8 @@ void add_light(const ExplainedFrame& frame, const LightRow& row, const LightAtPi
   if (row.type != LightType::ambient) {
     to.add("L", at.L, "unit").add("nl", at.nl, "N . L");
     if (placed) to.add("f", at.f, "falloff");
-    if (row.kind == LightKind::coned) to.add("cosine", at.cosine, "of the angle to the cone's axis").add("g", at.g, "cone");
+    if (row.kind == LightKind::coned)
+      to.add("cosine", at.cosine, "of the angle to the cone's axis").add("g", at.g, "cone");
     if (at.fate == LightFate::adds) {
       to.add("c", at.c, "diffuse");
       if (model.specular != Specular::none)
@@ -54,7 +55,8 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, con
                        LightDetail detail) {
   Account out(key, "Lights (docs/arithmetic.md, sections 8 and 9)");
   const LitPixel& pixel = total.pixel;
-  out.add("N", pixel.normal, frame.pipeline.light_model.renormalize ? "the normal, made unit" : "the normal as it is read");
+  out.add("N", pixel.normal,
+          frame.pipeline.light_model.renormalize ? "the normal, made unit" : "the normal as it is read");
   out.add("V", pixel.viewer, "to the viewer");
   out.add("albedo", pixel.albedo, "R, G, B, A");
   if (frame.pipeline.light_model.specular != Specular::none)
@@ -66,7 +68,8 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, con
   constexpr const char* kNames[4] = {"", "out_of_reach", "behind", "outside_cone"};
   for (size_t fate = 1; fate < 4; ++fate)
     if (!by_fate[fate].empty())
-      out.add(kNames[fate], ranges(by_fate[fate]), "indices of lights that add nothing: " + std::string(text(LightFate(fate))));
+      out.add(kNames[fate], ranges(by_fate[fate]),
+              "indices of lights that add nothing: " + std::string(text(LightFate(fate))));
   for (size_t i = 0; i < total.lights.size(); ++i) {
     const LightAtPixel& at = total.lights[i];
     if (at.fate != LightFate::adds && detail == LightDetail::adding) continue;
@@ -77,7 +80,9 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, con
     add_light(frame, row, at, part);
   }
   const bool blended = blends_lights(frame.pipeline.strategy) && key == "lights";
-  if (!blended) out.part("sum", "The sum, lights added in the order of their indices").add("sum", total.sum, "R, G, B, A as the target receives them");
+  if (!blended)
+    out.part("sum", "The sum, lights added in the order of their indices")
+        .add("sum", total.sum, "R, G, B, A as the target receives them");
   return out;
 }
 

@@ -37,7 +37,8 @@ void add_corners(const PixelFragment& f, WindowPixel pixel, Account& to) {
   for (size_t k = 0; k < 3; ++k)
     to.add("clip" + std::to_string(k), f.clip[k].c, "clip position x, y, z, w of corner " + std::to_string(k));
   if (was_clipped(f))
-    to.add("pieces", int64_t(f.fan.count), "triangles that clipping left of it; what follows is of the one that counts");
+    to.add("pieces", int64_t(f.fan.count),
+           "triangles that clipping left of it; what follows is of the one that counts");
   to.add("window", std::span<const int64_t>(window_coordinates(f, pixel)),
          "x, y of corners 0, 1, 2 in canonical order, 1/256 pixel, y up");
 }
@@ -61,7 +62,8 @@ void add_outcome(const ExplainedFrame& frame, const PixelFragment& f, const Dept
   to.add("z", f.plane_depth, "window depth in the triangle's plane");
   to.add("depth", f.depth, "as the depth format stores it");
   to.add("there", outcome.there, "the depth it is compared with");
-  to.add("passes", outcome.passes, "depth function " + std::string(depth_func_name(frame.pipeline.geometry.depth_func)));
+  to.add("passes", outcome.passes,
+         "depth function " + std::string(depth_func_name(frame.pipeline.geometry.depth_func)));
   if (!outcome.alpha) return;
   const uint32_t material = frame.scene.instances[f.instance].material;
   to.add("alpha", *outcome.alpha, "what the material's cutoff is compared with");
@@ -71,16 +73,16 @@ void add_outcome(const ExplainedFrame& frame, const PixelFragment& f, const Dept
 void add_fates(const PixelTriangles& triangles, Account& to) {
   constexpr const char* kNames[kFates] = {"elsewhere", "not_finite", "clipped", "no_area",
                                           "culled",    "beside",     "covers"};
-  constexpr const char* kMeanings[kFates] = {
-      "triangles whose box is more than two pixels away from the sample",
-      "triangles with a corner whose clip position is not finite",
-      "triangles of which nothing is left between the near and the far plane",
-      "triangles without area once snapped to 1/256 pixel",
-      "triangles that face culling drops",
-      "triangles that come near but do not cover the sample",
-      "triangles that cover the sample"};
+  constexpr const char* kMeanings[kFates] = {"triangles whose box is more than two pixels away from the sample",
+                                             "triangles with a corner whose clip position is not finite",
+                                             "triangles of which nothing is left between the near and the far plane",
+                                             "triangles without area once snapped to 1/256 pixel",
+                                             "triangles that face culling drops",
+                                             "triangles that come near but do not cover the sample",
+                                             "triangles that cover the sample"};
   for (size_t i = 0; i < kFates; ++i)
-    if (triangles.count[i] != 0 || Fate(i) == Fate::covers) to.add(kNames[i], int64_t(triangles.count[i]), kMeanings[i]);
+    if (triangles.count[i] != 0 || Fate(i) == Fate::covers)
+      to.add(kNames[i], int64_t(triangles.count[i]), kMeanings[i]);
 }
 
 Account triangles_account(const ExplainedFrame& frame, const PixelHistory& history, bool transparent) {
@@ -107,7 +109,8 @@ Account triangles_account(const ExplainedFrame& frame, const PixelHistory& histo
     std::snprintf(outside, sizeof outside, "%.4g", f.edges.pixels_outside());
     Account& part = out.part("near_triangle", name_of(frame, f) + ": " + outside + " pixels beside the sample");
     part.add("object", int64_t(f.instance), "").add("index", int64_t(f.triangle), "");
-    part.add("E", f.edges.e, "edge functions; one below 0, or 0 on an edge that does not own it, leaves the sample out");
+    part.add("E", f.edges.e,
+             "edge functions; one below 0, or 0 on an edge that does not own it, leaves the sample out");
     part.add("owns", f.edges.owns, "whether each edge owns samples on it");
   }
   return out;
@@ -126,17 +129,23 @@ std::vector<AccountValue> stored_values(const BlendTarget& target, const StoredP
   return out;
 }
 
-Account draws_account(const std::vector<TargetDraw>& draws, const BlendTarget& target,
-                      const std::string& key, const std::string& title) {
+Account draws_account(const std::vector<TargetDraw>& draws, const BlendTarget& target, const std::string& key,
+                      const std::string& title, LightDetail detail) {
   Account out(key, title);
+  int64_t unchanged = 0;
   for (const TargetDraw& draw : draws) {
+    if (detail == LightDetail::adding && draw.light >= 0 && draw.after == draw.before) {
+      ++unchanged;
+      continue;
+    }
     Account& part = out.part("draw", draw.what);
     if (draw.light >= 0) part.add("light", draw.light, "index");
     part.add("source", draw.source, "R, G, B, A that the shader hands to the blender");
     part.quantities.push_back({"before", "what the pixel holds before", stored_values(target, draw.before)});
     part.quantities.push_back({"after", "and after", stored_values(target, draw.after)});
   }
-  if (draws.empty()) out.add("draws", int64_t(0), "");
+  out.add("draws", int64_t(draws.size()), "into this pixel");
+  if (unchanged > 0) out.add("unchanged", unchanged, "of them leave it as it is");
   return out;
 }
 
@@ -159,11 +168,14 @@ void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Accou
   for (size_t i = 0; i < lights.size(); ++i)
     if (lights[i].fate == LightFate::adds) adding.push_back(i);
   to.add("lights", std::to_string(adding.size()) + " of " + std::to_string(lights.size()), "lights that add something");
-  const auto strength = [&](size_t i) { return std::fabs(lights[i].term[0]) + std::fabs(lights[i].term[1]) + std::fabs(lights[i].term[2]); };
+  const auto strength = [&](size_t i) {
+    return std::fabs(lights[i].term[0]) + std::fabs(lights[i].term[1]) + std::fabs(lights[i].term[2]);
+  };
   std::stable_sort(adding.begin(), adding.end(), [&](size_t a, size_t b) { return strength(a) > strength(b); });
   adding.resize(std::min<size_t>(adding.size(), 8));
   if (!adding.empty())
-    to.add("strongest", std::vector<int64_t>(adding.begin(), adding.end()), "indices of those that add most, the strongest first");
+    to.add("strongest", std::vector<int64_t>(adding.begin(), adding.end()),
+           "indices of those that add most, the strongest first");
 }
 
 }  // namespace
@@ -173,7 +185,8 @@ Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Lig
   Account out("pixel", frame_title(frame, history));
   out.add("pixel", std::array{int64_t(history.pixel.x), int64_t(frame.pipeline.height - 1 - history.pixel.y)},
           "column and row from the top left");
-  out.add("window", std::array{int64_t(history.pixel.x), int64_t(history.pixel.y)}, "the same in OpenGL's window, y up");
+  out.add("window", std::array{int64_t(history.pixel.x), int64_t(history.pixel.y)},
+          "the same in OpenGL's window, y up");
   add_summary(frame, history, out);
   out.parts.push_back(triangles_account(frame, history, false));
   if (frame.transparency != TransparencyMode::none) out.parts.push_back(triangles_account(frame, history, true));
@@ -183,14 +196,15 @@ Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Lig
     const BlendTarget plane{surface_planes(frame.pipeline).albedo.format, frame.pipeline.profile,
                             frame.pipeline.gbuffer.half_round};
     out.parts.push_back(draws_account(history.albedo_draws, plane, "albedo_draws",
-                                      "Transparent surfaces blended into the albedo (docs/arithmetic.md, section 15)"));
+                                      "Transparent surfaces blended into the albedo (docs/arithmetic.md, section 15)",
+                                      detail));
   }
   if (history.visible) out.parts.push_back(lights_account(frame, history.target.visible, "lights", detail));
   for (size_t i = 0; i < history.target.glass.size(); ++i)
     out.parts.push_back(
         lights_account(frame, history.target.glass[i], "lights_of_transparent_" + std::to_string(i), detail));
   Account draws = draws_account(history.target.draws, frame.target, "target",
-                                "Target, draw by draw (docs/arithmetic.md, sections 7, 10 and 14)");
+                                "Target, draw by draw (docs/arithmetic.md, sections 7, 10 and 14)", detail);
   Account& last = draws.part("stored", "What the target holds");
   last.add("value", values_of(frame.target, history.target.stored), "as a shader reads it: R, G, B, A");
   const FormatInfo layout = info(frame.target.format);

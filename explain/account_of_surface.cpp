@@ -10,7 +10,8 @@ void add_planes(const SurfacePlanes& planes, const LightModel& model, Account& t
   to.add("albedo", planes.albedo, "linear R, G, B, A");
   to.add("uv", planes.uv, "texture coordinates of the first set");
   if (reads_specular_plane(model)) to.add("specular", planes.specular, "specular R, G, B and shininess");
-  if (model.emission) to.add("emission", planes.emission, "emission R, G, B and the share of ambient light that arrives");
+  if (model.emission)
+    to.add("emission", planes.emission, "emission R, G, B and the share of ambient light that arrives");
 }
 
 std::string format_names(const GBufferState& planes) {
@@ -36,8 +37,10 @@ Account surface_account(const ExplainedFrame& frame, const PixelFragment& fragme
   out.add("b", w.smooth, "perspective weights b_1, b_2");
   out.add("b_linear", w.linear, "the same without perspective");
   if (surface.turned) out.add("turned", true, "the normal of a double-sided back face is negated");
-  out.add("material", int64_t(instance.material), "index; its id is one more" + (material.name.empty() ? "" : ": " + material.name));
-  out.add("base", std::array{material.base_color.r, material.base_color.g, material.base_color.b, material.base_color.a},
+  out.add("material", int64_t(instance.material),
+          "index; its id is one more" + (material.name.empty() ? "" : ": " + material.name));
+  out.add("base",
+          std::array{material.base_color.r, material.base_color.g, material.base_color.b, material.base_color.a},
           "the material's base colour R, G, B, A");
   for (const MapLookup& lookup : surface.lookups) {
     Account& part = out.part("map", lookup.map + " map");

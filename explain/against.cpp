@@ -23,7 +23,11 @@ bool is_same(const StoredPixel& a, const StoredPixel& b) {
 class Search {
  public:
   Search(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference, const StoredPixel& given)
-      : frame_(frame), history_(history), reference_(reference), given_(given), surfaces_(lit_surfaces(frame, history)) {}
+      : frame_(frame),
+        history_(history),
+        reference_(reference),
+        given_(given),
+        surfaces_(lit_surfaces(frame, history)) {}
 
   std::vector<Candidate> run(size_t most) {
     try_surfaces();
@@ -106,11 +110,9 @@ class Search {
     });
     try_model("spot lights without their cones", [](Pipeline& p) { p.light_model.cone = Cone::none; });
     try_model("lights without falloff", [](Pipeline& p) { p.light_model.falloff = Falloff::none; });
-    try_model("falloff inverse_square",
-              [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
-    try_model("light extents not applied", [](Pipeline& p) {
-      p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;
-    });
+    try_model("falloff inverse_square", [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
+    try_model("light extents not applied",
+              [](Pipeline& p) { p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded; });
     try_model("lights summed and stored once", [](Pipeline& p) {
       p.strategy = is_forward(p.strategy) ? Strategy::forward_loop : Strategy::deferred_loop;
     });
@@ -122,7 +124,8 @@ class Search {
     const int x = history_.pixel.x, y = h - 1 - history_.pixel.y;
     const auto place = [&](int px, int py, const std::string& why) {
       if (px < 0 || py < 0 || px >= w || py >= h || (px == x && py == y)) return;
-      add("the value of the pixel " + std::to_string(px) + ',' + std::to_string(py) + why, stored_in(reference_, px, py));
+      add("the value of the pixel " + std::to_string(px) + ',' + std::to_string(py) + why,
+          stored_in(reference_, px, py));
     };
     for (int dy = -kRadius; dy <= kRadius; ++dy)
       for (int dx = -kRadius; dx <= kRadius; ++dx) place(x + dx, y + dy, "");
@@ -174,7 +177,8 @@ StoredPixel stored_in(const Image& image, int x, int y) {
   const FormatInfo layout = info(image.format);
   StoredPixel out{};
   for (int c = 0; c < layout.channels; ++c)
-    out[size_t(c)] = layout.number_class == NumberClass::unorm ? float(image.code(x, y, c)) : float(image.value(x, y, c));
+    out[size_t(c)] =
+        layout.number_class == NumberClass::unorm ? float(image.code(x, y, c)) : float(image.value(x, y, c));
   return out;
 }
 

@@ -9,9 +9,9 @@ namespace trueshade {
 
 /// Something that may have been otherwise where another pixel value comes from, and what the target would hold then.
 struct Candidate {
-  std::string what;      ///< as an answer: "light 12 left out", "the value of the pixel 411,300"
-  StoredPixel stored{};  ///< in the target's stored form
-  double difference = 0; ///< largest over the channels: codes, or of floats relative to the larger of both
+  std::string what;       ///< as an answer: "light 12 left out", "the value of the pixel 411,300"
+  StoredPixel stored{};   ///< in the target's stored form
+  double difference = 0;  ///< largest over the channels: codes, or of floats relative to the larger of both
 };
 
 /// What one change each of surface, lights, light model, place or store would have made of a pixel, those nearest to

@@ -21,7 +21,7 @@ struct Planes {
 }  // namespace
 
 StoredPixel after_draw(const BlendState& state, const BlendTarget& target, const std::array<float, 4>& source,
-                  const StoredPixel& stored) {
+                       const StoredPixel& stored) {
   Planes from(source), to(stored);
   const float* const read[4] = {from.plane[0], from.plane[1], from.plane[2], from.plane[3]};
   blend_pixels(state, target, read, to.pointer, kCount);

@@ -10,7 +10,7 @@ using StoredPixel = std::array<float, 4>;
 
 /// One draw into a pixel: blend_pixels() for one.
 StoredPixel after_draw(const BlendState& state, const BlendTarget& target, const std::array<float, 4>& source,
-                  const StoredPixel& stored);
+                       const StoredPixel& stored);
 
 /// What a draw without blending stores.
 StoredPixel stored_alone(const BlendTarget& target, const std::array<float, 4>& source);

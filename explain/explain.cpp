@@ -75,7 +75,8 @@ void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelH
   for (const PixelSurface& glass : out.glass) {
     const std::array<float, 4>& source = glass.read.albedo;
     const StoredPixel after = after_draw(frame.pipeline.transparency.blend, plane, source, stored);
-    out.albedo_draws.push_back({"transparent surface " + std::to_string(out.albedo_draws.size()), -1, source, stored, after});
+    out.albedo_draws.push_back(
+        {"transparent surface " + std::to_string(out.albedo_draws.size()), -1, source, stored, after});
     stored = after;
   }
   if (!out.glass.empty()) out.surface.read.albedo = values_of(plane, stored);

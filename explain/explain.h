@@ -39,7 +39,8 @@ PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history);
 
 /// The same in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
-/// pixel. `every_light`: lights that add nothing are parts too, not only counted and listed.
+/// pixel. Under `every`, lights that add nothing and
+/// draws that change nothing are parts too, not only counted.
 enum class LightDetail : uint8_t { adding, every };
 Account account_of(const ExplainedFrame& frame, const PixelHistory& history, LightDetail detail = LightDetail::adding);
 

@@ -85,8 +85,7 @@ double offset_unit(const DepthRule& rule, const DepthPlane& plane) {
 void find_depth(const WindowTransform& window, PixelFragment& out) {
   const EdgeValues& at = out.edges;
   const double* const z = out.fan.piece[out.piece].triangle.z;
-  DepthPlane plane =
-      DepthPlane::of_corners(z[at.order[0]], z[at.order[1]], z[at.order[2]], double(at.area));
+  DepthPlane plane = DepthPlane::of_corners(z[at.order[0]], z[at.order[1]], z[at.order[2]], double(at.area));
   const DepthRule& rule = window.depth;
   if (rule.offsets()) {
     const double across = double(at.across[1]) * plane.g1 + double(at.across[2]) * plane.g2;
@@ -111,7 +110,8 @@ void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest)
 }
 
 bool is_asked(const ExplainedFrame& frame, const Instance& instance, Surfaces which) {
-  const bool apart = frame.transparency != TransparencyMode::none && frame.scene.materials[instance.material].transparent;
+  const bool apart =
+      frame.transparency != TransparencyMode::none && frame.scene.materials[instance.material].transparent;
   return apart == (which == Surfaces::transparent);
 }
 
@@ -155,8 +155,7 @@ bool EdgeValues::covers() const {
 
 double EdgeValues::pixels_outside() const {
   double most = -std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < 3; ++i)
-    most = std::max(most, -double(e[i]) / std::hypot(double(across[i]), double(up[i])));
+  for (size_t i = 0; i < 3; ++i) most = std::max(most, -double(e[i]) / std::hypot(double(across[i]), double(up[i])));
   return most;
 }
 

@@ -15,12 +15,12 @@ struct WindowPixel {
 
 /// What became of a triangle at a pixel.
 enum class Fate : uint8_t {
-  elsewhere,      ///< its box, two pixels wider, does not hold the sample; nothing more was asked
-  not_finite,     ///< a corner has a clip coordinate that is no number or infinite
-  clipped_away,   ///< nothing is left of it between near and far plane
-  without_area,   ///< snapped to 1/256 pixel it has no area
-  culled,         ///< face culling drops it
-  beside,         ///< it does not cover the sample
+  elsewhere,     ///< its box, two pixels wider, does not hold the sample; nothing more was asked
+  not_finite,    ///< a corner has a clip coordinate that is no number or infinite
+  clipped_away,  ///< nothing is left of it between near and far plane
+  without_area,  ///< snapped to 1/256 pixel it has no area
+  culled,        ///< face culling drops it
+  beside,        ///< it does not cover the sample
   covers
 };
 inline constexpr size_t kFates = 7;
@@ -43,20 +43,21 @@ EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left);
 struct PixelFragment {
   uint32_t instance = 0, triangle = 0;  ///< indices into the scene's instances and the mesh's triangles
   Fate fate = Fate::beside;
-  ClipVertex clip[3];                   ///< of the corners as submitted
-  ClippedFan fan;                       ///< window coordinates are relative to the sample
-  int piece = 0;                        ///< of the fan, whose values count
-  EdgeValues edges{};                   ///< of that piece
-  double plane_depth = 0;               ///< of the piece's plane, with its polygon offset, clamped
-  double offset = 0;                    ///< of it the polygon offset
-  float depth = 0;                      ///< what the depth test compares
+  ClipVertex clip[3];      ///< of the corners as submitted
+  ClippedFan fan;          ///< window coordinates are relative to the sample
+  int piece = 0;           ///< of the fan, whose values count
+  EdgeValues edges{};      ///< of that piece
+  double plane_depth = 0;  ///< of the piece's plane, with its polygon offset, clamped
+  double offset = 0;       ///< of it the polygon offset
+  float depth = 0;         ///< what the depth test compares
 };
 
 /// The triangles of some instances at a pixel.
 struct PixelTriangles {
   std::array<uint64_t, kFates> count{};
   std::vector<PixelFragment> covering;  ///< in the order of submission
-  std::vector<PixelFragment> nearest;   ///< those beside the sample that come nearest to it, at most eight, nearest first
+  std::vector<PixelFragment>
+      nearest;  ///< those beside the sample that come nearest to it, at most eight, nearest first
 };
 
 /// Asks every triangle of the scene's opaque instances, or of its transparent ones (all are opaque where the frame

@@ -62,7 +62,11 @@ TexturePoint texture_point(const PixelFragment& fragment, const CornerWeights& w
                            Interpolation how, const std::array<float, 3>& u, const std::array<float, 3>& v,
                            int provoking) {
   TexturePoint out{attribute_at(fragment, weights, window, how, u, provoking),
-                   attribute_at(fragment, weights, window, how, v, provoking), 0, 0, 0, 0};
+                   attribute_at(fragment, weights, window, how, v, provoking),
+                   0,
+                   0,
+                   0,
+                   0};
   if (how == Interpolation::flat) return out;
   const bool smooth = how == Interpolation::smooth;
   const auto slope = [&](const std::array<float, 3>& value, const std::array<double, 2>& b) {
@@ -70,7 +74,7 @@ TexturePoint texture_point(const PixelFragment& fragment, const CornerWeights& w
     return b[0] * (a[1] - a[0]) + b[1] * (a[2] - a[0]);
   };
   const std::array<double, 2>&along_x = smooth ? weights.smooth_x : weights.linear_x,
-                              &along_y = smooth ? weights.smooth_y : weights.linear_y;
+                           &along_y = smooth ? weights.smooth_y : weights.linear_y;
   out.u_x = slope(u, along_x), out.v_x = slope(v, along_x);
   out.u_y = slope(u, along_y), out.v_y = slope(v, along_y);
   return out;

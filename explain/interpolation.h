@@ -10,8 +10,8 @@ namespace trueshade {
 /// The weights of corners 1 and 2 of a fragment, in canonical order, at its sample, and how they change by a pixel to
 /// the right and up. docs/arithmetic.md sections 5 and 13.
 struct CornerWeights {
-  std::array<double, 3> u;                  ///< 1 / w of the corners
-  double q = 0, area = 0;                   ///< l_0 + l_1 + l_2; the edges' exact sum, rounded once
+  std::array<double, 3> u;  ///< 1 / w of the corners
+  double q = 0, area = 0;   ///< l_0 + l_1 + l_2; the edges' exact sum, rounded once
   std::array<double, 2> smooth{}, linear{};
   std::array<double, 2> smooth_x{}, smooth_y{}, linear_x{}, linear_y{};
 };

@@ -163,8 +163,9 @@ LitPixel lit_pixel(const LightModel& model, const LightTable& lights, const Surf
   out.normal = model.renormalize ? unit(surface.normal) : surface.normal;
   out.albedo = surface.albedo;
   const auto& eye = lights.eye;
-  out.viewer = model.viewer == Viewer::local ? unit({eye[0] - out.position[0], eye[1] - out.position[1], eye[2] - out.position[2]})
-                                             : Vector{lights.view_axis[0], lights.view_axis[1], lights.view_axis[2]};
+  out.viewer = model.viewer == Viewer::local
+                   ? unit({eye[0] - out.position[0], eye[1] - out.position[1], eye[2] - out.position[2]})
+                   : Vector{lights.view_axis[0], lights.view_axis[1], lights.view_axis[2]};
   const bool glossy = reads_specular_plane(model);
   for (size_t k = 0; k < 3; ++k) out.specular[k] = glossy ? surface.specular[k] : model.specular_color[int(k)];
   // A plane that was handed over may hold any shininess.

@@ -11,8 +11,8 @@ namespace trueshade {
 /// Why a light adds something to a pixel, or does not.
 enum class LightFate : uint8_t {
   adds,
-  out_of_reach,   ///< the squared distance is not below the falloff's or the extent's end, or not finite
-  faces_away,     ///< N . L is not above 0, and the model adds nothing there
+  out_of_reach,  ///< the squared distance is not below the falloff's or the extent's end, or not finite
+  faces_away,    ///< N . L is not above 0, and the model adds nothing there
   outside_cone
 };
 std::string_view text(LightFate fate);
@@ -24,8 +24,8 @@ struct LitPixel {
   std::array<float, 3> specular;  ///< ks
   float shininess;
   float occlusion;
-  std::array<float, 3> start;     ///< what the sum starts from
-  float alpha;                    ///< before the target rounds it
+  std::array<float, 3> start;  ///< what the sum starts from
+  float alpha;                 ///< before the target rounds it
 };
 LitPixel lit_pixel(const LightModel& model, const LightTable& lights, const SurfacePlanes& surface);
 
@@ -34,10 +34,10 @@ struct LightAtPixel {
   LightFate fate = LightFate::adds;
   std::array<float, 3> D{}, L{};
   float d2 = 0, d = 0, r = 0, a = 0, nl = 0;
-  float f = 1;      ///< falloff
+  float f = 1;              ///< falloff
   float cosine = 0, g = 1;  ///< to the cone's axis, and the cone; where there is one
-  float c = 0;      ///< diffuse
-  float x = 0, s = 0;  ///< what is raised to the shininess, and the power
+  float c = 0;              ///< diffuse
+  float x = 0, s = 0;       ///< what is raised to the shininess, and the power
   std::array<float, 3> term{};
 };
 LightAtPixel light_at(const LightModel& model, const LightRow& light, const LitPixel& pixel);

@@ -185,7 +185,8 @@ void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBuf
     to.position[c] = at(planes.position.interpolation, corners.position[c]);
     to.normal[c] = at(planes.normal.interpolation, corners.normal[c]);
   }
-  for (size_t c = 0; c < 4; ++c) to.albedo[c] = at(planes.albedo.interpolation, corners.of(corners.mesh.color[c], 1.0f));
+  for (size_t c = 0; c < 4; ++c)
+    to.albedo[c] = at(planes.albedo.interpolation, corners.of(corners.mesh.color[c], 1.0f));
   for (size_t c = 0; c < 2; ++c) to.uv[c] = at(planes.uv.interpolation, corners.of(corners.mesh.uv[c], 0.0f));
   if (out.turned)
     for (float& n : to.normal) n = -n;

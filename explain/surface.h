@@ -28,10 +28,10 @@ struct SurfacePlanes {
 /// The surface of a fragment.
 struct PixelSurface {
   CornerWeights weights;
-  bool turned = false;           ///< the normal of a double-sided back face was negated
+  bool turned = false;  ///< the normal of a double-sided back face was negated
   std::vector<MapLookup> lookups;
-  SurfacePlanes computed;        ///< before any plane's format rounds them
-  SurfacePlanes read;            ///< as lights read them from the planes
+  SurfacePlanes computed;  ///< before any plane's format rounds them
+  SurfacePlanes read;      ///< as lights read them from the planes
 };
 
 /// The surface of a fragment, rounded to the formats of `planes`. docs/arithmetic.md sections 5, 7 and 13.

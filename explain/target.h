@@ -36,10 +36,10 @@ struct LightTotal {
 
 /// How the target's pixel came about.
 struct PixelTarget {
-  LightTotal visible;                ///< of the visible surface; `sum` means nothing where lights are blended one by one
-  std::vector<LightTotal> glass;     ///< of each transparent fragment
-  std::vector<uint32_t> geometry;    ///< deferred-volumes: how often each light's geometry covers the pixel
-  std::vector<TargetDraw> draws;     ///< in their order; the first is the clear
+  LightTotal visible;              ///< of the visible surface; `sum` means nothing where lights are blended one by one
+  std::vector<LightTotal> glass;   ///< of each transparent fragment
+  std::vector<uint32_t> geometry;  ///< deferred-volumes: how often each light's geometry covers the pixel
+  std::vector<TargetDraw> draws;   ///< in their order; the first is the clear
   StoredPixel stored{};
 };
 

@@ -56,8 +56,10 @@ uint32_t far_from(const Image& nominal, int channel) {
     return code > largest / 2 ? 0 : largest;
   }
   // All bits of the exponent but the lowest, and no fraction: the largest power of two of the format but one.
-  const int fraction = layout.bits[size_t(channel)] == 32 ? 23 : layout.bits[size_t(channel)] == 16 ? 10
-                       : layout.bits[size_t(channel)] == 11 ? 6 : 5;
+  const int fraction = layout.bits[size_t(channel)] == 32   ? 23
+                       : layout.bits[size_t(channel)] == 16 ? 10
+                       : layout.bits[size_t(channel)] == 11 ? 6
+                                                            : 5;
   const uint32_t exponent = fraction == 23 ? 0xFD : 0x1D;
   return exponent << fraction;
 }
@@ -72,16 +74,16 @@ LegalPixel legal_pixel(const Scene& scene, const Pipeline& pipeline, const Profi
   LegalPixel out;
   const StageVerdict given = judged();
   out.pixel_class = given.classes.front();
-  out.channels = capture.has_alpha ? info(capture.color.format).channels : std::min(3, info(capture.color.format).channels);
+  out.channels =
+      capture.has_alpha ? info(capture.color.format).channels : std::min(3, info(capture.color.format).channels);
   if (!given.worst.empty()) out.note = given.worst.front().note;
   const Image legal = one_texel(nominal, x, y);
   for (int c = 0; c < out.channels; ++c) {
     pixel.color = legal;
     pixel.color.set_code(0, 0, c, far_from(legal, c));
     const StageVerdict far = judged();
-    const auto worst = std::find_if(far.worst.begin(), far.worst.end(), [](const WorstPixel& w) {
-      return w.pixel_class == PixelClass::violation;
-    });
+    const auto worst = std::find_if(far.worst.begin(), far.worst.end(),
+                                    [](const WorstPixel& w) { return w.pixel_class == PixelClass::violation; });
     LegalChannel& channel = out.channel[size_t(c)];
     channel.is_bounded = worst != far.worst.end();
     if (channel.is_bounded) channel.low = worst->low, channel.high = worst->high;

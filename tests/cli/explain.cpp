@@ -1,0 +1,112 @@
+// `trueshade explain`: the last line is the pixel that render stores; what it refuses.
+#include <nlohmann/json.hpp>
+
+#include "core/image_files/image_io.h"
+#include "tests/cli/drawn_capture.h"
+#include "tests/cli/refused.h"
+
+namespace trueshade {
+namespace {
+
+/// The last line of a text, without its line feed.
+std::string last_line(const std::string& text) {
+  const size_t end = text.size() - 1, begin = text.rfind('\n', end - 1);
+  return text.substr(begin + 1, end - begin - 1);
+}
+
+/// What a PNG that render wrote holds at a pixel.
+std::string codes_at(const std::string& path, int x, int y) {
+  const Image image = read_planes(path).front().image;
+  std::string text;
+  for (int c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + std::to_string(image.code(x, y, c));
+  return text;
+}
+
+TEST_CASE("the last line of explain is the pixel that render stores, as text and as JSON") {
+  const ScratchFolder folder;
+  const Words how = {"builtin:lecture", "--preset", "redsdk", "--size", "80x60"};
+  Words render = {"render"}, explain = {"explain"};
+  render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
+  for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
+  REQUIRE(run_command(render, folder.path("")).exit_code == 0);
+  for (const auto& [x, y] : {std::pair{0, 0}, {40, 30}, {79, 59}, {13, 44}}) {
+    Words words = explain;
+    words.insert(words.end(), {"--pixel", std::to_string(x) + ',' + std::to_string(y)});
+    const Outcome told = run_command(words, folder.path(""));
+    const std::string codes = codes_at(folder.path("a.png"), x, y);
+    CHECK(told.exit_code == 0);
+    CHECK(last_line(told.out) == "stored  " + codes + "  rgba8, R, G, B, A");
+    words.emplace_back("--json");
+    const auto document = nlohmann::json::parse(run_command(words, folder.path("")).out);
+    const auto stored = document["values"]["stored"].get<std::vector<int>>();
+    std::string in_json;
+    for (const int code : stored) in_json += (in_json.empty() ? "" : ", ") + std::to_string(code);
+    CHECK(in_json == codes);
+  }
+}
+
+TEST_CASE("explain ends in the picture's value where a post chain follows the target") {
+  const ScratchFolder folder;
+  write_bytes(folder.path("p.json"),
+              R"({"post": {"samples": 2, "tone_map": "reinhard", "encode": "srgb", "output": "rgba8"}})");
+  const Words how = {"builtin:cornell", "--pipeline", "p.json", "--size", "40x30"};
+  Words render = {"render"}, explain = {"explain"};
+  render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
+  for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
+  for (const char* word : {"--pixel", "20,15"}) explain.emplace_back(word);
+  REQUIRE(run_command(render, folder.path("")).exit_code == 0);
+  const Outcome told = run_command(explain, folder.path(""));
+  INFO(told.err);
+  CHECK(last_line(told.out).starts_with("stored  " + codes_at(folder.path("a.png"), 20, 15) + "  "));
+  CHECK(told.out.find("samples, ") != std::string::npos);
+}
+
+TEST_CASE("explain says whether another picture's value is legal, and what makes it") {
+  const DrawnCapture c;
+  Words dull = {"render", kScene, "--size", "120x90", "--preset", "light-volumes", "-o", "dull.png", "-q"};
+  REQUIRE(run_command(dull, c.path("")).exit_code == 0);
+  const Words explain = {"explain", kScene, "--size", "120x90", "--pixel", "60,45", "--against"};
+  Words same = explain, other = explain;
+  same.emplace_back("c.exr"), other.emplace_back("dull.png");
+  const Outcome of_same = run_command(same, c.path("")), of_other = run_command(other, c.path(""));
+  INFO(of_same.err << of_other.err << of_other.out);
+  CHECK(of_same.out.find("the same as here") != std::string::npos);
+  CHECK(of_same.out.find("EXACT") != std::string::npos);
+  CHECK(of_other.out.find("no specular term: exactly what the picture has") != std::string::npos);
+}
+
+TEST_CASE("explain refuses what names no pixel and what is no picture, in one line") {
+  const DrawnCapture c;
+  const auto refused = [&](const Words& words, int code, const std::string& about) {
+    Words all = {"explain"};
+    all.insert(all.end(), words.begin(), words.end());
+    check_refused(run_command(all, c.path("")), code, about);
+  };
+  refused({kScene}, 2, "no pixel is named");
+  refused({kScene, "--pixel", "3"}, 2, "'3' is not a pixel");
+  refused({kScene, "--pixel", "-1,4"}, 2, "'-1,4' is not a pixel");
+  refused({kScene, "--pixel", "1,2,3"}, 2, "'1,2,3' is not a pixel");
+  refused({kScene, "--pixel", "800,0"}, 2, "is not in the picture, which is 800x800");
+  refused({"no.json", "--pixel", "0,0"}, 5, "no.json");
+  const Words against = {kScene, "--size", "120x90", "--pixel", "1,2", "--against"};
+  const auto refused_image = [&](const std::string& file, int code, const std::string& about) {
+    Words words = against;
+    words.push_back(file);
+    refused(words, code, about);
+  };
+  write_bytes(c.path("text.png"), "this is no picture\n");
+  write_bytes(c.path("empty.exr"), "");
+  const std::string cut = bytes_of(c.path("c.exr"));
+  write_bytes(c.path("cut.exr"), cut.substr(0, cut.size() / 2));
+  refused_image("text.png", 3, "text.png");
+  refused_image("empty.exr", 3, "empty.exr");
+  refused_image("cut.exr", 3, "cut.exr");
+  refused_image("missing.exr", 5, "missing.exr");
+  refused_image(".", 3, "no regular file");
+  Words small = {"render", kScene, "--size", "12x9", "-o", "small.png", "-q"};
+  REQUIRE(run_command(small, c.path("")).exit_code == 0);
+  refused_image("small.png", 3, "it is 12x9, and the frame 120x90");
+}
+
+}  // namespace
+}  // namespace trueshade
