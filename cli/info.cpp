@@ -1,13 +1,20 @@
 #include <algorithm>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/preparation.h"
+#include "cli/resolved_scene.h"
+#include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
+#include "core/memory_cap.h"
 #include "core/printable_text.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -57,9 +64,68 @@ std::string about_scene(const std::string& spec, const Limits& limits) {
          (scene.pipeline_text.empty() ? "" : info_row("pipeline", scene.pipeline_text));
 }
 
+// --- Every number, as the renderer has it ---------------------------------------------------------------------------
+
+constexpr uint64_t kMostNumbersPrinted = uint64_t(1) << 20;  // about 10 MB of text
+
+void print_resolved(const Scene& scene, const Pipeline& pipeline, double time) {
+  const ResolvedNumbers of = resolved_numbers(scene, pipeline);
+  const uint64_t numbers = of.of_scene + of.of_lights;
+  if (numbers > kMostNumbersPrinted)
+    throw Error(ErrorKind::limit, scene.spec,
+                "has " + std::to_string(numbers) + " numbers of vertices, triangles, texels and light geometry",
+                "add -o FOLDER, which takes any scene");
+  require_memory(16 * numbers + 2 * resolved_text_bytes(scene), scene.spec, "its numbers as text");
+  ResolvedArrays arrays(ResolvedArrays::Place::document);
+  std::string text;
+  for (const std::string& piece : resolved_text(scene, pipeline, time, "", arrays)) text += piece;
+  print(text);
+}
+
+std::span<const uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+void write_resolved(const Scene& scene, const Pipeline& pipeline, double time, const std::string& folder) {
+  const std::string json_file = folder + "/resolved.json", array_file = folder + "/resolved.bin";
+  require_memory(sizeof(float) * resolved_numbers(scene, pipeline).of_lights + resolved_text_bytes(scene), scene.spec,
+                 "its numbers as text and the geometry of lights");
+  std::error_code error;
+  const bool made = std::filesystem::create_directories(folder, error);
+  if (error) throw Error(ErrorKind::io, folder, "cannot make the folder: " + error.message(), "choose another");
+  try {
+    for (const std::string& file : {json_file, array_file}) check_writable(file);
+    ResolvedArrays arrays(ResolvedArrays::Place::file);
+    const std::vector<std::string> text = resolved_text(scene, pipeline, time, "resolved.bin", arrays);
+    FilePieces pieces;
+    for (const std::string& piece : text) pieces.push_back(bytes_of(piece));
+    std::filesystem::remove(json_file, error);  // the numbers of another run, whose arrays are about to go
+    write_file(array_file, arrays.pieces());
+    write_file(json_file, pieces);
+  } catch (...) {
+    if (!std::filesystem::exists(json_file, error)) std::filesystem::remove(array_file, error);
+    if (made) std::filesystem::remove(folder, error);
+    throw;
+  }
+  print(json_file + '\n' + array_file + '\n');
+}
+
+void resolve(const InfoOptions& options) {
+  check_pipeline(options);
+  Scene scene = scene_of_options(options.file, options.limits);
+  const Pipeline pipeline = pipeline_of(options, scene);
+  fit_lights_of_ours(scene, pipeline.light_model);
+  set_time(scene, options.time);
+  if (options.folder.empty())
+    print_resolved(scene, pipeline, options.time);
+  else
+    write_resolved(scene, pipeline, options.time, options.folder);
+}
+
 }  // namespace
 
 void print_info(const InfoOptions& options) {
+  if (options.resolved) return resolve(options);
   const bool image = has_ending(options.file, ".png") || has_ending(options.file, ".exr");
   print(image ? about_image(options.file, options.limits.expansion) : about_scene(options.file, options.limits));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "cli/frame_name.h"
 #include "cli/option_values.h"
@@ -79,6 +80,28 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   check_outputs(options);
   if (options.outputs.empty() && !options.hash && !options.stats && !options.json)
     throw usage("render", "nothing would come of it", "add -o FILE, --hash, --stats or --json");
+  return options;
+}
+
+InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
+  const std::pair<const char*, bool> given[] = {
+      {"--preset", options.preset.has_value()},  {"--pipeline", options.pipeline_file.has_value()},
+      {"--size", texts.size.has_value()},        {"--target", texts.target.has_value()},
+      {"--strategy", texts.strategy.has_value()}, {"--profile", texts.profile.has_value()},
+      {"--time", texts.time.has_value()},        {"-o", texts.folder.has_value()}};
+  for (const auto& [name, is_given] : given)
+    if (is_given && !options.resolved)
+      throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
+  if (texts.folder && texts.folder->empty()) throw usage("-o", "'' is no name of a folder", "name one");
+  check_preset(options.preset);
+  check_scene(options.file);
+  options.scene = options.file;
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  options.folder = texts.folder.value_or("");
   return options;
 }
 

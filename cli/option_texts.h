@@ -13,6 +13,11 @@ struct RenderTexts {
   bool no_light_culling = false;
 };
 
+/// Of info.
+struct InfoTexts {
+  std::optional<std::string> size, target, strategy, profile, time, folder;
+};
+
 /// Of glsl.
 struct GlslTexts {
   std::optional<std::string> api, size, strategy, time;
@@ -41,6 +46,7 @@ struct BenchTexts {
 /// The options of a command with the values of their texts, checked by themselves and together. Error(usage) names the
 /// option.
 RenderOptions finished(RenderOptions options, const RenderTexts& texts);
+InfoOptions finished(InfoOptions options, const InfoTexts& texts);
 GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts);
 ExportOptions finished(ExportOptions options, const std::optional<std::string>& time);
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts);

@@ -58,18 +58,23 @@ void add_limit_options(CLI::App* command, LimitedOptions& options) {
   }
 }
 
-/// The options of PipelineOptions but for the target. Returns that of the scene.
-CLI::Option* add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
+/// The layers of a pipeline, and the size of the picture.
+void add_preset_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
   std::string names;
   for (const Preset& preset : presets()) names += (names.empty() ? "" : ", ") + std::string(preset.name);
-  CLI::Option* scene =
-      add_value(command, "SCENE", "FILE", options.scene,
-                "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
-          ->required();
   add_value(command, "--preset", "NAME", options.preset, "Row of numbers the pipeline starts from: " + names);
   add_value(command, "--pipeline", "FILE", options.pipeline_file,
             "JSON file of values that replace the preset's and the scene's");
   add_value(command, "--size", "WxH", size, "Image size in pixels, WIDTHxHEIGHT");
+}
+
+/// The options of PipelineOptions but for the target. Returns that of the scene.
+CLI::Option* add_pipeline_options(CLI::App* command, PipelineOptions& options, std::optional<std::string>& size) {
+  CLI::Option* scene =
+      add_value(command, "SCENE", "FILE", options.scene,
+                "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]")
+          ->required();
+  add_preset_options(command, options, size);
   return scene;
 }
 
@@ -102,6 +107,22 @@ CLI::App* add_render(CLI::App& app, RenderOptions& options, RenderTexts& texts) 
   add_switch(render, "-q,--quiet", options.quiet, "Say neither notes nor which files were written");
   add_limit_options(render, options);
   return render;
+}
+
+CLI::App* add_info(CLI::App& app, InfoOptions& options, InfoTexts& texts) {
+  CLI::App* info = app.add_subcommand("info", "Say what is in a scene or an image");
+  add_value(info, "FILE", "NAME", options.file, "Scene (as for render), or image (.png, .exr)")->required();
+  add_switch(info, "--resolved", options.resolved,
+             "Print every number of a scene as the renderer has it, as JSON (docs/resolved.md)");
+  add_value(info, "-o,--output", "FOLDER", texts.folder,
+            "Folder for resolved.json and resolved.bin; made if it is not there");
+  add_preset_options(info, options, texts.size);
+  add_value(info, "--strategy", "NAME", texts.strategy, "How lights come to pixels: " + joined(kStrategyNames));
+  add_value(info, "--target", "FORMAT", texts.target, "Format the image is stored in, as for render");
+  add_value(info, "--profile", "NAME", texts.profile, "Whose bits where OpenGL leaves a choice, as for render");
+  add_value(info, "--time", "SECONDS", texts.time, "Time of the scene's timeline, seconds");
+  add_limit_options(info, options);
+  return info;
 }
 
 CLI::App* add_glsl(CLI::App& app, GlslFilesOptions& options, GlslTexts& texts) {
@@ -312,6 +333,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   RenderOptions render;
   RenderTexts texts;
   InfoOptions info;
+  InfoTexts info_texts;
   ListOptions list;
   GlslFilesOptions glsl;
   GlslTexts glsl_texts;
@@ -326,9 +348,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   BenchOptions benchmark;
   BenchTexts bench_texts;
   const CLI::App* render_command = add_render(app, render, texts);
-  CLI::App* info_command = app.add_subcommand("info", "Say what is in a scene or an image");
-  add_value(info_command, "FILE", "NAME", info.file, "Scene (as for render), or image (.png, .exr)")->required();
-  add_limit_options(info_command, info);
+  const CLI::App* info_command = add_info(app, info, info_texts);
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
   add_switch(list_command, "--json", list.json, "As one JSON document");
   const CLI::App* glsl_command = add_glsl(app, glsl, glsl_texts);
@@ -363,10 +383,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
                 "see trueshade " + (chosen.empty() ? std::string() : chosen[0]->get_name() + " ") + "--help");
   }
   if (render_command->parsed()) return finished(std::move(render), texts);
-  if (info_command->parsed()) {
-    check_scene(info.file);
-    return info;
-  }
+  if (info_command->parsed()) return finished(std::move(info), info_texts);
   if (glsl_command->parsed()) return finished(std::move(glsl), glsl_texts);
   if (export_command->parsed()) return finished(std::move(exported), export_time);
   if (validate_command->parsed()) return finished(std::move(validation), validation_texts);

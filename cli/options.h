@@ -69,8 +69,11 @@ struct ShadeOptions : RenderOptions {
 Execution execution_of(const RenderOptions& options);
 
 /// `trueshade info`
-struct InfoOptions : LimitedOptions {
-  std::string file;  ///< a scene or an image
+struct InfoOptions : PipelineOptions {  // which `resolved` alone reads
+  std::string file;       ///< a scene or an image
+  bool resolved = false;  ///< every number of the scene, as the renderer has it
+  double time = 0.0;      ///< seconds of the scene's timeline
+  std::string folder;     ///< for the files of `resolved`; made if it is not there; empty: standard output
 };
 
 /// `trueshade export`
