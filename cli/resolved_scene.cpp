@@ -88,13 +88,23 @@ std::string viewport_json(const WindowTransform& window) {
 std::string camera_json(const Scene& scene, const Pipeline& pipeline, const View& view) {
   const double width = double(view.window.scale[0]),
                height = double(view.window.upper_left ? -view.window.scale[1] : view.window.scale[1]);
-  const Matrix4 clip = clip_from_world(scene.camera, width / height, clip_range(pipeline.geometry));
+  const Camera& camera = scene.camera;
+  const Matrix4 clip = clip_from_world(camera, width / height, clip_range(pipeline.geometry));
   JsonArray rows;
   for (size_t r = 0; r < 4; ++r)
     rows.add_raw(json_of_doubles(std::array{clip[r], clip[4 + r], clip[8 + r], clip[12 + r]}));
+  const bool ours = !camera.clip_from_world.has_value();
+  const auto of_ours = [ours](const std::string& json) { return ours ? json : std::string("null"); };
+  const bool by_width = camera.fov_x_rad.has_value();
   return JsonObject()
-      .put_raw("eye", json_of_vector(scene.camera.eye))
-      .put_raw("view_axis", json_of_vector(view_axis(scene.camera)))
+      .put_raw("eye", json_of_vector(camera.eye))
+      .put_raw("target", of_ours(json_of_vector(camera.target)))
+      .put_raw("up", of_ours(json_of_vector(camera.up)))
+      .put_raw("fov_x_rad", by_width ? of_ours(json_of_float(*camera.fov_x_rad)) : "null")
+      .put_raw("fov_y_rad", by_width ? "null" : of_ours(json_of_float(camera.fov_y_rad)))
+      .put_raw("near", of_ours(json_of_float(camera.near)))
+      .put_raw("far", of_ours(json_of_float(camera.far)))
+      .put_raw("view_axis", json_of_vector(view_axis(camera)))
       .put_raw("clip_from_world", rows.text())
       .put_raw("clip_from_world_float", json_of_rows(view.clip_from_world.data(), 4, 4))
       .put_raw("world_from_clip", json_of_rows(view.world_from_clip.data(), 4, 4))
