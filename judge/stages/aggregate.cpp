@@ -6,6 +6,7 @@
 #include <span>
 
 #include "judge/stages/regions.h"
+#include "judge/stages/thresholds.h"
 
 namespace trueshade::oracle {
 
@@ -52,6 +53,11 @@ AggregateTest ruled_out(const StageVerdict& v, std::span<const Group> groups) {
 AggregateTest stored_apart(const StageVerdict& v) {
   const double most = kLetPass * double(v.stored_values);
   return {"equal values apart", double(v.stored_apart), 0, most, chance_of_at_least(double(v.stored_apart), most)};
+}
+
+AggregateTest crossed(const StageVerdict& v) {
+  const double most = kLetPass * double(v.stored_values), found = crossed_stores(v.near_thresholds);
+  return {"crossed stores", found, 0, most, chance_of_at_least(found, most)};
 }
 
 AggregateTest second_neighbours(std::span<const Group> groups) {
@@ -152,8 +158,9 @@ double chance_of_at_least(double observed, double mean) {
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
   const std::vector<Group> stores = groups_of_stores(v);
   const std::vector<PixelChoice> surfaces = choices_of_surfaces(v);
-  std::vector<AggregateTest> tests = {ruled_out(v, stores), stored_apart(v),   second_neighbours(stores),
-                                      store_bias(stores),   store_clusters(v), other_surfaces(surfaces)};
+  std::vector<AggregateTest> tests = {ruled_out(v, stores), stored_apart(v),    crossed(v),
+                                      second_neighbours(stores), store_bias(stores), store_clusters(v),
+                                      other_surfaces(surfaces)};
   tests.push_back(least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height));
   tests.push_back(least_likely_region("surfaces of a region", 0.5, surfaces, v.width, v.height));
   return tests;

@@ -17,7 +17,7 @@ struct AggregateTest {
   bool passes(double least_chance) const { return chance >= least_chance; }
 };
 
-inline constexpr size_t kAggregateTests = 8;  ///< a stage
+inline constexpr size_t kAggregateTests = 9;  ///< a stage
 
 /// The likelihood that a sum of independent numbers between 0 and 1, of which `mean` is expected, is at least
 /// `observed`: Bernstein's bound exp(-t^2 / (2 (mean + t / 3))) with t = observed - mean.
@@ -28,6 +28,7 @@ double chance_of_at_least(double observed, double mean);
 /// bounds; errors that are systematic reach twice as many choices at most, and that is what is expected at most.
 ///   ruled out          stores that the likely rule rules out; one in 2^20 is let pass
 ///   equal values apart stores of one value, in pixels beside each other, of which the rule can make one code alone
+///   crossed stores     stores that no nondecreasing conversion to codes makes; one in 2^20 is let pass
 ///   second neighbours  stores that took another than the nominal neighbour, where the rule leaves a choice
 ///   store bias         their signed sum (a drift such as truncation shows here)
 ///   store clusters     neighbouring pixels that both took a second one, of unequal values

@@ -1,6 +1,7 @@
 // The last image of strategies that blend: what a pixel may hold, carried through all draws.
 #include "judge/stages/blending_judge.h"
 #include "judge/stages/judge_blending.h"
+#include "judge/stages/thresholds.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -23,10 +24,23 @@ Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& bl
   return t;
 }
 
+/// Notes a conversion that may give either of two codes. After a second one neither is known.
+void BlendingJudge::see_thresholds(PixelState& p, const DrawnFragment& f, bool added) const {
+  if (!added) p.near_count = {};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = size_t(i);
+    const uint32_t before = added ? uint32_t(p.likely[k].nominal) : 0;
+    const std::optional<NearThreshold> s = near_threshold(f.output.nominal[k], color_.layout.largest_code(i),
+                                                          profile_.likely.code_reach, before, i);
+    if (s) p.near[k] = *s, p.near_count[k] = uint8_t(std::min(p.near_count[k] + 1, 2));
+  }
+}
+
 /// What the likely rule leaves after a fragment's nominal draws.
 void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const {
   const bool in_floats = profile_.likely.sums_in_floats;
   for (int i = 0; i < f.nominal; ++i) {
+    if (sees_thresholds_) see_thresholds(p, f, blend.enabled);
     p.likely = in_floats ? kept_in_floats(f, blend, p.likely)
                          : likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely);
     for (size_t k = 0; k < 4; ++k) {
@@ -55,6 +69,15 @@ void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneVi
     StoreChoice c = choice_of(view, k, uint32_t(at(x, y)), double(p.value[size_t(k)]), t, given, profile_);
     if (given >= t.low && given <= t.high) c.chance = float(std::max(t.second_chance, 1e-3));
     m.choices.push_back(c);
+  }
+  for (size_t k = 0; k < 3 && sees_thresholds_; ++k) {
+    NearThreshold s = p.near[k];
+    const double steps = view.stored(x, y, int(k)) - p.likely[k].nominal;  // past the nominal codes
+    const bool is_either = steps == 0 || steps == (s.nominal_above ? -1 : 1);
+    const bool clamped = p.likely[k].nominal >= color_.layout.largest_code(int(k)) - 1;
+    if (p.near_count[k] != 1 || !is_either || clamped) continue;
+    s.above = (steps == 0) == s.nominal_above;
+    m.near_thresholds.push_back(s);
   }
 }
 

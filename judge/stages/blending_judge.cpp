@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "judge/stages/thresholds.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -41,6 +42,8 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
       multipass_(pipeline.strategy == Strategy::forward_multipass),
       blend_(multipass_ ? kAddLight : pipeline.blend),
       codes_(color_.image->format, blend_),
+      sees_thresholds_(converts_as_seen(color_, profile) && blend_.enabled && blend_.rgb == kAccumulate &&
+                       blend_.mask[0] && blend_.mask[1] && blend_.mask[2]),
       keeps_dark_(!color_.layout.srgb && blend_.enabled && blend_.rgb == kAccumulate &&
                   (!blend_.mask[3] || color_.channels < 4)) {
   const size_t pixels = size_t(pipeline.width) * size_t(pipeline.height);

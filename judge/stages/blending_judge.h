@@ -26,6 +26,9 @@ struct PixelState {
   Texel likely;        ///< by the nominal draws, rounded as the likely rule has it; floats where it keeps them
   std::array<float, 4> value{}, chance{}, drift{};  ///< sums over the draws: sources, chances of other roundings, with
                                                     ///< their signs
+  /// Of each channel the draw, if it is the only one, whose conversion to codes may give either of two.
+  std::array<NearThreshold, 3> near{};
+  std::array<uint8_t, 3> near_count{};
   bool split = false;                               ///< whether the two may differ
   bool open = false;                                ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
@@ -96,6 +99,7 @@ class BlendingJudge {
              const BlendState& blend);
   void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
   Texel kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const;
+  void see_thresholds(PixelState& p, const DrawnFragment& f, bool added) const;
   void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const;
   void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
   void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,
@@ -120,6 +124,7 @@ class BlendingJudge {
   const bool multipass_;
   const BlendState blend_;
   const AddedCodes codes_;
+  const bool sees_thresholds_;  ///< conversions to codes are looked at: each light's is added to the target's
   const bool keeps_dark_;  ///< a fragment that adds nothing leaves the texel as it is
   std::unique_ptr<TiedSurfaces> tied_;
   std::optional<TransparentLayers> layers_;

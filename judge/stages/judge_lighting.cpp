@@ -7,6 +7,7 @@
 #include "judge/stages/judge.h"
 #include "judge/stages/judge_blending.h"
 #include "judge/stages/judge_transparency.h"
+#include "judge/stages/thresholds.h"
 #include "oracle/scalar_renderer.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -66,6 +67,7 @@ class LightingJudge {
   const Profile profile_;
   const CapturedSurface surface_;
   const PlaneView color_, count_;
+  const bool sees_thresholds_ = converts_as_seen(color_, profile_);
   const LightBounds lights_;
   std::optional<TransparentLayers> layers_;
 };
@@ -121,7 +123,14 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
   for (int k = 0; k < 3; ++k) {
     Bounded c = lit.color[size_t(k)];
     c.value += change[size_t(k)];
-    m.channel_is(color_, "color", k, output_range(pipeline_.light_model, c), color_.stored(x, y, k), pixel, profile_);
+    const Range output = output_range(pipeline_.light_model, c);
+    m.channel_is(color_, "color", k, output, color_.stored(x, y, k), pixel, profile_);
+    if (!sees_thresholds_ || !lit.branches.empty()) continue;
+    const double largest = color_.layout.largest_code(k);
+    if (std::optional<NearThreshold> s = near_threshold(output, largest, profile_.likely.code_reach, 0, k)) {
+      s->above = color_.stored(x, y, k) > s->threshold;
+      m.near_thresholds.push_back(*s);
+    }
   }
   return m.legal;
 }
@@ -199,7 +208,7 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
     others(m);
     if (m.legal) return row.take(x, y, PixelClass::branch, m, std::to_string(count) + " lights at their threshold");
   }
-  nominal.choices.clear();
+  nominal.choices.clear(), nominal.near_thresholds.clear();
   nominal.stored_values = 0;
   row.take(x, y, PixelClass::violation, nominal, "");
 }

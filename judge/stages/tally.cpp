@@ -11,7 +11,14 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kWorst = 32;
-constexpr size_t kMostChoices = size_t(1) << 14;  // of a row that are kept: the first ones, whichever way they went
+constexpr size_t kMostChoices = size_t(1) << 14;  // of a row that are kept, whichever way they went
+constexpr uint32_t kRun = 8;                      // records in a row that are kept together, or none of them
+
+/// A number that looks like chance and is always the same.
+uint32_t scrambled(uint32_t v) {
+  v ^= v >> 16, v *= 0x7feb352du, v ^= v >> 15, v *= 0x846ca68bu;
+  return v ^ v >> 16;
+}
 
 /// One unit in the last place of what the plane stores at `value`.
 double unit_of(const PlaneView& view, int channel, double value) {
@@ -166,11 +173,29 @@ void RowTally::compare(int x, const Match& match) {
 void RowTally::record(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
   stored_values += match.stored_values;
   worst_error = std::max(worst_error, match.worst_error);
-  if (choices.size() < kMostChoices) choices.insert(choices.end(), match.choices.begin(), match.choices.end());
+  keep_choices(y, match);
   if (c == PixelClass::exact || c == PixelClass::store_2) return;
   worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
                    match.legal_value.nominal, match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);
+}
+
+/// Runs of records are kept by a number that looks like chance, so that what is kept is from all over the row.
+void RowTally::keep_choices(int y, const Match& match) {
+  near_thresholds.insert(near_thresholds.end(), match.near_thresholds.begin(), match.near_thresholds.end());
+  if (match.choices.empty()) return;
+  const uint32_t run = scrambled(uint32_t(y) * 0x9e3779b1u ^ records_++ / kRun);
+  if (run % one_in_ != 0) return;
+  choices.insert(choices.end(), match.choices.begin(), match.choices.end());
+  runs_.insert(runs_.end(), match.choices.size(), run);
+  while (choices.size() > kMostChoices && one_in_ < 1u << 31) {
+    one_in_ *= 2;
+    size_t kept = 0;
+    for (size_t i = 0; i < choices.size(); ++i)
+      if (runs_[i] % one_in_ == 0) choices[kept] = choices[i], runs_[kept++] = runs_[i];
+    choices.erase(choices.begin() + int64_t(kept), choices.end());
+    runs_.resize(kept);
+  }
 }
 
 Profile resolved(const Profile& profile, const Pipeline& pipeline) {
@@ -200,6 +225,7 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
     v.worst_error = std::max(v.worst_error, row.worst_error);
     v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());
     v.choices.insert(v.choices.end(), row.choices.begin(), row.choices.end());
+    v.near_thresholds.insert(v.near_thresholds.end(), row.near_thresholds.begin(), row.near_thresholds.end());
     v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
   }
   for (const PixelClass c : v.classes) ++v.counts[size_t(c)];

@@ -64,6 +64,7 @@ struct Match {
   LegalTexel legal_value;
   double given = 0;
   std::vector<StoreChoice> choices;
+  std::vector<NearThreshold> near_thresholds;
   static constexpr size_t kMostStores = 24;  // that are compared with the next pixel's
   std::array<SeenStore, kMostStores> stores;
   size_t store_count = 0;
@@ -94,6 +95,7 @@ struct RowTally {
   double predicted_other = 0, worst_error = 0;
   std::vector<SurfaceChoice> surface_choices;
   std::vector<StoreChoice> choices;
+  std::vector<NearThreshold> near_thresholds;
   std::vector<WorstPixel> worst;
 
   /// `pixel`: y * width + x, y from the top.
@@ -104,6 +106,10 @@ struct RowTally {
 
  private:
   void compare(int x, const Match& match);
+  void keep_choices(int y, const Match& match);
+  std::vector<uint32_t> runs_;  ///< of each of `choices`: the run of records that it is of
+  uint32_t records_ = 0;        ///< that had a choice
+  uint32_t one_in_ = 1;         ///< so many runs is kept: a power of two
   std::array<SeenStore, Match::kMostStores> before;  ///< of the pixel to the left, if there is one
   size_t before_count = 0;
   int before_x = -2;

@@ -30,6 +30,17 @@ struct StoreChoice {
   int8_t taken;    ///< 0: the nominal one; -1, 1: one below, above
 };
 
+/// A store whose value lies so near the threshold between two codes that the likely rule lets either be stored. Kept
+/// where that rule reaches beyond half a code.
+struct NearThreshold {
+  float low = 0, high = 0;        ///< bounds of the value, in codes from the middle between the two
+  uint32_t threshold = 0;         ///< the lower of the two codes
+  uint32_t threshold_of_sum = 0;  ///< the same of what a blended target becomes
+  uint8_t channel = 0;
+  bool nominal_above = false;  ///< the upper code is the nominal one
+  bool above = false;          ///< the upper code was stored
+};
+
 /// A pixel with more than one legal surface or branch. A pixel may have several.
 struct SurfaceChoice {
   uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle move together
@@ -48,6 +59,7 @@ struct StageVerdict {
   uint64_t stored_values = 0;                    ///< unorm and half channels judged
   std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
+  std::vector<NearThreshold> near_thresholds;  ///< of fixed-point targets whose conversion to codes is seen
   uint64_t stored_apart = 0;  ///< stores whose value is that of the pixel to the left, which stored another code,
                               ///< although the likely rule leaves one outcome
   StoreRule rule;                 ///< by which `choices` are choices

@@ -44,7 +44,7 @@ Hardware hardware(uint32_t index, Pcg32& random) {
   l.snapped_planes = random.below(2) == 0;
   l.turn_ties = random.below(2) == 0;
   l.reverse_lights = random.below(2) == 0;
-  if (index == 1) l.reach = 0.6;
+  if (index == 1) l.reach = 0.6, l.conversion = random.next();
   if (index == 2) l.subpixel_bits = 0;
   constexpr const char* names[] = {"nearest", "within 0.6", "not snapped"};
   return {names[index], l};

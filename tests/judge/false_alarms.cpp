@@ -42,7 +42,7 @@ Liberties d3d_liberties(Pcg32& random) {
   Liberties l;
   l.any_rounding = false;
   l.snapped_planes = true;
-  l.reach = 0.6;
+  l.reach = 0.6, l.conversion = random.next();
   l.turn_ties = random.below(2) == 0;
   l.reverse_lights = random.below(2) == 0;
   l.weight_bits = 8 * int(random.below(2));

@@ -20,7 +20,9 @@ struct Liberties {
   bool snapped_planes = false;
   bool turn_ties = false;      ///< samples on an edge belong to the other side
   bool any_neighbour = false;  ///< stores of unorm, half, sRGB and fixed-point depth take either neighbour
-  double reach = 0.5;          ///< otherwise any neighbour that is as near as that, of stores and of the subpixel grid
+  double reach = 0.5;          ///< otherwise any neighbour that is as near as that, of the subpixel grid; stores to codes
+                               ///< do not decrease
+  uint32_t conversion = 0;     ///< which of these: thresholds between codes are made of this number
   bool reverse_lights = false;
   int weight_bits = 0;        ///< of texture filters; 0: exact
   bool decode_late = false;   ///< sRGB textures are filtered in 8 bits, then decoded

@@ -39,6 +39,16 @@ double loose_neighbour(LooseFloat& f, const Liberties& liberties, double scaled)
 
 namespace {
 
+/// The code of a value by a conversion that does not decrease (D3D11.3 functional spec, 3.2.3.6).
+double loose_code(LooseFloat& f, const Liberties& liberties, double scaled) {
+  if (liberties.any_neighbour || liberties.reach == 0.5) return loose_neighbour(f, liberties, scaled);
+  const double below = std::floor(scaled);
+  uint32_t v = liberties.conversion ^ uint32_t(below) * 0x9e3779b1u;
+  v ^= v >> 16, v *= 0x7feb352du, v ^= v >> 15, v *= 0x846ca68bu, v ^= v >> 16;
+  const double threshold = 1 - liberties.reach + (2 * liberties.reach - 1) * double(v) * 0x1p-32;
+  return scaled - below < threshold ? below : below + 1;
+}
+
 /// The bits of a float of 16, 11 or 10, one of the two that are next to `v`.
 uint32_t small_bits(LooseFloat& f, const Liberties& liberties, const FormatInfo& layout, int channel, float v) {
   const int bits = layout.bits[size_t(channel)], fraction = bits == 16 ? 10 : bits - 5;
@@ -67,7 +77,7 @@ void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x,
   uint32_t bits = 0;
   if (layout.number_class == NumberClass::unorm) {
     bits = uint32_t(
-        loose_neighbour(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
+        loose_code(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
   } else if (layout.small_float()) {
     bits = small_bits(f, liberties, layout, channel, v);
   } else {
