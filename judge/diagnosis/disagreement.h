@@ -16,6 +16,10 @@ inline double cost_of(double steps) {
   return std::min(1.0, 0.15 + 0.085 * std::log2(std::max(1.0, steps)));
 }
 
+/// What a pixel costs of which a fault predicts no number: less than one that is a step off, far more than one that is
+/// predicted. So a fault that predicts numbers comes first unless it leaves much unexplained.
+inline constexpr double kAnythingCost = 0.1;
+
 /// A pixel of the sample. It stands for `weight` pixels of the image.
 struct SampledPixel {
   int x = 0, y = 0;

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <map>
 
+#include "judge/diagnosis/changed_light.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -249,25 +251,30 @@ double Estimate::climbed(double count) const {
 
 }  // namespace
 
-std::vector<double> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
-                                      const PictureFault& fault, const std::vector<SampledPixel>& pixels,
-                                      const std::vector<double>& off_if_right) {
+std::vector<FaultParameter> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
+                                              const PictureFault& fault, const std::vector<SampledPixel>& pixels,
+                                              const std::vector<double>& off_if_right) {
   const Estimate estimate(picture, supposed, fault, pixels, off_if_right);
+  const auto numbers = [](const std::vector<double>& list) {
+    return std::vector<FaultParameter>(list.begin(), list.end());
+  };
   switch (fault.search) {
     case Search::none:
       return {0};
     case Search::one_of:
-      return estimate.best_of(fault.starts, 2);
+      return numbers(estimate.best_of(fault.starts, 2));
     case Search::smooth:
       return {estimate.smooth()};
     case Search::missing_light:
-      return estimate.lights(-1);
+      return numbers(estimate.lights(-1));
     case Search::doubled_light:
-      return estimate.lights(1);
+      return numbers(estimate.lights(1));
     case Search::count:
-      return estimate.counts(false);
+      return numbers(estimate.counts(false));
     case Search::count_at_pixel:
-      return estimate.counts(true);
+      return numbers(estimate.counts(true));
+    case Search::one_light:
+      return changed_lights(picture, supposed, fault, pixels, off_if_right);
   }
   return {};  // unreachable: every enumerator returns above
 }

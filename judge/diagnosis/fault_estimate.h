@@ -6,8 +6,8 @@ namespace trueshade::oracle {
 
 /// Parameters with which the fault, beside those that are supposed already, explains most of `pixels`; the best first.
 /// At least one, unless the fault has a parameter that nothing points at.
-std::vector<double> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
-                                      const PictureFault& fault, const std::vector<SampledPixel>& pixels,
-                                      const std::vector<double>& off_if_right);
+std::vector<FaultParameter> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
+                                              const PictureFault& fault, const std::vector<SampledPixel>& pixels,
+                                              const std::vector<double>& off_if_right);
 
 }  // namespace trueshade::oracle

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "judge/diagnosis/picture_faults.h"
 
@@ -96,6 +97,19 @@ void codes_per_light(LightPass& p, double) {
 }
 void nothing(LightPass&, double) {}
 
+using Vector = std::array<double, 3>;
+glm::vec3 vec3_of(const Vector& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
+void move_light(Light& l, const Vector& v) { l.position += vec3_of(v); }
+void turn_light(Light& l, const Vector& v) {
+  const glm::vec3 d = l.direction + vec3_of(v);
+  const float length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  if (length > 0) l.direction = d * (1 / length);
+}
+void color_light(Light& l, const Vector& v) { l.color *= vec3_of(v); }
+bool has_direction(const Light& l) { return l.type == LightType::directional || l.type == LightType::spot; }
+bool any_light(const Light&) { return true; }
+bool has_directions(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), has_direction); }
+
 bool has_ambient(const LightPass& p) {
   const auto ambient = [](const Light& l) { return l.type == LightType::ambient; };
   return std::any_of(p.lights.begin(), p.lights.end(), ambient) ||
@@ -146,6 +160,8 @@ constexpr PictureFault stale_tiles(int side, std::string_view name, std::string_
   return {.name = name, .text = text, .light = nothing, .stale = side};
 }
 
+constexpr double kVectorCost = 0.012;  ///< what three numbers more than one must earn
+
 // name, text, light, value, can, search, starts, move, doubt, reach
 constexpr PictureFault kFaults[] = {
     {"light-intensity", "the lights are %s times as bright as they should be", scale_intensity, nullptr, has_lamps,
@@ -195,6 +211,28 @@ constexpr PictureFault kFaults[] = {
     {"light-count", "only the first %s lights are drawn", at_most, nullptr, several, Search::count},
     {"light-count-pixel", "only the first %s lights in range of a pixel are drawn", at_most_here, nullptr, several,
      Search::count_at_pixel},
+    {.name = "light-moved",
+     .text = "light %s is moved by %v",
+     .can = has_lamps,
+     .search = Search::one_light,
+     .doubt = kVectorCost,
+     .one_light = move_light,
+     .of_light = lamp},
+    {.name = "light-turned",
+     .text = "%v is added to the direction of light %s",
+     .can = has_directions,
+     .search = Search::one_light,
+     .doubt = kVectorCost,
+     .one_light = turn_light,
+     .of_light = has_direction},
+    {.name = "light-colored",
+     .text = "the colour of light %s is %v times what it should be",
+     .can = several,
+     .search = Search::one_light,
+     .doubt = kVectorCost,
+     .one_light = color_light,
+     .of_light = any_light,
+     .start = 1},
     {.name = "light-order",
      .text = "the lights are drawn in the opposite order",
      .light = reverse_order,

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "oracle/matrices.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
@@ -52,7 +51,8 @@ struct LightPass {
   Pipeline pipeline;
   std::vector<Light> lights;
   LightFault fault;
-  std::array<double, 3> axis{};  ///< oracle::view_axis() of the camera
+  std::array<double, 3> axis{};                 ///< oracle::view_axis() of the camera
+  std::array<std::array<double, 3>, 3> view{};  ///< view_axes() of the camera
   glm::vec4 clear{0.0f};
 };
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);

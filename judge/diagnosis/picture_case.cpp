@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/threads/parallel_for.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -13,8 +12,6 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr std::array<size_t, 4> kSample = {700, 200, 500, 60}, kFew = {140, 50, 110, 16};
-constexpr int kLeastTile = 8;
-constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
 /// Deletes all but `most` elements, spread evenly over an order that looks like chance and is always the same.
 void thin_out(std::vector<uint32_t>& pixels, size_t most) {
@@ -61,7 +58,9 @@ std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::a
   return sample;
 }
 
-void PictureSupposition::suppose(const PictureFault& fault, double parameter) {
+void PictureSupposition::suppose(const PictureFault& fault, const FaultParameter& given) {
+  const double parameter = given.number;
+  if (fault.one_light != nullptr) fault.one_light(pass.lights[size_t(parameter)], given.vector), known = nullptr;
   if (fault.light != nullptr) fault.light(pass, parameter);
   if (fault.light != nullptr || fault.tile > 0) known = nullptr;
   if (fault.value != nullptr) steps.push_back({fault.value, parameter});
@@ -77,9 +76,13 @@ PictureCase::PictureCase(const Scene& scene, const Pipeline& pipeline, const Pro
       pipeline_(pipeline),
       captured_(scene, pipeline, resolved(profile, pipeline), capture),
       color_(target_of(capture, pipeline)),
-      right_(light_pass_of(scene, pipeline)) {
+      right_(light_pass_of(scene, pipeline)),
+      stale_(stage) {
   draw_sample(stage, profile, capture);
-  find_stale(stage);
+}
+
+void PictureCase::make_tiles() {
+  if (tiles_ == nullptr) tiles_ = std::make_shared<TileLists>(captured_, pipeline_.width, pipeline_.height);
 }
 
 /// Pixels under transparent surfaces are not predicted.
@@ -144,133 +147,11 @@ std::array<int, 2> PictureCase::source(const Move& move, int x, int y) const {
   return {move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y};
 }
 
-namespace {
-
-/// Whether the pixel is not as it should be.
-bool is_odd(const StageVerdict& stage, int x, int y) {
-  const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
-  return c == PixelClass::violation || c == PixelClass::store_2;
-}
-
-/// Whether of the pixels just outside these tiles far fewer are odd than of those just inside.
-bool ends_sharply(const StageVerdict& stage, const std::vector<uint8_t>& tiles, int side) {
-  constexpr int kBand = 2;
-  const int across = (stage.width + side - 1) / side;
-  const auto in = [&](int x, int y) { return tiles[size_t(y / side) * size_t(across) + size_t(x / side)] != 0; };
-  double odd[2] = {}, all[2] = {};
-  for (int y = 0; y < stage.height; ++y)
-    for (int x = 0; x < stage.width; ++x) {
-      const bool here = in(x, y);
-      const bool at_border = in(std::max(x - kBand, 0), y) != here || in(x, std::max(y - kBand, 0)) != here ||
-                             in(std::min(x + kBand, stage.width - 1), y) != here ||
-                             in(x, std::min(y + kBand, stage.height - 1)) != here;
-      if (at_border) odd[here ? 1 : 0] += is_odd(stage, x, y) ? 1 : 0, ++all[here ? 1 : 0];
-    }
-  return 4 * odd[0] * all[1] <= odd[1] * all[0];
-}
-
-}  // namespace
-
-/// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is.
-void PictureCase::find_stale(const StageVerdict& stage) {
-  for (const int side : {8, 16, 32, 64}) {
-    const int across = (stage.width + side - 1) / side, down = (stage.height + side - 1) / side;
-    std::vector<int> odd_in(size_t(across) * size_t(down)), all_in(odd_in.size());
-    for (int y = 0; y < stage.height; ++y)
-      for (int x = 0; x < stage.width; ++x) {
-        const size_t tile = size_t(y / side) * size_t(across) + size_t(x / side);
-        odd_in[tile] += is_odd(stage, x, y) ? 1 : 0, ++all_in[tile];
-      }
-    StaleTiles& tiles = stale_[side];
-    tiles.stale.resize(odd_in.size());
-    double odd_stale = 0, all_stale = 0, odd_other = 0, all_other = 0;
-    for (size_t i = 0; i < odd_in.size(); ++i) {
-      const bool stale = 5 * odd_in[i] >= 2 * all_in[i];
-      tiles.stale[i] = stale ? 1 : 0, tiles.count += stale ? 1 : 0;
-      (stale ? odd_stale : odd_other) += odd_in[i], (stale ? all_stale : all_other) += all_in[i];
-    }
-    if (10 * odd_other > all_other || size_t(10 * tiles.count) > std::max<size_t>(odd_in.size(), 30) ||
-        !ends_sharply(stage, tiles.stale, side)) {
-      std::fill(tiles.stale.begin(), tiles.stale.end(), 0);
-      tiles.count = 0;
-    }
-    tiles.filled = tiles.count > 0 ? odd_stale / all_stale : 0;
-  }
-}
-
-double PictureCase::stale_cost(int side) const {
-  const StaleTiles& tiles = stale_.at(side);
-  return 0.02 + 0.004 * tiles.count + 0.05 * (1 - tiles.filled);
-}
-
-void PictureCase::make_tiles() {
-  if (!tiles_.empty()) return;
-  const auto across = [&](int side) { return (pipeline_.width + side - 1) / side; };
-  const auto boxes = [&](int side) {
-    return std::vector<Box>(size_t(across(side)) * size_t((pipeline_.height + side - 1) / side));
-  };
-  std::vector<Box>& least = tiles_[kLeastTile] = boxes(kLeastTile);
-  parallel_for((pipeline_.height + kLeastTile - 1) / kLeastTile, 0, [&](int row) {
-    for (int y = row * kLeastTile; y < std::min((row + 1) * kLeastTile, pipeline_.height); ++y)
-      for (int x = 0; x < pipeline_.width; ++x) {
-        if (!captured_.covered(x, y)) continue;
-        Box& box = least[size_t(row) * size_t(across(kLeastTile)) + size_t(x / kLeastTile)];
-        const ShadedSurface s = captured_.at(x, y);
-        for (size_t k = 0; k < 3; ++k) {
-          const double v = s.position[k].value;
-          box.low[k] = box.empty ? v : std::min(box.low[k], v), box.high[k] = box.empty ? v : std::max(box.high[k], v);
-        }
-        box.empty = false;
-      }
-  });
-  for (int side = 2 * kLeastTile; side <= 64; side *= 2) {
-    std::vector<Box>& larger = tiles_[side] = boxes(side);
-    for (size_t i = 0; i < least.size(); ++i) {
-      const Box& from = least[i];
-      if (from.empty) continue;
-      const int tx = int(i) % across(kLeastTile) * kLeastTile / side,
-                ty = int(i) / across(kLeastTile) * kLeastTile / side;
-      Box& to = larger[size_t(ty) * size_t(across(side)) + size_t(tx)];
-      for (size_t k = 0; k < 3; ++k) {
-        to.low[k] = to.empty ? from.low[k] : std::min(to.low[k], from.low[k]);
-        to.high[k] = to.empty ? from.high[k] : std::max(to.high[k], from.high[k]);
-      }
-      to.empty = false;
-    }
-  }
-}
-
-/// Lights whose range reaches the box of the tile that the pixel's list is from.
-std::vector<uint8_t> PictureCase::list_of(const PictureSupposition& supposed, int x, int y) const {
-  const int side = supposed.tile, across = (pipeline_.width + side - 1) / side,
-            down = (pipeline_.height + side - 1) / side;
-  const int* step = kNeighbours[supposed.tile_from];
-  const int tx = std::clamp(x / side + step[0], 0, across - 1), ty = std::clamp(y / side + step[1], 0, down - 1);
-  const Box& box = tiles_.at(side)[size_t(ty) * size_t(across) + size_t(tx)];
-  std::vector<uint8_t> listed(supposed.pass.lights.size());
-  for (size_t i = 0; i < listed.size(); ++i) {
-    const Light& light = supposed.pass.lights[i];
-    const double range = double(light.range) * supposed.pass.fault.range;
-    if (light.type == LightType::ambient || light.type == LightType::directional || std::isinf(range)) {
-      listed[i] = 1;
-      continue;
-    }
-    double squared = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double p = double(light.position[k]);
-      const double outside = std::max({0.0, box.low[size_t(k)] - p, p - box.high[size_t(k)]});
-      squared += outside * outside;
-    }
-    listed[i] = !box.empty && squared < range * range ? 1 : 0;
-  }
-  return listed;
-}
-
 PictureCase::Prediction PictureCase::predicted(const PictureSupposition& supposed, int x, int y) const {
   const auto [sx, sy] = source(supposed.move, x, y);
   const auto make = [&, sx = sx, sy = sy] {
     std::vector<uint8_t> listed;
-    if (supposed.tile > 0) listed = list_of(supposed, sx, sy);
+    if (supposed.tile > 0) listed = tiles_->list(supposed.pass, supposed.tile, supposed.tile_from, sx, sy);
     return predicted_pixel(supposed.pass, surface(sx, sy), supposed.tile > 0 ? &listed : nullptr);
   };
   const PredictedPixel pixel = supposed.known != nullptr ? supposed.known->at(sx, sy, make) : make();
@@ -338,10 +219,7 @@ double PictureCase::steps_off(const PictureSupposition& supposed, const Predicti
 }
 
 bool PictureCase::in_stale_tile(const PictureSupposition& supposed, int x, int y) const {
-  const int side = supposed.stale;
-  if (side == 0) return false;
-  const size_t across = size_t((pipeline_.width + side - 1) / side);
-  return stale_.at(side).stale[size_t(y / side) * across + size_t(x / side)] != 0;
+  return supposed.stale > 0 && stale_.hold_anything(supposed.stale, x, y);
 }
 
 double PictureCase::shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y,
@@ -408,7 +286,8 @@ Disagreement PictureCase::disagreement(const PictureSupposition& supposed, const
   Disagreement d;
   for (size_t i = 0; i < pixels.size(); ++i) {
     const double off = steps_off(supposed, pixels[i]), weight = pixels[i].weight;
-    d.cost += weight * cost_of(off);
+    const bool is_anything = in_stale_tile(supposed, pixels[i].x, pixels[i].y);
+    d.cost += weight * (is_anything ? kAnythingCost : cost_of(off));
     if (off_if_right[i] >= kSameSteps && off < kSameSteps) d.explained += weight;
     if (off_if_right[i] < kSameSteps && off >= kSameSteps) d.contradicted += weight;
   }

@@ -1,6 +1,5 @@
 #pragma once
 // A captured picture against what its own G-buffer should have made it, under any faults that are supposed.
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "judge/diagnosis/disagreement.h"
 #include "judge/diagnosis/finding.h"
 #include "judge/diagnosis/picture_faults.h"
+#include "judge/diagnosis/picture_tiles.h"
 #include "judge/diagnosis/plane_faults.h"
 #include "judge/stages/captured_surface.h"
 
@@ -50,7 +50,7 @@ struct PictureSupposition {
   int stale = 0;  ///< pixels a side of tiles, those of which that stand out hold anything
   std::shared_ptr<KnownPixels> known = std::make_shared<KnownPixels>();  ///< by the pass; null: not worth keeping
 
-  void suppose(const PictureFault& fault, double parameter);
+  void suppose(const PictureFault& fault, const FaultParameter& parameter);
 };
 
 /// Borrows the scene and the capture.
@@ -97,19 +97,11 @@ class PictureCase {
   }
   /// The pixel that is shown at (x, y).
   std::array<int, 2> source(const Move& move, int x, int y) const;
-  /// What it costs to suppose that the tiles of that side which stand out are stale: more for many tiles, and for tiles
-  /// that are mostly as they should be. Nothing stands out where pixels everywhere are not as they should be.
-  double stale_cost(int side) const;
+  double stale_cost(int side) const { return stale_.cost(side); }
   /// Makes the tiles' boxes, which lists of lights are made from. Not while others ask.
   void make_tiles();
 
  private:
-  struct Box {
-    std::array<double, 3> low, high;
-    bool empty = true;
-  };
-  std::vector<uint8_t> list_of(const PictureSupposition& supposed, int x, int y) const;
-  void find_stale(const StageVerdict& stage);
   void heal_surface(int x, int y, PlainSurface& surface) const;
   void draw_sample(const StageVerdict& stage, const Profile& profile, const Capture& capture);
 
@@ -119,13 +111,8 @@ class PictureCase {
   const PlaneView color_;
   LightPass right_;
   std::vector<SampledPixel> sample_, few_;
-  std::map<int, std::vector<Box>> tiles_;  ///< by side
-  struct StaleTiles {
-    std::vector<uint8_t> stale;  ///< by tile
-    int count = 0;
-    double filled = 0;  ///< share of their pixels that are not as they should be
-  };
-  std::map<int, StaleTiles> stale_;                                       ///< by side
+  StaleTiles stale_;
+  std::shared_ptr<const TileLists> tiles_;
   std::shared_ptr<KnownPixels> known_ = std::make_shared<KnownPixels>();  ///< where nothing is wrong
   std::shared_ptr<const ExpectedPlanes> expected_;
   std::array<bool, kPlanes> wrong_{};

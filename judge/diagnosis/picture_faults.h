@@ -11,6 +11,14 @@ namespace trueshade::oracle {
 
 using Color = std::array<double, 4>;
 
+/// The numbers of a fault: one, or that of a light and three that are the fault's own.
+struct FaultParameter {
+  double number = 0;
+  std::array<double, 3> vector{};
+  FaultParameter(double n = 0) : number(n) {}  // most faults have one number
+  FaultParameter(double light, const std::array<double, 3>& v) : number(light), vector(v) {}
+};
+
 /// Where the pixel that is shown came from.
 struct Move {
   bool flip_x = false, flip_y = false;
@@ -25,11 +33,12 @@ enum class Search : uint8_t {
   missing_light,  ///< the light without which most pixels are as given
   doubled_light,  ///< the same of one that is drawn twice
   count,          ///< of lights, by sums of the first so many
-  count_at_pixel  ///< of lights that reach a pixel, the same
+  count_at_pixel, ///< of lights that reach a pixel, the same
+  one_light       ///< a light and what is changed of it, by least squares
 };
 
 struct PictureFault {
-  std::string_view name, text;  ///< text: `%s` stands for the parameter
+  std::string_view name, text;  ///< text: `%s` stands for the parameter, `%v` for its vector
   void (*light)(LightPass&, double) = nullptr;
   void (*value)(Color&, double, int x, int y) = nullptr;  ///< of what the picture stands for
   bool (*can)(const LightPass&) = nullptr;                ///< whether it can change anything; null: always
@@ -41,6 +50,10 @@ struct PictureFault {
   int tile = 0;      ///< pixels a side of tiles whose light lists are those of other tiles; parameter: which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
   int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
+  /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
+  void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
+  bool (*of_light)(const Light&) = nullptr;  ///< whether it can be of that light
+  double start = 0;                          ///< of each component
 };
 
 std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp

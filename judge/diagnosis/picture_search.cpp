@@ -108,7 +108,7 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
     if (fault.can != nullptr && !fault.can(base.pass)) return;
     for (const NamedFault& f : faults)
       if (f.fault == &fault) return;
-    for (const double parameter : likely_parameters(picture_, base, fault, picture_.few(), off_few_)) {
+    for (const FaultParameter& parameter : likely_parameters(picture_, base, fault, picture_.few(), off_few_)) {
       std::vector<NamedFault> together(faults.begin(), faults.end());
       together.push_back({&fault, parameter});
       PictureSupposition both = base;
@@ -134,7 +134,7 @@ void PictureSearch::refine(Candidate& candidate) const {
     PictureSupposition base = picture_.right();
     for (size_t i = 0; i < candidate.faults.size(); ++i)
       if (i != turn) base.suppose(*candidate.faults[i].fault, candidate.faults[i].parameter);
-    for (const double parameter : likely_parameters(picture_, base, *fault.fault, picture_.few(), off_few_)) {
+    for (const FaultParameter& parameter : likely_parameters(picture_, base, *fault.fault, picture_.few(), off_few_)) {
       std::vector<NamedFault> faults = candidate.faults;
       faults[turn].parameter = parameter;
       Candidate better = judged(std::move(faults), false);
@@ -195,7 +195,7 @@ std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults)
 /// Two explain more by chance than one.
 bool explains_by_chance(const Candidate& c, double cost_of_right) {
   const auto near_one = [](const NamedFault& f) {
-    return f.fault->search == Search::smooth && std::fabs(f.parameter - 1) < kNearOne;
+    return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
   };
   return std::any_of(c.faults.begin(), c.faults.end(), near_one) &&
          c.found.cost > kLeftByFew / double(c.faults.size()) * cost_of_right;
@@ -246,15 +246,27 @@ std::vector<Finding> PictureSearch::look() const {
 
 }  // namespace
 
-std::string name_of(const PictureFault& fault, double parameter) {
-  return std::string(fault.name) + (fault.search == Search::none ? "" : "=" + parameter_word(fault, parameter));
+namespace {
+
+std::string vector_text(const std::array<double, 3>& v, const char* between) {
+  return parameter_text(v[0]) + between + parameter_text(v[1]) + between + parameter_text(v[2]);
 }
 
-std::string text_of(const PictureFault& fault, double parameter) {
+}  // namespace
+
+std::string name_of(const PictureFault& fault, const FaultParameter& parameter) {
+  if (fault.search == Search::none) return std::string(fault.name);
+  const std::string name = std::string(fault.name) + "=" + parameter_word(fault, parameter.number);
+  return fault.search == Search::one_light ? name + ":" + vector_text(parameter.vector, ",") : name;
+}
+
+std::string text_of(const PictureFault& fault, const FaultParameter& parameter) {
   std::string text(fault.text);
-  const size_t at = text.find("%s");
-  if (at != std::string::npos)
-    text.replace(at, 2, fault.says != nullptr ? fault.says(parameter) : parameter_text(parameter));
+  const auto put = [&text](const char* mark, const std::string& word) {
+    if (const size_t at = text.find(mark); at != std::string::npos) text.replace(at, 2, word);
+  };
+  put("%s", fault.says != nullptr ? fault.says(parameter.number) : parameter_text(parameter.number));
+  put("%v", "(" + vector_text(parameter.vector, ", ") + ")");
   return text;
 }
 

@@ -7,15 +7,15 @@ namespace trueshade::oracle {
 ///   only: faults with their parameters that are supposed, all together; empty: look for the likeliest
 struct NamedFault {
   const PictureFault* fault = nullptr;
-  double parameter = 0;
+  FaultParameter parameter;
 };
 /// How many pixels are not as they should be, estimated.
 double changed_pixels(const PictureCase& picture);
 
 std::vector<Finding> picture_findings(PictureCase& picture, std::span<const NamedFault> only);
 
-/// `light-range=1.01`; a fault without a parameter by its name alone.
-std::string name_of(const PictureFault& fault, double parameter);
-std::string text_of(const PictureFault& fault, double parameter);
+/// `light-range=1.01`, `light-moved=3:0.5,0,0`; a fault without a parameter by its name alone.
+std::string name_of(const PictureFault& fault, const FaultParameter& parameter);
+std::string text_of(const PictureFault& fault, const FaultParameter& parameter);
 
 }  // namespace trueshade::oracle

@@ -107,7 +107,10 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
                b = stored(plane, number_of(p.high, plane, channel), channel);
   const double slack = std::max(std::fabs(a - value), std::fabs(b - value));
   if (!std::isfinite(given) || !std::isfinite(value)) return given == value ? 0 : 1e3;
-  const double off = std::max(0.0, std::fabs(given - value) - slack);
+  // No fault of an albedo exchanges its ends, and lookups reach much farther one way than the other.
+  const double off = plane == Plane::albedo
+                         ? std::max({0.0, std::min({a, b, value}) - given, given - std::max({a, b, value})})
+                         : std::max(0.0, std::fabs(given - value) - slack);
   double unit = 1, room = 0.51;  // of a code
   if (!view.unorm()) {
     const double size = std::max(std::fabs(value), std::fabs(given));

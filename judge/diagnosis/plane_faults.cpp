@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/matrices.h"
+#include "judge/diagnosis/view_axes.h"
+#include "oracle/camera_view.h"
 
 namespace trueshade::oracle {
 
@@ -15,8 +16,7 @@ using Context = PlaneContext;
 double inner3(const V3& a, const V3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 V3 rotated(const Context& c, const V3& v) { return {inner3(c.view[0], v), inner3(c.view[1], v), inner3(c.view[2], v)}; }
 V3 from_eye(const Context& c, const V3& p) {
-  const glm::vec3& e = c.scene.camera.eye;
-  return {p[0] - double(e.x), p[1] - double(e.y), p[2] - double(e.z)};
+  return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]};
 }
 double encoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double decoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
@@ -318,16 +318,7 @@ constexpr PlaneFault kFaults[] = {
 std::span<const PlaneFault> plane_faults() { return kFaults; }
 
 PlaneContext plane_context(const Scene& scene, const Pipeline& pipeline) {
-  PlaneContext context{scene, pipeline, {}};
-  const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
-  const V3 back = view_axis(clip);
-  V3 up = unit3({clip[1], clip[5], clip[9]});
-  const double along = inner3(up, back);
-  up = unit3({up[0] - along * back[0], up[1] - along * back[1], up[2] - along * back[2]});
-  const V3 right = {up[1] * back[2] - up[2] * back[1], up[2] * back[0] - up[0] * back[2],
-                    up[0] * back[1] - up[1] * back[0]};
-  context.view = {right, up, back};
-  return context;
+  return {scene, pipeline, view_axes(scene.camera, pipeline), view_of(scene, pipeline).eye};
 }
 
 }  // namespace trueshade::oracle

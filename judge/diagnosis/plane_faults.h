@@ -19,6 +19,7 @@ struct PlaneContext {
   const Scene& scene;
   const Pipeline& pipeline;
   std::array<std::array<double, 3>, 3> view{};  ///< rows: right, up, towards the viewer
+  std::array<double, 3> eye{};                  ///< where all rays meet; of an orthographic matrix the camera's
 };
 PlaneContext plane_context(const Scene& scene, const Pipeline& pipeline);
 

@@ -100,13 +100,52 @@ bool change_samplers(Scene& s, const Change& change) {
       if (slot->used()) change(slot->sampler), any = true;
   return any;
 }
+/// Filters that textures are read with by mistake. `nearest_mipmap_linear` is what OpenGL has where nobody sets one.
+struct TextureFilter {
+  const char* name;
+  Filter mag, min;
+  MipFilter mip;
+};
+constexpr TextureFilter kTextureFilters[] = {
+    {"nearest", Filter::nearest, Filter::nearest, MipFilter::none},
+    {"linear", Filter::linear, Filter::linear, MipFilter::none},
+    {"linear_mipmap_nearest", Filter::linear, Filter::linear, MipFilter::nearest},
+    {"linear_mipmap_linear", Filter::linear, Filter::linear, MipFilter::linear},
+    {"nearest_mipmap_nearest", Filter::nearest, Filter::nearest, MipFilter::nearest},
+    {"nearest_mipmap_linear", Filter::linear, Filter::nearest, MipFilter::linear},
+    {"nearest_magnified", Filter::nearest, Filter::linear, MipFilter::linear},
+};
+constexpr int kMostFilters = int(std::size(kTextureFilters)) - 1;
+
 bool filter(Scene& s, Pipeline&, double way) {
-  return change_samplers(s, [way](Sampler& sampler) {
-    const int how = int(way);
-    sampler.mag_filter = how == 0 ? Filter::nearest : Filter::linear;
-    sampler.min_filter = how == 0 ? Filter::nearest : Filter::linear;
-    sampler.mip_filter = how <= 1 ? MipFilter::none : how == 2 ? MipFilter::nearest : MipFilter::linear;
+  const TextureFilter& f = kTextureFilters[std::clamp(int(way), 0, kMostFilters)];
+  return change_samplers(s, [&f](Sampler& sampler) {
+    sampler.mag_filter = f.mag, sampler.min_filter = f.min, sampler.mip_filter = f.mip;
   });
+}
+bool turn_textures(Scene& s, Pipeline&, double) {
+  for (Texture& texture : s.textures)
+    for (TextureLevel& level : texture.levels) {
+      const auto row = ptrdiff_t(level.width) * bytes_per_texel(texture.format);
+      for (int top = 0, bottom = level.height - 1; top < bottom; ++top, --bottom)
+        std::swap_ranges(level.bytes.begin() + top * row, level.bytes.begin() + (top + 1) * row,
+                         level.bytes.begin() + bottom * row);
+    }
+  return !s.textures.empty();
+}
+/// Colour maps alone: others hold numbers.
+bool recode_textures(Scene& s, Pipeline&, double) {
+  bool any = false;
+  std::vector<uint8_t> done(s.textures.size());
+  for (const Material& m : s.materials) {
+    if (!m.color_map.used() || done[size_t(m.color_map.texture)] != 0) continue;
+    done[size_t(m.color_map.texture)] = 1;
+    TextureFormat& format = s.textures[size_t(m.color_map.texture)].format;
+    if (format != TextureFormat::rgba8 && format != TextureFormat::srgb8_a8) continue;
+    format = format == TextureFormat::rgba8 ? TextureFormat::srgb8_a8 : TextureFormat::rgba8;
+    any = true;
+  }
+  return any;
 }
 bool bias_lod(Scene& s, Pipeline&, double bias) {
   return change_samplers(s, [bias](Sampler& sampler) { sampler.lod_bias += float(bias); });
@@ -154,15 +193,12 @@ std::string way_name(double way) {
   constexpr const char* kNames[] = {"smooth", "flat", "noperspective"};
   return kNames[std::clamp(int(way), 0, 2)];
 }
-std::string filter_name(double way) {
-  constexpr const char* kNames[] = {"nearest", "linear", "linear_mipmap_nearest", "linear_mipmap_linear"};
-  return kNames[std::clamp(int(way), 0, 3)];
-}
+std::string filter_name(double way) { return kTextureFilters[std::clamp(int(way), 0, kMostFilters)].name; }
 std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::clamp(int(way), 0, 4))]); }
 
 constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
-                 kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3},
+                 kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
                  kBiases[] = {-1, -0.5, 0.5, 1}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
                  kNoPerspective[] = {2};
 
@@ -202,6 +238,9 @@ constexpr PlaneFault kFaults2[] = {
     {"texture-lod-bias", "the textures' level of detail is off by %s", Plane::all, nullptr, bias_lod, nullptr, kOne,
      kBiases},
     {"texture-wrap", "textures wrap by `%s`", Plane::all, nullptr, wrap, nullptr, kOne, kWraps, 0, 0, wrap_name},
+    {"texture-flip-v", "the textures are upside down", Plane::all, nullptr, turn_textures},
+    {"texture-srgb", "colour maps are decoded as sRGB where they are linear, or taken as linear where they are sRGB",
+     Plane::all, nullptr, recode_textures},
     {"texture-missing", "the colour maps are not read", Plane::all, nullptr, no_textures},
     {"base-color-missing", "the materials' base colours are not applied", Plane::all, nullptr, no_base_color},
     {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},

@@ -69,6 +69,7 @@ Range range_sought(const PictureFault& fault, const Scene& scene) {
       return numbers_of(scene.lights.size() + 1);
     case Search::none:
     case Search::one_of:
+    case Search::one_light:  // light_and_vector() reads it
       break;
   }
   return {1, 0};
@@ -117,6 +118,29 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
   throw refuse(text_of(range));
 }
 
+/// `3:0.5,0,-1`: a light that the fault can be of, and three numbers.
+FaultParameter light_and_vector(const PictureFault& fault, const Scene& scene, const std::string* text,
+                                const std::string& name) {
+  constexpr double kMost = 1e9;
+  FaultParameter parameter;
+  std::array<double*, 4> numbers = {&parameter.number, &parameter.vector[0], &parameter.vector[1],
+                                    &parameter.vector[2]};
+  const char* at = text != nullptr ? text->c_str() : "";
+  bool fits = true;
+  for (size_t i = 0; i < numbers.size() && fits; ++i) {
+    char* end = nullptr;
+    *numbers[i] = std::strtod(at, &end);
+    fits = end != at && *end == ":,,\0"[i] && std::fabs(*numbers[i]) <= kMost;
+    at = end + (fits && i + 1 < numbers.size() ? 1 : 0);
+  }
+  const double light = parameter.number;
+  fits = fits && light >= 0 && light == std::floor(light) && light < double(scene.lights.size()) &&
+         fault.of_light(scene.lights[size_t(light)]);
+  if (fits) return parameter;
+  throw refused(name, text == nullptr ? "needs its parameter after `=`" : "has a parameter that it does not take",
+                std::string(fault.name) + " takes a light that has what is changed, and three numbers: 0:0.5,0,-1");
+}
+
 /// Adds the fault if there is one in the tables.
 template <class Named, class Fault>
 bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene, const std::string* text,
@@ -124,6 +148,11 @@ bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene
   if (fault == nullptr) return false;
   const bool none = fault->search == decltype(fault->search)::none;
   if (none && text != nullptr) throw refused(name, "has a parameter", std::string(fault->name) + " takes none");
+  if constexpr (std::is_same_v<Fault, PictureFault>)
+    if (fault->search == Search::one_light) {
+      to.push_back({fault, light_and_vector(*fault, scene, text, name)});
+      return true;
+    }
   to.push_back({fault, none ? 0 : parameter_of(*fault, scene, text, name)});
   return true;
 }

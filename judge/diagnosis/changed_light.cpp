@@ -1,0 +1,253 @@
+#include "judge/diagnosis/changed_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/diagnosis/predicted_term.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr size_t kMostLights = 1024;  ///< of a scene that are tried
+constexpr size_t kTerms = 30000;      ///< lights and pixels together, by which the lights are chosen
+constexpr double kScale = 8;          ///< steps beyond which a pixel may have another fault
+constexpr size_t kFitted = 3;         ///< lights that are fitted to all pixels
+
+/// A symmetric system of three equations.
+struct Normal {
+  std::array<std::array<double, 3>, 3> a{};
+  Triple3 b{};
+
+  /// Solved with so much added to the diagonal; nothing where it is singular.
+  std::optional<Triple3> solved(double damping) const {
+    std::array<Triple3, 3> m = a;
+    // A direction has a length to spare, along which nothing pulls: the trace keeps steps from growing there.
+    const double trace = a[0][0] + a[1][1] + a[2][2];
+    for (size_t k = 0; k < 3; ++k) m[k][k] += damping * a[k][k] + 1e-6 * trace;
+    const Triple3 yz = cross(m[1], m[2]), zx = cross(m[2], m[0]), xy = cross(m[0], m[1]);
+    const double determinant = inner(m[0], yz);
+    if (!(std::fabs(determinant) > 0)) return std::nullopt;
+    const Triple3 sum = plus(plus(times(yz, b[0]), times(zx, b[1])), times(xy, b[2]));
+    return times(sum, 1 / determinant);
+  }
+};
+
+class LightFit {
+ public:
+  LightFit(const PictureCase& picture, const PictureSupposition& supposed, const PictureFault& fault,
+           const std::vector<SampledPixel>& pixels, const std::vector<double>& off_if_right)
+      : picture_(picture), supposed_(supposed), fault_(fault), pixels_(pixels), off_(off_if_right) {
+    codes_ = info(supposed.pass.pipeline.target).number_class == NumberClass::unorm;
+    room_ = codes_ ? 0.5 : info(supposed.pass.pipeline.target).small_float() ? 1 : 0;
+    last_ = supposed.pass.pipeline.light_model.order == TermOrder::albedo_last;
+    see_pixels();
+  }
+
+  std::vector<FaultParameter> best() const;
+
+ private:
+  /// A pixel as it was given and as it is predicted, before what is done to the picture afterwards.
+  struct Seen {
+    SampledPixel pixel;
+    PlainSurface surface;
+    Color value, given;
+    bool changed;
+  };
+  void see_pixels();
+  Light changed(size_t light, const Triple3& vector) const {
+    Light l = supposed_.pass.lights[light];
+    fault_.one_light(l, vector);
+    return l;
+  }
+  Color shown(const Seen& seen, const Triple3& more) const;
+  double size_of(size_t light) const;
+  /// How far a channel is off, in steps, beyond what its store may be.
+  double off(const Seen& seen, const Color& value, int channel) const;
+  Normal equations(size_t light, const Triple3& at, size_t most, double scale) const;
+  double error(size_t light, const Triple3& at, double scale) const;
+  Triple3 fitted(size_t light) const;
+  double cost(const FaultParameter& parameter) const {
+    PictureSupposition s = supposed_;
+    s.suppose(fault_, parameter);
+    return picture_.disagreement(s, pixels_, off_).cost;
+  }
+  FaultParameter shortest(FaultParameter parameter) const;
+
+  const PictureCase& picture_;
+  const PictureSupposition& supposed_;
+  const PictureFault& fault_;
+  const std::vector<SampledPixel>& pixels_;
+  const std::vector<double>& off_;
+  bool codes_ = false, last_ = false;
+  double room_ = 0;            ///< steps that a store may be off
+  double farthest_ = kScale;  ///< steps that any pixel is off
+  std::vector<Seen> seen_;  ///< those that are not as they should be first
+};
+
+void LightFit::see_pixels() {
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    const SampledPixel& p = pixels_[i];
+    const auto [x, y] = picture_.source(supposed_.move, p.x, p.y);
+    Seen seen{p, picture_.surface(x, y), {}, picture_.given_value(p.x, p.y), off_[i] >= kSameSteps};
+    if (!seen.surface.covered) continue;
+    seen.value = predicted_pixel(supposed_.pass, seen.surface).value;
+    seen_.push_back(seen);
+  }
+  for (const Seen& s : seen_)
+    for (int k = 0; k < std::min(3, picture_.channels()); ++k)
+      if (const double steps = std::fabs(off(s, shown(s, {}), k)); std::isfinite(steps))
+        farthest_ = std::max(farthest_, std::min(2 * steps, 1e6));
+  std::stable_partition(seen_.begin(), seen_.end(), [](const Seen& s) { return s.changed; });
+}
+
+/// What the picture stands for where the pixel is lit by so much more.
+Color LightFit::shown(const Seen& seen, const Triple3& more) const {
+  Color v = seen.value;
+  for (size_t k = 0; k < 3; ++k) v[k] += last_ ? more[k] * seen.surface.albedo[k] : more[k];
+  for (const PictureSupposition::Step& step : supposed_.steps)
+    step.change(v, step.parameter, seen.pixel.x, seen.pixel.y);
+  for (size_t k = 0; k < 3 && codes_; ++k) v[k] = std::clamp(v[k], 0.0, 1.0);
+  return v;
+}
+
+/// How much of the vector is a small change: of positions a thousandth of how far the light is.
+double LightFit::size_of(size_t light) const {
+  if (fault_.start != 0 || supposed_.pass.lights[light].type == LightType::directional) return 1e-3;
+  double nearest = HUGE_VAL;
+  for (const Seen& s : seen_) {
+    const Triple3 offset = minus(triple(supposed_.pass.lights[light].position), s.surface.position);
+    nearest = std::min(nearest, inner(offset, offset));
+  }
+  return 1e-3 * std::max(1e-3, std::sqrt(std::min(nearest, 1e12)));
+}
+
+/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts for
+/// little, and every pixel for as much as the others.
+double LightFit::off(const Seen& seen, const Color& value, int channel) const {
+  constexpr double kShare = 0.05;
+  const auto k = size_t(channel);
+  const double steps = (seen.given[k] - value[k]) / picture_.step_at(seen.given[k], channel);
+  return std::copysign(std::max(0.0, std::fabs(steps) - room_), steps) + kShare * steps;
+}
+
+/// The normal equations of a step from `at`, each residual weighed by Cauchy's rule.
+Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
+  const double size = size_of(light);
+  const Light here = changed(light, at);
+  std::array<Light, 3> moved{here, here, here};
+  for (size_t i = 0; i < 3; ++i) {
+    Triple3 v = at;
+    v[i] += size;
+    moved[i] = changed(light, v);
+  }
+  Normal n;
+  const size_t stride = std::max<size_t>(1, seen_.size() / most);
+  for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
+    const Seen& s = seen_[at_pixel];
+    const PredictedTerms terms(supposed_.pass, s.surface);
+    const Triple3 right = terms.term(s.surface, supposed_.pass.lights[light]), now = terms.term(s.surface, here);
+    std::array<Color, 3> along{};
+    bool any = right != Triple3{} || now != Triple3{};
+    for (size_t i = 0; i < 3; ++i) {
+      const Triple3 term = terms.term(s.surface, moved[i]);
+      any = any || term != Triple3{};
+      along[i] = shown(s, minus(term, right));
+    }
+    if (!any) continue;
+    const Color value = shown(s, minus(now, right));
+    for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
+      const auto c = size_t(k);
+      const double step = picture_.step_at(s.given[c], k), residual = off(s, value, k);
+      if (!std::isfinite(residual)) continue;
+      const Triple3 slope = {(along[0][c] - value[c]) / size / step, (along[1][c] - value[c]) / size / step,
+                             (along[2][c] - value[c]) / size / step};
+      const double inside = std::fabs(s.given[c] - value[c]) <= room_ * step ? 0.05 : 1;
+      const double weight = 1 / (1 + residual * residual / (scale * scale));
+      for (size_t i = 0; i < 3; ++i) {
+        n.b[i] += weight * slope[i] * residual;
+        for (size_t j = 0; j < 3; ++j) n.a[i][j] += weight * inside * slope[i] * slope[j];
+      }
+    }
+  }
+  return n;
+}
+
+/// Of all pixels, by Cauchy's rule.
+double LightFit::error(size_t light, const Triple3& at, double scale) const {
+  const Light here = changed(light, at);
+  double sum = 0;
+  for (const Seen& s : seen_) {
+    const PredictedTerms terms(supposed_.pass, s.surface);
+    const Color value =
+        shown(s, minus(terms.term(s.surface, here), terms.term(s.surface, supposed_.pass.lights[light])));
+    for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
+      const double residual = off(s, value, k);
+      if (std::isfinite(residual)) sum += std::log1p(residual * residual / (scale * scale));
+    }
+  }
+  return sum;
+}
+
+/// Steps of least squares, shortened for as long as they lead nowhere (Levenberg and Marquardt).
+Triple3 LightFit::fitted(size_t light) const {
+  Triple3 at = {fault_.start, fault_.start, fault_.start};
+  for (const double scale : {farthest_, kScale}) {  // what is far off counts for much at first, and then for little
+    double least = error(light, at, scale), damping = 1e-3;
+    for (int i = 0; i < 16 && damping < 1e6; ++i) {
+      const std::optional<Triple3> step = equations(light, at, seen_.size(), scale).solved(damping);
+      if (!step) break;
+      const Triple3 next = plus(at, *step);
+      const double e = error(light, next, scale);
+      if (!(e < least)) {
+        damping *= 8;
+        continue;
+      }
+      const bool done = least - e < 1e-6 * least;
+      at = next, least = e, damping = std::max(1e-9, damping / 8);
+      if (done) break;
+    }
+  }
+  return at;
+}
+
+/// The shortest numbers that explain as much.
+FaultParameter LightFit::shortest(FaultParameter parameter) const {
+  const double least = cost(parameter);
+  for (const double unit : {0.1, 0.05, 0.01, 1e-3, 1e-4}) {
+    FaultParameter rounded = parameter;
+    for (double& v : rounded.vector) v = std::nearbyint(v / unit) * unit + 0.0;  // not -0
+    if (cost(rounded) <= least * (1 + 1e-9)) return rounded;
+  }
+  return parameter;
+}
+
+std::vector<FaultParameter> LightFit::best() const {
+  const std::vector<Light>& lights = supposed_.pass.lights;
+  const Triple3 start = {fault_.start, fault_.start, fault_.start};
+  std::vector<std::pair<double, size_t>> gains;  // by what one step of least squares is expected to gain
+  for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
+    if (!fault_.of_light(lights[i])) continue;
+    const Normal n = equations(i, start, std::max<size_t>(60, kTerms / std::min(lights.size(), kMostLights)), farthest_);
+    if (const std::optional<Triple3> step = n.solved(1e-3)) gains.emplace_back(-inner(*step, n.b), i);
+  }
+  std::sort(gains.begin(), gains.end());
+  std::vector<FaultParameter> parameters;
+  for (size_t i = 0; i < std::min(kFitted, gains.size()); ++i) {
+    const FaultParameter found(double(gains[i].second), fitted(gains[i].second));
+    if (std::all_of(found.vector.begin(), found.vector.end(), [](double v) { return std::isfinite(v); }))
+      parameters.push_back(shortest(found));
+  }
+  return parameters;
+}
+
+}  // namespace
+
+std::vector<FaultParameter> changed_lights(const PictureCase& picture, const PictureSupposition& supposed,
+                                           const PictureFault& fault, const std::vector<SampledPixel>& pixels,
+                                           const std::vector<double>& off_if_right) {
+  if (supposed.tile > 0 || supposed.stale > 0) return {};
+  return LightFit(picture, supposed, fault, pixels, off_if_right).best();
+}
+
+}  // namespace trueshade::oracle

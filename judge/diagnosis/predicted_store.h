@@ -1,0 +1,31 @@
+#pragma once
+// What a target's texels hold after stores and blends, by the rule that a fault may have changed.
+#include "judge/diagnosis/light_pass.h"
+#include "judge/diagnosis/triple.h"
+
+namespace trueshade::oracle {
+
+/// A number rounded to so many bits of fraction, its exponent at least `least`.
+double rounded_to(double x, int bits, int least, LightFault::Store rule);
+
+/// Stores, and adds, as a target's texels are: codes, or floats. Borrows the pipeline.
+class PredictedStore {
+ public:
+  PredictedStore(const Pipeline& pipeline, LightFault::Store rule);
+  double stored(double x, int channel) const;
+  void blend(const Triple3& source, double alpha, const BlendState& state, std::array<double, 4>& texel) const;
+
+ private:
+  double code_of(double x, int channel) const;
+  double half_of(double x) const;
+  HalfRound half_round() const {
+    return rule_ == LightFault::Store::truncated ? HalfRound::toward_zero : HalfRound::nearest;
+  }
+
+  const Pipeline& pipeline_;
+  const FormatInfo layout_;
+  LightFault::Store rule_;
+  bool codes_ = false, halves_ = false;
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,24 @@
+#pragma once
+// Three doubles as a vector.
+#include <array>
+#include <cmath>
+#include <glm/vec3.hpp>
+
+namespace trueshade::oracle {
+
+using Triple3 = std::array<double, 3>;
+
+inline double inner(const Triple3& a, const Triple3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Triple3 plus(const Triple3& a, const Triple3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Triple3 minus(const Triple3& a, const Triple3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Triple3 times(const Triple3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+inline Triple3 triple(const glm::vec3& v) { return {double(v.x), double(v.y), double(v.z)}; }
+inline Triple3 cross(const Triple3& a, const Triple3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Triple3 unit(const Triple3& v) {
+  const double length = std::sqrt(inner(v, v));
+  return length > 0 ? times(v, 1 / length) : v;
+}
+
+}  // namespace trueshade::oracle
