@@ -7,7 +7,7 @@
 // the first of them is named, `named` whether both are.
 //
 // Fault, scene, preset, strategy, target, variant, view, pixels changed, convicted, named first, named, plane blamed,
-// ms, findings. Made into docs/data/diagnosis.md by scripts/diagnosis_table.sh.
+// ms, findings, pixels changed beyond what is legal. Made into docs/data/diagnosis.md by scripts/diagnosis_table.sh.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -22,11 +22,11 @@ namespace {
 
 void write(FILE* file, const std::string& name, const Ground& ground, int variant, uint64_t changed, bool convicted,
            bool first, bool named, const PlantedTry& t) {
-  std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%d\t%d\t%llu\t%d\t%d\t%d\t%d\t%.0f\t%s\n", name.c_str(), ground.scene.c_str(),
-               ground.preset.c_str(), std::string(name_of(ground.strategy)).c_str(),
+  std::fprintf(file, "%s\t%s\t%s\t%s\t%s\t%d\t%d\t%llu\t%d\t%d\t%d\t%d\t%.0f\t%s\t%llu\n", name.c_str(),
+               ground.scene.c_str(), ground.preset.c_str(), std::string(name_of(ground.strategy)).c_str(),
                std::string(info(ground.target).name).c_str(), variant, ground.view,
                static_cast<unsigned long long>(changed), int(convicted), int(first), int(named), int(t.blamed), t.ms,
-               t.found.c_str());
+               t.found.c_str(), static_cast<unsigned long long>(t.beyond));
   std::fflush(file);
 }
 

@@ -7,6 +7,7 @@
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/judge/captured.h"
+#include "tests/judge/diagnosis/legal_witness.h"
 #include "tests/judge/diagnosis/planted.h"
 
 namespace trueshade::testing {
@@ -93,6 +94,17 @@ std::optional<Capture> planted(const Scene& scene, const Pipeline& pipeline, con
   return wrong;
 }
 
+/// Whether no code is so far off that no conversion within 0.6 makes it.
+bool may_be_legal(const Image& right, const Image& wrong) {
+  constexpr int64_t kMostCodes = 8;  // of sums of many lights
+  if (info(right.format).number_class != NumberClass::unorm) return false;
+  for (int y = 0; y < right.height; ++y)
+    for (int x = 0; x < right.width; ++x)
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(int64_t(right.code(x, y, k)) - int64_t(wrong.code(x, y, k))) > kMostCodes) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<PlantedPair> pairs_of_plants(int count) {
@@ -124,7 +136,7 @@ PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, co
   PlantedTry out;
   const std::optional<Capture> wrong = planted(scene, pipeline, right, faults, variant);
   if (!wrong) return out;
-  out.changed = changed_pixels(right, *wrong, plant.plane);
+  out.changed = out.beyond = changed_pixels(right, *wrong, plant.plane);
   if (other != nullptr) {  // what each adds to the other
     const std::optional<Capture> one = planted(scene, pipeline, right, {&faults[0], 1}, variant),
                                  two = planted(scene, pipeline, right, {&faults[1], 1}, variant);
@@ -137,6 +149,8 @@ PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, co
   profile.subpixel_bits = 8;
   const Verdict verdict = validate_capture(scene, pipeline, *wrong, {profile, false, {}, {}});
   out.convicted = verdict.violations() > 0 || verdict.convicted();
+  if (other == nullptr && plant.plane == "picture" && may_be_legal(right.color, wrong->color))
+    out.beyond = std::min(out.changed, pixels_without_witness(scene, pipeline, *wrong));
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Finding> findings = diagnose(scene, pipeline, profile, *wrong, verdict.stages);
   out.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

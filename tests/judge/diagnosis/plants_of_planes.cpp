@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tests/judge/diagnosis/plants.h"
+#include "tests/judge/diagnosis/view_rows.h"
 
 namespace trueshade::testing {
 
@@ -17,9 +18,7 @@ using Output = std::function<void(const Scene&, const Pipeline&, Capture&, int)>
 using Names = std::vector<std::string_view>;
 using V = glm::vec3;
 
-V cross_of(const V& a, const V& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 float dot_of(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V normalized(const V& v) { return v * (1 / std::sqrt(dot_of(v, v))); }
 
 Image* plane_of(Capture& c, std::string_view name) {
   for (NamedImage& p : c.planes)
@@ -113,8 +112,8 @@ double to_srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(
 double from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 V to_view(const Scene& s, const V& v) {
-  const V back = normalized(s.camera.eye - s.camera.target), right = normalized(cross_of(s.camera.up, back));
-  return {dot_of(right, v), dot_of(cross_of(back, right), v), dot_of(back, v)};
+  const std::array<V, 3> rows = view_rows(s.camera);
+  return {dot_of(rows[0], v), dot_of(rows[1], v), dot_of(rows[2], v)};
 }
 V octahedron(V n) {
   n *= 1 / (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z));
@@ -318,12 +317,42 @@ std::vector<Plant> made_planes() {
       "another texture filter", {"texture-filter", "texture-lod-bias"},
       [](Scene& s, Pipeline&, int v) {
         for (Material& m : s.materials) {
-          if (v == 0) m.color_map.sampler.mag_filter = m.color_map.sampler.min_filter = Filter::nearest;
-          m.color_map.sampler.mip_filter = v == 0 || v == 1 ? MipFilter::none : MipFilter::nearest;
+          Sampler& sampler = m.color_map.sampler;
+          if (v == 0 || v == 4 || v == 5) sampler.mag_filter = Filter::nearest;
+          if (v == 0 || v == 3 || v == 5) sampler.min_filter = Filter::nearest;
+          if (v == 0 || v == 1) sampler.mip_filter = MipFilter::none;
+          if (v == 2 || v == 5) sampler.mip_filter = MipFilter::nearest;
         }
         return true;
       },
-      3);
+      6);
+  all.back().base = textured;
+  in(
+      "another texture wrap", {"texture-wrap"},
+      [](Scene& s, Pipeline&, int v) {
+        const Wrap wrap = v == 0 ? Wrap::mirrored_repeat : Wrap::clamp_to_edge;
+        for (Material& m : s.materials) m.color_map.sampler.wrap = {wrap, wrap};
+        return true;
+      },
+      2);
+  all.back().base = textured;
+  in("textures upside down", {"texture-flip-v"}, [](Scene& s, Pipeline&, int) {
+    for (Texture& t : s.textures)
+      for (TextureLevel& level : t.levels) {
+        const size_t row = size_t(level.width) * 4;
+        std::vector<uint8_t> turned;
+        for (int y = level.height - 1; y >= 0; --y)
+          turned.insert(turned.end(), level.bytes.begin() + ptrdiff_t(size_t(y) * row),
+                        level.bytes.begin() + ptrdiff_t(size_t(y + 1) * row));
+        level.bytes = turned;
+      }
+    return true;
+  });
+  all.back().base = textured;
+  in("textures decoded as sRGB", {"texture-srgb"}, [](Scene& s, Pipeline&, int) {
+    for (Texture& t : s.textures) t.format = TextureFormat::srgb8_a8;
+    return true;
+  });
   all.back().base = textured;
   in("attributes noperspective", {"interpolation"}, [](Scene&, Pipeline& p, int) {
     for (PlaneState* plane : {&p.gbuffer.position, &p.gbuffer.normal, &p.gbuffer.albedo, &p.gbuffer.uv})

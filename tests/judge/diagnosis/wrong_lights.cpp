@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/half.h"
+#include "tests/judge/diagnosis/view_rows.h"
 
 namespace trueshade::testing {
 
@@ -14,7 +15,6 @@ namespace {
 using V = glm::vec3;
 
 float dot3(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V cross3(const V& a, const V& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 struct Lighter {
   const Scene& scene;
@@ -67,8 +67,8 @@ struct Lighter {
     if (slip == LightSlip::normals_of_8_bits)
       for (int k = 0; k < 3; ++k) n[k] = std::round((n[k] * 0.5f + 0.5f) * 255) / 255 * 2 - 1;
     if (slip == LightSlip::normals_in_view) {
-      const V back = glm_unit(scene.camera.eye - scene.camera.target), right = glm_unit(cross3(scene.camera.up, back));
-      n = {dot3(right, n), dot3(cross3(back, right), n), dot3(back, n)};
+      const std::array<V, 3> rows = view_rows(scene.camera);
+      n = {dot3(rows[0], n), dot3(rows[1], n), dot3(rows[2], n)};
     }
     if (m.renormalize != (slip == LightSlip::normals_raw)) n = unit(n);
     const float nl = dot3(n, to_light);
@@ -87,8 +87,6 @@ struct Lighter {
     }
     return (albedo * diffuse + ks * s) * (l.color * m.damping * strength);
   }
-
-  static V glm_unit(const V& v) { return v * (1 / std::sqrt(dot3(v, v))); }
 };
 
 float to_half(float x, HalfRound round) { return float_from_half(half_from_float(x, round)); }
