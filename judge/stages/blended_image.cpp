@@ -24,20 +24,46 @@ Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& bl
   return t;
 }
 
-/// Notes a conversion that may give either of two codes. After a second one neither is known.
-void BlendingJudge::see_thresholds(PixelState& p, const DrawnFragment& f, bool added) const {
-  if (!added) p.near_count = {};
+/// Notes conversions that may give either of two codes.
+void BlendingJudge::see_thresholds(const PixelState& p, const DrawnFragment& f, bool added) {
+  std::array<ConversionsInDoubt, 3>& channels = in_doubt_[size_t(&p - pixels_.data())];
   for (int i = 0; i < 3; ++i) {
     const auto k = size_t(i);
+    ConversionsInDoubt& doubt = channels[k];
+    if (!added) doubt.count = 0;
     const uint32_t before = added ? uint32_t(p.likely[k].nominal) : 0;
     const std::optional<NearThreshold> s = near_threshold(f.output.nominal[k], color_.layout.largest_code(i),
                                                           profile_.likely.code_reach, before, i);
-    if (s) p.near[k] = *s, p.near_count[k] = uint8_t(std::min(p.near_count[k] + 1, 2));
+    if (!s) continue;
+    if (doubt.count < ConversionsInDoubt::kMost) doubt.draws[doubt.count] = *s;
+    doubt.count = std::min(doubt.count + 1, ConversionsInDoubt::kMost + 1);
+  }
+}
+
+/// What the last image says of them: where all took the lower code, or all the upper one, each is known.
+void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const {
+  for (size_t k = 0; k < 3; ++k) {
+    const ConversionsInDoubt& doubt = in_doubt_[at(x, y)][k];
+    const double nominal = p.likely[k].nominal;
+    if (doubt.count == 0 || doubt.count > ConversionsInDoubt::kMost) continue;
+    if (nominal >= color_.layout.largest_code(int(k)) - double(doubt.count)) continue;  // it may have been clamped
+    double lower = nominal;
+    for (size_t i = 0; i < doubt.count; ++i) lower -= doubt.draws[i].nominal_above ? 1 : 0;
+    const double uppers = view.stored(x, y, int(k)) - lower;
+    if (uppers != 0 && uppers != double(doubt.count)) continue;
+    int before = 0;  // codes that earlier draws left, beyond the nominal ones
+    for (size_t i = 0; i < doubt.count; ++i) {
+      NearThreshold s = doubt.draws[i];
+      s.above = uppers > 0;
+      s.threshold_of_sum += uint32_t(before);
+      before += int(s.above) - int(s.nominal_above);
+      m.near_thresholds.push_back(s);
+    }
   }
 }
 
 /// What the likely rule leaves after a fragment's nominal draws.
-void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const {
+void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) {
   const bool in_floats = profile_.likely.sums_in_floats;
   for (int i = 0; i < f.nominal; ++i) {
     if (sees_thresholds_) see_thresholds(p, f, blend.enabled);
@@ -70,19 +96,11 @@ void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneVi
     if (given >= t.low && given <= t.high) c.chance = float(std::max(t.second_chance, 1e-3));
     m.choices.push_back(c);
   }
-  for (size_t k = 0; k < 3 && sees_thresholds_; ++k) {
-    NearThreshold s = p.near[k];
-    const double steps = view.stored(x, y, int(k)) - p.likely[k].nominal;  // past the nominal codes
-    const bool is_either = steps == 0 || steps == (s.nominal_above ? -1 : 1);
-    const bool clamped = p.likely[k].nominal >= color_.layout.largest_code(int(k)) - 1;
-    if (p.near_count[k] != 1 || !is_either || clamped) continue;
-    s.above = (steps == 0) == s.nominal_above;
-    m.near_thresholds.push_back(s);
-  }
+  if (sees_thresholds_) tell_conversions(p, x, y, view, m);
 }
 
 /// What the pixel may hold after the fragments, from what it may hold before them.
-void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const {
+void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) {
   const Format format = color_.image->format;
   for (const DrawnFragment& f : fragments) {
     if (!f.output.undefined && color_.quantised()) carry_likely(p, f, blend);

@@ -26,13 +26,17 @@ struct PixelState {
   Texel likely;        ///< by the nominal draws, rounded as the likely rule has it; floats where it keeps them
   std::array<float, 4> value{}, chance{}, drift{};  ///< sums over the draws: sources, chances of other roundings, with
                                                     ///< their signs
-  /// Of each channel the draw, if it is the only one, whose conversion to codes may give either of two.
-  std::array<NearThreshold, 3> near{};
-  std::array<uint8_t, 3> near_count{};
   bool split = false;                               ///< whether the two may differ
   bool open = false;                                ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
+};
+
+/// Of a channel of a pixel the draws whose conversion to codes may give either of two.
+struct ConversionsInDoubt {
+  static constexpr size_t kMost = 2;  ///< that are told apart
+  std::array<NearThreshold, kMost> draws{};
+  size_t count = 0;  ///< kMost + 1: more
 };
 
 class BlendingJudge {
@@ -97,10 +101,11 @@ class BlendingJudge {
   void fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const;
   void judge(int x, int y, int light, const Image* before, const Image* given, std::span<const DrawnFragment> fragments,
              const BlendState& blend);
-  void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) const;
+  void carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend);
   Texel kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const;
-  void see_thresholds(PixelState& p, const DrawnFragment& f, bool added) const;
-  void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) const;
+  void see_thresholds(const PixelState& p, const DrawnFragment& f, bool added);
+  void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend);
+  void tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
   void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
   void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,
               const PlaneView& view, Match& m) const;
@@ -131,6 +136,7 @@ class BlendingJudge {
   std::vector<uint8_t> covered_;
   std::vector<ShadedSurface> surfaces_;
   std::vector<PixelState> pixels_;
+  std::vector<std::array<ConversionsInDoubt, 3>> in_doubt_;  ///< by pixel; empty where they are not looked at
   std::vector<RowTally> rows_;
   bool seen_ = false;         ///< targets are handed over
   Image before_;              ///< the first of the batch

@@ -52,10 +52,10 @@ double crossed_by(std::vector<NearThreshold>& stores, uint32_t NearThreshold::*t
 
 std::optional<NearThreshold> near_threshold(const Range& range, double largest, double reach, uint32_t before,
                                             int channel) {
-  constexpr double kRounding = 0x1p-23;  // relative: the product is a float
   const auto codes = [largest](double x) { return std::clamp(x, 0.0, 1.0) * largest; };
   const double value = codes(range.value), own = reach - 0.5;
-  const double low = codes(range.low) * (1 - kRounding), high = codes(range.high) * (1 + kRounding);
+  const double rounding = 0x1p-22 * (before + value);  // the product is a float, and so may be the sum
+  const double low = codes(range.low) - rounding, high = codes(range.high) + rounding;
   const double code = std::min(std::floor(value), largest - 1), threshold = code + 0.5;
   if (!(low - own <= threshold && high + own >= threshold)) return std::nullopt;
   NearThreshold s;
