@@ -138,8 +138,8 @@ def falloff(model, light, d, d2, r):
     return np.where((w > 0) & (d < reach), w * q, f32(0))
 
 
-def specular(viewed, l, nl, a):
-    """s, and the colour ks."""
+def specular(viewed, l, nl, a, steps):
+    """s, and the colour ks. `steps` gets the numbers on the way."""
     model, n, v = viewed.model, viewed.n, viewed.v
     own = model["specular_source"] in ("material", "metallic_roughness")
     shininess = viewed.specular[3] if own else np.full_like(nl, f32(model["shininess"]))
@@ -147,10 +147,12 @@ def specular(viewed, l, nl, a):
         h = [l[k] + v[k] for k in range(3)]
         h2, nh = dot3(h, h), dot3(n, h)
         t = np.where(nh > 0, nh, f32(0))
+        steps.update(h2=h2, nh=nh)
     else:
         m = f32(2) * to_unit_range(nl)
         reflected = [m * n[k] - l[k] for k in range(3)]
         base = to_unit_range(dot3(reflected, v))
+        steps.update(m=m, R=reflected)
     s = np.zeros_like(nl)
     for p in np.unique(shininess):
         exponent = float(p)
@@ -164,6 +166,7 @@ def specular(viewed, l, nl, a):
         else:
             x = base
         s = np.where(shininess == p, powers.power(x.astype(f32), exponent), s)
+        steps.update(x=x, s=s, p=exponent)
     if model["specular_masked"]:
         s = np.where(a > 0, s, f32(0))
     if own:
@@ -174,14 +177,15 @@ def specular(viewed, l, nl, a):
 
 
 class LightTerm:
-    """What one light adds to each pixel: `color`, three arrays, where `lit`. `inside`: where its extent lets it be."""
+    """What one light adds to each pixel: `color`, three arrays, where `lit`. `inside`: where its extent lets it be.
+    `steps`: numbers on the way, by the page's names."""
 
     def __init__(self, viewed, light, analytic_extent):
         model = viewed.model
         color = [c * f32(model["damping"]) for c in floats(light["color"])]
         self.hold(light, color, model)
         count = len(viewed.alpha)
-        self.inside = np.ones(count, bool)
+        self.inside, self.steps = np.ones(count, bool), {}
         if light["type"] == "ambient":
             self.lit = np.ones(count, bool)
             share = [viewed.albedo[k] * color[k] for k in range(3)]
@@ -217,15 +221,17 @@ class LightTerm:
             a = dot3(n, d_vector)
             nl, l = a * r, [c * r for c in d_vector]
             f, self.lit = falloff(model, light, d, d2, r), np.isfinite(d2)
+            self.steps.update(D=d_vector, d2=d2, d=d, r=r, f=f)
             if analytic_extent:
                 self.inside = d < f32(light["range"])
             if self.cone.kind is not None:
                 g = self.cone.share(dot3(l, axis))
                 self.lit &= g > 0
                 f = f * g
+        self.steps.update(a=a, nl=nl, L=l)
         s = ks = None
         if model["specular"] != "none":
-            s, ks = specular(viewed, l, nl, a)
+            s, ks = specular(viewed, l, nl, a, self.steps)
         always = model["order"] == "with_ambient" or model["diffuse"] == "unclamped"
         if not always and (s is None or model["specular_masked"]):
             self.lit &= a > 0
