@@ -192,6 +192,7 @@ void bench(const BenchOptions& options) {
   result.execution = options.execution;
   result.execution.simd = options.simd;
   result.threads = thread_count(options.execution.threads);
+  result.command = "trueshade" + options.command_line;
   result.simd = options.simd == "best" ? simd_targets().front() : options.simd;
   for (const std::string& spec : options.scenes) {
     result.scenes.push_back(measured(options, spec, result.execution));
@@ -199,7 +200,10 @@ void bench(const BenchOptions& options) {
     if (!json_printed)
       print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
   }
-  if (options.report) result.scaling = scaling_curves(options, result.scenes.front().scene, result.execution);
+  if (options.report) {
+    const SceneTime& first = result.scenes.front();
+    result.scaling = scaling_curves(options, first.scene, first.stats.lights, result.execution);
+  }
   const auto write = [&](const std::string& path, const char* about, const std::string& text) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     say_written(path, about, json_printed ? StandardOutput::answer : StandardOutput::files);

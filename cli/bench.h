@@ -50,7 +50,8 @@ struct SceneTime {
 
 /// How one quantity changes the time: what was varied, and a time at each value.
 struct ScalingCurve {
-  std::string title, axis;
+  std::string title, about;  ///< about: a sentence on what was varied
+  std::string axis;          ///< what the values along it are; empty for bars
   bool log_axis = false;
   struct Point {
     std::string label;
@@ -66,10 +67,12 @@ struct BenchResult {
   std::string simd;  ///< as resolved
   std::vector<SceneTime> scenes;
   std::vector<ScalingCurve> scaling;  ///< empty unless a report was asked for
+  std::string command;                ///< as it was given
 };
 
-/// How frames of city scale with lights, triangles, pixels, threads and SIMD targets, each curve's drawn in turn.
-std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene,
+/// How frames of a scene scale with its lights, triangles, pixels, threads and SIMD targets, each curve's drawn in
+/// turn. `lights`: how many the scene has, which is among the numbers that are drawn.
+std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene, uint64_t lights,
                                          const Execution& execution);
 
 std::string formatted(double value, const char* format);  ///< by printf's format for one double

@@ -67,8 +67,8 @@ std::vector<Step> scenes_of(const std::string& spec, const std::vector<int>& cou
 std::vector<Step> sizes(const std::string& scene, const Execution& execution) {
   std::vector<Step> steps;
   for (const int side : {200, 400, 800, 1600})
-    steps.push_back({std::to_string(side) + "x" + std::to_string(side), side * side * 1e-6, scene, execution,
-                     Size{side, side}});
+    steps.push_back(
+        {std::to_string(side) + "x" + std::to_string(side), side * side * 1e-6, scene, execution, Size{side, side}});
   return steps;
 }
 
@@ -91,32 +91,67 @@ std::vector<Step> targets(const std::string& scene, Execution execution) {
   return steps;
 }
 
-/// What is varied of a scene: size, threads and SIMD target of any; lights of built-in ones; of city, whose generator
-/// takes them, lights at constant overlap and triangles too.
-std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std::string& scene,
+/// A built-in scene's text without these of its values: `builtin:city,objects=60,lights=9` without lights is
+/// `builtin:city,objects=60`.
+std::string without(const std::string& spec, std::initializer_list<std::string_view> keys) {
+  std::string kept;
+  for (size_t begin = 0; begin <= spec.size();) {
+    const size_t end = std::min(spec.find(',', begin), spec.size());
+    const std::string part = spec.substr(begin, end - begin);
+    const bool is_left_out = std::any_of(
+        keys.begin(), keys.end(), [&part](std::string_view key) { return part.starts_with(std::string(key) + '='); });
+    if (!is_left_out) kept += (kept.empty() ? "" : ",") + part;
+    begin = end + 1;
+  }
+  return kept;
+}
+
+/// What is varied of a scene, all else of it as it was measured: size, threads and SIMD target of any; lights of
+/// built-in ones; of city, whose generator takes them, lights at constant overlap and triangles too.
+std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std::string& scene, uint64_t own_lights,
                                                                       const Execution& execution) {
-  const std::vector<int> lights{1, 10, 100, 757, 10000, 100000, 1000000};
-  const std::string generator = scene.substr(0, scene.find(','));
+  std::vector<int> lights;
+  constexpr uint64_t kApart = 3;  // so that the labels of neighbours have room beside each other
+  for (const uint64_t count : {1, 10, 100, 1000, 10000, 100000, 1000000})
+    if (count > own_lights * kApart || count * kApart < own_lights) lights.push_back(int(count));
+  if (own_lights > 0 && own_lights < 1000000) lights.push_back(int(own_lights));
+  std::sort(lights.begin(), lights.end());
+  const std::string unlit = without(scene, {"lights"}), even = without(scene, {"lights", "radius"}),
+                    empty = without(scene, {"objects"});
   std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted;
   if (scene.starts_with("builtin:"))
-    wanted.push_back({{"Lights, " + generator, "lights", true, {}}, scenes_of(generator + ",lights=", lights, execution)});
-  if (generator == "builtin:city") {
-    wanted.push_back({{"Lights at constant overlap, " + generator, "lights", true, {}},
-                      scenes_of(generator + ",radius=overlap,lights=", lights, execution)});
-    wanted.push_back({{"Triangles, " + generator, "triangles", true, {}},
-                      scenes_of(generator + ",objects=", {100, 1000, 10000, 100000}, execution, 12)});
+    wanted.push_back(
+        {{"Lights, " + unlit, "More lights of the same range, so that more of them overlap.", "lights", true, {}},
+         scenes_of(unlit + ",lights=", lights, execution)});
+  if (scene.starts_with("builtin:city")) {
+    wanted.push_back({{"Lights at constant overlap, " + even,
+                       "More lights, each reaching less far, so that a pixel has about as many.",
+                       "lights",
+                       true,
+                       {}},
+                      scenes_of(even + ",radius=overlap,lights=", lights, execution)});
+    wanted.push_back(
+        {{"Triangles, " + empty, "More cubes of twelve triangles on the same ground.", "triangles", true, {}},
+         scenes_of(empty + ",objects=", {100, 1000, 10000, 100000}, execution, 12)});
   }
-  wanted.push_back({{"Pixels, " + scene, "size of the image", true, {}}, sizes(scene, execution)});
-  wanted.push_back({{"Threads, " + scene, "threads", false, {}}, thread_counts(scene, execution)});
-  wanted.push_back({{"SIMD targets, " + scene, "", false, {}}, targets(scene, execution)});
+  wanted.push_back(
+      {{"Pixels, " + scene, "Square images of other sizes.", "size of the image", true, {}}, sizes(scene, execution)});
+  wanted.push_back({{"Threads, " + scene, "The same frame on fewer threads.", "threads", false, {}},
+                    thread_counts(scene, execution)});
+  wanted.push_back({{"SIMD targets, " + scene,
+                     "The same frame by each set of vector instructions that this CPU has.",
+                     "",
+                     false,
+                     {}},
+                    targets(scene, execution)});
   return wanted;
 }
 
 }  // namespace
 
-std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene,
+std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene, uint64_t lights,
                                          const Execution& execution) {
-  const auto wanted = wanted_curves(scene, execution);
+  const auto wanted = wanted_curves(scene, lights, execution);
   ProgressBar bar("scaling", "curves");
   std::vector<ScalingCurve> curves;
   for (const auto& [curve, steps] : wanted) {

@@ -8,8 +8,9 @@
 namespace trueshade {
 namespace {
 
-std::string card(const std::string& title, const std::string& chart) {
-  return "<figure class=chart><b>" + escaped(title) + "</b>\n" + chart + "</figure>\n";
+std::string card(const std::string& title, const std::string& sentence, const std::string& chart) {
+  return "<figure class=chart><b>" + escaped(title) + "</b>\n<p>" + escaped(sentence) + "</p>\n" + chart +
+         "</figure>\n";
 }
 
 std::string about(const SceneTime& s) {
@@ -23,7 +24,11 @@ std::string against_peers(const SceneTime& s) {
                     formatted(peer.timing.median(), "%.1f ms") + formatted(s.ratio(peer), ", %.1fx") +
                         (peer.picture && !peer.picture->right() ? ", another picture" : ""),
                     false});
-  return card(s.scene + ", " + about(s), bar_chart(bars));
+  const std::string title = s.scene + ", " + about(s);
+  return card(title,
+              s.peers.empty() ? "The median of " + std::to_string(s.timing.ms.size()) + " frames."
+                              : "Medians; x is how many times our time a peer takes.",
+              bar_chart(bars, "ms a frame", "Time a frame of " + title));
 }
 
 /// How much faster than by one core the frame would be by what its tiles cost.
@@ -32,61 +37,95 @@ std::string scheduled(const SceneTime& s) {
   for (const int cores : kMoreCores)
     bars.push_back({std::to_string(cores) + " cores", s.scheduled_speedup(cores),
                     formatted(s.scheduled_speedup(cores), "%.1fx"), false});
-  return card(s.scene + ", " + about(s) + ": scheduled on more cores by its tiles' costs", bar_chart(bars));
+  const std::string title = s.scene + ", " + about(s) + ": scheduled on more cores by its tiles' costs";
+  return card(title, "Computed, not timed: the tiles' measured costs dealt to so many cores.",
+              bar_chart(bars, "times as fast as on one core", title));
 }
 
-std::string row(const std::string& name, const std::string& value) {
-  return "<tr><td>" + escaped(name) + "<td>" + escaped(value) + '\n';
+std::string scaling(const ScalingCurve& curve) {
+  std::vector<ChartPoint> points;
+  std::vector<Bar> bars;
+  for (const auto& p : curve.points) {
+    points.push_back({p.x, p.ms, p.label});
+    bars.push_back({p.label, p.ms, formatted(p.ms, "%.2f ms"), false});
+  }
+  return card(curve.title, curve.about,
+              curve.axis.empty() ? bar_chart(bars, "ms a frame", curve.title)
+                                 : line_chart(points, curve.axis, curve.log_axis, curve.title));
+}
+
+std::string row(const std::string& name, const std::string& value, const std::string& meaning) {
+  return "<tr><td>" + escaped(name) + "<td class=number>" + escaped(value) + "<td class=meaning>" + escaped(meaning) +
+         '\n';
+}
+
+struct CountRow {
+  const char *name, *meaning;
+  uint64_t count;
+};
+
+std::string times(const SceneTime& s, const BenchResult& bench) {
+  const FrameStats& f = s.stats;
+  const StageTimes& core = f.core_ms;
+  const double floor = s.floor.ms(bench.machine.clock_ghz, bench.threads);
+  std::string html =
+      row("median", formatted(s.timing.median(), "%.3f ms"), "Half of the frames took longer.") +
+      row("least", formatted(s.timing.least(), "%.3f ms"), "The fastest frame: what the machine can do undisturbed.") +
+      row("spread of the middle half", formatted(100 * s.timing.spread(), "%.1f %%"),
+          "How far the middle half of the frames lies apart, of the median; large where the machine was busy.");
+  html += row("visibility, core time", formatted(core.visibility, "%.3f ms"),
+              "Which triangle each sample sees; summed over threads, as the three below are.") +
+          row("surfaces, core time", formatted(core.surfaces, "%.3f ms"), "Attributes and textures of what is seen.") +
+          row("light, core time", formatted(core.light, "%.3f ms"), "The light of all pixels.") +
+          row("store, core time", formatted(core.store, "%.3f ms"), "Rounding to the target's format, and writing.");
+  return html +
+         row("modelled floor",
+             formatted(floor, "%.3f ms, ") + formatted(100 * floor / s.timing.median(), "%.0f %% of the time"),
+             "What the counts would cost if nothing ever waited (docs/performance.md).") +
+         row("light, of a core", formatted(ns_per_pixel_light(s), "%.2f ns"), "Per pair of pixel and light computed.") +
+         row("rate", rate_text(s), "Small triangles bound the first rate, pixels the second.") +
+         row("most memory", formatted(s.peak_mib, "%.0f MiB"), "Of the process while it prepared and drew the scene.");
 }
 
 std::string counts(const SceneTime& s, const BenchResult& bench) {
   const FrameStats& f = s.stats;
-  const double floor = s.floor.ms(bench.machine.clock_ghz, bench.threads);
-  std::string html = "<details><summary>" + escaped(s.scene) + "</summary>\n<table>\n";
-  html += row("image", "sha256:" + s.hash) +
-          row("median, least", formatted(s.timing.median(), "%.3f ms, ") + formatted(s.timing.least(), "%.3f ms"));
-  html += row("spread of the middle half", formatted(100 * s.timing.spread(), "%.1f %%"));
-  const StageTimes& core = f.core_ms;
-  for (const auto& [stage, ms] : {std::pair("visibility", core.visibility), std::pair("surfaces", core.surfaces),
-                                  std::pair("light", core.light), std::pair("store", core.store)})
-    html += row(stage + std::string(", core time"), formatted(ms, "%.3f ms"));
-  html += row("modelled floor",
-              formatted(floor, "%.3f ms, ") + formatted(100 * floor / s.timing.median(), "%.0f %% of the time"));
-  html += row("light, of a core", formatted(ns_per_pixel_light(s), "%.2f ns a pixel-light computed"));
-  html += row("rate", rate_text(s));
-  for (const auto& [what, count] :
-       {std::pair("triangles submitted", f.triangles), std::pair("triangles set up", f.triangles_tested),
-        std::pair("fragments", f.fragments), std::pair("pixels covered", f.covered_pixels),
-        std::pair("lights tested", f.lights_tested), std::pair("pixel-lights left by tiles", f.tile_pixel_lights),
-        std::pair("pixel-lights computed", f.evaluated_pixel_lights), std::pair("pixel-lights lit", f.lit_pixel_lights),
-        std::pair("bytes stored", s.bytes.stored), std::pair("bytes of clusters drawn", s.bytes.clusters)})
-    html += row(what, grouped(std::to_string(count)));
-  html += row("most memory", formatted(s.peak_mib, "%.0f MiB"));
-  for (const std::string& about : s.peers_about) html += row("peer", about);
-  return html + "</table></details>\n";
+  std::string html = "<details><summary>" + escaped(s.scene) + "</summary>\n<div class=scroll><table>\n" +
+                     row("image", "sha256:" + s.hash.substr(0, 16) + "\xe2\x80\xa6",
+                         "Every frame that was timed has this hash: all are the same picture.") +
+                     times(s, bench);
+  for (const CountRow& r :
+       {CountRow{"triangles submitted", "Over all instances, those out of sight among them.", f.triangles},
+        {"triangles set up", "Those that a tile had to look at, once a tile.", f.triangles_tested},
+        {"fragments", "Samples covered, before the depth test.", f.fragments},
+        {"pixels covered", "Pixels that show a surface.", f.covered_pixels},
+        {"lights tested", "Tests of a light against a tile or a region of it.", f.lights_tested},
+        {"pixel-lights left by tiles", "Pairs of a pixel and a light that its tile's list holds.", f.tile_pixel_lights},
+        {"pixel-lights computed", "Pairs whose light was computed.", f.evaluated_pixel_lights},
+        {"pixel-lights lit", "Pairs that are in range and face each other.", f.lit_pixel_lights},
+        {"bytes stored", "Texels of the target.", s.bytes.stored},
+        {"bytes of clusters drawn", "Geometry that tiles read.", s.bytes.clusters}})
+    html += row(r.name, grouped(std::to_string(r.count)), r.meaning);
+  for (const std::string& about : s.peers_about) html += row("peer", "", about);
+  return html + "</table></div></details>\n";
 }
 
 }  // namespace
 
 std::string bench_page(const BenchResult& bench) {
   std::string html =
-      page_head("Benchmark") + "<h1>Benchmark</h1>\n<p class=quiet>" + escaped(bench_heading(bench)) + "</p>\n";
-  html += "<h2>Time a frame, all drawn in turn in one run; median</h2>\n<div class=charts>\n";
+      page_head("Benchmark") + heading_part("Benchmark") + "<p class=quiet>" + escaped(bench_heading(bench)) + "</p>\n";
+  html +=
+      "<h2>Time a frame</h2>\n<p class=quiet>All that is in a chart was drawn in turn in one run, after the picture "
+      "was checked.</p>\n<div class=charts>\n";
   for (const SceneTime& s : bench.scenes) html += against_peers(s);
-  html += "</div>\n<h2>Scaling</h2>\n<div class=charts>\n";
-  for (const ScalingCurve& curve : bench.scaling) {
-    std::vector<ChartPoint> points;
-    std::vector<Bar> bars;
-    for (const auto& p : curve.points) {
-      points.push_back({p.x, p.ms, p.label});
-      bars.push_back({p.label, p.ms, formatted(p.ms, "%.2f ms"), false});
-    }
-    html += card(curve.title, curve.axis.empty() ? bar_chart(bars) : line_chart(points, curve.axis, curve.log_axis));
-  }
+  html +=
+      "</div>\n<h2>Scaling</h2>\n<p class=quiet>The first scene with one of its values varied, all points of a chart "
+      "drawn in turn.</p>\n<div class=charts>\n";
+  for (const ScalingCurve& curve : bench.scaling) html += scaling(curve);
   for (const SceneTime& s : bench.scenes) html += scheduled(s);
-  html += "</div>\n<h2>Counts</h2>\n";
+  html += "</div>\n<h2>Counts and times</h2>\n";
   for (const SceneTime& s : bench.scenes) html += counts(s, bench);
-  return html + page_end();
+  return html + reproduce_part(bench.command) + page_end();
 }
 
 }  // namespace trueshade

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kWidth = 640, kBarHeight = 24;
 constexpr double kFontSize = 13, kLetterWidth = 7.2;  // the width of a wide font, so that no text is cut off
-constexpr int kPlotHeight = 230, kLeft = 56, kRight = 56, kTop = 26, kBottom = 44;
+constexpr int kPlotHeight = 244, kLeft = 56, kRight = 56, kTop = 40, kBottom = 44;
+constexpr int kInset = 34;  // of the first point from the axis, so that its text covers none of the axis's
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor,
                     const char* color = "var(--text)") {
@@ -22,9 +23,23 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
   return start + escaped(text) + "</text>\n";
 }
 
-std::string open_svg(int width, int height) {
+std::string open_svg(int width, int height, const std::string& about) {
   return "<svg viewBox=\"0 0 " + std::to_string(width) + ' ' + std::to_string(height) +
-         "\" role=\"img\" width=\"100%\">\n";
+         "\" role=\"img\" width=\"100%\" aria-label=\"" + escaped(about) + "\">\n";
+}
+
+/// A line of the grid, from a point along an axis.
+std::string grid_line(double x, double y, char direction, double length) {
+  char line[160];
+  std::snprintf(line, sizeof line, "<path d=\"M%.1f %.1f %c%.1f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n", x,
+                y, direction, length);
+  return line;
+}
+
+std::string tick_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 double width_of(const std::string& text) { return kLetterWidth * double(text.size()); }
@@ -86,7 +101,7 @@ std::vector<double> ticks_of(const Axis& axis) {
 
 }  // namespace
 
-std::string bar_chart(std::span<const Bar> bars) {
+std::string bar_chart(std::span<const Bar> bars, const std::string& unit, const std::string& about) {
   double most = 0.0, labels = 0.0, texts = 0.0;
   for (const Bar& bar : bars) {
     most = std::max(most, bar.value);
@@ -94,21 +109,30 @@ std::string bar_chart(std::span<const Bar> bars) {
   }
   const double left = labels + 10, room = std::max(kWidth - left - texts - 10, kWidth * 0.1);
   const double width = std::max(double(kWidth), left + room + texts + 10);
-  std::string svg = open_svg(int(width), kBarHeight * int(bars.size()) + 4);
+  const double bottom = kBarHeight * double(bars.size()) + 4, axis_height = 36;
+  std::string svg = open_svg(int(width), int(bottom + axis_height), about);
+  Labels ticks;
+  for (const double value : ticks_of({0.0, most, false})) {
+    const double x = left + (most > 0 ? value / most * room : 0.0);
+    svg += grid_line(x, 0, 'v', bottom);
+    ticks.add(x, bottom + 14, tick_text(value), "var(--quiet)");
+  }
+  svg += ticks.svg() + text_at(left + room / 2, bottom + 31, unit, "middle", "var(--quiet)");
   for (size_t i = 0; i < bars.size(); ++i) {
     const double y = kBarHeight * double(i) + 4;
     const double length = most > 0 ? std::max(1.0, bars[i].value / most * room) : 1.0;
     char rect[200];
     std::snprintf(rect, sizeof rect,
                   "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\" fill=\"%s\"/>\n", left, y, length,
-                  kBarHeight - 6, bars[i].accented ? "var(--accent)" : "#56677f");
+                  kBarHeight - 6, bars[i].accented ? "var(--accent)" : "var(--bar)");
     svg += rect + text_at(left - 8, y + 13, bars[i].label, "end") +
            text_at(left + length + 6, y + 13, bars[i].text, "start", "var(--quiet)");
   }
   return svg + "</svg>\n";
 }
 
-std::string line_chart(std::span<const ChartPoint> points, const std::string& axis, bool log_axes) {
+std::string line_chart(std::span<const ChartPoint> points, const std::string& axis, bool log_axes,
+                       const std::string& about) {
   if (points.empty()) return {};
   Axis x{points[0].x, points[0].x, log_axes}, y{log_axes ? points[0].y : 0.0, points[0].y, log_axes};
   for (const ChartPoint& p : points) {
@@ -116,10 +140,10 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
     y.low = std::min(y.low, p.y), y.high = std::max(y.high, p.y);
   }
   const double room_x = kWidth - kLeft - kRight, room_y = kPlotHeight - kTop - kBottom;
-  std::string svg = open_svg(kWidth, kPlotHeight), path, marks;
+  std::string svg = open_svg(kWidth, kPlotHeight, about), path, marks;
   Labels labels;
   for (const ChartPoint& p : points) {
-    const double px = kLeft + x.at(p.x) * room_x, py = kTop + (1 - y.at(p.y)) * room_y;
+    const double px = kLeft + kInset + x.at(p.x) * (room_x - kInset), py = kTop + (1 - y.at(p.y)) * room_y;
     char mark[160];
     std::snprintf(mark, sizeof mark, "%s%.1f %.1f", path.empty() ? "M" : " L", px, py);
     path += mark;
@@ -130,18 +154,13 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
   }
   char frame[200];
   std::snprintf(frame, sizeof frame, "<path d=\"M%d %d V%d H%d\" fill=\"none\" stroke=\"var(--line)\"/>\n", kLeft,
-                kTop / 2, kPlotHeight - kBottom + 4, kWidth - kRight);
+                kTop - 16, kPlotHeight - kBottom + 4, kWidth - kRight);
   svg += frame;
   for (const double value : ticks_of(y)) {
     const double py = kTop + (1 - y.at(value)) * room_y;
-    char line[160];
-    std::snprintf(line, sizeof line, "<path d=\"M%d %.1f h%.0f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n",
-                  kLeft, py, room_x);
-    char label[32];
-    std::snprintf(label, sizeof label, "%g", value);
-    svg += line + text_at(kLeft - 6, py + 4, label, "end", "var(--quiet)");
+    svg += grid_line(kLeft, py, 'h', room_x) + text_at(kLeft - 6, py + 4, tick_text(value), "end", "var(--quiet)");
   }
-  svg += text_at(4, kTop / 2, "ms a frame", "start", "var(--quiet)");
+  svg += text_at(4, 14, "ms a frame", "start", "var(--quiet)");
   svg +=
       "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\" stroke-width=\"2\"/>\n" + marks + labels.svg();
   return svg + text_at(kLeft + room_x / 2, kPlotHeight - 8, axis, "middle", "var(--quiet)") + "</svg>\n";
