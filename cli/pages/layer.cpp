@@ -48,7 +48,15 @@ PageLayer plain_layer(const std::string& id, const std::string& name, const std:
   return layer;
 }
 
-/// Least and most finite value of each channel.
+/// Whether the first three channels are not all 0, which is where nothing was drawn.
+bool is_drawn(const Image& image, int x, int y) {
+  const int channels = std::min(info(image.format).channels, 3);
+  for (int k = 0; k < channels; ++k)
+    if (image.code(x, y, k) != 0) return true;
+  return false;
+}
+
+/// Least and most finite value of each channel where something was drawn.
 std::string extents_of(const Image& image) {
   const FpScope exact_arithmetic;
   const FormatInfo layout = info(image.format);
@@ -56,7 +64,7 @@ std::string extents_of(const Image& image) {
   std::vector<std::array<double, 2>> extents(channels, {HUGE_VAL, -HUGE_VAL});
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      for (size_t k = 0; k < channels; ++k) {
+      for (size_t k = 0; k < channels && is_drawn(image, x, y); ++k) {
         const uint32_t code = image.code(x, y, int(k));
         const double value = layout.number_class == NumberClass::floating ? value_of_code(layout, int(k), code) : code;
         if (!std::isfinite(value)) continue;
@@ -113,6 +121,24 @@ PageLayer layer_of_extents(const std::string& id, const std::string& name, const
   PageLayer layer = plain_layer(id, name, about, image);
   layer.look = Look::extent;
   layer.details.put_raw("extent", extents_of(image));
+  return layer;
+}
+
+PageLayer layer_of_directions(const std::string& id, const std::string& name, const std::string& about,
+                              const Image& image) {
+  PageLayer layer = plain_layer(id, name, about, image);
+  layer.look = Look::direction;
+  return layer;
+}
+
+PageLayer first_channels(PageLayer layer, int channels) {
+  const size_t all = layer.channels(), kept = std::min(all, size_t(channels));
+  layer.channel_names.resize(kept), layer.widths.resize(kept);
+  layer.read = [all, kept, read = layer.read](int x, int y, int count, uint32_t* codes) {
+    std::vector<uint32_t> texels(all * size_t(count));
+    read(x, y, count, texels.data());
+    for (size_t i = 0; i < size_t(count); ++i) std::copy_n(&texels[i * all], kept, codes + i * kept);
+  };
   return layer;
 }
 

@@ -14,7 +14,7 @@ namespace trueshade {
 using Rgb = std::array<uint8_t, 3>;
 
 /// How the values of a layer become colours in the page (script/looks.js has each).
-enum class Look : uint8_t { codes, linear, extent, counts, ids, classes, difference, hidden };
+enum class Look : uint8_t { codes, linear, extent, direction, counts, ids, classes, difference, hidden };
 
 /// How several pixels become one where a large picture is shown reduced.
 enum class Reduction : uint8_t {
@@ -61,9 +61,16 @@ PageLayer layer_of_ids(const std::string& id, const std::string& name, const std
 /// Counts as a heat map.
 PageLayer layer_of_counts(const std::string& id, const std::string& name, const std::string& about, const Image& image);
 
-/// Values as colours between the least and the most of each channel.
+/// Values as colours between the least and the most of each channel. Where all are 0 nothing was drawn.
 PageLayer layer_of_extents(const std::string& id, const std::string& name, const std::string& about,
                            const Image& image);
+
+/// Unit vectors, (N + 1) / 2 as colours.
+PageLayer layer_of_directions(const std::string& id, const std::string& name, const std::string& about,
+                              const Image& image);
+
+/// The first channels of a layer: planes of three numbers are stored with a fourth that says nothing.
+PageLayer first_channels(PageLayer layer, int channels);
 
 /// How far two layers are apart; the page computes it, and holds it itself only where it is reduced.
 PageLayer layer_of_difference(const std::string& name, const std::string& about, const PageLayer& from,

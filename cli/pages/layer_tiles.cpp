@@ -117,7 +117,8 @@ std::string element_of(const std::string& id, const PageLayer& layer, const Page
 }
 
 const char* name_of(Look look) {
-  constexpr const char* kNames[] = {"codes", "linear", "extent", "counts", "ids", "classes", "difference", "hidden"};
+  constexpr const char* kNames[] = {"codes", "linear",  "extent",     "direction", "counts",
+                                    "ids",   "classes", "difference", "hidden"};
   return kNames[size_t(look)];
 }
 

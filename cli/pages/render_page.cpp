@@ -84,11 +84,13 @@ std::string viewer(const RenderedFrame& result) {
   v.add(layer_of_counts("lights", "Lights per pixel", "How many lights reach and face the surface.",
                         plane_named(planes, "light.count")));
   v.add(layer_of_image("albedo", "Albedo", "The surface's colour, linear in [0, 1].", plane_named(planes, "albedo")));
-  v.add(layer_of_extents("normal", "Normal", "World space, of length 1.", plane_named(planes, "normal")));
+  v.add(first_channels(
+      layer_of_directions("normal", "Normal", "World space, of length 1.", plane_named(planes, "normal")), 3));
   v.add(layer_of_extents("Z", "Depth", "Distance from the eye along the view axis, in units of the scene.",
                          plane_named(planes, "Z")));
-  v.add(
-      layer_of_extents("position", "Position", "World space, in units of the scene.", plane_named(planes, "position")));
+  v.add(first_channels(
+      layer_of_extents("position", "Position", "World space, in units of the scene.", plane_named(planes, "position")),
+      3));
   v.add(layer_of_ids("object", "Object", "Objects from 1 in the order of the scene; 0 is nothing drawn.",
                      plane_named(planes, "id.object")));
   v.explain_command = result.explain_command;

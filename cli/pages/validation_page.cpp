@@ -142,8 +142,10 @@ std::string facts(const Validation& v) {
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage,
                  "Pixels of the nominal surface, with the nominal value or the neighbour that rounding may give.");
   for (const DriverFrame::Pass& pass : v.passes)
-    html += fact(number(pass.ms, "%.1f") + " ms", pass.name,
-                 "Time of this pass by the driver, the median of " + std::to_string(v.timed_frames) + " frames.");
+    html += fact(
+        number(pass.ms, "%.1f") + " ms", pass.name,
+        "Time of this pass by the driver, " +
+            (v.timed_frames > 1 ? "the median of " + std::to_string(v.timed_frames) + " frames." : "of one frame."));
   return html +
          fact(number(v.judge_ms / 1000, "%.1f") + " s", "judging",
               "Wall time to find the legal set of each pixel and to test the whole image.") +

@@ -3,7 +3,7 @@
 /// What a reader can set: how much differences are enlarged, how bright linear light is shown, which classes are shown.
 const looks = {gain: 16, exposure: 0, hidden_classes: new Set()};
 
-const kNotANumber = [255, 0, 255];
+const kNotANumber = [255, 0, 255], kNothing = [24, 26, 31];
 const kHiddenShare = 0.35;  // of its brightness that the picture keeps under classes that are switched off
 
 const clamped = share => share > 0 ? Math.min(share, 1) * 255 + 0.5 : 0;  // NaN gives 0
@@ -51,7 +51,15 @@ const painters = {
       else set(i, shown(codes[at], 0), shown(codes[at + second], second), shown(codes[at + third], third));
     }
   },
-  /// Each channel from the least to the most it has in the picture; `extent` says both.
+  /// Unit vectors, (N + 1) / 2; all 0 is nothing.
+  direction(layer, codes, set) {
+    const {channels} = layer;
+    for (let i = 0, at = 0; at < codes.length; ++i, at += channels) {
+      if (!(codes[at] | codes[at + 1] | codes[at + 2])) set(i, ...kNothing);
+      else set(i, ...[0, 1, 2].map(k => clamped((layer.value(codes[at + k], k) + 1) / 2)));
+    }
+  },
+  /// Each channel from the least to the most it has in the picture; `extent` says both. All 0 is nothing.
   extent(layer, codes, set) {
     const {channels, extent} = layer;
     const share = (at, k) => {
@@ -59,6 +67,10 @@ const painters = {
       return high === low ? 128 : clamped((layer.value(codes[at + k], k) - low) / (high - low));
     };
     for (let i = 0, at = 0; at < codes.length; ++i, at += channels) {
+      if (!(codes[at] | codes[at + (channels > 1 ? 1 : 0)] | codes[at + (channels > 2 ? 2 : 0)])) {
+        set(i, ...kNothing);
+        continue;
+      }
       const first = share(at, 0);
       if (channels < 3) set(i, first, first, first);
       else set(i, first, share(at, 1), share(at, 2));
@@ -74,7 +86,7 @@ const painters = {
   ids(layer, codes, set) {
     for (let i = 0, at = 0; at < codes.length; ++i, at += layer.channels) {
       const mixed = Math.imul(codes[at] ^ codes[at] >>> 15, 0x9e3779b1) ^ codes[at];
-      if (codes[at] === 0) set(i, 24, 26, 31);
+      if (codes[at] === 0) set(i, ...kNothing);
       else set(i, 64 + (mixed >>> 8 & 127), 64 + (mixed >>> 16 & 127), 64 + (mixed >>> 24 & 127));
     }
   },

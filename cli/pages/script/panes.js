@@ -25,6 +25,7 @@ class Panes {
     this.marks = [];
     this.split = 0.5;
     this.is_due = false;
+    this.missing = 0;
     this.sizes = new ResizeObserver(() => this.redraw());
   }
 
@@ -93,6 +94,7 @@ class Panes {
     this.is_due = true;
     requestAnimationFrame(() => {
       this.is_due = false;
+      this.missing = 0;  // tiles that are not yet unpacked
       if (this.list.length) for (const pane of this.list) this.draw(pane);
     });
   }
@@ -189,6 +191,7 @@ class Panes {
     if (canvas) return canvas;
     const needs = this.sources_of(layer, level).map(source => [source, source.known(column, row)]);
     if (needs.some(([, codes]) => !codes)) {
+      ++this.missing;
       Promise.all(needs.map(([source]) => source.codes(column, row))).then(() => this.redraw());
       const last = this.last_keys?.get(place);
       return last && painted_tiles.get(last);
