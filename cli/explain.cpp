@@ -64,15 +64,6 @@ void check_explanation(const Question& q, const PixelHistory& history) {
                            std::to_string(q.options.y) + " does not end in the rendered value");
 }
 
-std::vector<AccountValue> values_in_format(const Format format, const StoredPixel& stored) {
-  std::vector<AccountValue> out;
-  for (int c = 0; c < info(format).channels; ++c) {
-    const float value = stored[size_t(c)];
-    out.push_back(info(format).number_class == NumberClass::unorm ? AccountValue(int64_t(value)) : AccountValue(value));
-  }
-  return out;
-}
-
 std::string words_of(const std::vector<AccountValue>& values) {
   std::string text;
   for (const AccountValue& value : values) text += (text.empty() ? "" : ", ") + value_text(value);
@@ -140,18 +131,15 @@ std::vector<AccountValue> finished_pixel(const Question& q) {
   return values_in_format(picture.format, stored_in(picture, q.options.x, q.options.y));
 }
 
-void add_last_lines(const Question& q, const PixelHistory& history, Account& account) {
-  const std::string format(info(q.frame.target.format).name);
-  if (!q.pipeline.post.active()) {
-    account.quantities.push_back(
-        {"stored", format + ", R, G, B, A", values_in_format(q.frame.target.format, history.target.stored)});
-    return;
-  }
+/// Where a post chain follows, what is explained is the target, and the picture's value comes last.
+void add_finished_pixel(const Question& q, Account& account) {
+  if (!q.pipeline.post.active()) return;
   const int n = q.pipeline.post.samples;
   const std::string which =
       n > 1 ? "the upper left of the pixel's " + std::to_string(n) + 'x' + std::to_string(n) + " samples, " : "";
-  account.quantities.push_back({"target", which + format + ", before the post chain",
-                                values_in_format(q.frame.target.format, history.target.stored)});
+  Quantity& target = account.quantities.back();
+  target.name = "target";
+  target.meaning = which + target.meaning + ", before the post chain";
   account.quantities.push_back(
       {"stored", std::string(info(q.pipeline.post.output).name) + ", after the post chain (docs/post.md)",
        finished_pixel(q)});
@@ -177,7 +165,7 @@ void explain(const ExplainOptions& options) {
   check_explanation(question, history);
   Account account = account_of(question.frame, history, options.all_lights ? LightDetail::every : LightDetail::adding);
   if (options.against) account.parts.push_back(against_account(question, history));
-  add_last_lines(question, history, account);
+  add_finished_pixel(question, account);
   if (options.json) return print(account_json(account) + '\n');
   // The stored pixel is a line at the top, where it is looked for first, and at the end, where programs find it.
   const Quantity& stored = account.quantities.back();

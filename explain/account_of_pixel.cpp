@@ -116,19 +116,6 @@ Account triangles_account(const ExplainedFrame& frame, const PixelHistory& histo
   return out;
 }
 
-/// The stored pixel as the target has it: codes, or floats.
-std::vector<AccountValue> stored_values(const BlendTarget& target, const StoredPixel& stored) {
-  const FormatInfo layout = info(target.format);
-  std::vector<AccountValue> out;
-  for (int c = 0; c < layout.channels; ++c) {
-    if (layout.number_class == NumberClass::unorm)
-      out.emplace_back(int64_t(stored[size_t(c)]));
-    else
-      out.emplace_back(stored[size_t(c)]);
-  }
-  return out;
-}
-
 Account draws_account(const std::vector<TargetDraw>& draws, const BlendTarget& target, const std::string& key,
                       const std::string& title, LightDetail detail) {
   Account out(key, title);
@@ -141,8 +128,8 @@ Account draws_account(const std::vector<TargetDraw>& draws, const BlendTarget& t
     Account& part = out.part("draw", draw.what);
     if (draw.light >= 0) part.add("light", draw.light, "index");
     part.add("source", draw.source, "R, G, B, A that the shader hands to the blender");
-    part.quantities.push_back({"before", "what the pixel holds before", stored_values(target, draw.before)});
-    part.quantities.push_back({"after", "and after", stored_values(target, draw.after)});
+    part.quantities.push_back({"before", "what the pixel holds before", values_in_format(target.format, draw.before)});
+    part.quantities.push_back({"after", "and after", values_in_format(target.format, draw.after)});
   }
   out.add("draws", int64_t(draws.size()), "into this pixel");
   if (unchanged > 0) out.add("unchanged", unchanged, "of them leave it as it is");
@@ -180,6 +167,15 @@ void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Accou
 
 }  // namespace
 
+std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored) {
+  std::vector<AccountValue> out;
+  for (int c = 0; c < info(format).channels; ++c) {
+    const float value = stored[size_t(c)];
+    out.push_back(info(format).number_class == NumberClass::unorm ? AccountValue(int64_t(value)) : AccountValue(value));
+  }
+  return out;
+}
+
 Account account_of(const ExplainedFrame& frame, const PixelHistory& history, LightDetail detail) {
   const FpScope fp;
   Account out("pixel", frame_title(frame, history));
@@ -205,13 +201,11 @@ Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Lig
         lights_account(frame, history.target.glass[i], "lights_of_transparent_" + std::to_string(i), detail));
   Account draws = draws_account(history.target.draws, frame.target, "target",
                                 "Target, draw by draw (docs/arithmetic.md, sections 7, 10 and 14)", detail);
-  Account& last = draws.part("stored", "What the target holds");
-  last.add("value", values_of(frame.target, history.target.stored), "as a shader reads it: R, G, B, A");
-  const FormatInfo layout = info(frame.target.format);
-  const char* const kind = layout.number_class == NumberClass::unorm ? " codes" : "";
-  last.quantities.push_back({"stored", std::string(layout.name) + kind + ", in the order R, G, B, A",
-                             stored_values(frame.target, history.target.stored)});
+  draws.add("value", values_of(frame.target, history.target.stored),
+            "of the stored pixel as a shader reads it: R, G, B, A");
   out.parts.push_back(std::move(draws));
+  out.quantities.push_back({"stored", std::string(info(frame.target.format).name) + ", R, G, B, A",
+                            values_in_format(frame.target.format, history.target.stored)});
   return out;
 }
 

@@ -38,6 +38,9 @@ PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 /// The surfaces that light a history's target.
 PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history);
 
+/// A stored pixel as its format has it: codes, or floats.
+std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored);
+
 /// The same in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
 /// pixel. Under `every`, lights that add nothing and
 /// draws that change nothing are parts too, not only counted.
