@@ -10,9 +10,9 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kMostLights = 1024;  ///< of a scene that are tried
-constexpr size_t kTerms = 30000;      ///< lights and pixels together, by which the lights are chosen
+constexpr size_t kTerms = 8000;       ///< lights and pixels together, by which the lights are chosen
 constexpr double kScale = 8;          ///< steps beyond which a pixel may have another fault
-constexpr size_t kFitted = 3;         ///< lights that are fitted to all pixels
+constexpr size_t kFitted = 2;         ///< lights that are fitted to all pixels
 
 /// A symmetric system of three equations.
 struct Normal {
@@ -235,8 +235,14 @@ std::vector<FaultParameter> LightFit::best() const {
   std::vector<FaultParameter> parameters;
   for (size_t i = 0; i < std::min(kFitted, gains.size()); ++i) {
     const FaultParameter found(double(gains[i].second), fitted(gains[i].second));
-    if (std::all_of(found.vector.begin(), found.vector.end(), [](double v) { return std::isfinite(v); }))
-      parameters.push_back(shortest(found));
+    const auto all = [&found](const auto& is) { return std::all_of(found.vector.begin(), found.vector.end(), is); };
+    if (!all([](double v) { return std::isfinite(v); })) continue;
+    // Of a colour these are faults of their own: a light that is missing, or drawn twice.
+    const bool colors = fault_.start == 1;
+    if (colors && (all([](double v) { return std::fabs(v) < 0.02; }) ||
+                   all([](double v) { return std::fabs(v - 2) < 0.02; })))
+      continue;
+    parameters.push_back(shortest(found));
   }
   return parameters;
 }
