@@ -1,5 +1,7 @@
 """Which triangles of a draw cover a sample, with the numbers that interpolation needs: docs/arithmetic.md sections 3, 4
 and 5."""
+import math
+
 import numpy as np
 
 import triangles as tri
@@ -9,7 +11,7 @@ FAR = 2**29  # 1/256 pixel
 
 class Fragment:
     """A covered sample of one triangle. `corners` are f64 [x, y, z, w, attributes...] in the order of section 5, as
-    are `edges`, turned so that `area` is above 0."""
+    are `edges`, turned so that `area` is above 0. `provoking`: attributes of that vertex of the triangle submitted."""
 
     def __init__(self, triangle, placed, sample, counter_clockwise):
         order = min(range(3), key=lambda i: (placed[i][1][1], placed[i][1][0]))
@@ -31,16 +33,32 @@ class Fragment:
         return [float(self.sign * (p - q)) for p, q in zip(a, b)]
 
     def depth(self, window):
-        """RN32 of section 5's depth, without polygon offset."""
+        """RN32 of section 5's depth."""
         z = [(c[2] * u) * window.z_scale + window.z_offset for c, u in zip(self.corners, self.u)]
         g1, g2 = (z[1] - z[0]) / self.area, (z[2] - z[0]) / self.area
-        depth = z[0] + (self.edges[1] * g1 + self.edges[2] * g2)
-        depth = min(max(depth, min(z)), max(z))
+        first, low, high = z[0], min(z), max(z)
+        if window.offset_factor != 0 or window.offset_units != 0:
+            o = self.offset(window, z, g1, g2)
+            first, low, high = first + o, low + o, high + o
+        depth = first + (self.edges[1] * g1 + self.edges[2] * g2)
+        depth = min(max(depth, low), high)
+        if window.offset_factor != 0 or window.offset_units != 0:
+            return np.float32(min(max(depth, window.low), window.high) if window.depth_clamp else min(max(depth, 0), 1))
         return np.float32(min(max(depth, window.low), window.high))
+
+    def offset(self, window, z, g1, g2):
+        """Polygon offset."""
+        sx, sy = self.edge_steps(256, 0), self.edge_steps(0, 256)
+        m = max(abs(sx[1] * g1 + sx[2] * g2), abs(sy[1] * g1 + sy[2] * g2))
+        r = window.depth_unit
+        if r is None:
+            exponent = math.frexp(float(np.float32(max(abs(v) for v in z))))[1] - 1
+            r = 2.0 ** (min(max(exponent, -126), 127) - 23)
+        return m * window.offset_factor + r * window.offset_units
 
     def weights(self, interpolation):
         """b_1, b_2 and r."""
-        if interpolation == "no_perspective":
+        if interpolation == "noperspective":
             r = 1 / self.area
             return self.edges[1] * r, self.edges[2] * r, r
         l = [e * u for e, u in zip(self.edges, self.u)]
@@ -49,20 +67,23 @@ class Fragment:
 
     def attribute(self, index, interpolation="smooth"):
         """RN32 of attribute `index` of the corners."""
+        if interpolation == "flat":
+            return np.float32(self.provoking[index])
         a = [c[4 + index] for c in self.corners]
-        assert interpolation in ("smooth", "no_perspective")
         b1, b2, _ = self.weights(interpolation)
         value = a[0] + (b1 * (a[1] - a[0]) + b2 * (a[2] - a[0]))
         return np.float32(min(max(value, min(a)), max(a)))
 
     def slopes(self, index, interpolation="smooth"):
         """Section 13: the derivatives of an attribute along x and along y, f64."""
+        if interpolation == "flat":
+            return [0.0, 0.0]
         a = [c[4 + index] for c in self.corners]
         b1, b2, r = self.weights(interpolation)
         out = []
         for step in ((256, 0), (0, 256)):
             e = self.edge_steps(*step)
-            if interpolation == "no_perspective":
+            if interpolation == "noperspective":
                 d1, d2 = e[1] * r, e[2] * r
             else:
                 g = [p * u for p, u in zip(e, self.u)]
@@ -106,12 +127,16 @@ class Draw:
 
     def fragments(self, sample):
         """Fragments at a sample, in the order of the triangles."""
+        if not self.window.holds(sample):
+            return []
         found = self.plain_fragments(sample)
         for triangle, fan in self.fans:
             fragment = self.fan_fragment(triangle, fan, sample)
             if fragment:
                 found.append(fragment)
         found.sort(key=lambda f: f.triangle)
+        for f in found:
+            f.provoking = self.attributes(f.triangle)[self.window.provoking]
         return found
 
     def plain_fragments(self, sample):

@@ -95,8 +95,11 @@ def differing(scene, picture, count, chance, say=print):
     return len(wrong)
 
 
-def options_of(preset, strategy, size, target):
-    return ["--preset", preset, "--strategy", strategy, "--size", size] + (["--target", target] if target else [])
+def options_of(preset, strategy, options, target):
+    more = ["--preset", preset, "--strategy", strategy, "--size", options.size]
+    for name, value in (("--target", target), ("--pipeline", options.pipeline), ("--time", options.time)):
+        more += [name, value] if value else []
+    return more
 
 
 def recompute_all(options):
@@ -106,7 +109,7 @@ def recompute_all(options):
         before = None
         for preset, strategy in itertools.product(options.presets, options.strategies):
             target = options.targets[pictures % len(options.targets)] if options.targets else None
-            more = options_of(preset, strategy, options.size, target)
+            more = options_of(preset, strategy, options, target)
             with tempfile.TemporaryDirectory() as folder:
                 scene, picture = drawn(options.command, folder, name, more)
                 before = scene = prepared(scene, before)
@@ -123,7 +126,7 @@ def try_wrong_rules(options):
     unnoticed = 0
     for rule, (preset, strategy, target, change) in RULES.items():
         with tempfile.TemporaryDirectory() as folder:
-            more = options_of(preset, strategy, options.size, target)
+            more = options_of(preset, strategy, options, target)
             scene, picture = drawn(options.command, folder, options.scenes[0], more)
             scene = prepared(scene, None)
             restore = change(scene)
@@ -145,6 +148,8 @@ def main():
     parser.add_argument("--presets", type=words, default=PRESETS)
     parser.add_argument("--strategies", type=words, default=STRATEGIES)
     parser.add_argument("--targets", type=words, default=[], help="formats that take turns, not the presets' own")
+    parser.add_argument("--pipeline", help="as for trueshade render")
+    parser.add_argument("--time", help="as for trueshade render")
     parser.add_argument("--size", default="160x120")
     parser.add_argument("--pixels", type=int, default=80, help="of each picture")
     parser.add_argument("--seed", type=int, default=1)

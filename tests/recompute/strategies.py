@@ -1,4 +1,4 @@
-"""docs/arithmetic.md section 14: how lights come to pixels."""
+"""docs/arithmetic.md sections 14 and 15: how lights come to pixels, and transparent surfaces."""
 import numpy as np
 
 import blending
@@ -97,20 +97,28 @@ class Picture:
         seen = [sf.visible(f, geometry) for f in fragments]
         strategy = self.scene["pipeline"]["strategy"]
         hit = np.array([i for i, (winner, _) in enumerate(seen) if winner is not None], int)
+        depths = [depth for _, depth in seen]
+        glass = [sf.transparent(f, depth, geometry) for f, depth in zip(fragments, depths)]
+        mode = self.scene["pipeline"]["transparency"]["mode"]
         if hit.size:
-            viewed = self.viewed([seen[i][0] for i in hit], hit, [seen[i][1] for i in hit])
+            planes = self.planes([seen[i][0] for i in hit], hit, [depths[i] for i in hit])
+            if mode == "into-albedo":
+                self.into_albedo(planes, [glass[i] for i in hit])
+            viewed = Viewed(self.scene, planes)
             if strategy == "deferred-volumes":
                 self.by_volumes(viewed, hit)
             else:
                 last = 1 if strategy == "forward-multipass" else len(self.scene["lights"])
                 self.by_loop(viewed, hit, last)
         if strategy == "forward-multipass":
-            self.by_passes(fragments, [depth for _, depth in seen])
+            self.by_passes(fragments, depths)
+        if mode == "after-lights":
+            self.after_lights(glass)
         return self.color
 
-    def viewed(self, fragments, places, depths):
+    def planes(self, fragments, places, depths, forward=None):
         chosen = [sf.Surface(self.scene, f) for f in fragments]
-        return Viewed(self.scene, sf.Planes(self.scene, chosen, [self.samples[i] for i in places], depths))
+        return sf.Planes(self.scene, chosen, [self.samples[i] for i in places], depths, forward)
 
     def by_loop(self, viewed, places, last):
         color = viewed.sum_starts()
@@ -140,12 +148,43 @@ class Picture:
 
     def by_passes(self, fragments, depths):
         """The draws after the first, of every fragment whose depth is the stored one."""
-        equal = [[f for f in found if f.stored_depth == depth] for found, depth in zip(fragments, depths)]
+        equal = [[f for f in found if not f.transparent and f.stored_depth == depth]
+                 for found, depth in zip(fragments, depths)]
         rounds = []
-        for k in range(max((len(e) for e in equal), default=0)):
-            places = np.array([i for i, e in enumerate(equal) if len(e) > k], int)
-            rounds.append((places, self.viewed([equal[i][k] for i in places], places, [depths[i] for i in places])))
+        for k, places in in_turn(equal):
+            planes = self.planes([equal[i][k] for i in places], places, [depths[i] for i in places])
+            rounds.append((places, Viewed(self.scene, planes)))
         for index, light in enumerate(self.scene["lights"][1:], 1):
             for places, viewed in rounds:
                 term = LightTerm(viewed, light, self.lights.analytic(index))
                 self.blend(places, viewed, term, term.inside, ADD_LIGHT)
+
+    # --- Section 15 ----------------------------------------------------------------------------------------------
+
+    def into_albedo(self, planes, glass):
+        pipeline = self.scene["pipeline"]
+        target = pipeline["gbuffer"]["albedo"]["format"]
+        for k, places in in_turn(glass):
+            source = np.array([sf.Surface(self.scene, glass[i][k]).albedo for i in places], f32)
+            state = pipeline["transparency"]["blend"]
+            planes.albedo[places] = blending.blended(source, planes.albedo[places], state, target, self.half_round)
+            if formats.channels_of(target) == 3:
+                planes.albedo[places, 3] = 1
+
+    def after_lights(self, glass):
+        for k, places in in_turn(glass):
+            viewed = Viewed(self.scene, self.planes([glass[i][k] for i in places], places, None, True))
+            viewed.alpha = viewed.albedo[3]
+            color = viewed.sum_starts()
+            for index, light in enumerate(self.scene["lights"]):
+                term = LightTerm(viewed, light, self.lights.extents[index] != "unbounded")
+                color = added(color, term.color, term.lit & term.inside)
+            state = self.scene["pipeline"]["transparency"]["blend"]
+            self.color[places] = blending.blended(viewed.result(color), self.color[places], state, self.target,
+                                                  self.half_round)
+
+
+def in_turn(lists):
+    """For each k, which lists have an element k."""
+    for k in range(max((len(e) for e in lists), default=0)):
+        yield k, np.array([i for i, e in enumerate(lists) if len(e) > k], int)

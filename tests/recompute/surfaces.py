@@ -87,10 +87,10 @@ class Geometry:
                 f.object, f.triangle = draw.place_of(f.triangle)
                 o = self.scene["objects"][f.object]
                 material = self.scene["materials"][o["material"]]
-                assert not material["transparent"], "section 15 is left to explain"
                 if tri.is_culled(f.counter_clockwise, geometry["cull_face"], geometry["front_face"], o["mirrored"],
                                  material["double_sided"]):
                     continue
+                f.transparent = material["transparent"] and self.scene["pipeline"]["transparency"]["mode"] != "none"
                 f.stored_depth = stored_depth(f.depth(self.window), geometry["depth_format"])
                 if float(material["alpha_cutoff"]) > 0 and albedo_of(self.scene, f)[3] < f32(material["alpha_cutoff"]):
                     continue
@@ -109,16 +109,27 @@ def stored_depth(depth, name):
     return np.rint(f32(depth) * largest) / largest
 
 
+COMPARISONS = {"less": np.less, "lequal": np.less_equal, "greater": np.greater, "gequal": np.greater_equal,
+               "equal": np.equal, "notequal": np.not_equal}
+
+
+def passes(f, depth, geometry):
+    func = geometry["depth_func"]
+    return func == "always" or (func != "never" and bool(COMPARISONS[func](f.stored_depth, depth)))
+
+
 def visible(fragments, geometry):
-    """The fragment that the depth test leaves, and the depth plane."""
+    """The opaque fragment that the depth test leaves, and the depth plane."""
     depth, winner = stored_depth(f32(geometry["clear_depth"]), geometry["depth_format"]), None
-    passes = {"less": np.less, "lequal": np.less_equal, "greater": np.greater, "gequal": np.greater_equal,
-              "equal": np.equal, "notequal": np.not_equal}
     for f in fragments:
-        func = geometry["depth_func"]
-        if func == "always" or (func != "never" and passes[func](f.stored_depth, depth)):
+        if not f.transparent and passes(f, depth, geometry):
             depth, winner = f.stored_depth, f
     return winner, depth
+
+
+def transparent(fragments, depth, geometry):
+    """Section 15: those that come over the opaque surface."""
+    return [f for f in fragments if f.transparent and passes(f, depth, geometry)]
 
 
 # --- A fragment's values -----------------------------------------------------------------------------------------
@@ -229,7 +240,8 @@ class Surface:
         texel = texel_at(scene, f, "occlusion")
         if texel is not None:
             share = f32(1) + f32(material["occlusion_strength"]) * (texel[0] - f32(1))
-        if material["unlit"] and shows_unlit(model):
+        in_albedo = material["transparent"] and pipeline["transparency"]["mode"] == "into-albedo"
+        if material["unlit"] and shows_unlit(model) and not in_albedo:
             emission, share, specular, albedo = base, f32(1), np.zeros(3, f32), np.append(np.zeros(3, f32), albedo[3])
         self.albedo, self.specular = albedo, np.append(specular, shininess)
         self.emission = np.append(emission, share)
@@ -241,10 +253,12 @@ def shows_unlit(model):
 
 
 class Planes:
-    """What lights read of pixels that have a surface, [n, channels] each, as read back."""
+    """What lights read of pixels that have a surface, [n, channels] each, as read back; or, `forward`, as computed."""
 
-    def __init__(self, scene, surfaces, samples, depths):
-        state, forward = scene["pipeline"]["gbuffer"], scene["pipeline"]["strategy"].startswith("forward")
+    def __init__(self, scene, surfaces, samples, depths, forward=None):
+        state = scene["pipeline"]["gbuffer"]
+        if forward is None:
+            forward = scene["pipeline"]["strategy"].startswith("forward")
         rounding = state["half_round"]
 
         def plane(name, format_name):

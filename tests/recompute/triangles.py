@@ -40,6 +40,15 @@ class Window:
         near, far = float(geometry["depth_near"]), float(geometry["depth_far"])
         self.z_scale, self.z_offset = (far - near, near) if self.zero_to_one else ((far - near) * 0.5, (near + far) * 0.5)
         self.low, self.high = min(near, far), max(near, far)
+        self.offset_factor = float(geometry["polygon_offset_factor"])
+        self.offset_units = float(geometry["polygon_offset_units"])
+        self.depth_unit = {"d24": 1 / (2.0**24 - 1), "d16": 1 / (2.0**16 - 1)}.get(geometry["depth_format"])
+        self.provoking = {"first": 0, "last": 2}[geometry["provoking"]]
+
+    def holds(self, sample):
+        """Whether the viewport has the pixel of a sample."""
+        i, j = sample[0] // 256 - self.x, sample[1] // 256 - self.y
+        return 0 <= i < self.width and 0 <= j < self.height
 
     def snapped(self, clip):
         """Window coordinates [n, 2] in 1/256 pixel of clip positions [n, 4], and which are too far away to have any."""
