@@ -5,6 +5,7 @@
 
 #include "cli/option_texts.h"
 #include "cli/option_values.h"
+#include "cli/shell_words.h"
 #include "cli/unknown_option.h"
 #include "cli/version.h"
 #include "core/error.h"
@@ -262,15 +263,6 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   add_value(bench, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   add_limit_options(bench, options);
   return bench;
-}
-
-/// A word as a shell reads it back.
-std::string for_shell(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// CLI11's message without the line breaks that some have.

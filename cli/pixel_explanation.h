@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <string>
+#include <vector>
 
 namespace trueshade {
 
@@ -7,6 +9,7 @@ namespace trueshade {
 struct PixelExplanation {
   int x = 0, y = 0;  ///< from the top left
   std::string title, text;
+  std::vector<std::array<double, 2>> legal{};  ///< least and most of each channel; empty where not known
 };
 
 }  // namespace trueshade

@@ -13,6 +13,7 @@
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
+#include "cli/shell_words.h"
 #include "cli/written_files.h"
 #include "core/error.h"
 #include "core/file_ending.h"
@@ -95,6 +96,9 @@ RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const P
   RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
   result.notes = notes_of(scene, pipeline);
   if (!options.command_line.empty()) result.command = "trueshade" + options.command_line;
+  // Not of a view, which shows planes, and not where there is no scene by that name to explain.
+  if (!options.scene.empty() && pipeline.view == ImageView::lit)
+    result.explain_command = explain_command(options, pipeline, time, {});
   if (std::string note = encoding_note(options, pipeline); !note.empty()) result.notes.lines.push_back(std::move(note));
   return result;
 }

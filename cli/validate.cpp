@@ -12,6 +12,7 @@
 #include "cli/driver_capture.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
+#include "cli/shell_words.h"
 #include "cli/validation.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
@@ -77,8 +78,14 @@ void fit_capture(const ValidationOptions& options, const CaptureFiles& files, co
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
-/// Our own frame of what was judged, with the planes that a page shows. Nothing of a capture without a target unless one
-/// of these is in it.
+/// The file of a capture's picture, as far as its name tells: a file of planes may hold one.
+std::string picture_of(const CaptureOptions& capture) {
+  if (!capture.image_file.empty()) return capture.image_file;
+  return capture.gbuffer_files.size() == 1 && !capture.map ? capture.gbuffer_files.front() : std::string();
+}
+
+/// Our own frame of what was judged, with the planes that a page shows. Nothing of a capture without a target unless
+/// one of these is in it.
 Frame reference_of(const Scene& scene, const Validation& v) {
   Pipeline pipeline = v.pipeline;
   pipeline.post = {};
@@ -152,7 +159,9 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.report) {
     v.command = "trueshade" + options.command_line;
     v.reference = reference_of(scene, v);
-    const std::string page = validation_page(v);
+    const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
+    v.explain_command = explain_command(options, v.pipeline, options.time, against);
+    const std::string page = validation_page(v, scene);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }
   print(options.json ? validation_json(v) : validation_text(v));

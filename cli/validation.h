@@ -6,7 +6,6 @@
 
 #include "cli/driver_capture.h"
 #include "cli/notes.h"
-#include "cli/pixel_explanation.h"
 #include "judge/diagnosis/finding.h"
 #include "judge/stages/validate.h"
 #include "oracle/capture.h"
@@ -32,8 +31,7 @@ struct Validation {
   double draw_ms = 0, judge_ms = 0;                      ///< wall time, upload and reading files included
   std::string command;                                   ///< as it was given
   std::optional<Frame> reference;                        ///< our own frame, for a page; its planes that a page shows
-  std::string explain_command;                           ///< of PixelExplanation, with {x} and {y}; or empty
-  std::vector<PixelExplanation> explanations;            ///< of single pixels, for a page
+  std::string explain_command;                           ///< that says all of a pixel {x},{y}; or empty
 };
 
 /// Whether every pixel is in its legal set, the driver drew the same again and, unless that is lenient, the image is
@@ -70,6 +68,6 @@ std::string validation_json(const Validation& validation);
 
 /// A page of HTML that needs no other file: the pictures to look into, a map of the classes a stage, tables, the worst
 /// pixels.
-std::string validation_page(const Validation& validation);
+std::string validation_page(const Validation& validation, const Scene& scene);
 
 }  // namespace trueshade

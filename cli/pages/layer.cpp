@@ -48,28 +48,23 @@ PageLayer plain_layer(const std::string& id, const std::string& name, const std:
   return layer;
 }
 
-/// Whether the first three channels are not all 0, which is where nothing was drawn.
-bool is_drawn(const Image& image, int x, int y) {
-  const int channels = std::min(info(image.format).channels, 3);
-  for (int k = 0; k < channels; ++k)
-    if (image.code(x, y, k) != 0) return true;
-  return false;
-}
-
-/// Least and most finite value of each channel where something was drawn.
-std::string extents_of(const Image& image) {
+/// Least and most finite value of each channel, but for pixels that are all 0, which is where nothing was drawn.
+std::string extents_of(const PageLayer& layer) {
   const FpScope exact_arithmetic;
-  const FormatInfo layout = info(image.format);
-  const size_t channels = size_t(layout.channels);
+  const size_t channels = layer.channels();
   std::vector<std::array<double, 2>> extents(channels, {HUGE_VAL, -HUGE_VAL});
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (size_t k = 0; k < channels && is_drawn(image, x, y); ++k) {
-        const uint32_t code = image.code(x, y, int(k));
-        const double value = layout.number_class == NumberClass::floating ? value_of_code(layout, int(k), code) : code;
-        if (!std::isfinite(value)) continue;
-        extents[k] = {std::min(extents[k][0], value), std::max(extents[k][1], value)};
+  std::vector<uint32_t> row(size_t(layer.width) * channels);
+  for (int y = 0; y < layer.height; ++y) {
+    layer.read(0, y, layer.width, row.data());
+    for (size_t at = 0; at < row.size(); at += channels) {
+      if (std::all_of(&row[at], &row[at] + std::min<size_t>(channels, 3), [](uint32_t code) { return code == 0; }))
+        continue;
+      for (size_t k = 0; k < channels; ++k) {
+        const double value = layer.is_float ? layer.value(row[at + k], int(k)) : row[at + k];
+        if (std::isfinite(value)) extents[k] = {std::min(extents[k][0], value), std::max(extents[k][1], value)};
       }
+    }
+  }
   JsonArray all;
   for (const auto& [low, high] : extents)
     all.add_raw(low > high ? "[0, 0]" : JsonArray().add_raw(json_number(low)).add_raw(json_number(high)).text());
@@ -116,12 +111,15 @@ PageLayer layer_of_counts(const std::string& id, const std::string& name, const 
   return layer;
 }
 
+PageLayer shown_by_extents(PageLayer layer) {
+  layer.look = Look::extent, layer.reduction = Reduction::sample;
+  layer.details.put_raw("extent", extents_of(layer));
+  return layer;
+}
+
 PageLayer layer_of_extents(const std::string& id, const std::string& name, const std::string& about,
                            const Image& image) {
-  PageLayer layer = plain_layer(id, name, about, image);
-  layer.look = Look::extent;
-  layer.details.put_raw("extent", extents_of(image));
-  return layer;
+  return shown_by_extents(plain_layer(id, name, about, image));
 }
 
 PageLayer layer_of_directions(const std::string& id, const std::string& name, const std::string& about,
@@ -143,9 +141,9 @@ PageLayer first_channels(PageLayer layer, int channels) {
 }
 
 PageLayer layer_of_difference(const std::string& name, const std::string& about, const PageLayer& from,
-                              const PageLayer& to) {
+                              const PageLayer& to, const std::string& id) {
   PageLayer layer = from;
-  layer.id = "difference", layer.name = name, layer.about = about;
+  layer.id = id, layer.name = name, layer.about = about;
   layer.look = Look::difference, layer.reduction = Reduction::largest, layer.is_read = false;
   layer.base.clear();
   if (layer.is_float) layer.widths.assign(layer.channels(), 32);

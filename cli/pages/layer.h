@@ -65,6 +65,9 @@ PageLayer layer_of_counts(const std::string& id, const std::string& name, const 
 PageLayer layer_of_extents(const std::string& id, const std::string& name, const std::string& about,
                            const Image& image);
 
+/// The same of any layer.
+PageLayer shown_by_extents(PageLayer layer);
+
 /// Unit vectors, (N + 1) / 2 as colours.
 PageLayer layer_of_directions(const std::string& id, const std::string& name, const std::string& about,
                               const Image& image);
@@ -74,7 +77,7 @@ PageLayer first_channels(PageLayer layer, int channels);
 
 /// How far two layers are apart; the page computes it, and holds it itself only where it is reduced.
 PageLayer layer_of_difference(const std::string& name, const std::string& about, const PageLayer& from,
-                              const PageLayer& to);
+                              const PageLayer& to, const std::string& id = "difference");
 
 /// Pixels that are reduced to one where the larger side is over the most that is shown whole; 1 where it is not.
 int reduction_of(int width, int height);

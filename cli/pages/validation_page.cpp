@@ -3,6 +3,7 @@
 
 #include "cli/pages/page.h"
 #include "cli/pages/pixel_classes.h"
+#include "cli/pages/validation_parts.h"
 #include "cli/pages/validation_viewer.h"
 #include "cli/validation.h"
 #include "cli/version.h"
@@ -86,16 +87,6 @@ std::string stage_part(const StageVerdict& s, const oracle::Evidence& evidence, 
          aggregates_table(evidence, least_chance) + worst_table(s);
 }
 
-/// What explains a capture that does not pass.
-std::string diagnosis_part(const Validation& v) {
-  if (v.findings.empty()) return "";
-  std::string html = "<h2>What it looks like</h2>\n";
-  for (const oracle::Finding& f : v.findings)
-    html += "<p>" + std::string(f.together ? "And " : "") + escaped(finding_line(f)) + ".<br><span class=quiet>" +
-            escaped(proof_line(f)) + ".</span></p>\n<div class=command><code>" + escaped(f.command) + "</code></div>\n";
-  return html;
-}
-
 std::string inference_part(const oracle::Verdict& v) {
   if (!v.inferred) return "";
   std::string html =
@@ -159,11 +150,26 @@ std::string heading(const Validation& v) {
 
 }  // namespace
 
-std::string validation_page(const Validation& v) {
-  std::string html = page_head(v.verdict.scene + ", judged") + heading(v) + diagnosis_part(v) + validation_viewer(v) +
-                     facts(v) + about_part(v);
+std::string diagnosis_part(const Validation& v) {
+  if (v.findings.empty()) return "";
+  std::string html = "<h2>What it looks like</h2>\n";
+  for (const oracle::Finding& f : v.findings)
+    html += "<p>" + std::string(f.together ? "And " : "") + escaped(finding_line(f)) + ".<br><span class=quiet>" +
+            escaped(proof_line(f)) + ".</span></p>\n<div class=command><code>" + escaped(f.command) + "</code></div>\n";
+  return html;
+}
+
+std::string stages_part(const Validation& v) {
+  std::string html;
   for (size_t i = 0; i < v.verdict.stages.size(); ++i)
     html += stage_part(v.verdict.stages[i], v.verdict.evidence[i], v.verdict.least_chance(v.verdict.stages.size()));
+  return html;
+}
+
+std::string validation_page(const Validation& v, const Scene& scene) {
+  std::string html = page_head(v.verdict.scene + ", judged") + heading(v) + diagnosis_part(v) +
+                     validation_viewer(v, scene) + facts(v) + about_part(v);
+  html += stages_part(v);
   return html + inference_part(v.verdict) + pipeline_part(pipeline_json(v.pipeline)) + reproduce_part(v.command) +
          page_end();
 }

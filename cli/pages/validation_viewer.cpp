@@ -1,22 +1,18 @@
 #include "cli/pages/validation_viewer.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
+#include <utility>
 
 #include "cli/pages/page.h"
 #include "cli/pages/pixel_classes.h"
+#include "cli/pages/validation_parts.h"
+#include "cli/pages/validation_places.h"
 #include "cli/pages/viewer.h"
 
 namespace trueshade {
 namespace {
 
-using oracle::kPixelClasses;
-using oracle::PixelClass;
 using oracle::StageVerdict;
-using oracle::WorstPixel;
-
-constexpr size_t kMostViolations = 2000, kSamples = 20;  // to go through; samples are spread over the image
 
 /// The captured plane that is looked at: the target, or of a capture without one the first plane that both have.
 struct ComparedPlane {
@@ -60,58 +56,6 @@ PageLayer class_layer(const StageVerdict& s, const std::string& under) {
     for (int i = 0; i < count; ++i) codes[i] = uint32_t(s.classes[size_t(y) * size_t(s.width) + size_t(x + i)]);
   };
   return layer;
-}
-
-std::string digits_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-std::string text_of(const WorstPixel& w) {
-  std::string text;
-  if (!w.plane.empty())
-    text = w.plane + " is " + digits_of(w.given) + ";\nlegal is " + digits_of(w.low) + " to " + digits_of(w.high) +
-           ",\nnominal " + digits_of(w.nominal) + ".";
-  if (!w.note.empty()) text += (text.empty() ? "" : "\n") + std::string("Surface: ") + w.note + ".";
-  return text;
-}
-
-Places violations_of(const Validation& v) {
-  Places places{"Violations", "Pixels in no legal set, the worst of each stage first.", {}, true, {255, 40, 80}};
-  for (const StageVerdict& s : v.verdict.stages) {
-    std::vector<Places::Pixel> found;
-    for (const WorstPixel& w : s.worst)
-      if (w.pixel_class == PixelClass::violation) found.push_back({w.x, w.y, "classes-" + s.stage});
-    const size_t worst = found.size();
-    for (size_t i = 0; i < s.classes.size() && found.size() < kMostViolations; ++i) {
-      if (s.classes[i] != PixelClass::violation) continue;
-      const int x = int(i % size_t(s.width)), y = int(i / size_t(s.width));
-      if (std::none_of(found.begin(), found.begin() + int64_t(worst),
-                       [&](const auto& p) { return p.x == x && p.y == y; }))
-        found.push_back({x, y, "classes-" + s.stage});
-    }
-    places.pixels.insert(places.pixels.end(), found.begin(), found.end());
-  }
-  const uint64_t all = v.verdict.violations();
-  if (places.pixels.size() < all)
-    places.about =
-        "The first of " + grouped(std::to_string(all)) + " pixels in no legal set, the worst of each stage first.";
-  return places;
-}
-
-/// Some pixels of a class in each stage, evenly spread over those that there are.
-Places samples_of(const Validation& v, PixelClass c) {
-  const std::string name(text(c));
-  Places places{"Samples of " + name, "Some of the pixels that are " + name + ".", {}};
-  for (const StageVerdict& s : v.verdict.stages) {
-    const uint64_t step = std::max<uint64_t>(1, s.count(c) / kSamples);
-    uint64_t seen = 0;
-    for (size_t i = 0; i < s.classes.size(); ++i)
-      if (s.classes[i] == c && seen++ % step == 0 && places.pixels.size() < 2 * kSamples)
-        places.pixels.push_back({int(i % size_t(s.width)), int(i / size_t(s.width))});
-  }
-  return places;
 }
 
 /// A picture of how far two are apart, each difference enlarged, for paper and pages without scripts.
@@ -160,7 +104,13 @@ void add_planes(const Validation& v, PageViewer& viewer) {
 
 }  // namespace
 
-std::string validation_viewer(const Validation& v) {
+void add_judgement(const Validation& v, PageViewer& viewer, const std::string& under) {
+  for (const StageVerdict& s : v.verdict.stages) viewer.add(class_layer(s, under));
+  for (Places& places : places_of(v)) viewer.places.push_back(std::move(places));
+  for (PixelExplanation& worst : worst_pixels_of(v)) viewer.explanations.push_back(std::move(worst));
+}
+
+std::string validation_viewer(const Validation& v, const Scene& scene) {
   constexpr int kGain = 16;
   const ComparedPlane plane = compared_plane(v);
   PageViewer viewer;
@@ -176,27 +126,15 @@ std::string validation_viewer(const Validation& v) {
                                      "How far test and reference are apart, channel by channel, enlarged.",
                                      viewer.layers[0], viewer.layers[1]));
       const bool is_float = info(plane.test->format).number_class == NumberClass::floating;
-      viewer.compared = Compared{"reference",
-                                 "test",
-                                 {},
-                                 {},
+      viewer.compared = Compared{"reference", "test",
                                  std::string(is_float ? "Floats" : "Codes") + " as they are stored in " +
                                      std::string(info(plane.test->format).name) +
                                      ". The reference is one legal picture; others are legal too."};
     }
   }
-  for (const StageVerdict& s : v.verdict.stages) viewer.add(class_layer(s, plane.test != nullptr ? "test" : ""));
+  add_judgement(v, viewer, plane.test != nullptr ? "test" : "");
   add_planes(v, viewer);
-  viewer.places.push_back(violations_of(v));
-  for (const PixelClass c : {PixelClass::edge, PixelClass::depth_tie, PixelClass::clip, PixelClass::branch,
-                             PixelClass::tex, PixelClass::undefined, PixelClass::store_2})
-    viewer.places.push_back(samples_of(v, c));
-  viewer.explanations = v.explanations;
-  for (const StageVerdict& s : v.verdict.stages)
-    for (const WorstPixel& w : s.worst)
-      if (!w.plane.empty() || !w.note.empty())
-        viewer.explanations.push_back(
-            {w.x, w.y, "Stage " + s.stage + ": " + std::string(text(w.pixel_class)), text_of(w)});
+  add_accounts(scene, v, viewer);
   viewer.explain_command = v.explain_command;
   return viewer_part(viewer, pictures_of(v, plane, kGain), 0);
 }

@@ -8,7 +8,6 @@ namespace {
 std::string json_of(const Compared& c) {
   JsonObject json;
   json.put("reference", c.reference).put("test", c.test).put("about", c.about);
-  if (!c.low.empty()) json.put("low", c.low).put("high", c.high);
   return json.text();
 }
 
@@ -28,6 +27,16 @@ std::string json_of(const Places& p) {
       .put_raw("color", color.text())
       .put_raw("pixels", pixels.text())
       .text();
+}
+
+std::string json_of(const PixelExplanation& e) {
+  JsonObject json;
+  json.put("x", e.x).put("y", e.y).put("title", e.title).put("text", e.text);
+  JsonArray legal;
+  for (const auto& [low, high] : e.legal)
+    legal.add_raw(JsonArray().add_raw(json_number(low)).add_raw(json_number(high)).text());
+  if (!e.legal.empty()) json.put_raw("legal", legal.text());
+  return json.text();
 }
 
 /// JSON that ends no element of HTML, whatever names are in it.
@@ -52,8 +61,7 @@ std::string viewer_part(const PageViewer& viewer, const std::string& pictures, i
     html += w.elements;
   }
   for (const Places& p : viewer.places) places.add_raw(json_of(p));
-  for (const PixelExplanation& e : viewer.explanations)
-    points.add_raw(JsonObject().put("x", e.x).put("y", e.y).put("title", e.title).put("text", e.text).text());
+  for (const PixelExplanation& e : viewer.explanations) points.add_raw(json_of(e));
   JsonObject manifest;
   manifest.put("width", viewer.layers.front().width).put("height", viewer.layers.front().height);
   manifest.put("tile", kTileSide).put("gain", viewer.gain).put_raw("layers", layers.text());

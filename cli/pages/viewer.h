@@ -22,11 +22,10 @@ struct Places {
   Rgb color{};                  ///< of the marks
 };
 
-/// Two layers that are compared channel by channel, and perhaps the least and most legal values beside them.
+/// Two layers that are compared channel by channel.
 struct Compared {
   std::string reference, test;
-  std::string low, high;  ///< layers of the same channels, or empty
-  std::string about;      ///< a sentence on what the values are
+  std::string about;  ///< a sentence on what the values are
 };
 
 /// The pictures of a page, of one size, and what is said of their pixels.

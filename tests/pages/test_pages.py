@@ -254,6 +254,26 @@ class Page(unittest.TestCase):
         for part in (f"Pixel {x}, {y}", "VIOLATION", "In no legal set", "legal is ", "nominal ", "Surface: instance ", "Object", "Lights"):
             self.assertIn(part, card)
 
+    def test_legal_ranges_and_the_way_to_a_value_are_there(self):
+        path = page("right.html", ("render", "builtin:cornell", "--size", "96x72", "-o", "right.exr", "--aov", PLANES),
+                    ("validate", "builtin:cornell", "--gbuffer", "right.exr", "--quick", "-o", "right.html"))
+        self.open(path)
+        points = self.viewer("v.manifest.points.filter(p => p.legal)")
+        self.assertGreater(len(points), 20)
+        for point in points[:20]:
+            self.viewer(f"v.go_to({point['x']}, {point['y']})")
+            self.browser.wait("document.querySelectorAll('.values tbody tr').length >= 4")
+            rows = self.browser.run("return [...document.querySelectorAll('.values tbody tr')].slice(0, 4).map(r => [...r.cells].map(c => c.textContent));")
+            for cells in rows:
+                low, high = (float(end) for end in (cells[4].split(" \u2026 ") if "\u2026" in cells[4] else [cells[4]] * 2))
+                self.assertTrue(low <= int(cells[2]) <= high, f"{point['x']},{point['y']}: {cells}")
+            card = self.browser.run("return document.querySelector('.pixel').textContent;")
+            self.assertIn("How the reference gets its value", card)
+        command = self.browser.run("return document.querySelector('.pixel .command code').textContent;")
+        self.assertTrue(command.startswith("trueshade explain builtin:cornell "))
+        stored = trueshade(*command.split()[1:]).splitlines()[-1]
+        self.assertIn(", ".join(cells[1] for cells in rows), stored)
+
     def test_a_class_can_be_switched_off(self):
         self.open(wrong_page())
         x, y = self.viewer("v.manifest.marks[0].pixels[0].slice(0, 2)")

@@ -111,28 +111,29 @@ class Inspector {
   /// Both values of each channel, how far they are apart, and what is legal.
   comparison_at(x, y, again) {
     const {compared} = this.manifest, layer_of = id => id && this.layers.get(id);
-    const [reference, test, low, high] = [compared.reference, compared.test, compared.low, compared.high].map(layer_of);
-    const [from, to, least, most] = [reference, test, low, high].map(layer => layer && layer.pixel(x, y, again));
+    const [reference, test] = [compared.reference, compared.test].map(layer_of);
+    const [from, to] = [reference, test].map(layer => layer.pixel(x, y, again));
+    const legal = (this.points.get(`${x},${y}`) || []).find(point => point.legal)?.legal;
     if (!from || !to) return element("p", {className: "quiet"}, "\u2026");
-    const head = ["", reference.name, test.name, "Test \u2212 ref."].concat(least ? ["Legal"] : []);
+    const head = ["", reference.name, test.name, "Test \u2212 ref."].concat(legal ? ["Legal"] : []);
     const rows = from.map((code, k) => element("tr", {className: code === to[k] ? "" : "differs"},
       element("th", {scope: "row"}, reference.channel_names[k]),
       element("td", {}, stored_text(reference, code, k)), element("td", {}, stored_text(test, to[k], k)),
       element("td", {}, difference_text(reference, code, to[k], k)),
-      least && most ? element("td", {}, this.legal_text(low, high, least[k], most[k], k)) : null));
+      legal ? element("td", {}, legal[k] ? this.legal_text(legal[k]) : "") : null));
     return element("div", {}, element("div", {className: "scroll"},
                    element("table", {className: "values"}, element("thead", {}, element("tr", {}, ...head.map(name => element("th", {scope: "col"}, name)))),
                    element("tbody", {}, ...rows))),
-                   element("p", {className: "quiet small"}, compared.about));
+                   element("p", {className: "quiet small"}, compared.about, legal ? " Legal is what OpenGL allows any GPU on the captured surface." : null));
   }
 
-  legal_text(low, high, least, most, k) {
-    const [from, to] = [stored_text(low, least, k), stored_text(high, most, k)];
-    return from === to ? from : `${from} \u2026 ${to}`;
+  legal_text([low, high]) {
+    const text = value => typeof value === "number" ? String(Number(value.toPrecision(9))).replace("-", "\u2212") : value;
+    return low === high ? text(low) : `${text(low)} \u2026 ${text(high)}`;
   }
 
   planes_at(x, y, again) {
-    const {compared = {}} = this.manifest, shown_above = new Set([compared.reference, compared.test, compared.low, compared.high]);
+    const {compared = {}} = this.manifest, shown_above = new Set([compared.reference, compared.test]);
     const rows = [];
     for (const layer of this.layers.values()) {
       if (!layer.whole || layer.look === "classes" || layer.look === "difference" || shown_above.has(layer.id)) continue;

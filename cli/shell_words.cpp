@@ -1,0 +1,30 @@
+#include "cli/shell_words.h"
+
+#include "cli/json_text.h"
+
+namespace trueshade {
+
+std::string for_shell(const std::string& word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string explain_command(const PipelineOptions& options, const Pipeline& pipeline, double time,
+                            const std::string& against) {
+  std::string command = "trueshade explain " + for_shell(options.scene);
+  if (options.preset) command += " --preset " + for_shell(*options.preset);
+  if (options.pipeline_file) command += " --pipeline " + for_shell(*options.pipeline_file);
+  command += " --size " + std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height);
+  if (options.strategy) command += " --strategy " + std::string(name_of(*options.strategy));
+  if (options.target) command += " --target " + std::string(info(*options.target).name);
+  if (options.profile) command += " --profile " + std::string(profile_name(*options.profile));
+  if (time != 0) command += " --time " + json_number(time);
+  command += " --pixel {x},{y}";
+  if (!against.empty()) command += " --against " + for_shell(against);
+  return command;
+}
+
+}  // namespace trueshade
