@@ -1,7 +1,7 @@
-# Writes files of a page as one source of C++. Usage: cmake -DOUT=... -DSTYLE=... -DSCRIPTS="a.js;b.js" -P embed.cmake
+# Writes files of a page as one source of C++. Usage: cmake -DOUT=... -DCSS=... -DSCRIPTS="a.js;b.js" -P embed.cmake
 # A string literal may be no longer than 64 KiB (ISO/IEC 14882 annex B), so each file is one of its own.
 set(delimiter trueshade_page)
-file(READ "${STYLE}" style)
+file(READ "${CSS}" style)
 set(text "// Made by cli/pages/embed.cmake of page.css and script/*.js.\n#include \"cli/pages/embedded.h\"\n\nnamespace trueshade {\n\n")
 string(APPEND text "const std::string_view kPageStyle = R\"${delimiter}(${style})${delimiter}\";\n\n")
 set(parts "")
