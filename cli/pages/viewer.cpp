@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/image_files/zlib_stream.h"
+
 namespace trueshade {
 namespace {
 
@@ -67,7 +69,12 @@ std::string viewer_part(const PageViewer& viewer, const std::string& pictures, i
   manifest.put("tile", kTileSide).put("gain", viewer.gain).put_raw("layers", layers.text());
   if (viewer.compared) manifest.put_raw("compared", json_of(*viewer.compared));
   if (!viewer.explain_command.empty()) manifest.put("explain", viewer.explain_command);
-  manifest.put_raw("marks", places.text()).put_raw("points", points.text());
+  manifest.put_raw("marks", places.text());
+  // Texts of explanations are long and alike.
+  const std::string explanations = points.text();
+  const std::string packed =
+      base64(zlib_stream({reinterpret_cast<const uint8_t*>(explanations.data()), explanations.size()}));
+  html += "<script type=\"text/plain\" id=\"viewer-explanations\">" + packed + "</script>\n";
   return html + "<script type=\"application/json\" id=\"viewer-manifest\">" + in_html(manifest.text()) + "</script>\n";
 }
 

@@ -38,7 +38,7 @@ class Inspector {
     this.readout = element("output", {className: "readout"});
     this.card = element("section", {className: "card pixel", "aria-live": "polite", "aria-label": "The pixel that was clicked"});
     this.points = new Map();
-    for (const point of manifest.points || []) {
+    for (const point of manifest.points) {
       const key = `${point.x},${point.y}`;
       if (!this.points.has(key)) this.points.set(key, []);
       this.points.get(key).push(point);

@@ -6,7 +6,7 @@ function toggle_theme() {
   try { localStorage.setItem("trueshade-theme", root.dataset.theme); } catch { /* pages from files may have no storage */ }
 }
 
-function start_page() {
+async function start_page() {
   document.getElementById("theme")?.addEventListener("click", toggle_theme);
   for (const code of document.querySelectorAll(".command > code")) code.after(copy_button(() => code.textContent));
   const root = document.getElementById("viewer");
@@ -16,6 +16,9 @@ function start_page() {
     document.documentElement.classList.remove("has-script");
     return;
   }
-  root.viewer = new Viewer(root, JSON.parse(read_table("viewer-manifest")));
+  const manifest = JSON.parse(read_table("viewer-manifest"));
+  const explanations = await inflated(bytes_of_base64(read_table("viewer-explanations")));
+  manifest.points = JSON.parse(new TextDecoder().decode(explanations));
+  root.viewer = new Viewer(root, manifest);
 }
 start_page();
