@@ -62,11 +62,11 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, con
   if (frame.pipeline.light_model.specular != Specular::none)
     out.add("ks", pixel.specular, "specular colour").add("shininess", pixel.shininess, "");
   out.add("start", pixel.start, "what the sum starts from: emission and ambient light of the scene");
-  std::vector<size_t> by_fate[4];
+  std::vector<size_t> by_fate[kLightFates];
   for (size_t i = 0; i < total.lights.size(); ++i) by_fate[size_t(total.lights[i].fate)].push_back(i);
   out.add("adding", int64_t(by_fate[0].size()), "lights that add something");
-  constexpr const char* kNames[4] = {"", "out_of_reach", "behind", "outside_cone"};
-  for (size_t fate = 1; fate < 4; ++fate)
+  constexpr const char* kNames[kLightFates] = {"", "out_of_reach", "behind", "outside_cone", "not_drawn"};
+  for (size_t fate = 1; fate < kLightFates; ++fate)
     if (!by_fate[fate].empty())
       out.add(kNames[fate], ranges(by_fate[fate]),
               "indices of lights that add nothing: " + std::string(text(LightFate(fate))));

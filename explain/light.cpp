@@ -104,7 +104,7 @@ void color(const LightModel& model, const LightRow& light, const LitPixel& pixel
   if (model.specular == Specular::phong && model.diffuse == Diffuse::clamped) at.c = at_most(at.c, 1.0f);
   const float f = at.g * at.f, c = at.c, s = at.s, all = shines && tinted ? c + s : c;
   for (size_t k = 0; k < 3; ++k) {
-    const float albedo = pixel.albedo[k], color = light.color[k], ks = tinted ? albedo : pixel.specular[k];
+    const float albedo = pixel.albedo[k], color = light.color[k], ks = pixel.specular[k];
     const float reflected = shines && !tinted ? albedo * all + ks * s : albedo * all;
     switch (model.order) {
       case TermOrder::factored:
@@ -153,6 +153,8 @@ std::string_view text(LightFate fate) {
       return "behind the surface";
     case LightFate::outside_cone:
       return "outside the cone";
+    case LightFate::not_drawn:
+      return "its geometry is not drawn here";
   }
   return {};  // unreachable: every enumerator returns above
 }
@@ -166,8 +168,8 @@ LitPixel lit_pixel(const LightModel& model, const LightTable& lights, const Surf
   out.viewer = model.viewer == Viewer::local
                    ? unit({eye[0] - out.position[0], eye[1] - out.position[1], eye[2] - out.position[2]})
                    : Vector{lights.view_axis[0], lights.view_axis[1], lights.view_axis[2]};
-  const bool glossy = reads_specular_plane(model);
-  for (size_t k = 0; k < 3; ++k) out.specular[k] = glossy ? surface.specular[k] : model.specular_color[int(k)];
+  const bool glossy = reads_specular_plane(model), tinted = model.specular_source == SpecularSource::albedo;
+  for (size_t k = 0; k < 3; ++k) out.specular[k] = glossy ? surface.specular[k] : tinted ? out.albedo[k] : model.specular_color[int(k)];
   // A plane that was handed over may hold any shininess.
   const float low = positive(surface.specular[3]);
   out.shininess = glossy ? std::nearbyint(at_most(low, 8192.0f)) : model.shininess;

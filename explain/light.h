@@ -13,15 +13,17 @@ enum class LightFate : uint8_t {
   adds,
   out_of_reach,  ///< the squared distance is not below the falloff's or the extent's end, or not finite
   faces_away,    ///< N . L is not above 0, and the model adds nothing there
-  outside_cone
+  outside_cone,
+  not_drawn  ///< its geometry does not cover the pixel, or is culled there
 };
+inline constexpr size_t kLightFates = 5;
 std::string_view text(LightFate fate);
 
 /// What a pixel is lit with beside its lights: what they all read. docs/arithmetic.md section 8.
 struct LitPixel {
   std::array<float, 3> position, normal, viewer;  ///< N and V as the model has them
   std::array<float, 4> albedo;
-  std::array<float, 3> specular;  ///< ks
+  std::array<float, 3> specular;  ///< ks: of the surface, of the model, or the albedo
   float shininess;
   float occlusion;
   std::array<float, 3> start;  ///< what the sum starts from

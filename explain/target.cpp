@@ -80,6 +80,7 @@ void draw_volumes(const ExplainedFrame& frame, const PixelSurfaces& surfaces, Wi
     drawing.store("what the surface has without lights", kNoLight, received(model, surface, surface.start));
   for (size_t i = 0; i < frame.scene.lights.size(); ++i) {
     out.geometry.push_back(geometry_at(frame, frame.scene.lights[i], pixel));
+    if (out.geometry.back() == 0) out.visible.lights[i].fate = LightFate::not_drawn;
     if (!inside_extent(frame.lights.row[i], surface)) continue;
     for (uint32_t k = 0; k < out.geometry.back() * uint32_t(times[i]); ++k)
       drawing.draw(name_of_light(i), i, frame.pipeline.blend, source_of(model, surface, out.visible.lights[i]));

@@ -122,6 +122,18 @@ TEST_CASE("an explanation ends in the stored pixel, of every preset, strategy an
   }
 }
 
+TEST_CASE("a light whose geometry is culled at a pixel is said to be not drawn there") {
+  const Scene scene = load_scene("builtin:cornell,lights=3");
+  Pipeline pipeline = *preset_pipeline("redsdk");
+  pipeline.width = pipeline.height = 64;
+  const ExplainedFrame frame(scene, pipeline);
+  const PixelHistory history = history_of(frame, 20, 40);
+  REQUIRE(history.target.geometry.size() == 3);
+  CHECK(history.target.geometry[1] == 0);
+  CHECK(history.target.visible.lights[1].fate == LightFate::not_drawn);
+  CHECK(history.target.visible.lights[0].fate == LightFate::adds);
+}
+
 TEST_CASE("an explanation ends in the stored pixel, of random scenes and pipelines with maps and glass") {
   Pcg32 random(29);
   uint64_t covered = 0;
