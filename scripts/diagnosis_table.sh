@@ -52,7 +52,7 @@ awk -F'\t' '
     print ""
     print "- *Near legal*: tries whose picture differs from one that a right renderer may draw in fewer than 100 pixels. That"
     print "  renderer is made for each try (`tests/judge/diagnosis/legal_witness.h`): it sums the lights in long double, or"
-    print "  within the error of floats, and converts to codes by one function that does not decrease and stays within 0.6"
+    print "  within 16 roundings of floats, and converts to codes by one function that does not decrease and stays within 0.6"
     print "  of a code, as D3D11.3 lets hardware do. A judge that is just cannot convict where no pixel differs."
     print "- *Convicted*: the command ends with exit code 1, of the tries that are not near legal; *of all*: of every try."
     print "- *Named first*: the first finding is the fault. *Named*: one of three is."

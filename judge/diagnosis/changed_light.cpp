@@ -67,6 +67,13 @@ class LightFit {
   Normal equations(size_t light, const Triple3& at, size_t most, double scale) const;
   double error(size_t light, const Triple3& at, double scale) const;
   Triple3 fitted(size_t light) const;
+  /// Whether the changed light adds anything to any pixel.
+  bool shines(size_t light, const Triple3& at) const {
+    const Light here = changed(light, at);
+    return std::any_of(seen_.begin(), seen_.end(), [&](const Seen& s) {
+      return PredictedTerms(supposed_.pass, s.surface).term(s.surface, here) != Triple3{};
+    });
+  }
   double cost(const FaultParameter& parameter) const {
     PictureSupposition s = supposed_;
     s.suppose(fault_, parameter);
@@ -242,6 +249,8 @@ std::vector<FaultParameter> LightFit::best() const {
     if (colors && (all([](double v) { return std::fabs(v) < 0.02; }) ||
                    all([](double v) { return std::fabs(v - 2) < 0.02; })))
       continue;
+    if (colors && !all([](double v) { return v >= 0; })) continue;
+    if (!shines(size_t(found.number), found.vector)) continue;  // it might as well be missing
     parameters.push_back(shortest(found));
   }
   return parameters;

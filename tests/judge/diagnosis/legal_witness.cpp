@@ -88,11 +88,9 @@ class Witness {
  private:
   /// False where a plane is missing, or nothing explains what is stored where nothing is drawn.
   bool add(int x, int y);
-  Converted converted(const LitSum& sum, size_t k, size_t lights, double shininess) const {
-    const bool clamps = pipeline_.light_model.clamp_result;
-    const double value = clamps ? std::clamp(sum.color[k], 0.0, 1.0) : sum.color[k];
-    const double relative = shininess * 0x1p-21 * std::log(2.0) + double(lights + 40) * 0x1p-23;
-    return {std::clamp(value, 0.0, 1.0) * largest_, relative * sum.magnitude[k] * largest_};
+  Converted converted(const LitSum& sum, size_t k) const {
+    const double value = std::clamp(double(sum.color[k]), 0.0, 1.0) * largest_;
+    return {value, 0x1p-19 * value};  // sixteen roundings of floats: far less than OpenGL lets a renderer err
   }
   /// A pixel that has one conversion in doubt says which way it went.
   static void learn(const Stored& s, Thresholds& known) {
@@ -156,12 +154,11 @@ bool Witness::add(int x, int y) {
     if (emission != nullptr) s.emission[i] = emission->value(x, y, k);
   }
   if (specular != nullptr) s.shininess = specular->value(x, y, 3);
-  const double shininess = reads_specular_plane(m) ? s.shininess : double(m.shininess);
   std::array<Stored, 3> out;
   for (int k = 0; k < 3; ++k) out[size_t(k)].code = int(capture_.color.code(x, y, k)), out[size_t(k)].pixel = pixel;
   const auto convert = [&](const Scene& lit) {
     const LitSum sum = lit_sum(s, lit, m, axis_);
-    for (size_t k = 0; k < 3; ++k) out[k].parts.push_back(converted(sum, k, lit.lights.size(), shininess));
+    for (size_t k = 0; k < 3; ++k) out[k].parts.push_back(converted(sum, k));
   };
   if (alone_.empty()) {
     convert(scene_);
