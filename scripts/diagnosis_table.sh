@@ -81,7 +81,7 @@ awk -F'\t' '
     for (i = 1; i <= freed; ++i) print free[i]
     print ""
     printf "Convicted although no pixel differs from what a right renderer may draw: %d.\n\n", unjust
-    printf "A diagnosis took %.0f ms on average and %.0f ms at most.\n", ms / all, slowest
+    printf "A diagnosis took %.0f ms on average and %.0f ms at most, by the clock of a machine that others used, too.\n", ms / all, slowest
   }' "${singles[@]}"
 ((${#pairs[@]})) || exit 0
 awk -F'\t' '
