@@ -46,7 +46,7 @@ awk -F'\t' '
     print ""
     print "By scripts/diagnosis_table.sh. Each fault is planted in captures of `city` (60 lights, 300 objects), `cornell`"
     print "and `circle` (24 lights) of 128x96 pixels, as rgba8 and rgba16f, by `deferred-loop` and `deferred-volumes`,"
-    print "under one or two presets and in several sizes; of these all or one in four to twelve are tried, and tries"
+    print "under one or two presets and in several sizes; of these all or one in three to thirteen are tried, and tries"
     print "in which the fault changes fewer than 100 pixels are left out. The capture is a file whose driver has 8 subpixel"
     print "bits."
     print ""
