@@ -20,6 +20,7 @@ void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
 void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
+int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
 /// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full

@@ -26,6 +26,7 @@ int execute(const Command& command) {
   if (const auto* options = std::get_if<ExplainOptions>(&command)) explain(*options);
   if (const auto* options = std::get_if<BenchOptions>(&command)) bench(*options);
   if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
+  if (const auto* options = std::get_if<CompareOptions>(&command)) return compare_pictures(*options);
   if (const auto* options = std::get_if<PrintText>(&command)) print(options->text);
   return 0;
 }

@@ -14,14 +14,6 @@
 namespace trueshade {
 namespace {
 
-/// One file cannot hold two documents, and who wants two has mistyped a name.
-void check_named_once(const std::string& option, std::vector<std::string> files) {
-  for (std::string& file : files) file = std::filesystem::path(file).lexically_normal().string();
-  std::sort(files.begin(), files.end());
-  const auto twice = std::adjacent_find(files.begin(), files.end());
-  if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
-}
-
 /// Files of several frames, or of several outputs in one frame, have names of their own.
 void check_frame_names(const std::vector<std::string>& outputs, FrameRange frames) {
   std::vector<std::string> names;
@@ -57,6 +49,13 @@ void check_outputs(const RenderOptions& options) {
 void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
 
 }  // namespace
+
+void check_named_once(const std::string& option, std::vector<std::string> files) {
+  for (std::string& file : files) file = std::filesystem::path(file).lexically_normal().string();
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
+}
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.size) options.size = size_from_text(*texts.size);

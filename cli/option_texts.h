@@ -2,6 +2,7 @@
 // Option values as text, and what the commands make of them: so every error is of one form.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
 
@@ -43,6 +44,16 @@ struct BenchTexts {
   std::optional<std::string> size, strategy, threads, against;
 };
 
+/// Of compare.
+struct CompareTexts {
+  std::optional<std::string> difference, ulp, pixels, delta, psnr, flip, flip_median, ppd, mapper, exposures, color_space,
+      threads;
+  bool low = false, high = false, no_judge = false;
+};
+
+/// One file cannot hold two documents, and who wants two has mistyped a name: Error(usage).
+void check_named_once(const std::string& option, std::vector<std::string> files);
+
 /// The options of a command with the values of their texts, checked by themselves and together. Error(usage) names the
 /// option.
 RenderOptions finished(RenderOptions options, const RenderTexts& texts);
@@ -53,5 +64,6 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);
 ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts);
 BenchOptions finished(BenchOptions options, const BenchTexts& texts);
+CompareOptions finished(CompareOptions options, const CompareTexts& texts);
 
 }  // namespace trueshade

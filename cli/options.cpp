@@ -265,6 +265,49 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options, BenchTexts& texts) {
   return bench;
 }
 
+CLI::App* add_compare(CLI::App& app, CompareOptions& options, CompareTexts& texts) {
+  CLI::App* command = app.add_subcommand("compare", "Compare two pictures, or two folders of pictures");
+  add_value(command, "REFERENCE", "FILE", options.reference,
+            "Picture that is right, or a folder of them: .exr, .png, .hdr, .tif, .dds, .npy, .jpg")
+      ->required();
+  add_value(command, "TEST", "FILE", options.test, "Picture that is in question, or a folder")->required();
+  add_value(command, "--max-difference", "D", texts.difference,
+            "No value differs by more than D: a number, or a fraction like 2/255");
+  add_value(command, "--max-ulp", "COUNT", texts.ulp,
+            "No value differs by more steps of its storage: floats, halves, codes");
+  add_value(command, "--pixels", "COUNT", texts.pixels, "At most so many pixels differ by more than --delta");
+  add_value(command, "--delta", "D", texts.delta, "What --pixels lets pass; without it 0");
+  add_value(command, "--psnr", "DB", texts.psnr, "Each channel's peak signal-to-noise ratio is at least so many dB");
+  add_value(command, "--flip", "MEAN", texts.flip, "The mean of FLIP's map is at most MEAN; 1 never fails");
+  add_value(command, "--flip-median", "BOUND", texts.flip_median,
+            "The weighted median of FLIP's map is at most BOUND");
+  add_value(command, "--ppd", "COUNT", texts.ppd, "Of FLIP: pixels per degree of the visual field (67.02)");
+  add_switch(command, "--ldr", texts.low, "Of FLIP: colours are what a screen shows; the default for codes");
+  add_switch(command, "--hdr", texts.high, "Of FLIP: colours are light of any strength; the default for floats");
+  add_value(command, "--tone-mapper", "NAME", texts.mapper, "Of FLIP --hdr: " + joined(compare::kToneMapperNames));
+  add_value(command, "--exposures", "START,STOP[,COUNT]", texts.exposures,
+            "Of FLIP --hdr: factors of light as powers of 2, instead of those found from the reference");
+  add_value(command, "--color-space", "NAME", texts.color_space,
+            "What both pictures' R, G and B are, whatever the files say: srgb or linear");
+  add_switch(command, "--allow-nonfinite", options.rules.allow_not_finite,
+             "Infinities and NaN pass where both pictures have the same");
+  add_switch(command, "--no-judge", texts.no_judge,
+             "Compare values although the reference carries its scene, by which pixels can be judged");
+  add_values(command, "-o,--output", "FILE", options.outputs,
+             "Differences to write: .png as FLIP's map, .exr as numbers; of folders a folder for maps; may be repeated");
+  add_value(command, "--junit", "FILE", options.junit, "JUnit XML to write, .xml, for CI services");
+  add_switch(command, "--accept", options.accept,
+             "Copy test pictures that do not pass over their references, but none that is not finite");
+  add_switch(command, "--json", options.json, "Print all of it as one JSON document");
+  add_value(command, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core; never changes a figure");
+  add_limit_options(command, options);
+  command->footer(
+      "Without a criterion every stored value has to be equal. Values that are not finite, and sizes, parts or channels "
+      "that do not fit together, fail under every criterion.\n"
+      "Exit codes: 0 they pass, 1 they do not; others as for trueshade.");
+  return command;
+}
+
 /// CLI11's message without the line breaks that some have.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -339,6 +382,8 @@ Command command_from_arguments(int count, const char* const* arguments) {
   ExplainTexts explain_texts;
   BenchOptions benchmark;
   BenchTexts bench_texts;
+  CompareOptions comparison;
+  CompareTexts compare_texts;
   const CLI::App* render_command = add_render(app, render, texts);
   const CLI::App* info_command = add_info(app, info, info_texts);
   CLI::App* list_command = app.add_subcommand("list", "List scenes, presets, formats, planes and SIMD targets");
@@ -349,6 +394,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   const CLI::App* shade_command = add_shade(app, shaded, shade_texts);
   const CLI::App* explain_command = add_explain(app, explained, explain_texts);
   const CLI::App* bench_command = add_bench(app, benchmark, bench_texts);
+  const CLI::App* compare_command = add_compare(app, comparison, compare_texts);
   std::vector<std::string> words(arguments + 1, arguments + std::max(count, 1));
   if (!words.empty() && words[0] == "help") {  // `help COMMAND` is `COMMAND --help`
     words.erase(words.begin());
@@ -357,7 +403,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (!words.empty()) check_first_argument(app, words[0]);
   std::string command_line;
   for (const std::string& word : words) command_line += ' ' + for_shell(word);
-  render.command_line = validation.command_line = benchmark.command_line = command_line;
+  render.command_line = validation.command_line = benchmark.command_line = comparison.command_line = command_line;
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     app.parse(words);
@@ -382,6 +428,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (shade_command->parsed()) return finished(std::move(shaded), shade_texts);
   if (explain_command->parsed()) return finished(std::move(explained), explain_texts);
   if (bench_command->parsed()) return finished(std::move(benchmark), bench_texts);
+  if (compare_command->parsed()) return finished(std::move(comparison), compare_texts);
   return list;
 }
 

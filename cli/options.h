@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/limit_options.h"
+#include "compare/comparison.h"
 #include "core/image_files/image_io.h"
 #include "gl/emit/glsl_terms.h"
 #include "scenes/pipeline/pipeline.h"
@@ -132,13 +133,26 @@ struct ExplainOptions : PipelineOptions {
   bool json = false;
 };
 
+/// `trueshade compare`: two pictures, or two folders of them.
+struct CompareOptions : LimitedOptions {
+  std::string reference, test;
+  compare::CompareRules rules;
+  bool judges = true;                 ///< by the reference's scene, where it carries one and no criterion is given
+  std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders one folder
+  std::optional<std::string> junit;   ///< .xml
+  bool accept = false;                ///< copy test pictures that do not pass over their references
+  std::string command_line;           ///< as it was given, for a shell
+  bool json = false;
+};
+
 /// `--help` and `--version`: what to print.
 struct PrintText {
   std::string text;
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, PrintText>;
+                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions,
+                             PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

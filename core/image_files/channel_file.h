@@ -46,6 +46,10 @@ struct ChannelFile {
   std::string path;
   int width = 0, height = 0;  ///< pixels
   std::vector<Channel> channels;
+  /// Of an EXR whose data window is not its display window: the size of that, and where in it the pixels begin.
+  int frame_width = 0, frame_height = 0, left = 0, top = 0;
+
+  bool is_window() const { return frame_width != 0; }
 };
 
 /// Reads all channels of an EXR (of scan lines or tiles, of one part or several of one size), PNG, TIFF, DDS or .npy,
@@ -67,8 +71,12 @@ ChannelFile dds_channels(const std::string& where, std::span<const uint8_t> byte
 /// bytes, integers of 4.
 ChannelFile tiff_channels(const std::string& where, std::span<const uint8_t> bytes);
 
+/// Radiance HDR (RGBE): R, G and B as floats, m * 2^(e - 136) of a code m and the exponent e. EXPOSURE and COLORCORR of
+/// its header are not applied.
+ChannelFile hdr_channels(const std::string& where, std::span<const uint8_t> bytes, uint64_t most_expansion);
+
 /// The parts of an EXR, by OpenImageIO. The lengths in its header have been checked (exr_layout.h).
-ChannelFile exr_part_channels(const std::string& where, std::span<const uint8_t> bytes);
+std::vector<ChannelFile> exr_part_channels(const std::string& where, std::span<const uint8_t> bytes);
 
 /// R, G, B, A for up to four channels, else 0, 1, 2, ...
 std::string channel_name(size_t index, size_t count);

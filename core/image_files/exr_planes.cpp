@@ -43,13 +43,16 @@ class ExrFile {
     return true;
   }
 
-  /// Rows [first, end) of all channels, each in its own type.
+  /// Rows [first, end) of the data window, all channels, each in its own type.
   void read(int first, int end, std::vector<uint8_t>& rows) {
     rows.resize(size_t(end - first) * size_t(spec_.width) * spec_.pixel_bytes(true));
-    const bool done = spec_.tile_width == 0 ? file_->read_scanlines(part_, 0, first, end, 0, 0, spec_.nchannels,
-                                                                    OIIO::TypeDesc::UNKNOWN, rows.data())
-                                            : file_->read_tiles(part_, 0, 0, spec_.width, first, end, 0, 1, 0,
-                                                                spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data());
+    const int left = spec_.x, top = spec_.y;
+    const bool done =
+        spec_.tile_width == 0
+            ? file_->read_scanlines(part_, 0, top + first, top + end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN,
+                                    rows.data())
+            : file_->read_tiles(part_, 0, left, left + spec_.width, top + first, top + end, 0, 1, 0, spec_.nchannels,
+                                OIIO::TypeDesc::UNKNOWN, rows.data());
     if (!done) throw failure();
   }
 
@@ -198,33 +201,36 @@ void append_words(const std::vector<uint8_t>& rows, size_t pixel_bytes, size_t o
   }
 }
 
-void add_part(const std::string& path, ExrFile& exr, ChannelFile& file) {
+ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
   const OIIO::ImageSpec& spec = exr.spec();
-  check_window(path, spec);
-  if (file.width == 0) file.width = spec.width, file.height = spec.height;
-  if (file.width != spec.width || file.height != spec.height)
-    throw bad_image(path, "its parts have two sizes", "store parts of one size");
-  const size_t before = file.channels.size();
+  check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
+  if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
+  ChannelFile file{path, spec.width, spec.height, {}};
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.full_width != spec.width ||
+      spec.full_height != spec.height)
+    file.frame_width = spec.full_width, file.frame_height = spec.full_height, file.left = spec.x - spec.full_x,
+    file.top = spec.y - spec.full_y;
   for (int c = 0; c < spec.nchannels; ++c) file.channels.push_back(exr_channel_of(path, spec, c));
   std::vector<uint8_t> rows;
   const int at_once = spec.tile_width == 0 ? kRowsAtOnce : spec.tile_height;
   for (int first = 0; first < spec.height; first += at_once) {
     exr.read(first, std::min(first + at_once, spec.height), rows);
     for (int c = 0; c < spec.nchannels; ++c)
-      append_words(rows, spec.pixel_bytes(true), spec.pixel_bytes(0, c, true), file.channels[before + size_t(c)]);
+      append_words(rows, spec.pixel_bytes(true), spec.pixel_bytes(0, c, true), file.channels[size_t(c)]);
   }
+  return file;
 }
 
-ChannelFile channels_of_parts(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<ChannelFile> channels_of_parts(const std::string& path, std::span<const uint8_t> bytes) {
   ExrFile exr(path, bytes);
-  ChannelFile file{path, 0, 0, {}};
-  for (int part = 0; part == 0 || exr.seek(part); ++part) add_part(path, exr, file);
-  return file;
+  std::vector<ChannelFile> parts;
+  for (int part = 0; part == 0 || exr.seek(part); ++part) parts.push_back(channels_of_part(path, exr));
+  return parts;
 }
 
 }  // namespace
 
-ChannelFile exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<ChannelFile> exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
   return guarded(path, [&] { return channels_of_parts(path, bytes); });
 }
 

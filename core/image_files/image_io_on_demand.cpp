@@ -89,7 +89,7 @@ std::vector<NamedImage> exr_planes(const std::string& path, std::span<const uint
   return table().exr_planes(path, bytes);
 }
 
-ChannelFile exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
+std::vector<ChannelFile> exr_part_channels(const std::string& path, std::span<const uint8_t> bytes) {
   return table().exr_part_channels(path, bytes);
 }
 

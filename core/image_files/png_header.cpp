@@ -99,4 +99,12 @@ ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> byte
   }
 }
 
+bool png_has_chunk(std::span<const uint8_t> bytes, std::string_view type) {
+  for (size_t at = kPngSignatureBytes; at + kPngChunkOverhead <= bytes.size();) {
+    if (text_of(bytes.subspan(at + 4, 4)) == type) return true;
+    at += png_word_at(bytes, at) + kPngChunkOverhead;
+  }
+  return false;
+}
+
 }  // namespace trueshade

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/image_files/image_io.h"
 
@@ -19,5 +20,8 @@ inline uint32_t png_word_at(std::span<const uint8_t> bytes, size_t at) {
 /// Size, channels and uncompressed text of a PNG, read from its chunks. Our own, because libpng reports a bad file on
 /// standard error itself. Decodes no pixels and checks no CRC. Error(bad_input) naming `where` and the byte offset.
 ImageFileInfo png_header(const std::string& where, std::span<const uint8_t> bytes);
+
+/// Whether a PNG whose chunks png_header() has walked has one of that type.
+bool png_has_chunk(std::span<const uint8_t> bytes, std::string_view type);
 
 }  // namespace trueshade

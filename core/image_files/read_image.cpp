@@ -3,9 +3,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
@@ -15,6 +18,7 @@
 #include "core/image_files/exr_planes.h"
 #include "core/image_files/image_io.h"
 #include "core/image_files/jpeg_pixels.h"
+#include "core/image_files/picture_file.h"
 #include "core/image_files/png_header.h"
 #include "core/image_files/png_pixels.h"
 #include "core/image_files/size_limits.h"
@@ -51,11 +55,9 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   return bytes;
 }
 
-/// Before pixels are decoded: `texel_bytes` is what a pixel takes then, and `copies` how often it is held at once.
-void check_decoded(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t copies,
-                   std::span<const uint8_t> encoded, uint64_t most_expansion) {
-  check_size(where, width, height, texel_bytes);
-  const uint64_t decoded = uint64_t(width) * uint64_t(height) * texel_bytes;
+/// Before pixels are decoded to so many bytes, which are held `copies` times at once.
+void check_bytes(const std::string& where, uint64_t decoded, uint64_t copies, std::span<const uint8_t> encoded,
+                 uint64_t most_expansion) {
   if (is_expanded(decoded, encoded.size(), most_expansion))
     throw Error(ErrorKind::limit, where,
                 std::to_string(encoded.size()) + " bytes hold a picture of " + std::to_string(decoded) +
@@ -63,6 +65,15 @@ void check_decoded(const std::string& where, int width, int height, uint64_t tex
                 "a smaller picture, or a higher --max-expansion");
   require_memory(copies * decoded, where, "the picture");
 }
+
+/// The same of a picture whose pixels take `texel_bytes` then.
+void check_decoded(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t copies,
+                   std::span<const uint8_t> encoded, uint64_t most_expansion) {
+  check_size(where, width, height, texel_bytes);
+  check_bytes(where, uint64_t(width) * uint64_t(height) * texel_bytes, copies, encoded, most_expansion);
+}
+
+constexpr std::string_view kNumPy = "NumPy";
 
 constexpr uint64_t kOpenImageIo = uint64_t(140) << 20;  ///< what loading it takes
 
@@ -120,15 +131,23 @@ Image exr_color(const std::string& where, std::span<const uint8_t> content, uint
   throw bad_image(where, "it has no colour", "name its channels R, G, B and A");
 }
 
+/// The channels that a PNG stores, and how many of an image's four they are taken from.
+std::string png_channel_names(const ImageFileInfo& header, bool has_transparency) {
+  std::string names;
+  for (const std::string& channel : header.channels) names += channel[0];
+  if (names == "P") names = "RGB";
+  return has_transparency ? names + 'A' : names;
+}
+
 ChannelFile png_channels(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
   const ImageFileInfo header = png_header(path, bytes);
   check_decoded(path, header.width, header.height, texel_bytes_of(header), 3, bytes, most_expansion);
   const Image image = png_pixels(path, bytes);
   ChannelFile file{path, image.width, image.height, {}};
-  for (const std::string& name : header.channels) {
-    const size_t c = std::string_view("RGBA").find(name[0]);
+  for (const char name : png_channel_names(header, png_has_chunk(bytes, "tRNS"))) {
+    const size_t c = name == 'Y' ? 0 : std::string_view("RGBA").find(name);  // grey is in all three
     Channel channel;
-    channel.name = name.substr(0, 1);
+    channel.name = name;
     channel.kind = ChannelKind::unorm;
     channel.bits = info(image.format).bits[0];
     const size_t pixels = size_t(image.width) * size_t(image.height), bytes_each = size_t(channel.bits / 8);
@@ -140,17 +159,81 @@ ChannelFile png_channels(const std::string& path, std::span<const uint8_t> bytes
   return file;
 }
 
-ChannelFile checked_parts(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
-  uint64_t texel_bytes = 0;
-  const std::vector<ExrLayout> parts = exr_part_layouts(path, bytes);
-  for (const ExrLayout& part : parts) {
-    if (part.width != parts[0].width || part.height != parts[0].height)
-      throw bad_image(path, "its parts have two sizes", "store parts of one size");
-    texel_bytes += part.pixel_bytes;
+ChannelFile jpeg_channels(const std::string& path, std::span<const uint8_t> bytes, uint64_t most_expansion) {
+  const JpegSize size = jpeg_size(path, bytes);
+  check_decoded(path, size.width, size.height, 4, 4, bytes, most_expansion);
+  require_memory(kOpenImageIo, path, "the library that reads the picture");
+  const Image image = jpeg_pixels(path, bytes);
+  ChannelFile file{path, image.width, image.height, {}};
+  for (size_t c = 0; c < 3; ++c) {
+    Channel channel;
+    channel.name = channel_name(c, 3);
+    channel.kind = ChannelKind::unorm;
+    channel.bits = 8;
+    for (size_t i = 0; i < image.texels.size(); i += 4) channel.words.push_back(image.texels[i + c]);
+    file.channels.push_back(std::move(channel));
   }
-  check_decoded(path, parts[0].width, parts[0].height, texel_bytes, 3, bytes, most_expansion);
+  return file;
+}
+
+std::vector<ChannelFile> checked_parts(const std::string& path, std::span<const uint8_t> bytes,
+                                       uint64_t most_expansion) {
+  uint64_t decoded = 0;
+  for (const ExrLayout& part : exr_part_layouts(path, bytes)) {
+    check_size(path, part.width, part.height, part.pixel_bytes);
+    decoded += uint64_t(part.width) * uint64_t(part.height) * part.pixel_bytes;
+  }
+  check_bytes(path, decoded, 3, bytes, most_expansion);
   require_memory(kOpenImageIo, path, "the library that reads the picture");
   return exr_part_channels(path, bytes);
+}
+
+/// The channels of all parts, which are of one size, and whole.
+ChannelFile parts_as_one(const std::string& path, std::vector<ChannelFile> parts) {
+  ChannelFile file = std::move(parts.front());
+  for (const ChannelFile& part : parts)
+    if (part.is_window() || file.is_window())
+      throw bad_image(path, "its data window is not its display window", "store all pixels, from 0, 0 on");
+  for (ChannelFile& part : std::span(parts).subspan(1)) {
+    if (part.width != file.width || part.height != file.height)
+      throw bad_image(path, "its parts have two sizes", "store parts of one size");
+    file.channels.insert(file.channels.end(), std::make_move_iterator(part.channels.begin()),
+                         std::make_move_iterator(part.channels.end()));
+  }
+  return file;
+}
+
+/// What is the same for planes and for pictures. Nothing for the other kinds.
+std::optional<ChannelFile> lossless_channels(const std::string& path, std::span<const uint8_t> bytes,
+                                             std::string_view kind, uint64_t most_expansion) {
+  if (kind == "PNG") return png_channels(path, bytes, most_expansion);
+  if (kind == "DDS") return dds_channels(path, bytes);
+  if (kind == "TIFF") return tiff_channels(path, bytes);
+  if (kind == kNumPy) return npy_channels(path, bytes);
+  return std::nullopt;
+}
+
+/// picture_kind(), or kNumPy.
+std::string_view file_kind(std::span<const uint8_t> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.starts_with("\x93NUMPY") ? kNumPy : picture_kind(bytes);
+}
+
+/// Fills in what the colours stand for: what the file says, else sRGB of codes and linear light of all else.
+void find_color_space(PictureFile& picture) {
+  const std::vector<Channel>& channels = picture.parts.front().channels;
+  const auto tag = std::find_if(picture.metadata.begin(), picture.metadata.end(),
+                                [](const auto& entry) { return entry.first == "oiio:ColorSpace"; });
+  if (tag != picture.metadata.end()) {
+    picture.color_space = tag->second.starts_with("Lin") || tag->second.starts_with("lin") ? ColorSpace::linear
+                                                                                            : ColorSpace::srgb;
+    picture.color_source = "it says " + tag->second;
+  } else if (std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return c.is_code(); })) {
+    picture.color_space = ColorSpace::srgb;
+    picture.color_source = "assumed of codes";
+  } else {
+    picture.color_source = "assumed of floats";
+  }
 }
 
 }  // namespace
@@ -192,18 +275,41 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
 ChannelFile read_channel_file(const std::string& path, uint64_t most_expansion) {
   const FpScope ieee;
   const std::vector<uint8_t> bytes = read_bytes(path);
-  const std::string_view kind = picture_kind(bytes);
-  if (kind == "PNG") return png_channels(path, bytes, most_expansion);
-  if (kind == "OpenEXR") return checked_parts(path, bytes, most_expansion);
-  if (kind == "DDS") return dds_channels(path, bytes);
-  if (kind == "TIFF") return tiff_channels(path, bytes);
-  if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("\x93NUMPY"))
-    return npy_channels(path, bytes);
+  const std::string_view kind = file_kind(bytes);
+  if (kind == "OpenEXR") return parts_as_one(path, checked_parts(path, bytes, most_expansion));
+  if (std::optional<ChannelFile> file = lossless_channels(path, bytes, kind, most_expansion)) return std::move(*file);
   const bool lossy = kind == "JPEG" || kind == "Radiance HDR";
   throw bad_image(path,
                   kind.empty() ? "it is neither EXR, DDS, TIFF, PNG nor .npy"
                                : "it is " + std::string(kind) + (lossy ? ", which does not keep a plane's values" : ""),
                   "save it as EXR, DDS, TIFF, PNG or .npy");
+}
+
+PictureFile read_picture_file(const std::string& path, uint64_t most_expansion) {
+  const FpScope ieee;
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  PictureFile picture;
+  picture.path = path;
+  picture.kind = file_kind(bytes);
+  if (picture.kind == "OpenEXR") {
+    picture.parts = checked_parts(path, bytes, most_expansion);
+    picture.metadata = exr_header(path, bytes).metadata;
+  } else if (picture.kind == "Radiance HDR") {
+    picture.parts.push_back(hdr_channels(path, bytes, most_expansion));
+  } else if (picture.kind == "JPEG") {
+    picture.parts.push_back(jpeg_channels(path, bytes, most_expansion));
+  } else if (auto file = lossless_channels(path, bytes, picture.kind, most_expansion)) {
+    picture.parts.push_back(std::move(*file));
+    if (picture.kind == "PNG") picture.metadata = png_header(path, bytes).metadata;
+  } else {
+    throw bad_image(path,
+                    bytes.empty()          ? "the file is empty"
+                    : picture.kind.empty() ? "it is no picture of a kind that is read"
+                                           : "it is " + std::string(picture.kind) + ", which is not read",
+                    "give EXR, PNG, TIFF, HDR, DDS, .npy or JPEG");
+  }
+  find_color_space(picture);
+  return picture;
 }
 
 std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion) {

@@ -1,0 +1,131 @@
+#include <filesystem>
+#include <system_error>
+
+#include "cli/accepting.h"
+#include "cli/commands.h"
+#include "cli/compared_pictures.h"
+#include "cli/junit.h"
+#include "cli/option_values.h"
+#include "cli/picture_rows.h"
+#include "cli/progress_bar.h"
+#include "cli/written_files.h"
+#include "core/error.h"
+#include "core/file_ending.h"
+#include "core/image_files/image_io.h"
+
+namespace trueshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_folder(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_directory(path, unknown);
+}
+
+/// A picture compared with itself passes whatever it holds, so who asks for that has mistyped a name.
+void check_names(const CompareOptions& options) {
+  std::error_code unknown;
+  if (fs::equivalent(options.reference, options.test, unknown))
+    throw usage("TEST", "it is the same as the reference, " + options.reference, "name two different ones");
+  const bool folder = is_folder(options.reference);
+  if (folder != is_folder(options.test) && fs::exists(options.test, unknown) && fs::exists(options.reference, unknown))
+    throw Error(ErrorKind::bad_input, folder ? options.test : options.reference,
+                folder ? "it is a file, and the reference a folder" : "it is a file, and the test a folder",
+                "name two pictures, or two folders");
+  std::vector<std::string> outputs = options.outputs;
+  if (options.junit) outputs.push_back(*options.junit);
+  for (const std::string& path : outputs)
+    if (fs::equivalent(path, options.reference, unknown) || fs::equivalent(path, options.test, unknown))
+      throw usage("-o", "'" + path + "' is one of the pictures that are compared", "give it another name");
+}
+
+void check_picture_outputs(const CompareOptions& options) {
+  for (const std::string& path : options.outputs) {
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+    check_writable(path);
+  }
+  if (options.junit) check_writable(*options.junit);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+StandardOutput answers(const CompareOptions& options) {
+  return options.json ? StandardOutput::answer : StandardOutput::files;
+}
+
+/// One picture as a folder's row, for JUnit.
+FolderComparison as_row(const CompareOptions& options, const compare::Comparison& c, bool accepted) {
+  PictureRow row;
+  row.name = options.test;
+  row.state = c.passes()                                    ? RowState::same
+              : c.outcome == compare::Outcome::mismatched ? RowState::mismatched
+                                                            : RowState::different;
+  row.reason = verdict_line(c);
+  row.is_accepted = accepted;
+  return {options.reference, options.test, {row}, 0};
+}
+
+bool accepted(const CompareOptions& options, const PictureFile& test) {
+  const std::string refusal = why_not_acceptable(test, options.rules.allow_not_finite);
+  if (!refusal.empty())
+    throw Error(ErrorKind::bad_input, options.test, refusal, "correct the picture, or add --allow-nonfinite");
+  accept_picture(options.test, options.reference);
+  say("accepted " + options.test + " as " + options.reference);
+  return true;
+}
+
+int compare_two_pictures(const CompareOptions& options) {
+  check_picture_outputs(options);
+  std::error_code unknown;
+  if (options.accept && !fs::exists(options.reference, unknown)) {
+    accepted(options, read_picture_file(options.test, options.limits.expansion));
+    return 0;
+  }
+  ComparedPictures pictures;
+  {
+    const LoopProgress progress("comparing", "bands");
+    pictures = compared_pictures(options.reference, options.test, options);
+  }
+  for (const std::string& path : options.outputs) write_differences(pictures, path);
+  const bool is_accepted =
+      options.accept && !pictures.comparison.passes() && accepted(options, pictures.test);
+  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures.comparison, is_accepted)));
+  print(options.json ? comparison_json(pictures) : comparison_text(pictures));
+  for (const std::string& path : options.outputs)
+    say_written(path, "differences, " + kind_of_file(path), answers(options));
+  if (options.junit) say_written(*options.junit, "JUnit", answers(options));
+  return pictures.comparison.passes() || is_accepted ? 0 : 1;
+}
+
+int compare_two_folders(CompareOptions options) {
+  if (options.outputs.size() > 1) throw usage("-o", "one folder takes all maps", "name one");
+  for (const std::string& folder : options.outputs) {
+    std::error_code unknown;
+    if (fs::exists(folder, unknown) && !is_folder(folder))
+      throw usage("-o", "'" + folder + "' is no folder, and of folders maps are written into one", "name a folder");
+    options.rules.wants_flip = true;
+  }
+  if (options.junit) check_writable(*options.junit);
+  FolderComparison folders;
+  {
+    ProgressBar bar("comparing", "pictures");
+    folders = compared_folders(options, [&bar](int done, int count) { bar.show(done, count); });
+  }
+  if (options.junit) write_text(*options.junit, junit_xml(folders));
+  print(options.json ? rows_json(folders) : rows_text(folders));
+  if (options.junit) say_written(*options.junit, "JUnit", answers(options));
+  return folders.exit_code();
+}
+
+}  // namespace
+
+int compare_pictures(const CompareOptions& options) {
+  check_names(options);
+  return is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
+}
+
+}  // namespace trueshade

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "cli/option_texts.h"
+#include "cli/option_values.h"
+#include "core/error.h"
+#include "core/file_ending.h"
+
+namespace trueshade {
+namespace {
+
+std::optional<double> decimal(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// A number of at least 0, or a fraction of two of them.
+double bound_from_text(const std::string& option, const std::string& text) {
+  const size_t slash = text.find('/');
+  const auto above = decimal(std::string_view(text).substr(0, slash));
+  const auto below = slash == std::string::npos ? std::optional(1.0) : decimal(std::string_view(text).substr(slash + 1));
+  if (!above || !below || !(*above >= 0.0) || !(*below > 0.0))
+    throw usage(option, "'" + text + "' is neither a number of at least 0 nor a fraction", "give one, like 0.01 or 2/255");
+  return *above / *below;
+}
+
+double count_from_text(const std::string& option, const std::string& text) {
+  const auto value = decimal(text);
+  constexpr double kMost = 1e15;
+  if (!value || *value < 0.0 || *value > kMost || *value != std::floor(*value))
+    throw usage(option, "'" + text + "' is not a whole number of at least 0", "give one");
+  return *value;
+}
+
+compare::Exposures exposures_from_text(const std::string& text) {
+  constexpr double kFarthest = 64, kMostExposures = 100;
+  const size_t first = text.find(','), second = first == std::string::npos ? first : text.find(',', first + 1);
+  const auto fail = [&text] {
+    return usage("--exposures", "'" + text + "' is not two exposures within 64, the lesser first, and perhaps a count",
+                 "give START,STOP[,COUNT], like -1,3.5 or -1,3.5,6");
+  };
+  if (first == std::string::npos) throw fail();
+  const std::string_view whole(text);
+  const auto start = decimal(whole.substr(0, first)), stop = decimal(whole.substr(first + 1, second - first - 1));
+  if (!start || !stop || !(*start <= *stop) || std::fabs(*start) > kFarthest || std::fabs(*stop) > kFarthest)
+    throw fail();
+  auto count = std::optional(std::max(2.0, std::ceil(*stop - *start)));
+  if (second != std::string::npos) count = decimal(whole.substr(second + 1));
+  if (!count || *count < 1 || *count > kMostExposures || *count != std::floor(*count)) throw fail();
+  return {*start, *stop, int(*count)};
+}
+
+void add_criteria(const CompareTexts& texts, compare::CompareRules& rules) {
+  using compare::Measure;
+  const auto add = [&rules](Measure measure, double bound, double delta = 0.0) {
+    rules.criteria.push_back({measure, bound, delta});
+  };
+  if (texts.difference) add(Measure::largest_difference, bound_from_text("--max-difference", *texts.difference));
+  if (texts.ulp) add(Measure::largest_ulp, count_from_text("--max-ulp", *texts.ulp));
+  if (texts.delta && !texts.pixels)
+    throw usage("--delta", "it is what --pixels lets pass", "add --pixels COUNT, or give --max-difference instead");
+  if (texts.pixels)
+    add(Measure::pixels_beyond, count_from_text("--pixels", *texts.pixels),
+        texts.delta ? bound_from_text("--delta", *texts.delta) : 0.0);
+  if (texts.psnr) add(Measure::psnr, bound_from_text("--psnr", *texts.psnr));
+  if (texts.flip) add(Measure::flip_mean, bound_from_text("--flip", *texts.flip));
+  if (texts.flip_median) add(Measure::flip_weighted_median, bound_from_text("--flip-median", *texts.flip_median));
+}
+
+void set_flip(const CompareTexts& texts, compare::CompareRules& rules) {
+  constexpr double kLeastPpd = 1, kMostPpd = 1000;
+  using Range = compare::CompareRules::Range;
+  if (texts.low && texts.high) throw usage("--hdr", "--ldr and --hdr exclude each other", "give one of them");
+  if (texts.low || texts.high) rules.range = texts.low ? Range::low : Range::high;
+  if (texts.ppd) {
+    const auto ppd = decimal(*texts.ppd);
+    if (!ppd || *ppd < kLeastPpd || *ppd > kMostPpd)
+      throw usage("--ppd", "'" + *texts.ppd + "' is no number of pixels per degree from 1 to 1000", "give one, like 67");
+    rules.flip.pixels_per_degree = *ppd;
+  }
+  if (texts.mapper) {
+    const auto& names = compare::kToneMapperNames;
+    const auto found = std::find(names.begin(), names.end(), *texts.mapper);
+    if (found == names.end())
+      throw usage("--tone-mapper", "there is no '" + *texts.mapper + "'", "one of: " + joined(names));
+    rules.flip.tone_mapper = compare::ToneMapper(found - names.begin());
+  }
+  if (texts.exposures) rules.flip.exposures = exposures_from_text(*texts.exposures);
+}
+
+}  // namespace
+
+CompareOptions finished(CompareOptions options, const CompareTexts& texts) {
+  add_criteria(texts, options.rules);
+  set_flip(texts, options.rules);
+  if (texts.color_space) {
+    if (*texts.color_space != "srgb" && *texts.color_space != "linear")
+      throw usage("--color-space", "there is no '" + *texts.color_space + "'", "one of: srgb linear");
+    options.rules.color_space = *texts.color_space == "srgb" ? ColorSpace::srgb : ColorSpace::linear;
+  }
+  if (texts.threads) options.rules.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  options.judges = !texts.no_judge && options.rules.criteria.empty();
+  if (options.reference.empty() || options.test.empty())
+    throw usage("compare", "a name is empty", "name two pictures, or two folders");
+  if (options.junit && !has_ending(*options.junit, ".xml"))
+    throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
+  for (const std::string& path : options.outputs)
+    options.rules.wants_flip = options.rules.wants_flip || has_ending(path, ".png");
+  check_named_once("-o", options.outputs);
+  return options;
+}
+
+}  // namespace trueshade

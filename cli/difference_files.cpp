@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "cli/compared_pictures.h"
+#include "compare/error_colors.h"
+#include "core/error.h"
+#include "core/file_ending.h"
+#include "core/image_files/image_io.h"
+
+namespace trueshade {
+namespace {
+
+/// |reference - test| of a channel, as floats.
+void put_differences(const compare::PairReader& reader, size_t channel, Image& image) {
+  const int channels = info(image.format).channels;
+  const size_t pixels = size_t(image.width) * size_t(image.height);
+  for (size_t i = 0; i < pixels; ++i) {
+    const auto difference = float(reader.at(i).difference);
+    std::memcpy(image.texels.data() + 4 * (i * size_t(channels) + channel), &difference, 4);
+  }
+}
+
+/// R, G, B and A of the first part, and each other channel as a plane of its own.
+void write_difference_exr(const ComparedPictures& pictures, const std::string& path) {
+  const compare::Comparison& c = pictures.comparison;
+  const compare::PartPair& part = c.pairing.parts.front();
+  Image color(part.width, part.height, Format::rgba32f);
+  std::vector<NamedImage> planes;
+  for (const compare::PartPair& p : c.pairing.parts)
+    for (const compare::ChannelPair& pair : p.channels) {
+      if (p.width != part.width || p.height != part.height) continue;  // an EXR of one part has one size
+      const bool is_color = compare::is_color(*pair.reference) && compare::is_color(*pair.test);
+      const compare::PairReader reader(pair, c.decoding.reference && is_color, c.decoding.test && is_color);
+      const size_t place = std::string_view("RGBA").find(pair.name);
+      if (pair.name.size() == 1 && place != std::string_view::npos) {
+        put_differences(reader, place, color);
+        continue;
+      }
+      planes.push_back({pair.name, Image(p.width, p.height, Format::d32f)});
+      put_differences(reader, 0, planes.back().image);
+    }
+  write_image(path, color, planes, {{"trueshade:difference", "absolute, test against reference"}});
+}
+
+}  // namespace
+
+void write_differences(const ComparedPictures& pictures, const std::string& path) {
+  const compare::Comparison& c = pictures.comparison;
+  if (has_ending(path, ".png")) {
+    if (!c.flip) throw Error(ErrorKind::bad_input, path, "there is no FLIP map: " + c.no_flip, "write a .exr instead");
+    const ChannelFile& part = pictures.reference.parts.front();
+    write_image(path, compare::error_picture(c.flip->map, part.width, part.height), {},
+                {{"trueshade:difference", "FLIP"}}, {PictureValues::display_codes});
+    return;
+  }
+  if (c.pairing.parts.empty())
+    throw Error(ErrorKind::bad_input, path, "no channels of the pictures fit together", "compare pictures of one size");
+  write_difference_exr(pictures, path);
+}
+
+}  // namespace trueshade

@@ -1,0 +1,62 @@
+#include "cli/junit.h"
+
+#include <cstdio>
+
+#include "core/printable_text.h"
+
+namespace trueshade {
+namespace {
+
+std::string seconds_text(double seconds) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3f", seconds);
+  return text;
+}
+
+std::string attribute(const char* name, std::string_view value) {
+  return std::string(" ") + name + "=\"" + xml_text(value) + '"';
+}
+
+std::string testcase(const FolderComparison& folders, const PictureRow& row) {
+  std::string xml = "    <testcase" + attribute("classname", folders.reference) + attribute("name", row.name) +
+                    attribute("time", seconds_text(row.seconds));
+  if (passes(row)) return xml + "/>\n";
+  const std::string element = row.state == RowState::unreadable ? "error" : "failure";
+  return xml + ">\n      <" + element + attribute("type", name_of(row.state)) + attribute("message", row.reason) + ">" +
+         xml_text(row.not_accepted.empty() ? row.reason : row.reason + "; not accepted: " + row.not_accepted) + "</" +
+         element + ">\n    </testcase>\n";
+}
+
+}  // namespace
+
+std::string xml_text(std::string_view text) {
+  std::string xml;
+  for (const char c : printable(text, Lines::one)) {
+    if (c == '&') xml += "&amp;";
+    else if (c == '<') xml += "&lt;";
+    else if (c == '>') xml += "&gt;";
+    else if (c == '"') xml += "&quot;";
+    else if (c == '\'') xml += "&apos;";
+    else xml += c;
+  }
+  return xml;
+}
+
+std::string junit_xml(const FolderComparison& folders) {
+  double seconds = 0.0;
+  size_t errors = 0;
+  for (const PictureRow& row : folders.rows) {
+    seconds += row.seconds;
+    errors += !passes(row) && row.state == RowState::unreadable ? 1 : 0;
+  }
+  const std::string figures = attribute("tests", std::to_string(folders.rows.size())) +
+                              attribute("failures", std::to_string(folders.failures() - errors)) +
+                              attribute("errors", std::to_string(errors)) + attribute("time", seconds_text(seconds));
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
+                    attribute("name", "trueshade compare") + figures + ">\n  <testsuite" +
+                    attribute("name", folders.reference) + figures + ">\n";
+  for (const PictureRow& row : folders.rows) xml += testcase(folders, row);
+  return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace trueshade

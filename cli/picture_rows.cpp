@@ -1,0 +1,180 @@
+#include "cli/picture_rows.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <new>
+#include <set>
+#include <system_error>
+
+#include "cli/accepting.h"
+#include "core/error.h"
+#include "core/file_ending.h"
+
+namespace trueshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPictureEndings[] = {".exr", ".png", ".hdr", ".pic", ".tif", ".tiff",
+                                                ".dds", ".npy", ".jpg", ".jpeg"};
+
+bool has_picture_ending(const fs::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return std::any_of(std::begin(kPictureEndings), std::end(kPictureEndings),
+                     [&name](std::string_view ending) { return has_ending(name, ending); });
+}
+
+/// Relative names of the pictures in a folder and in those within; links to folders are not followed.
+std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over) {
+  std::set<std::string> names;
+  std::error_code failed;
+  fs::recursive_directory_iterator entry(folder, failed);
+  for (const fs::recursive_directory_iterator end; !failed && entry != end; entry.increment(failed)) {
+    std::error_code unknown;
+    if (entry->is_directory(unknown)) continue;
+    if (has_picture_ending(entry->path()))
+      names.insert(entry->path().lexically_relative(folder).generic_string());
+    else
+      ++passed_over;
+  }
+  if (failed) throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(), "check the rights");
+  return names;
+}
+
+RowState state_of(compare::Outcome outcome) {
+  switch (outcome) {
+    case compare::Outcome::same:
+      return RowState::same;
+    case compare::Outcome::within:
+      return RowState::within;
+    case compare::Outcome::different:
+      return RowState::different;
+    case compare::Outcome::mismatched:
+      return RowState::mismatched;
+  }
+  return RowState::same;  // unreachable: every enumerator returns above
+}
+
+class FolderComparer {
+ public:
+  explicit FolderComparer(const CompareOptions& options) : options_(options) {}
+
+  PictureRow compare(const std::string& name, bool in_reference, bool in_test) const {
+    const auto start = std::chrono::steady_clock::now();
+    PictureRow row;
+    row.name = name;
+    try {
+      measure(in_reference, in_test, row);
+    } catch (const Error& error) {
+      fail(error.what(), int(error.kind()), row);
+    } catch (const std::bad_alloc&) {
+      fail("there is not enough memory for it", int(ErrorKind::out_of_memory), row);
+    }
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return row;
+  }
+
+ private:
+  static void fail(const std::string& reason, int exit_code, PictureRow& row) {
+    row.state = RowState::unreadable;
+    row.reason = reason;
+    row.exit_code = exit_code;
+  }
+  std::string reference(const PictureRow& row) const { return (fs::path(options_.reference) / row.name).string(); }
+  std::string test(const PictureRow& row) const { return (fs::path(options_.test) / row.name).string(); }
+
+  void measure(bool in_reference, bool in_test, PictureRow& row) const {
+    if (!in_test) {
+      row.state = RowState::missing;
+      row.reason = "the test has no such picture";
+      if (options_.accept) row.not_accepted = "delete the reference by hand if it is to go";
+      return;
+    }
+    if (!in_reference) {
+      row.state = RowState::extra;
+      row.reason = "the reference has no such picture";
+      if (options_.accept) accept(read_picture_file(test(row), options_.limits.expansion), row);
+      return;
+    }
+    if (options_.accept) {
+      // A reference that is damaged is replaced too; a test picture that is damaged never replaces one.
+      const PictureFile picture = read_picture_file(test(row), options_.limits.expansion);
+      try {
+        compare_pair(row);
+      } catch (const Error& error) {
+        fail(error.what(), int(error.kind()), row);
+      }
+      if (!passes(row)) accept(picture, row);
+      return;
+    }
+    compare_pair(row);
+  }
+
+  void compare_pair(PictureRow& row) const {
+    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_);
+    const compare::Comparison& c = pictures.comparison;
+    row.state = state_of(c.outcome);
+    row.reason = verdict_line(c);
+    row.unequal_pixels = c.differences.unequal_pixels, row.pixels = c.differences.pixels;
+    for (const compare::ChannelDifferences& channel : c.differences.channels)
+      row.largest = std::max(row.largest, channel.largest);
+    if (c.flip) row.flip_mean = c.flip->mean;
+    for (const std::string& folder : options_.outputs)
+      if (!passes(row) && c.flip) write_map(pictures, (fs::path(folder) / (row.name + ".flip.png")).string());
+  }
+
+  static void write_map(const ComparedPictures& pictures, const std::string& path) {
+    std::error_code failed;
+    fs::create_directories(fs::path(path).parent_path(), failed);
+    write_differences(pictures, path);  // says what is wrong where the folder is not there
+  }
+
+  void accept(const PictureFile& picture, PictureRow& row) const {
+    row.not_accepted = why_not_acceptable(picture, options_.rules.allow_not_finite);
+    if (!row.not_accepted.empty()) return;
+    accept_picture(test(row), reference(row));
+    row.is_accepted = true;
+  }
+
+  const CompareOptions& options_;
+};
+
+}  // namespace
+
+bool passes(const PictureRow& row) {
+  return row.state == RowState::same || row.state == RowState::within || row.is_accepted;
+}
+
+size_t FolderComparison::failures() const {
+  return size_t(std::count_if(rows.begin(), rows.end(), [](const PictureRow& row) { return !passes(row); }));
+}
+
+int FolderComparison::exit_code() const {
+  for (const PictureRow& row : rows)
+    if (!passes(row) && row.exit_code != 0) return row.exit_code;
+  return failures() > 0 ? 1 : 0;
+}
+
+FolderComparison compared_folders(const CompareOptions& options, const std::function<void(int, int)>& see) {
+  FolderComparison folders{options.reference, options.test, {}, 0};
+  const std::set<std::string> of_reference = pictures_in(options.reference, folders.passed_over),
+                              of_test = pictures_in(options.test, folders.passed_over);
+  std::set<std::string> names = of_reference;
+  names.insert(of_test.begin(), of_test.end());
+  if (names.empty())
+    throw Error(ErrorKind::bad_input, options.reference, "there is no picture in it, nor in " + options.test,
+                "name folders with .exr, .png, .hdr, .tif, .dds, .npy or .jpg in them");
+  const FolderComparer comparer(options);
+  for (const std::string& name : names) {
+    folders.rows.push_back(comparer.compare(name, of_reference.contains(name), of_test.contains(name)));
+    see(int(folders.rows.size()), int(names.size()));
+  }
+  std::stable_sort(folders.rows.begin(), folders.rows.end(), [](const PictureRow& a, const PictureRow& b) {
+    return std::pair(a.state, a.largest) > std::pair(b.state, b.largest);
+  });
+  return folders;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/compared_pictures.h"
+
+namespace trueshade {
+
+/// What became of one name in two folders. The worst come last.
+enum class RowState : uint8_t { same, within, different, mismatched, missing, extra, unreadable };
+
+/// A name in two folders, compared.
+struct PictureRow {
+  std::string name;  ///< relative to both folders
+  RowState state = RowState::same;
+  std::string reason;  ///< verdict_line(), or why there is none
+  uint64_t unequal_pixels = 0, pixels = 0;
+  double largest = 0.0;  ///< difference in any channel
+  std::optional<double> flip_mean;
+  int exit_code = 0;    ///< of a picture that cannot be read
+  double seconds = 0.0;  ///< wall time
+  bool is_accepted = false;
+  std::string not_accepted;  ///< why --accept left the reference as it is
+};
+
+bool passes(const PictureRow& row);
+
+/// Two folders, compared.
+struct FolderComparison {
+  std::string reference, test;
+  std::vector<PictureRow> rows;  ///< the worst first, then by name
+  uint64_t passed_over = 0;      ///< files of both whose names do not end as a picture's
+
+  size_t failures() const;
+  int exit_code() const;  ///< 0, 1, or that of the first picture that cannot be read
+};
+
+/// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences into
+/// the folder of -o, as the options say. `see` is told how many of how many are done.
+/// Error(bad_input): no picture in either. Error(io): a folder that cannot be listed, a file that cannot be written.
+FolderComparison compared_folders(const CompareOptions& options, const std::function<void(int, int)>& see);
+
+/// A line that says how it went, and a table.
+std::string rows_text(const FolderComparison& folders);
+std::string rows_json(const FolderComparison& folders);
+
+/// `DIFFERENT`, ...; `different`, ...
+std::string_view name_of(RowState state);
+
+}  // namespace trueshade
