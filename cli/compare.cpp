@@ -58,13 +58,13 @@ StandardOutput answers(const CompareOptions& options) {
 }
 
 /// One picture as a folder's row, for JUnit.
-FolderComparison as_row(const CompareOptions& options, const compare::Comparison& c, bool accepted) {
+FolderComparison as_row(const CompareOptions& options, const ComparedPictures& pictures, bool accepted) {
   PictureRow row;
   row.name = options.test;
-  row.state = c.passes()                                    ? RowState::same
-              : c.outcome == compare::Outcome::mismatched ? RowState::mismatched
-                                                            : RowState::different;
-  row.reason = verdict_line(c);
+  row.state = passes(pictures)                                                  ? RowState::same
+              : pictures.comparison.outcome == compare::Outcome::mismatched ? RowState::mismatched
+                                                                              : RowState::different;
+  row.reason = verdict_line(pictures);
   row.is_accepted = accepted;
   return {options.reference, options.test, {row}, 0};
 }
@@ -87,18 +87,17 @@ int compare_two_pictures(const CompareOptions& options) {
   }
   ComparedPictures pictures;
   {
-    const LoopProgress progress("comparing", "bands");
+    const LoopProgress progress("comparing", "bands of rows");
     pictures = compared_pictures(options.reference, options.test, options);
   }
   for (const std::string& path : options.outputs) write_differences(pictures, path);
-  const bool is_accepted =
-      options.accept && !pictures.comparison.passes() && accepted(options, pictures.test);
-  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures.comparison, is_accepted)));
+  const bool is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
+  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures, is_accepted)));
   print(options.json ? comparison_json(pictures) : comparison_text(pictures));
   for (const std::string& path : options.outputs)
     say_written(path, "differences, " + kind_of_file(path), answers(options));
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
-  return pictures.comparison.passes() || is_accepted ? 0 : 1;
+  return passes(pictures) || is_accepted ? 0 : 1;
 }
 
 int compare_two_folders(CompareOptions options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/judged_comparison.h"
 #include "core/error.h"
 #include "core/memory_cap.h"
 
@@ -23,7 +24,14 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
       std::any_of(criteria.begin(), criteria.end(), [](const auto& row) { return compare::is_flip(row.measure); }))
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
   pictures.comparison = compare::compared(pictures.reference, pictures.test, options.rules);
+  const compare::Comparison& c = pictures.comparison;
+  if (options.judges && c.outcome == compare::Outcome::different && c.differences.not_finite_pixels == 0)
+    pictures.judged = judged_by_scene(pictures, options);
   return pictures;
+}
+
+bool passes(const ComparedPictures& pictures) {
+  return pictures.judged.validation ? passes(*pictures.judged.validation) : pictures.comparison.passes();
 }
 
 }  // namespace trueshade

@@ -1,32 +1,43 @@
 #pragma once
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/options.h"
+#include "cli/validation.h"
 #include "compare/comparison.h"
 
 namespace trueshade {
+
+/// A test picture, judged by the scene and the pipeline that its reference carries.
+struct JudgedPicture {
+  std::optional<Validation> validation;
+  std::string why_not;  ///< why there is none, in one line; empty where nobody asked, or there is no scene
+};
 
 /// Two pictures and how they differ. `comparison` points into the pictures, so this is not copied.
 struct ComparedPictures {
   PictureFile reference, test;
   compare::Comparison comparison;
+  JudgedPicture judged;  ///< of pictures that fit together, are finite and are not the same
 
   ComparedPictures() = default;
   ComparedPictures(ComparedPictures&&) = default;
   ComparedPictures& operator=(ComparedPictures&&) = default;
 };
 
-/// Reads two pictures and compares them. Errors as read_picture_file() has them; Error(limit) where comparing would take
-/// more memory than the cap.
+/// Reads two pictures and compares them; judges the test where the options let it and the reference carries its scene.
+/// Errors as read_picture_file() has them; Error(limit) where comparing would take more memory than the cap.
 ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
                                    const CompareOptions& options);
 
 /// How many bytes of memory FLIP takes beside the pictures, of a picture of so many pixels.
 uint64_t flip_memory(uint64_t pixels);
 
+/// Whether the test passes: by the judge if it was judged, else by the criteria.
+bool passes(const ComparedPictures& pictures);
+
 /// What two pictures are to each other, in one line: the first that people read.
-std::string verdict_line(const compare::Comparison& comparison);
+std::string verdict_line(const ComparedPictures& pictures);
 
 /// All of it, for people and as one JSON document.
 std::string comparison_text(const ComparedPictures& pictures);

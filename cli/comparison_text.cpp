@@ -163,9 +163,12 @@ std::string about_picture(const PictureFile& picture) {
   return channels <= kMostChannelsShown ? line : line + ", " + std::to_string(channels) + " channels in all";
 }
 
-std::string verdict_line(const Comparison& c) {
+std::string verdict_line(const ComparedPictures& pictures) {
+  const Comparison& c = pictures.comparison;
   const compare::Differences& d = c.differences;
   const std::string of = std::to_string(d.unequal_pixels) + " of " + count_of(d.pixels, "pixel", "pixels");
+  if (const auto& v = pictures.judged.validation)
+    return "judged by the reference's scene: " + conclusion(*v) + "; " + of + " differ from the reference";
   switch (c.outcome) {
     case Outcome::same:
       return "the pictures are the same: " + count_of(d.pixels, "pixel", "pixels") + " of " +
@@ -184,21 +187,24 @@ std::string verdict_line(const Comparison& c) {
 
 std::string comparison_text(const ComparedPictures& pictures) {
   const Comparison& c = pictures.comparison;
-  std::string text = line_of("verdict", verdict_line(c));
+  std::string text = line_of("verdict", verdict_line(pictures));
   for (size_t i = 1; i < c.failures.size(); ++i) text += line_of("and", c.failures[i]);
   text += line_of("reference", pictures.reference.path + ": " + about_picture(pictures.reference));
   text += line_of("test", pictures.test.path + ": " + about_picture(pictures.test));
   text += line_of("colours", c.colors);
   for (const std::string& note : c.notes) text += line_of("note", note);
-  for (const compare::Judged& row : c.criteria)
-    text += line_of("criterion", compare::text_of(row) + (row.holds ? ": holds" : ": DOES NOT HOLD"));
+  if (!pictures.judged.why_not.empty()) text += line_of("not judged", pictures.judged.why_not);
+  if (!pictures.judged.validation)
+    for (const compare::Judged& row : c.criteria)
+      text += line_of("criterion", compare::text_of(row) + (row.holds ? ": holds" : ": DOES NOT HOLD"));
   if (c.flip) text += line_of("FLIP", flip_line(*c.flip));
   if (!c.no_flip.empty()) text += line_of("FLIP", "not measured: " + c.no_flip);
-  if (c.differences.channels.empty()) return text;
+  if (c.differences.channels.empty() || c.outcome == Outcome::same) return text;
   text += '\n' + channel_table(c.differences.channels);
   for (const std::string& pixel : {pixel_text("first pixel", c.first), pixel_text("worst pixel", c.worst),
                                    pixel_text("first pixel that is not finite", c.first_not_finite)})
     if (!pixel.empty()) text += '\n' + pixel;
+  if (pictures.judged.validation) text += '\n' + validation_text(*pictures.judged.validation);
   return text;
 }
 
@@ -214,7 +220,7 @@ std::string comparison_json(const ComparedPictures& pictures) {
   }
   for (const ChannelDifferences& channel : d.channels) channels.add_raw(channel_json(channel));
   JsonObject json;
-  json.put("outcome", word_of(c.outcome)).put("passes", c.passes()).put("verdict", verdict_line(c));
+  json.put("outcome", word_of(c.outcome)).put("passes", passes(pictures)).put("verdict", verdict_line(pictures));
   json.put("reference", pictures.reference.path).put("test", pictures.test.path).put("colors", c.colors);
   json.put_raw("failures", strings_json(c.failures)).put_raw("notes", strings_json(c.notes));
   json.put_raw("criteria", criteria.text()).put("pixels", d.pixels).put("unequal_pixels", d.unequal_pixels);
@@ -225,6 +231,12 @@ std::string comparison_json(const ComparedPictures& pictures) {
   if (c.first_not_finite) json.put_raw("first_not_finite", pixel_json(*c.first_not_finite));
   if (c.flip) json.put_raw("flip", flip_json(*c.flip));
   if (!c.no_flip.empty()) json.put("no_flip", c.no_flip);
+  if (!pictures.judged.why_not.empty()) json.put("not_judged", pictures.judged.why_not);
+  if (pictures.judged.validation) {
+    std::string judged = validation_json(*pictures.judged.validation);
+    judged.pop_back();  // the end of its line
+    json.put_raw("judged", judged);
+  }
   return json.text() + '\n';
 }
 

@@ -115,8 +115,8 @@ class FolderComparer {
   void compare_pair(PictureRow& row) const {
     const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_);
     const compare::Comparison& c = pictures.comparison;
-    row.state = state_of(c.outcome);
-    row.reason = verdict_line(c);
+    row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
+    row.reason = verdict_line(pictures);
     row.unequal_pixels = c.differences.unequal_pixels, row.pixels = c.differences.pixels;
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);

@@ -40,8 +40,10 @@ PixelValues values_at(const Comparison& c, Place place) {
   const size_t at = size_t(place.y) * size_t(part.width) + size_t(place.x);
   for (const ChannelPair& pair : part.channels) {
     const bool color = is_color(*pair.reference) && is_color(*pair.test);
-    const NumberPair n = PairReader(pair, c.decoding.reference && color, c.decoding.test && color).at(at);
-    pixel.values.push_back({pair.name, stored_text(*pair.reference, at), stored_text(*pair.test, at), n.equal});
+    const bool decode_reference = c.decoding.reference && color, decode_test = c.decoding.test && color;
+    pixel.values.push_back({pair.name, stored_text(*pair.reference, at, decode_reference),
+                            stored_text(*pair.test, at, decode_test),
+                            PairReader(pair, decode_reference, decode_test).at(at).equal});
   }
   return pixel;
 }
@@ -150,6 +152,20 @@ void add_notes(const PictureFile& picture, const char* which, Comparison& c) {
       }
 }
 
+float light_of(double value, bool decode) {
+  return !std::isfinite(value) ? 0.0f : float(decode ? linear_of_srgb(value) : value);
+}
+
+/// The light of each code of a channel, where these are few.
+std::vector<float> light_of_codes(const Channel& channel, bool decode) {
+  constexpr int kMostBits = 16;
+  std::vector<float> light;
+  if (!channel.is_code() || channel.bits > kMostBits) return light;
+  for (uint32_t code = 0; code <= channel.largest_code(); ++code)
+    light.push_back(light_of(double(code) / channel.largest_code(), decode));
+  return light;
+}
+
 }  // namespace
 
 std::optional<LinearPicture> linear_picture(const ChannelFile& part, bool decode) {
@@ -164,11 +180,13 @@ std::optional<LinearPicture> linear_picture(const ChannelFile& part, bool decode
   if (channels[0] == nullptr || channels[1] == nullptr || channels[2] == nullptr) return std::nullopt;
   LinearPicture picture{part.width, part.height, {}};
   for (std::vector<float>& plane : picture.rgb) plane.resize(size_t(part.width) * size_t(part.height));
+  const std::vector<float> light = light_of_codes(*channels[0], decode);
   parallel_for(part.height, 0, [&](int y) {
     for (size_t c = 0; c < 3; ++c)
       for (size_t i = size_t(y) * size_t(part.width), end = i + size_t(part.width); i < end; ++i) {
-        const double value = channels[c]->value(i);
-        picture.rgb[c][i] = !std::isfinite(value) ? 0.0f : float(decode ? linear_of_srgb(value) : value);
+        const bool listed = channels[c]->is_code() && channels[c]->words[i] < light.size() &&
+                            channels[c]->bits == channels[0]->bits;
+        picture.rgb[c][i] = listed ? light[channels[c]->words[i]] : light_of(channels[c]->value(i), decode);
       }
   });
   return picture;

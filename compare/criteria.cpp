@@ -1,5 +1,6 @@
 #include "compare/criteria.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace trueshade::compare {
@@ -7,7 +8,8 @@ namespace {
 
 std::string number_text(double value) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
+  const bool is_count = value == std::floor(value) && std::fabs(value) < 1e15;
+  std::snprintf(text, sizeof text, is_count ? "%.0f" : "%.6g", value);
   return text;
 }
 

@@ -86,8 +86,8 @@ NumberPair PairReader::at(size_t pixel) const {
   return n;
 }
 
-std::string stored_text(const Channel& channel, size_t pixel) {
-  char text[64];
+std::string stored_text(const Channel& channel, size_t pixel, bool decode) {
+  char text[96];
   const uint32_t word = channel.words[pixel];
   if (channel.kind == ChannelKind::integer)
     std::snprintf(text, sizeof text, "%u", word);
@@ -97,7 +97,10 @@ std::string stored_text(const Channel& channel, size_t pixel) {
     std::snprintf(text, sizeof text, "%d (%.6g)", int(int32_t(word)), channel.value(pixel));
   else
     std::snprintf(text, sizeof text, "%u (%.6g)", word, channel.value(pixel));
-  return text;
+  if (!decode) return text;
+  const std::string stored = text;
+  std::snprintf(text, sizeof text, " = light %.9g", linear_of_srgb(channel.value(pixel)));
+  return stored + text;
 }
 
 std::string storage_text(const Channel& channel) {

@@ -40,8 +40,9 @@ class PairReader {
   bool decode_reference_, decode_test_, same_storage_, to_float_;
 };
 
-/// A number as it is stored: the code and what it stands for, a whole number, or a float in the digits that give it back.
-std::string stored_text(const Channel& channel, size_t pixel);
+/// A number as it is stored: the code and what it stands for, a whole number, or a float in the digits that give it
+/// back; and what it is compared as, if it is decoded.
+std::string stored_text(const Channel& channel, size_t pixel, bool decode);
 
 /// `unorm 8`, `half`, `float`, `uint 32`, ...
 std::string storage_text(const Channel& channel);

@@ -1,0 +1,139 @@
+#include "cli/judged_comparison.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/capture/captured_planes.h"
+#include "cli/capture/stored_planes.h"
+#include "cli/preparation.h"
+#include "core/error.h"
+#include "scenes/pipeline/fit_lights.h"
+#include "scenes/pipeline/light_model.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+namespace {
+
+const std::string* metadata_value(const PictureFile& picture, std::string_view key) {
+  for (const auto& [name, value] : picture.metadata)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+/// The scene's file as the reference names it; if it is not there, beside the reference.
+std::string found_scene(const std::string& spec, const std::string& reference) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  if (spec.starts_with("builtin:") || fs::exists(spec, unknown)) return spec;
+  return (fs::path(reference).parent_path() / fs::path(spec).filename()).string();
+}
+
+double time_of(const PictureFile& reference) {
+  const std::string* const text = metadata_value(reference, "trueshade:time");
+  double time = 0.0;
+  if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), time);
+  return time;
+}
+
+Error not_judged(const std::string& reason) {
+  return {ErrorKind::bad_input, "the reference's scene", reason, "--no-judge compares values alone"};
+}
+
+class SceneJudge {
+ public:
+  SceneJudge(const ComparedPictures& pictures, const CompareOptions& options)
+      : pictures_(pictures), options_(options) {}
+
+  Validation judge() {
+    load();
+    find_capture();
+    const oracle::Capture& capture = v_.capture;
+    v_.verdict = oracle::validate_capture(scene_, v_.pipeline, capture, {v_.profile});
+    v_.is_diagnosed = v_.verdict.violations() > 0 || v_.verdict.convicted();
+    if (v_.is_diagnosed) v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
+    for (oracle::Finding& finding : v_.findings)
+      finding.command = "trueshade validate " + scene_.spec + " --gbuffer PLANES.exr --image " + pictures_.test.path +
+                        " --suppose " + finding.name;
+    return std::move(v_);
+  }
+
+ private:
+  void load() {
+    const std::string *const spec = metadata_value(pictures_.reference, "trueshade:scene"),
+                             *const hash = metadata_value(pictures_.reference, "trueshade:sceneHash"),
+                             *const pipeline = metadata_value(pictures_.reference, "trueshade:pipeline");
+    if (hash == nullptr || pipeline == nullptr) throw not_judged("its hash or its pipeline is not named");
+    scene_ = scene_of_options(found_scene(*spec, pictures_.reference.path), options_.limits);
+    if ("sha256:" + scene_hash(scene_) != *hash)
+      throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
+    set_time(scene_, time_of(pictures_.reference));
+    v_.pipeline = pipeline_from_json(*pipeline, "the reference's pipeline", default_pipeline(scene_));
+    validate(v_.pipeline);
+    if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
+      throw not_judged("a view, and a picture behind a post chain, have no legal sets");
+    fit_lights_of_ours(scene_, v_.pipeline.light_model);
+    constexpr uint64_t kPixel = 480;  // bytes, as of validate
+    check_memory(scene_, v_.pipeline, {}, {}, uint64_t(v_.pipeline.width) * uint64_t(v_.pipeline.height) * kPixel);
+  }
+
+  void find_capture() {
+    const ChannelFile& test = pictures_.test.parts.front();
+    const bool has_planes = std::any_of(test.channels.begin(), test.channels.end(), [](const Channel& channel) {
+      return std::string_view("RGBAY").find(channel.name) == std::string_view::npos;
+    });
+    CaptureFiles files = has_planes ? read_capture_files({test.path}, "", {}, options_.limits.expansion) : picture_alone();
+    CapturedPlanes planes = captured_planes(files, scene_, v_.pipeline);
+    v_.capture = std::move(planes.capture);
+    if (!has_planes) draw_planes();
+    store_as(v_.pipeline, test.path, v_.capture);
+    if (!v_.capture.has_alpha) v_.notes.push_back("the picture has no alpha channel, so alpha is not judged");
+    v_.notes.insert(v_.notes.end(), planes.notes.begin(), planes.notes.end());
+    if (!has_planes)
+      v_.notes.push_back(
+          "the test is a picture alone: its planes are drawn here, so a renderer whose edges or depths differ shows "
+          "violations there (write planes into an EXR to have them judged)");
+  }
+
+  CaptureFiles picture_alone() const {
+    CaptureFiles files;
+    files.files.push_back(pictures_.test.parts.front());
+    files.name = pictures_.test.path;
+    PlaneChannelList color{{}, &files.files.front(), {}};
+    color.mapped.plane = "color";
+    for (const char* name : {"R", "G", "B", "A"})
+      for (const Channel& channel : files.files.front().channels)
+        if (channel.name == name) color.channels.push_back(&channel);
+    if (color.channels.size() < 3) throw not_judged("the test has no channels R, G and B");
+    files.planes.push_back(std::move(color));
+    return files;
+  }
+
+  void draw_planes() {
+    std::vector<std::string> names = {"depth", "position", "normal", "albedo", "uv", "id.object", "id.material"};
+    if (reads_specular_plane(v_.pipeline.light_model)) names.push_back("specular");
+    if (v_.pipeline.light_model.emission) names.push_back("emission");
+    Frame frame = render_frame(scene_, v_.pipeline, {}, names);
+    v_.capture.planes = std::move(frame.aovs);
+  }
+
+  const ComparedPictures& pictures_;
+  const CompareOptions& options_;
+  Scene scene_;
+  Validation v_;
+};
+
+}  // namespace
+
+JudgedPicture judged_by_scene(const ComparedPictures& pictures, const CompareOptions& options) {
+  if (metadata_value(pictures.reference, "trueshade:scene") == nullptr) return {};
+  try {
+    return {SceneJudge(pictures, options).judge(), ""};
+  } catch (const Error& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+}  // namespace trueshade
