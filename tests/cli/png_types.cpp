@@ -8,8 +8,10 @@
 #include <random>
 
 #include "core/error.h"
+#include "core/image_files/channel_file.h"
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
+#include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
@@ -158,6 +160,25 @@ std::vector<uint16_t> read_by_libpng(const Bytes& file, const Kind& kind, size_t
   return codes;
 }
 
+/// Read as channels, there are those that the file stores: grey is Y, and an index stands for a colour.
+void check_channels(const Kind& kind, const Sample& sample) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("picture.png", std::string(sample.file.begin(), sample.file.end()));
+  const ChannelFile file = read_channel_file(path, kMostExpansion);
+  const bool alpha = kind.transparency || kind.color_type >= 4;
+  const std::string names = (kind.color_type == 0 || kind.color_type == 4 ? "Y" : "RGB") + std::string(alpha ? "A" : "");
+  REQUIRE(file.channels.size() == names.size());
+  size_t wrong = 0;
+  for (size_t c = 0; c < names.size(); ++c) {
+    CHECK(file.channels[c].name == names.substr(c, 1));
+    CHECK(file.channels[c].bits == (kind.bits == 16 ? 16 : 8));
+    REQUIRE(file.channels[c].words.size() == size_t(kind.width) * size_t(kind.height));
+    for (size_t i = 0; i < file.channels[c].words.size(); ++i)
+      wrong += file.channels[c].words[i] != texel_of(kind, sample, i)[names[c] == 'A' ? 3 : c];
+  }
+  CHECK(wrong == 0);
+}
+
 void check_kind(const Kind& kind, std::mt19937& random) {
   CAPTURE(int(kind.color_type), int(kind.bits), kind.interlaced, kind.transparency, kind.width, kind.height);
   const Sample sample = sample_of(kind, random);
@@ -176,6 +197,7 @@ void check_kind(const Kind& kind, std::mt19937& random) {
   }
   CHECK(wrong == 0);
   CHECK(unlike_libpng == 0);
+  check_channels(kind, sample);
 }
 
 TEST_CASE("PNG of every colour type, depth, size and interlacing are what the specification and libpng say") {

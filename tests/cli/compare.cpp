@@ -1,0 +1,397 @@
+// `trueshade compare`, run as people run it.
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/image_files/image_io.h"
+#include "tests/catch.hpp"
+#include "tests/cli/engine_capture.h"
+#include "tests/cli/refused.h"
+#include "tests/cli/run_command.h"
+#include "tests/scratch_folder.h"
+
+namespace trueshade {
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+EnginePlane even_plane(int width, int height, int channels, double value) {
+  return {width, height, channels, std::vector<double>(size_t(width * height * channels), value)};
+}
+
+/// Pictures of floats as another program writes them; NaN and infinities as they are.
+void write_floats(const std::string& path, const EnginePlane& plane, std::vector<std::string> names,
+                  OIIO::TypeDesc type = OIIO::TypeDesc::FLOAT) {
+  OIIO::ImageSpec spec(plane.width, plane.height, plane.channels, type);
+  spec.channelnames = std::move(names);
+  const std::vector<float> values(plane.values.begin(), plane.values.end());
+  const auto output = OIIO::ImageOutput::create(path);
+  REQUIRE(output);
+  REQUIRE(output->open(path, spec));
+  REQUIRE(output->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+  REQUIRE(output->close());
+}
+const std::vector<std::string> kRgb = {"R", "G", "B"};
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+bool says(const Outcome& outcome, const std::string& text) {
+  INFO(outcome.out << outcome.err);
+  const bool found = outcome.out.find(text) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+Outcome run_compare(const ScratchFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "compare");
+  return run_command(arguments, folder.path(""));
+}
+
+/// Two floats pictures of 60x40 that differ as `change` makes the second.
+template <typename Change>
+ScratchFolder& with_pair(ScratchFolder& folder, Change change) {
+  EnginePlane plane = even_plane(60, 40, 3, 0.25);
+  write_floats(folder.path("ref.exr"), plane, kRgb);
+  change(plane);
+  write_floats(folder.path("test.exr"), plane, kRgb);
+  return folder;
+}
+
+}  // namespace
+
+TEST_CASE("pictures that fool idiff and FLIP's tool are refused: NaN for 0, Inf for 0, a run of 50 NaN") {
+  const auto put = [](double value, int from, int count) {
+    return [=](EnginePlane& plane) {
+      for (int x = from; x < from + count; ++x)
+        for (int c = 0; c < 3; ++c) plane.at(x, 7, c) = value;
+    };
+  };
+  const std::vector<std::vector<std::string>> criteria = {
+      {}, {"--max-difference", "1e30"}, {"--pixels", "1000000", "--delta", "1"}, {"--flip", "1"}, {"--allow-nonfinite"}};
+  for (const auto& [value, count] : {std::pair(kNan, 1), std::pair(kInf, 1), std::pair(-kInf, 1), std::pair(kNan, 50)}) {
+    ScratchFolder folder;
+    with_pair(folder, put(value, 3, count));
+    for (std::vector<std::string> arguments : criteria) {
+      arguments.insert(arguments.begin(), {"ref.exr", "test.exr"});
+      const Outcome outcome = run_compare(folder, arguments);
+      CHECK(outcome.exit_code == 1);
+      says(outcome, count == 1 ? "1 pixel has an infinity or NaN that is another value"
+                               : "50 pixels have an infinity or NaN that is another value");
+      says(outcome, "at 3,7, from the top left");
+      says(outcome, std::isnan(value) ? "nan" : "inf");
+    }
+  }
+}
+
+TEST_CASE("NaN and infinities that both pictures have fail as well, unless --allow-nonfinite lets them pass") {
+  ScratchFolder folder;
+  with_pair(folder, [](EnginePlane& plane) { plane.at(5, 6, 1) = kNan; });
+  std::filesystem::copy(folder.path("test.exr"), folder.path("same.exr"));
+  const Outcome outcome = run_compare(folder, {"test.exr", "same.exr"});
+  CHECK(outcome.exit_code == 1);
+  says(outcome, "1 pixel has an infinity or NaN, the same in both pictures");
+  says(outcome, "first pixel that is not finite at 5,6");
+  CHECK(run_compare(folder, {"test.exr", "same.exr", "--allow-nonfinite"}).exit_code == 0);
+}
+
+TEST_CASE("sizes, parts, channels and a missing alpha fail by default, each with a line that says what") {
+  const ScratchFolder folder;
+  const EnginePlane small = even_plane(8, 8, 3, 0.5), wide = even_plane(9, 8, 3, 0.5), rgba = even_plane(8, 8, 4, 0.5),
+                    grey = even_plane(8, 8, 1, 0.5), other = even_plane(8, 8, 1, 0.75);
+  write_floats(folder.path("small.exr"), small, kRgb);
+  write_floats(folder.path("wide.exr"), wide, kRgb);
+  write_floats(folder.path("rgba.exr"), rgba, {"R", "G", "B", "A"});
+  write_floats(folder.path("named.exr"), small, {"R", "G", "Z"});
+  write_exr_parts(folder.path("two.exr"), {{"a", {"R"}, "float", &grey}, {"b", {"R"}, "float", &grey}});
+  write_exr_parts(folder.path("second.exr"), {{"a", {"R"}, "float", &grey}, {"b", {"R"}, "float", &other}});
+  write_exr_parts(folder.path("one.exr"), {{"a", {"R"}, "float", &grey}});
+  const std::vector<std::array<std::string, 3>> rows = {
+      {"small.exr", "wide.exr", "the size is 8x8 in the reference and 9x8 in the test"},
+      {"rgba.exr", "small.exr", "the test has no alpha (channel A)"},
+      {"small.exr", "rgba.exr", "the reference has no alpha (channel A)"},
+      {"small.exr", "named.exr", "the test has no channel B"},
+      {"two.exr", "one.exr", "the test has no part 'b'"},
+      {"one.exr", "two.exr", "the reference has no part 'b'"},
+      {"two.exr", "second.exr", "at 0,0 of part b, from the top left"}};
+  for (const auto& [reference, test, line] : rows) {
+    const Outcome outcome = run_compare(folder, {reference, test});
+    CHECK(outcome.exit_code == 1);
+    says(outcome, line);
+  }
+  CHECK(run_compare(folder, {"small.exr", "wide.exr", "--max-difference", "1"}).exit_code == 1);
+}
+
+TEST_CASE("the first and the worst pixel are shown with both values, from the top left") {
+  ScratchFolder folder;
+  with_pair(folder, [](EnginePlane& plane) { plane.at(59, 0, 0) = 0.375, plane.at(0, 39, 2) = -0.5; });
+  const Outcome outcome = run_compare(folder, {"ref.exr", "test.exr"});
+  CHECK(outcome.exit_code == 1);
+  says(outcome, "verdict     the pictures differ: unequal pixels 2 (at most 0)");
+  says(outcome, "first pixel at 59,0, from the top left");
+  says(outcome, "worst pixel at 0,39, from the top left");
+  says(outcome, "0.375");
+  says(outcome, "-0.5");
+  const auto json = nlohmann::json::parse(run_compare(folder, {"ref.exr", "test.exr", "--json"}).out);
+  CHECK(json.at("outcome") == "different");
+  CHECK(json.at("passes") == false);
+  CHECK(json.at("unequal_pixels") == 2);
+  CHECK(json.at("first").at("x") == 59);
+  CHECK(json.at("worst").at("y") == 39);
+  CHECK(json.at("worst").at("values").at(2).at("test") == "-0.5");
+  CHECK(json.at("channels").at(2).at("largest") == 0.75);
+}
+
+TEST_CASE("one picture is the same in every format that holds its values") {
+  const ScratchFolder folder;
+  EnginePlane plane = even_plane(24, 10, 3, 0.0);
+  for (size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = double(i % 9) / 8.0;  // halves
+  write_floats(folder.path("float.exr"), plane, kRgb);
+  write_floats(folder.path("half.exr"), plane, kRgb, OIIO::TypeDesc::HALF);
+  write_exr_parts(folder.path("tiled.exr"), {{"", kRgb, "float", &plane}}, 16);
+  write_npy(folder.path("floats.npy"), plane, "<f4");
+  write_npy(folder.path("big.npy"), plane, ">f8", true);
+  write_tiff(folder.path("float.tif"), plane, "float", "zip");
+  for (const char* test : {"half.exr", "tiled.exr", "floats.npy", "big.npy", "float.tif"}) {
+    const Outcome outcome = run_compare(folder, {"float.exr", test});
+    INFO(test << outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 0);
+  }
+}
+
+TEST_CASE("a PNG and an EXR of one target are the same; a float target's PNG is decoded, and that is said") {
+  const ScratchFolder folder;
+  REQUIRE(run_command({"render", "builtin:cornell", "--size", "48x32", "-o", "codes.png", "-o", "codes.exr"},
+                      folder.path(""))
+              .exit_code == 0);
+  REQUIRE(run_command({"render", "builtin:cornell", "--size", "48x32", "--target", "rgba16f", "-o", "light.png", "-o",
+                       "light.exr"},
+                      folder.path(""))
+              .exit_code == 0);
+  CHECK(run_compare(folder, {"codes.exr", "codes.png"}).exit_code == 0);
+  const Outcome decoded = run_compare(folder, {"light.exr", "light.png", "--no-judge"});
+  says(decoded, "the test is sRGB and was decoded, as the other is linear light");
+}
+
+TEST_CASE("where the reference carries its scene, pictures are judged by it, and a fault is named") {
+  const ScratchFolder folder;
+  folder.write("scene.json", R"({"version": 1, "camera": {"eye": [0, 3, 4], "target": [0, 0, 0]},
+    "objects": [{"mesh": "plane", "color": [0.8, 0.7, 0.6], "scale": 10}],
+    "lights": [{"type": "point", "position": [0, 2, 0], "color": [1, 1, 1], "intensity": 0.8, "range": 6}]})");
+  std::string dim = content_of(folder.path("scene.json"));
+  dim.replace(dim.find("0.8, \"range\""), 3, "0.4");
+  folder.write("dim.json", dim);
+  const auto render = [&](const std::string& scene, const std::string& output) {
+    REQUIRE(run_command({"render", scene, "--size", "64x48", "-o", output, "-q"}, folder.path("")).exit_code == 0);
+  };
+  render("scene.json", "ref.png");
+  render("dim.json", "test.png");
+  const Outcome wrong = run_compare(folder, {"ref.png", "test.png"});
+  CHECK(wrong.exit_code == 1);
+  says(wrong, "verdict     judged by the reference's scene: ");
+  says(wrong, "are in no legal set (lighting ");
+  says(wrong, "looks like  light");
+  CHECK(nlohmann::json::parse(run_compare(folder, {"ref.png", "test.png", "--json"}).out).contains("judged"));
+
+  const Outcome plain = run_compare(folder, {"ref.png", "test.png", "--no-judge"});
+  CHECK(plain.exit_code == 1);
+  CHECK(plain.out.find("judged") == std::string::npos);
+  CHECK(run_compare(folder, {"ref.png", "test.png", "--max-difference", "1"}).exit_code == 0);  // a criterion: no judge
+
+  folder.write("scene.json", dim);  // the reference's scene is another one now
+  const Outcome changed = run_compare(folder, {"ref.png", "test.png"});
+  CHECK(changed.exit_code == 1);
+  says(changed, "not judged  the reference's scene: scene.json is another scene today");
+  std::filesystem::remove(folder.path("scene.json"));
+  says(run_compare(folder, {"ref.png", "test.png"}), "not judged  ");
+}
+
+TEST_CASE("values that are stored otherwise pass by the judge where OpenGL lets them, though equality would fail") {
+  const ScratchFolder folder;
+  const auto render = [&](const std::string& profile, const std::string& output) {
+    REQUIRE(run_command({"render", "builtin:cornell", "--size", "64x64", "--profile", profile, "-o", output, "--aov",
+                         "depth,position,normal,albedo,uv,id.object,id.material", "-q"},
+                        folder.path(""))
+                .exit_code == 0);
+  };
+  render("ideal", "ref.exr");
+  render("mesa-llvmpipe-22.3", "test.exr");
+  CHECK(run_compare(folder, {"ref.exr", "test.exr", "--no-judge"}).exit_code == 1);
+  const Outcome judged = run_compare(folder, {"ref.exr", "test.exr"});
+  CHECK(judged.exit_code == 0);
+  says(judged, "verdict     judged by the reference's scene: every pixel is explained; ");
+}
+
+TEST_CASE("maps of differences: FLIP's as PNG, the absolute difference of each channel as EXR") {
+  ScratchFolder folder;
+  with_pair(folder, [](EnginePlane& plane) { plane.at(30, 20, 1) = 0.75; });
+  const Outcome outcome = run_compare(folder, {"ref.exr", "test.exr", "-o", "map.png", "-o", "difference.exr"});
+  CHECK(outcome.exit_code == 1);
+  says(outcome, "wrote map.png (differences, PNG");
+  says(outcome, "FLIP        mean ");
+  const Image map = read_planes(folder.path("map.png"))[0].image;
+  CHECK((map.width == 60 && map.height == 40));
+  CHECK(map.code(0, 0, 0) < 4);      // no error is black
+  CHECK(map.code(30, 20, 0) > 100);  // orange or lighter
+  const Image difference = read_planes(folder.path("difference.exr"))[0].image;
+  CHECK(difference.value(30, 20, 1) == 0.5);
+  CHECK(difference.value(30, 20, 0) == 0.0);
+  CHECK(difference.value(0, 0, 1) == 0.0);
+}
+
+TEST_CASE("bad input to compare is one line, and leaves nothing behind") {
+  ScratchFolder folder;
+  with_pair(folder, [](EnginePlane&) {});
+  const std::string exr = content_of(folder.path("ref.exr"));
+  folder.write("torn.exr", exr.substr(0, exr.size() / 2));
+  folder.write("empty.png", "");
+  folder.write("text.png", "no picture\n");
+  folder.write("folder/inside.txt", "no picture\n");
+  folder.write("other/inside.txt", "no picture\n");
+  folder.write("bomb.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16000 +X 16000\n\2\2");
+  const std::vector<std::string> before = folder.entries();
+  struct Row {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string about;
+  };
+  const std::vector<Row> rows = {
+      {{"ref.exr", "torn.exr"}, 3, "torn.exr"},
+      {{"torn.exr", "ref.exr"}, 3, "torn.exr"},
+      {{"ref.exr", "empty.png"}, 3, "the file is empty"},
+      {{"ref.exr", "text.png"}, 3, "no picture of a kind that is read"},
+      {{"ref.exr", "bomb.hdr"}, 4, "--max-expansion"},
+      {{"ref.exr", "test.exr", "--max-memory", "1K"}, 4, "--max-memory"},
+      {{"ref.exr", "nothing.exr"}, 5, "cannot open it"},
+      {{"ref.exr", "folder"}, 3, "it is a file, and the test a folder"},
+      {{"folder", "ref.exr"}, 3, "it is a file, and the reference a folder"},
+      {{"folder", "other"}, 3, "there is no picture in it"},
+      {{"ref.exr", "ref.exr"}, 2, "it is the same as the reference"},
+      {{"ref.exr", "./ref.exr"}, 2, "it is the same as the reference"},
+      {{"ref.exr", "test.exr", "-o", "ref.exr"}, 2, "is one of the pictures that are compared"},
+      {{"ref.exr", "test.exr", "-o", "map.jpg"}, 2, "no format has the ending"},
+      {{"ref.exr", "test.exr", "-o", "nowhere/map.png"}, 5, "nowhere/map.png"},
+      {{"ref.exr", "test.exr", "--junit", "junit.txt"}, 2, "end the name in .xml"},
+      {{"ref.exr", "test.exr", "--max-difference", "-1"}, 2, "--max-difference"},
+      {{"ref.exr", "test.exr", "--max-difference", "2/0"}, 2, "--max-difference"},
+      {{"ref.exr", "test.exr", "--max-difference", "nan"}, 2, "--max-difference"},
+      {{"ref.exr", "test.exr", "--max-ulp", "1.5"}, 2, "--max-ulp"},
+      {{"ref.exr", "test.exr", "--delta", "0.1"}, 2, "add --pixels COUNT"},
+      {{"ref.exr", "test.exr", "--ppd", "0"}, 2, "--ppd"},
+      {{"ref.exr", "test.exr", "--ldr", "--hdr"}, 2, "exclude each other"},
+      {{"ref.exr", "test.exr", "--tone-mapper", "none"}, 2, "one of: aces hable reinhard"},
+      {{"ref.exr", "test.exr", "--exposures", "3,1"}, 2, "--exposures"},
+      {{"ref.exr", "test.exr", "--color-space", "adobe"}, 2, "one of: srgb linear"},
+      {{"ref.exr", "test.exr", "--treshold", "1"}, 2, "there is no such option"}};
+  for (const Row& row : rows) {
+    INFO(row.arguments[0] << ' ' << row.arguments[1]);
+    check_refused(run_compare(folder, row.arguments), row.exit_code, row.about);
+    CHECK(folder.entries() == before);
+  }
+}
+
+namespace {
+
+/// Folders ref and test with pictures in folders within: one that is the same, one that differs, one missing, one extra.
+void write_folders(const ScratchFolder& folder) {
+  for (const char* name : {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr", "test/extra.exr",
+                           "test/b/differs.exr", "test/notes.txt"})
+    folder.write(name, "");
+  const EnginePlane dark = even_plane(8, 6, 3, 0.25), light = even_plane(8, 6, 3, 0.5);
+  for (const char* name : {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr", "test/extra.exr"})
+    write_floats(folder.path(name), dark, kRgb);
+  write_floats(folder.path("test/b/differs.exr"), light, kRgb);
+}
+
+}  // namespace
+
+TEST_CASE("folders are compared by relative names: one table, the worst first; missing and extra pictures fail") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const Outcome outcome = run_compare(folder, {"ref", "test"});
+  CHECK(outcome.exit_code == 1);
+  says(outcome, "verdict     3 of 4 pictures do not pass");
+  says(outcome, "1 other files were passed over");
+  const size_t extra = outcome.out.find("extra.exr"), missing = outcome.out.find("missing.exr"),
+               differs = outcome.out.find("b/differs.exr"), same = outcome.out.find("same        1 picture");
+  CHECK(extra < missing);
+  CHECK(missing < differs);
+  CHECK(differs < same);
+  CHECK(same != std::string::npos);
+  CHECK(run_compare(folder, {"ref/a", "test/a"}).exit_code == 0);
+
+  folder.write("test/b/differs.exr", "no picture");
+  const Outcome damaged = run_compare(folder, {"ref", "test"});
+  CHECK(damaged.exit_code == 3);  // that of the picture that cannot be read
+  says(damaged, "unreadable");
+  const auto json = nlohmann::json::parse(run_compare(folder, {"ref", "test", "--json"}).out);
+  CHECK(json.at("failures") == 3);
+  CHECK(json.at("pictures").at(0).at("name") == "b/differs.exr");
+}
+
+TEST_CASE("--accept makes test pictures references, byte by byte, and then the folders pass but for what is missing") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const Outcome outcome = run_compare(folder, {"ref", "test", "--accept"});
+  CHECK(outcome.exit_code == 1);  // a reference that has no test picture is not deleted
+  says(outcome, "2 accepted");
+  says(outcome, "delete the reference by hand if it is to go");
+  CHECK(content_of(folder.path("ref/b/differs.exr")) == content_of(folder.path("test/b/differs.exr")));
+  CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  std::filesystem::remove(folder.path("ref/missing.exr"));
+  CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
+}
+
+TEST_CASE("--accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {
+  ScratchFolder folder;
+  with_pair(folder, [](EnginePlane& plane) { plane.at(2, 3, 1) = kNan; });
+  const std::string before = content_of(folder.path("ref.exr"));
+  check_refused(run_compare(folder, {"ref.exr", "test.exr", "--accept"}), 3, "channel G is not finite at 2,3");
+  CHECK(content_of(folder.path("ref.exr")) == before);
+  check_refused(run_compare(folder, {"new.exr", "test.exr", "--accept"}), 3, "channel G is not finite at 2,3");
+  CHECK_FALSE(std::filesystem::exists(folder.path("new.exr")));
+  const Outcome first = run_compare(folder, {"made/new.exr", "ref.exr", "--accept"});
+  CHECK(first.exit_code == 0);
+  CHECK(content_of(folder.path("made/new.exr")) == before);
+
+  folder.write("r/x.exr", before.substr(0, 200));
+  folder.write("t/x.exr", before);
+  folder.write("r/y.exr", before);
+  folder.write("t/y.exr", before.substr(0, 200));
+  CHECK(run_compare(folder, {"r", "t", "--accept"}).exit_code == 3);
+  CHECK(content_of(folder.path("r/x.exr")) == before);
+  CHECK(content_of(folder.path("r/y.exr")) == before);
+}
+
+TEST_CASE("--junit writes a testcase a picture, and names that XML has to escape are escaped") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  std::filesystem::rename(folder.path("test/extra.exr"), folder.path("test/<a> & \"b\".exr"));
+  folder.write("ref/torn.exr", "no picture");
+  folder.write("test/torn.exr", "no picture");
+  CHECK(run_compare(folder, {"ref", "test", "--junit", "junit.xml"}).exit_code == 3);
+  const std::string xml = content_of(folder.path("junit.xml"));
+  CHECK(xml.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites "));
+  CHECK(xml.find("tests=\"5\" failures=\"3\" errors=\"1\"") != std::string::npos);
+  CHECK(xml.find("name=\"&lt;a&gt; &amp; &quot;b&quot;.exr\"") != std::string::npos);
+  CHECK(xml.find("<failure type=\"missing\"") != std::string::npos);
+  CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
+}
+
+TEST_CASE("of folders -o takes maps of the pictures that do not pass") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  CHECK(run_compare(folder, {"ref", "test", "-o", "maps"}).exit_code == 1);
+  CHECK(std::filesystem::exists(folder.path("maps/b/differs.exr.flip.png")));
+  CHECK_FALSE(std::filesystem::exists(folder.path("maps/a/same.exr.flip.png")));
+}
+
+}  // namespace trueshade
