@@ -57,8 +57,8 @@ std::string rows_text(const FolderComparison& folders) {
   text += "reference   " + printable(folders.reference, Lines::one) + '\n';
   text += "test        " + printable(folders.test, Lines::one) + '\n';
   if (folders.passed_over > 0)
-    text += "note        " + std::to_string(folders.passed_over) +
-            " other files were passed over: their names do not end as a picture's\n";
+    text += "note        files whose names do not end as a picture's were passed over: " +
+            std::to_string(folders.passed_over) + '\n';
   if (same < all) {
     char line[160];
     text += "\noutcome     unequal pixels    largest  FLIP mean  " + ("picture" + std::string(name_width - 5, ' ')) +

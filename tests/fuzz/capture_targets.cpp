@@ -1,6 +1,7 @@
 #include <string>
 
 #include "cli/capture/capture_map.h"
+#include "core/expansion.h"
 #include "core/image_files/channel_file.h"
 #include "tests/fuzz/promises.h"
 
@@ -37,6 +38,18 @@ void run_tiff(Bytes bytes) {
   const std::string_view text = text_of(bytes);
   if (text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4)))
     read([&] { check_channels(tiff_channels("p.tif", bytes), bytes.size()); });
+}
+
+void run_hdr(Bytes bytes) {
+  read([&] {
+    const ChannelFile file = hdr_channels("p.hdr", bytes, kMostExpansion);
+    promise(file.channels.size() == 3, "there are R, G and B");
+    for (const Channel& channel : file.channels) {
+      promise(channel.words.size() == size_t(file.width) * size_t(file.height), "a channel is whole");
+      for (size_t i = 0; i < channel.words.size(); ++i)
+        promise(channel.value(i) >= 0 && channel.value(i) <= 255 * 0x1p119, "a value is one of RGBE");
+    }
+  });
 }
 
 /// A map that is read names each plane once, and its text without comments is read as the same.

@@ -42,6 +42,7 @@ void check_scene(Scene scene);
 void run_npy(Bytes bytes);
 void run_dds(Bytes bytes);
 void run_tiff(Bytes bytes);
+void run_hdr(Bytes bytes);
 void run_capture_map(Bytes bytes);
 
 /// Targets of OBJ and MTL files.

@@ -181,6 +181,7 @@ constexpr Target kTargets[] = {{"gltf", run_gltf},
                                {"npy", run_npy},
                                {"dds", run_dds},
                                {"tiff", run_tiff},
+                               {"hdr", run_hdr},
                                {"capture_map", run_capture_map}};
 
 }  // namespace
