@@ -82,7 +82,7 @@ int compare_two_pictures(const CompareOptions& options) {
   check_picture_outputs(options);
   std::error_code unknown;
   if (options.accept && !fs::exists(options.reference, unknown)) {
-    accepted(options, read_picture_file(options.test, options.limits.expansion));
+    accepted(options, read_any_picture(options.test, options.limits.expansion));
     return 0;
   }
   ComparedPictures pictures;

@@ -16,8 +16,8 @@ uint64_t flip_memory(uint64_t pixels) {
 ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
                                    const CompareOptions& options) {
   ComparedPictures pictures;
-  pictures.reference = read_picture_file(reference, options.limits.expansion);
-  pictures.test = read_picture_file(test, options.limits.expansion);
+  pictures.reference = read_any_picture(reference, options.limits.expansion);
+  pictures.test = read_any_picture(test, options.limits.expansion);
   const ChannelFile& part = pictures.reference.parts.front();
   const auto& criteria = options.rules.criteria;
   if (options.rules.wants_flip ||

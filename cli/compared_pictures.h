@@ -26,7 +26,7 @@ struct ComparedPictures {
 };
 
 /// Reads two pictures and compares them; judges the test where the options let it and the reference carries its scene.
-/// Errors as read_picture_file() has them; Error(limit) where comparing would take more memory than the cap.
+/// Errors as read_any_picture() has them; Error(limit) where comparing would take more memory than the cap.
 ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
                                    const CompareOptions& options);
 

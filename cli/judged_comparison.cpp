@@ -84,7 +84,8 @@ class SceneJudge {
     const bool has_planes = std::any_of(test.channels.begin(), test.channels.end(), [](const Channel& channel) {
       return std::string_view("RGBAY").find(channel.name) == std::string_view::npos;
     });
-    CaptureFiles files = has_planes ? read_capture_files({test.path}, "", {}, options_.limits.expansion) : picture_alone();
+    const CaptureFiles files = has_planes ? read_capture_files({test.path}, "", {}, options_.limits.expansion)
+                                          : read_picture_file(test.path, options_.limits.expansion);
     CapturedPlanes planes = captured_planes(files, scene_, v_.pipeline);
     v_.capture = std::move(planes.capture);
     if (!has_planes) draw_planes();
@@ -95,20 +96,6 @@ class SceneJudge {
       v_.notes.push_back(
           "the test is a picture alone: its planes are drawn here, so a renderer whose edges or depths differ shows "
           "violations there (write planes into an EXR to have them judged)");
-  }
-
-  CaptureFiles picture_alone() const {
-    CaptureFiles files;
-    files.files.push_back(pictures_.test.parts.front());
-    files.name = pictures_.test.path;
-    PlaneChannelList color{{}, &files.files.front(), {}};
-    color.mapped.plane = "color";
-    for (const char* name : {"R", "G", "B", "A"})
-      for (const Channel& channel : files.files.front().channels)
-        if (channel.name == name) color.channels.push_back(&channel);
-    if (color.channels.size() < 3) throw not_judged("the test has no channels R, G and B");
-    files.planes.push_back(std::move(color));
-    return files;
   }
 
   void draw_planes() {

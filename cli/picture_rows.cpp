@@ -95,12 +95,12 @@ class FolderComparer {
     if (!in_reference) {
       row.state = RowState::extra;
       row.reason = "the reference has no such picture";
-      if (options_.accept) accept(read_picture_file(test(row), options_.limits.expansion), row);
+      if (options_.accept) accept(read_any_picture(test(row), options_.limits.expansion), row);
       return;
     }
     if (options_.accept) {
       // A reference that is damaged is replaced too; a test picture that is damaged never replaces one.
-      const PictureFile picture = read_picture_file(test(row), options_.limits.expansion);
+      const PictureFile picture = read_any_picture(test(row), options_.limits.expansion);
       try {
         compare_pair(row);
       } catch (const Error& error) {

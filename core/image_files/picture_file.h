@@ -24,6 +24,6 @@ struct PictureFile {
 /// Reads a picture of any kind that core/image_files has a reader for: EXR (scan lines or tiles, the first level; parts
 /// of several sizes; any data window), PNG, TIFF, DDS, .npy, Radiance HDR, JPEG. The first bytes tell the kind.
 /// Errors as read_channel_file() has them.
-PictureFile read_picture_file(const std::string& path, uint64_t most_expansion);
+PictureFile read_any_picture(const std::string& path, uint64_t most_expansion);
 
 }  // namespace trueshade

@@ -285,7 +285,7 @@ ChannelFile read_channel_file(const std::string& path, uint64_t most_expansion) 
                   "save it as EXR, DDS, TIFF, PNG or .npy");
 }
 
-PictureFile read_picture_file(const std::string& path, uint64_t most_expansion) {
+PictureFile read_any_picture(const std::string& path, uint64_t most_expansion) {
   const FpScope ieee;
   const std::vector<uint8_t> bytes = read_bytes(path);
   PictureFile picture;

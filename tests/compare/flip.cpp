@@ -36,7 +36,7 @@ TEST_CASE("FLIP's figures are within 1e-4 of NVIDIA's tool, of five pairs of scr
   for (const nlohmann::json& row : expected.at("pairs")) {
     INFO(row.at("test"));
     const auto read = [&](const char* which) {
-      return read_picture_file((folder / "pairs" / row.at(which).get<std::string>()).string(), kMostExpansion);
+      return read_any_picture((folder / "pairs" / row.at(which).get<std::string>()).string(), kMostExpansion);
     };
     const PictureFile reference = read("reference"), test = read("test");
     CompareRules rules;

@@ -75,7 +75,7 @@ void check_pixels(const PictureFile& picture, const std::vector<Pixel>& pixels) 
 /// What is said of a file that is refused; empty for one that is read.
 std::string refusal(const ScratchFolder& folder, const std::string& content) {
   try {
-    read_picture_file(folder.write("file", content), kMostExpansion);
+    read_any_picture(folder.write("file", content), kMostExpansion);
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::bad_input);
     return error.what();
@@ -87,7 +87,7 @@ TEST_CASE("Radiance pictures are read in each of their three packings, to the va
   const ScratchFolder folder;
   const std::vector<Pixel> pixels = random_pixels(40 * 6);
   const auto read = [&](const std::string& content) {
-    return read_picture_file(folder.write("picture.hdr", content), kMostExpansion);
+    return read_any_picture(folder.write("picture.hdr", content), kMostExpansion);
   };
   check_pixels(read(header_of(40, 6) + packed_rows(pixels, 40)), pixels);
   check_pixels(read(header_of(40, 6) + plain_rows(pixels)), pixels);
@@ -133,7 +133,7 @@ TEST_CASE("Radiance pictures of other layouts, formats and widths are refused, a
 TEST_CASE("a Radiance picture that says it is far larger than its bytes is over the limit of expansion") {
   const ScratchFolder folder;
   try {
-    read_picture_file(folder.write("bomb.hdr", header_of(16000, 16000) + "\x80\x80\x80\x81"), kMostExpansion);
+    read_any_picture(folder.write("bomb.hdr", header_of(16000, 16000) + "\x80\x80\x80\x81"), kMostExpansion);
     FAIL("it was read");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::limit);
