@@ -40,6 +40,7 @@ std::string table_of(const std::vector<std::vector<std::string>>& rows) {
     for (size_t i = 0; i < row.size(); ++i) {
       const std::string room(widths[i] - row[i].size(), ' ');
       const bool last = i + 1 == row.size();
+      if (last && row[i].empty()) continue;
       text += i == 0 ? row[i] + room : last ? "  " + row[i] : "  " + room + row[i];
     }
     text += '\n';

@@ -217,7 +217,8 @@ TEST_CASE("where the reference carries its scene, pictures are judged by it, and
 TEST_CASE("values that are stored otherwise pass by the judge where OpenGL lets them, though equality would fail") {
   const ScratchFolder folder;
   const auto render = [&](const std::string& half_round, const std::string& output) {
-    folder.write("pipeline.json", "{\"version\": 1, \"target\": \"rgba16f\", \"half_round\": \"" + half_round + "\"}");
+    folder.write("pipeline.json", "{\"version\": 1, \"target\": \"rgba16f\", \"gbuffer\": {\"half_round\": \"" +
+                                      half_round + "\"}}");
     REQUIRE(run_command({"render", "builtin:cornell", "--size", "64x64", "--pipeline", "pipeline.json", "-o", output,
                          "--aov",
                          "depth,position,normal,albedo,uv,id.object,id.material", "-q"},
