@@ -72,6 +72,7 @@ class Inspector {
 
   show_pin(pixel) {
     this.pinned = pixel;
+    this.card.classList.toggle("empty", !pixel);  // which is left out on paper
     if (!pixel) {
       this.card.replaceChildren(
         element("h3", {}, "Pixel"),
