@@ -40,10 +40,12 @@ void check_names(const CompareOptions& options) {
       throw usage("-o", "'" + path + "' is one of the pictures that are compared", "give it another name");
 }
 
+bool is_page(const std::string& path) { return has_ending(path, ".html"); }
+
 void check_picture_outputs(const CompareOptions& options) {
   for (const std::string& path : options.outputs) {
-    if (!has_ending(path, ".png") && !has_ending(path, ".exr"))
-      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png or .exr");
+    if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !is_page(path))
+      throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
     check_writable(path);
   }
   if (options.junit) check_writable(*options.junit);
@@ -90,12 +92,17 @@ int compare_two_pictures(const CompareOptions& options) {
     const LoopProgress progress("comparing", "bands of rows");
     pictures = compared_pictures(options.reference, options.test, options);
   }
-  for (const std::string& path : options.outputs) write_differences(pictures, path);
+  for (const std::string& path : options.outputs) {
+    if (is_page(path))
+      write_text(path, comparison_page(pictures, "trueshade" + options.command_line));
+    else
+      write_differences(pictures, path);
+  }
   const bool is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
   if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures, is_accepted)));
   print(options.json ? comparison_json(pictures) : comparison_text(pictures));
   for (const std::string& path : options.outputs)
-    say_written(path, "differences, " + kind_of_file(path), answers(options));
+    say_written(path, is_page(path) ? "HTML report" : "differences, " + kind_of_file(path), answers(options));
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
   return passes(pictures) || is_accepted ? 0 : 1;
 }

@@ -46,6 +46,10 @@ std::string comparison_json(const ComparedPictures& pictures);
 /// `PNG, 640x480, R G B unorm 8`.
 std::string about_picture(const PictureFile& picture);
 
+/// A page of HTML that needs no other file: both pictures to look into, and every figure with what it means. `command`:
+/// as it was given.
+std::string comparison_page(const ComparedPictures& pictures, const std::string& command);
+
 /// Writes a picture of the differences: .png the FLIP map, .exr the absolute difference of each channel that both have.
 /// Error(bad_input) where there is none.
 void write_differences(const ComparedPictures& pictures, const std::string& path);

@@ -294,7 +294,8 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& options, CompareTexts& text
   add_switch(command, "--no-judge", texts.no_judge,
              "Compare values although the reference carries its scene, by which pixels can be judged");
   add_values(command, "-o,--output", "FILE", options.outputs,
-             "Differences to write: .png as FLIP's map, .exr as numbers; of folders a folder for maps; may be repeated");
+             "Differences to write: .png as FLIP's map, .exr as numbers, .html as a page to look into; of folders a folder for "
+             "maps; may be repeated");
   add_value(command, "--junit", "FILE", options.junit, "JUnit XML to write, .xml, for CI services");
   add_switch(command, "--accept", options.accept,
              "Copy test pictures that do not pass over their references, but none that is not finite");

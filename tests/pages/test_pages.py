@@ -361,6 +361,44 @@ class Page(unittest.TestCase):
         finally:
             self.browser.scripts(True)
 
+    def test_a_comparison_shows_both_pictures_and_the_worst_pixel(self):
+        for seed in ("1", "2"):
+            trueshade("render", f"builtin:city,objects=40,seed={seed}", "--size", "120x90", "-o", f"seed{seed}.exr",
+                      "--target", "rgba16f", "--aov", "normal", "-q")
+        path = page("compare.html", ("compare", "seed1.exr", "seed2.exr", "--no-judge", "-o", "compare.html"))
+        self.open(path)
+        self.assertIn("Exposure", self.browser.run("return document.querySelector('.side').textContent;"))
+        self.browser.run("document.querySelector('.next').click();")
+        self.browser.wait("document.querySelectorAll('.values tbody tr').length >= 4")
+        x, y = self.viewer("v.panes.pin")
+        told = json.loads(trueshade("compare", "seed1.exr", "seed2.exr", "--no-judge", "--json", codes=(1,)))
+        self.assertEqual(told["unequal_pixels"] > 0, True)
+        codes = [self.viewer(f"v.layers.get('group0-{side}').pixel({x}, {y})") for side in ("reference", "test")]
+        largest = max(abs(struct.unpack("f", struct.pack("I", a))[0] - struct.unpack("f", struct.pack("I", b))[0])
+                      for a, b in zip(*codes))
+        self.assertAlmostEqual(largest, max(c["largest"] for c in told["channels"] if c["name"] in "RGBA"), places=6)
+        self.assertIn("Difference N", self.browser.run("return document.querySelector('.choices').textContent;"))
+
+    def test_an_image_of_16384_by_16384_is_shown(self):
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        side = 16384
+        for name, odd in (("huge1.png", 0), ("huge2.png", 200)):
+            row = bytes([0]) + bytes([40]) * side
+            last = bytes([0]) + bytes([40]) * (side - 1) + bytes([40 + odd])
+            with open(os.path.join(FOLDER.name, name), "wb") as file:
+                file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0)) +
+                           chunk(b"IDAT", zlib.compress(row * (side - 1) + last, 1)) + chunk(b"IEND", b""))
+        path = page("huge.html", ("compare", "huge1.png", "huge2.png", "--max-expansion", "100000", "-o", "huge.html"))
+        self.open(path)
+        self.browser.run("document.querySelector('.next').click();")
+        self.assertEqual(self.viewer("v.panes.pin"), [side - 1, side - 1])
+        self.browser.wait(f"document.getElementById('viewer').viewer.layers.get('group0-test').pixel({side - 1}, {side - 1})")
+        self.assertEqual(self.viewer(f"v.layers.get('group0-test').pixel({side - 1}, {side - 1})"), [240])
+        self.settle()
+        self.assertLessEqual(self.viewer("Math.max(...v.panes.list.map(p => p.canvas.width))"), 1280)
+
     def test_names_from_outside_are_text(self):
         name = "<img src=x onerror=alert(1)>.exr"
         with open(os.path.join(FOLDER.name, name), "wb") as file, open(wrong_page().replace(".html", ".exr"), "rb") as wrong:
