@@ -16,9 +16,8 @@ using compare::ChannelDifferences;
 using compare::Comparison;
 using compare::PixelValues;
 
-constexpr size_t kMostGroups =
-    12; // of channels that are in a page: an EXR may have thousands
-constexpr size_t kLargestPlaces = 100; // of the pixels that differ most
+constexpr size_t kMostGroups = 12;      // of channels that are in a page: an EXR may have thousands
+constexpr size_t kLargestPlaces = 100;  // of the pixels that differ most
 constexpr int kGain = 16;
 
 std::string digits(double value, const char *format = "%.6g") {
@@ -34,41 +33,29 @@ Places largest_differences(const PageLayer &from, const PageLayer &to) {
     int x, y;
   };
   std::vector<Apart> found;
-  const auto is_larger = [](const Apart &a, const Apart &b) {
-    return a.distance > b.distance;
-  };
+  const auto is_larger = [](const Apart &a, const Apart &b) { return a.distance > b.distance; };
   std::vector<uint32_t> a(size_t(from.width) * from.channels()), b(a.size());
   for (int y = 0; y < from.height; ++y) {
     from.read(0, y, from.width, a.data());
     to.read(0, y, from.width, b.data());
     for (int x = 0; x < from.width; ++x) {
       double most = 0;
-      for (size_t i = size_t(x) * from.channels();
-           i < size_t(x + 1) * from.channels(); ++i) {
-        if (a[i] == b[i])
-          continue;
+      for (size_t i = size_t(x) * from.channels(); i < size_t(x + 1) * from.channels(); ++i) {
+        if (a[i] == b[i]) continue;
         const int k = int(i % from.channels());
         const double distance =
-            from.is_float ? std::fabs(from.value(a[i], k) - to.value(b[i], k))
-                          : std::fabs(double(a[i]) - double(b[i]));
+            from.is_float ? std::fabs(from.value(a[i], k) - to.value(b[i], k)) : std::fabs(double(a[i]) - double(b[i]));
         most = std::max(most, std::isnan(distance) ? HUGE_VAL : distance);
       }
-      if (most > 0)
-        found.push_back({most, x, y});
+      if (most > 0) found.push_back({most, x, y});
     }
-    if (found.size() < 64 * kLargestPlaces)
-      continue;
-    std::nth_element(found.begin(), found.begin() + kLargestPlaces, found.end(),
-                     is_larger);
+    if (found.size() < 64 * kLargestPlaces) continue;
+    std::nth_element(found.begin(), found.begin() + kLargestPlaces, found.end(), is_larger);
     found.resize(kLargestPlaces);
   }
   std::stable_sort(found.begin(), found.end(), is_larger);
-  Places places{
-      "Largest differences",
-      "Pixels in which a channel differs most, the largest difference first.",
-      {}};
-  for (size_t i = 0; i < std::min(found.size(), kLargestPlaces); ++i)
-    places.pixels.push_back({found[i].x, found[i].y});
+  Places places{"Largest differences", "Pixels in which a channel differs most, the largest difference first.", {}};
+  for (size_t i = 0; i < std::min(found.size(), kLargestPlaces); ++i) places.pixels.push_back({found[i].x, found[i].y});
   return places;
 }
 
@@ -76,85 +63,67 @@ Places largest_differences(const PageLayer &from, const PageLayer &to) {
 PixelExplanation explained(const PixelValues &pixel, const std::string &title) {
   std::string text;
   for (const PixelValues::Value &v : pixel.values)
-    if (!v.equal)
-      text +=
-          v.channel + ": reference " + v.reference + ", test " + v.test + "\n";
+    if (!v.equal) text += v.channel + ": reference " + v.reference + ", test " + v.test + "\n";
   return {pixel.x, pixel.y, title, text, {}};
 }
 
-void add_pixel(PageViewer &viewer, const std::optional<PixelValues> &pixel,
-               const PixelValues *unlike, const std::string &name,
-               const std::string &about) {
-  if (!pixel || (unlike != nullptr && unlike->part != pixel->part))
-    return;
+void add_pixel(PageViewer &viewer, const std::optional<PixelValues> &pixel, const PixelValues *unlike,
+               const std::string &name, const std::string &about) {
+  if (!pixel || (unlike != nullptr && unlike->part != pixel->part)) return;
   viewer.places.push_back({name, about, {{pixel->x, pixel->y}}});
   viewer.explanations.push_back(explained(*pixel, name));
 }
 
 std::string about_values(const ChannelGroup &group) {
-  const std::string reference =
-                        compare::storage_text(*group.channels[0]->reference),
+  const std::string reference = compare::storage_text(*group.channels[0]->reference),
                     test = compare::storage_text(*group.channels[0]->test);
-  if (reference == test)
-    return "Values as they are stored: " + reference + ".";
-  return "Stored as " + reference + " and " + test +
-         "; these are the values that both stand for.";
+  if (reference == test) return "Values as they are stored: " + reference + ".";
+  return "Stored as " + reference + " and " + test + "; these are the values that both stand for.";
 }
 
 std::string viewer_of(const ComparedPictures &pictures) {
   const Comparison &c = pictures.comparison;
   std::vector<ChannelGroup> groups = channel_groups(c.pairing);
-  if (groups.empty())
-    return "";
+  if (groups.empty()) return "";
   // A page shows pictures of one size: those of the first group's.
   std::erase_if(groups, [first = groups.front()](const ChannelGroup &g) {
     return g.width != first.width || g.height != first.height;
   });
-  if (groups.size() > kMostGroups)
-    groups.resize(kMostGroups);
+  if (groups.size() > kMostGroups) groups.resize(kMostGroups);
   PageViewer viewer;
   viewer.gain = kGain;
   std::string figures = "<div class=pictures>\n";
   for (size_t i = 0; i < groups.size(); ++i) {
-    GroupLayers both =
-        layers_of(groups[i], c.decoding, "group" + std::to_string(i));
-    const std::string what = groups[i].name.empty() ? "" : " " + groups[i].name;
-    PageLayer difference = layer_of_difference(
-        "Difference" + what,
-        "How far test and reference are apart, channel by channel, enlarged.",
-        both.reference, both.test, "group" + std::to_string(i) + "-difference");
+    GroupLayers both = layers_of(groups[i], c.decoding, "group" + std::to_string(i));
+    const std::string what = name_suffix(groups[i]);
+    PageLayer difference =
+        layer_of_difference("Difference" + what, "How far test and reference are apart, channel by channel, enlarged.",
+                            both.reference, both.test, "group" + std::to_string(i) + "-difference");
     if (i == 0) {
-      viewer.compared =
-          Compared{both.reference.id, both.test.id, about_values(groups[i])};
+      viewer.compared = Compared{both.reference.id, both.test.id, about_values(groups[i])};
       viewer.places.push_back(largest_differences(both.reference, both.test));
-      figures += figure(picture_of_layer(both.reference), "Reference",
-                        escaped(pictures.reference.path)) +
-                 figure(picture_of_layer(both.test), "Test",
-                        escaped(pictures.test.path)) +
-                 figure(picture_of_layer(difference), "Difference",
-                        "how far both are apart, not enlarged");
+      figures += figure(picture_of_layer(both.reference), "Reference", escaped(pictures.reference.path)) +
+                 figure(picture_of_layer(both.test), "Test", escaped(pictures.test.path)) +
+                 figure(picture_of_layer(difference), "Difference", "how far both are apart, not enlarged");
     }
     viewer.add(std::move(both.reference));
     viewer.add(std::move(both.test));
     viewer.add(std::move(difference));
   }
-  add_pixel(viewer, c.worst, nullptr, "Worst pixel",
-            "The pixel with the largest difference of any channel.");
-  add_pixel(viewer, c.first, nullptr, "First pixel",
-            "The first pixel that differs, row by row from the top.");
+  add_pixel(viewer, c.worst, nullptr, "Worst pixel", "The pixel with the largest difference of any channel.");
+  add_pixel(viewer, c.first, nullptr, "First pixel", "The first pixel that differs, row by row from the top.");
   add_pixel(viewer, c.first_not_finite, nullptr, "First that is not finite",
             "The first pixel with an infinity or NaN.");
-  if (const auto &judged = pictures.judged.validation)
-    add_judgement(*judged, viewer, "group0-test");
+  if (const auto &judged = pictures.judged.validation) add_judgement(*judged, viewer, "group0-test");
   return viewer_part(viewer, figures + "</div>\n", 0);
 }
 
 std::string criteria_part(const ComparedPictures &pictures) {
-  if (pictures.judged.validation || pictures.comparison.criteria.empty())
-    return "";
-  std::string html = "<h2>Criteria</h2>\n<p class=quiet>All must hold. Where "
-                     "none was asked for, every stored value must be "
-                     "equal.</p>\n<table>\n";
+  if (pictures.judged.validation || pictures.comparison.criteria.empty()) return "";
+  std::string html =
+      "<h2>Criteria</h2>\n<p class=quiet>All must hold. Where "
+      "none was asked for, every stored value must be "
+      "equal.</p>\n<table>\n";
   for (const compare::Judged &row : pictures.comparison.criteria)
     html += "<tr><td>" + escaped(compare::text_of(row)) + "<td class=\"" +
             (row.holds ? "good\">holds" : "bad\">does not hold") + '\n';
@@ -162,31 +131,22 @@ std::string criteria_part(const ComparedPictures &pictures) {
 }
 
 std::string channel_row(const ChannelDifferences &c) {
-  const std::string place =
-      c.largest > 0 && c.worst.part == 0
-          ? "<a href=\"#" + std::to_string(c.worst.x) + ',' +
-                std::to_string(c.worst.y) + "\" data-pixel=\"" +
-                std::to_string(c.worst.x) + ',' + std::to_string(c.worst.y) +
-                "\">" + std::to_string(c.worst.x) + ", " +
-                std::to_string(c.worst.y) + "</a>"
-          : "";
+  const std::string place = c.largest > 0 && c.worst.part == 0
+                                ? "<a href=\"#" + std::to_string(c.worst.x) + ',' + std::to_string(c.worst.y) +
+                                      "\" data-pixel=\"" + std::to_string(c.worst.x) + ',' + std::to_string(c.worst.y) +
+                                      "\">" + std::to_string(c.worst.x) + ", " + std::to_string(c.worst.y) + "</a>"
+                                : "";
   const std::string storage =
-      c.reference_storage == c.test_storage
-          ? c.reference_storage
-          : c.reference_storage + " and " + c.test_storage;
-  return "<tr><td>" + escaped(c.name) + "<td class=number>" +
-         grouped(std::to_string(c.unequal)) + "<td class=number>" +
-         digits(c.mean(), "%.4g") + "<td class=number>" +
-         digits(c.rms(), "%.4g") + "<td class=number>" + digits(c.largest) +
-         "<td class=number>" + digits(c.largest_ulp, "%.0f") + "<td>" + place +
-         "<td class=number>" + digits(c.psnr(), "%.2f") + "<td class=number>" +
-         std::to_string(c.not_finite_reference) + " | " +
-         std::to_string(c.not_finite_test) + "<td>" + escaped(storage) + '\n';
+      c.reference_storage == c.test_storage ? c.reference_storage : c.reference_storage + " and " + c.test_storage;
+  return "<tr><td>" + escaped(c.name) + "<td class=number>" + grouped(std::to_string(c.unequal)) + "<td class=number>" +
+         digits(c.mean(), "%.4g") + "<td class=number>" + digits(c.rms(), "%.4g") + "<td class=number>" +
+         digits(c.largest) + "<td class=number>" + digits(c.largest_ulp, "%.0f") + "<td>" + place +
+         "<td class=number>" + digits(c.psnr(), "%.2f") + "<td class=number>" + std::to_string(c.not_finite_reference) +
+         " | " + std::to_string(c.not_finite_test) + "<td>" + escaped(storage) + '\n';
 }
 
 std::string channels_part(const Comparison &c) {
-  if (c.differences.channels.empty())
-    return "";
+  if (c.differences.channels.empty()) return "";
   std::string html =
       "<h2>Channels</h2>\n<p class=quiet>Unequal: pixels whose stored values "
       "differ. Mean, RMS (root of the mean "
@@ -202,72 +162,47 @@ std::string channels_part(const Comparison &c) {
       "class=number>largest<th "
       "class=number>ULP<th>at<th "
       "class=number>PSNR<th class=number>not finite<th>stored as</thead>\n";
-  for (const ChannelDifferences &channel : c.differences.channels)
-    html += channel_row(channel);
+  for (const ChannelDifferences &channel : c.differences.channels) html += channel_row(channel);
   return html + "</table></div>\n";
 }
 
 std::string facts_of(const Comparison &c) {
   double largest = 0;
-  for (const ChannelDifferences &channel : c.differences.channels)
-    largest = std::max(largest, channel.largest);
+  for (const ChannelDifferences &channel : c.differences.channels) largest = std::max(largest, channel.largest);
   std::string html =
       "<div class=facts>" +
-      fact(grouped(std::to_string(c.differences.unequal_pixels)),
-           "pixels differ",
-           "Of " + std::to_string(c.differences.pixels) +
-               "; a channel of each has another stored value.") +
-      fact(digits(largest), "largest difference",
-           "Of any channel; codes as shares of the largest code.") +
-      fact(grouped(std::to_string(c.differences.not_finite_pixels)),
-           "pixels not finite",
+      fact(grouped(std::to_string(c.differences.unequal_pixels)), "pixels differ",
+           "Of " + std::to_string(c.differences.pixels) + "; a channel of each has another stored value.") +
+      fact(digits(largest), "largest difference", "Of any channel; codes as shares of the largest code.") +
+      fact(grouped(std::to_string(c.differences.not_finite_pixels)), "pixels not finite",
            "With an infinity or a value that is no number, in either picture.");
   if (c.flip)
-    html += fact(digits(c.flip->mean),
-                 c.flip->exposures ? "HDR-FLIP, mean" : "FLIP, mean",
+    html += fact(digits(c.flip->mean), c.flip->exposures ? "HDR-FLIP, mean" : "FLIP, mean",
                  "How much people see the difference when they flip between "
                  "both: 0 not at all, 1 at most.");
   return html + "</div>\n";
 }
 
-std::string paragraph(const std::string &text) {
-  return text.empty() ? "" : "<p>" + escaped(text) + ".</p>\n";
-}
+std::string paragraph(const std::string &text) { return text.empty() ? "" : "<p>" + escaped(text) + ".</p>\n"; }
 
-} // namespace
+}  // namespace
 
-std::string comparison_page(const ComparedPictures &pictures,
-                            const std::string &command) {
+std::string comparison_page(const ComparedPictures &pictures, const std::string &command) {
   const Comparison &c = pictures.comparison;
-  std::string html =
-      page_head("Two pictures, compared") +
-      heading_part("Two pictures, compared") + "<p class=\"verdict " +
-      (passes(pictures) ? "good" : "bad") +
-      "\">Verdict: " + escaped(verdict_line(pictures)) + ".</p>\n";
-  html += "<p class=quiet>reference " +
-          escaped(pictures.reference.path + ": " +
-                  about_picture(pictures.reference)) +
-          "<br>test " +
-          escaped(pictures.test.path + ": " + about_picture(pictures.test)) +
-          "</p>\n";
-  for (const std::string &failure : c.failures)
-    html += "<p class=note>" + escaped(failure) + ".</p>\n";
-  if (const auto &judged = pictures.judged.validation)
-    html += diagnosis_part(*judged);
-  html += viewer_of(pictures) + facts_of(c) + criteria_part(pictures) +
-          channels_part(c);
-  if (const auto &judged = pictures.judged.validation)
-    html += stages_part(*judged);
-  html +=
-      "<h2>About this comparison</h2>\n" + paragraph("Colours: " + c.colors);
-  for (const std::string &note : c.notes)
-    html += paragraph(note);
-  if (!c.no_flip.empty())
-    html += paragraph("FLIP was not measured: " + c.no_flip);
-  if (!pictures.judged.why_not.empty())
-    html += paragraph("Not judged: " + pictures.judged.why_not);
-  return html + "<p class=quiet>trueshade " + kVersion + "</p>\n" +
-         reproduce_part(command) + page_end();
+  std::string html = page_head("Two pictures, compared") + heading_part("Two pictures, compared") +
+                     "<p class=\"verdict " + (passes(pictures) ? "good" : "bad") +
+                     "\">Verdict: " + escaped(verdict_line(pictures)) + ".</p>\n";
+  html += "<p class=quiet>reference " + escaped(pictures.reference.path + ": " + about_picture(pictures.reference)) +
+          "<br>test " + escaped(pictures.test.path + ": " + about_picture(pictures.test)) + "</p>\n";
+  for (const std::string &failure : c.failures) html += "<p class=note>" + escaped(failure) + ".</p>\n";
+  if (const auto &judged = pictures.judged.validation) html += diagnosis_part(*judged);
+  html += viewer_of(pictures) + facts_of(c) + criteria_part(pictures) + channels_part(c);
+  if (const auto &judged = pictures.judged.validation) html += stages_part(*judged);
+  html += "<h2>About this comparison</h2>\n" + paragraph("Colours: " + c.colors);
+  for (const std::string &note : c.notes) html += paragraph(note);
+  if (!c.no_flip.empty()) html += paragraph("FLIP was not measured: " + c.no_flip);
+  if (!pictures.judged.why_not.empty()) html += paragraph("Not judged: " + pictures.judged.why_not);
+  return html + "<p class=quiet>trueshade " + kVersion + "</p>\n" + reproduce_part(command) + page_end();
 }
 
-} // namespace trueshade
+}  // namespace trueshade

@@ -16,7 +16,10 @@ class Viewer {
         if (layer.base) level.base = this.layers.get(layer.base).levels.find(other => other.scale === level.scale);
     }
     this.shown = [...this.layers.values()].filter(layer => layer.shown);
-    this.chosen = new Set(this.shown.slice(0, 4).map(layer => layer.id));
+    const {compared} = manifest;  // of which both sides, their difference and the first map of classes are shown first
+    const comes_first = layer => !compared || layer.look === "classes" || [compared.reference, compared.test].includes(layer.id) ||
+                                 (layer.look === "difference" && layer.of[0] === compared.reference);
+    this.chosen = new Set(this.shown.filter(comes_first).slice(0, 4).map(layer => layer.id));
     this.one = this.shown[0].id;
     this.sides = manifest.compared ? [manifest.compared.reference, manifest.compared.test]
                                    : [this.shown[0].id, (this.shown[1] || this.shown[0]).id];
