@@ -11,50 +11,48 @@ namespace {
 
 using compare::ChannelPair;
 
-/// A channel's layer, and its place in it: N.X is X of N; R, G, B and A belong
-/// to no layer.
-std::pair<std::string, std::string> split_name(const std::string &name) {
+/// A channel's layer, and its place in it: N.X is X of N; R, G, B and A belong to no layer.
+std::pair<std::string, std::string> split_name(const std::string& name) {
   const size_t dot = name.rfind('.');
   return dot == std::string::npos ? std::pair<std::string, std::string>("", name)
                                   : std::pair(name.substr(0, dot), name.substr(dot + 1));
 }
 
-bool is_letter_of(std::string_view letters, const std::string &name) {
+bool is_letter_of(std::string_view letters, const std::string& name) {
   return name.size() == 1 && letters.find(name[0]) != std::string_view::npos;
 }
 
-/// Where a channel stands among others of its layer: in the order R, G, B, A
-/// and X, Y, Z, W.
-size_t place_of(const ChannelPair &pair) {
+/// Where a channel stands among others of its layer: in the order R, G, B, A and X, Y, Z, W.
+size_t place_of(const ChannelPair& pair) {
   const std::string last = split_name(pair.name).second;
   const size_t rgba = std::string_view("RGBA").find(last), xyzw = std::string_view("XYZW").find(last);
   return std::min(last.size() == 1 ? std::min(rgba, xyzw) : std::string_view::npos, size_t(99));
 }
 
-bool same_storage(const ChannelGroup &group) {
-  return std::all_of(group.channels.begin(), group.channels.end(), [&](const ChannelPair *pair) {
+bool same_storage(const ChannelGroup& group) {
+  return std::all_of(group.channels.begin(), group.channels.end(), [&](const ChannelPair* pair) {
     const Channel &a = *pair->reference, &b = *pair->test, &first = *group.channels.front()->reference;
     return a.kind == b.kind && a.bits == b.bits && a.kind == first.kind && a.bits == first.bits;
   });
 }
 
 /// One side of a group. `as_values`: floats of what the numbers stand for.
-PageLayer layer_of_side(const ChannelGroup &group, bool is_test, bool as_values, bool decode, const std::string &id) {
+PageLayer layer_of_side(const ChannelGroup& group, bool is_test, bool as_values, bool decode, const std::string& id) {
   PageLayer layer;
   layer.id = id;
   layer.width = group.width, layer.height = group.height;
-  std::vector<const Channel *> channels;
-  for (const ChannelPair *pair : group.channels) {
-    const Channel &channel = is_test ? *pair->test : *pair->reference;
+  std::vector<const Channel*> channels;
+  for (const ChannelPair* pair : group.channels) {
+    const Channel& channel = is_test ? *pair->test : *pair->reference;
     channels.push_back(&channel);
     layer.is_float = as_values || channel.kind == ChannelKind::floating;
     layer.widths.push_back(layer.is_float ? 32 : channel.bits);
     layer.channel_names.push_back(group.channels.size() == 1 ? "" : split_name(pair->name).second);
   }
   layer.value = [](uint32_t code, int) { return double(std::bit_cast<float>(code)); };
-  layer.read = [channels, width = size_t(group.width), as_values, decode](int x, int y, int count, uint32_t *codes) {
+  layer.read = [channels, width = size_t(group.width), as_values, decode](int x, int y, int count, uint32_t* codes) {
     for (size_t pixel = size_t(y) * width + size_t(x), end = pixel + size_t(count); pixel < end; ++pixel)
-      for (const Channel *channel : channels) {
+      for (const Channel* channel : channels) {
         const double value = as_values ? channel->value(pixel) : 0;
         const double shown = decode && compare::is_color(*channel) ? compare::linear_of_srgb(value) : value;
         *codes++ = as_values ? std::bit_cast<uint32_t>(float(shown)) : channel->words[pixel];
@@ -65,15 +63,21 @@ PageLayer layer_of_side(const ChannelGroup &group, bool is_test, bool as_values,
 
 }  // namespace
 
-std::vector<ChannelGroup> channel_groups(const compare::Pairing &pairing) {
+std::string name_suffix(const ChannelGroup& group) {
+  if (!group.name.empty()) return " " + group.name;
+  const std::string& first = group.channels.front()->name;
+  return is_letter_of("RGBA", split_name(first).second) ? "" : " " + first;
+}
+
+std::vector<ChannelGroup> channel_groups(const compare::Pairing& pairing) {
   std::vector<ChannelGroup> groups;
-  for (const compare::PartPair &part : pairing.parts) {
+  for (const compare::PartPair& part : pairing.parts) {
     std::vector<ChannelGroup> of_part;
-    for (const ChannelPair &pair : part.channels) {
+    for (const ChannelPair& pair : part.channels) {
       const auto [layer, last] = split_name(pair.name);
       const bool is_grouped = is_letter_of("RGBAXYZWUV", last);
       const std::string name = is_grouped ? layer : pair.name;
-      const auto known = std::find_if(of_part.begin(), of_part.end(), [&](const ChannelGroup &g) {
+      const auto known = std::find_if(of_part.begin(), of_part.end(), [&](const ChannelGroup& g) {
         return is_grouped && g.name == name && is_letter_of("RGBAXYZWUV", split_name(g.channels[0]->name).second);
       });
       if (known != of_part.end() && known->channels.size() < 4)
@@ -83,20 +87,20 @@ std::vector<ChannelGroup> channel_groups(const compare::Pairing &pairing) {
     }
     groups.insert(groups.end(), of_part.begin(), of_part.end());
   }
-  for (ChannelGroup &group : groups)
+  for (ChannelGroup& group : groups)
     std::stable_sort(group.channels.begin(), group.channels.end(),
-                     [](const ChannelPair *a, const ChannelPair *b) { return place_of(*a) < place_of(*b); });
-  std::stable_partition(groups.begin(), groups.end(), [](const ChannelGroup &g) {
+                     [](const ChannelPair* a, const ChannelPair* b) { return place_of(*a) < place_of(*b); });
+  std::stable_partition(groups.begin(), groups.end(), [](const ChannelGroup& g) {
     return g.channels.size() >= 3 && split_name(g.channels[0]->name).second == "R";
   });
   return groups;
 }
 
-GroupLayers layers_of(const ChannelGroup &group, const compare::Decoding &decoding, const std::string &ids) {
+GroupLayers layers_of(const ChannelGroup& group, const compare::Decoding& decoding, const std::string& ids) {
   const bool as_values = !same_storage(group) || group.channels.front()->reference->kind == ChannelKind::snorm;
   GroupLayers both{layer_of_side(group, false, as_values, decoding.reference, ids + "-reference"),
                    layer_of_side(group, true, as_values, decoding.test, ids + "-test")};
-  const Channel &first = *group.channels.front()->reference;
+  const Channel& first = *group.channels.front()->reference;
   const bool is_color =
       place_of(*group.channels.front()) == 0 && split_name(group.channels.front()->name).second == "R";
   if (both.reference.is_float) {
@@ -119,7 +123,7 @@ GroupLayers layers_of(const ChannelGroup &group, const compare::Decoding &decodi
   return both;
 }
 
-Image picture_of_layer(const PageLayer &layer) {
+Image picture_of_layer(const PageLayer& layer) {
   // Every n-th pixel is enough of what is shown reduced anyway.
   const int step = (std::max(layer.width, layer.height) + kLargestFigure - 1) / kLargestFigure;
   Image picture((layer.width + step - 1) / step, (layer.height + step - 1) / step,

@@ -20,20 +20,20 @@ constexpr size_t kMostGroups = 12;      // of channels that are in a page: an EX
 constexpr size_t kLargestPlaces = 100;  // of the pixels that differ most
 constexpr int kGain = 16;
 
-std::string digits(double value, const char *format = "%.6g") {
+std::string digits(double value, const char* format = "%.6g") {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
 /// The pixels of a group that differ most, those first.
-Places largest_differences(const PageLayer &from, const PageLayer &to) {
+Places largest_differences(const PageLayer& from, const PageLayer& to) {
   struct Apart {
     double distance;
     int x, y;
   };
   std::vector<Apart> found;
-  const auto is_larger = [](const Apart &a, const Apart &b) { return a.distance > b.distance; };
+  const auto is_larger = [](const Apart& a, const Apart& b) { return a.distance > b.distance; };
   std::vector<uint32_t> a(size_t(from.width) * from.channels()), b(a.size());
   for (int y = 0; y < from.height; ++y) {
     from.read(0, y, from.width, a.data());
@@ -60,33 +60,33 @@ Places largest_differences(const PageLayer &from, const PageLayer &to) {
 }
 
 /// Values of a pixel, channel by channel, of those that differ.
-PixelExplanation explained(const PixelValues &pixel, const std::string &title) {
+PixelExplanation explained(const PixelValues& pixel, const std::string& title) {
   std::string text;
-  for (const PixelValues::Value &v : pixel.values)
+  for (const PixelValues::Value& v : pixel.values)
     if (!v.equal) text += v.channel + ": reference " + v.reference + ", test " + v.test + "\n";
   return {pixel.x, pixel.y, title, text, {}};
 }
 
-void add_pixel(PageViewer &viewer, const std::optional<PixelValues> &pixel, const PixelValues *unlike,
-               const std::string &name, const std::string &about) {
+void add_pixel(PageViewer& viewer, const std::optional<PixelValues>& pixel, const PixelValues* unlike,
+               const std::string& name, const std::string& about) {
   if (!pixel || (unlike != nullptr && unlike->part != pixel->part)) return;
   viewer.places.push_back({name, about, {{pixel->x, pixel->y}}});
   viewer.explanations.push_back(explained(*pixel, name));
 }
 
-std::string about_values(const ChannelGroup &group) {
+std::string about_values(const ChannelGroup& group) {
   const std::string reference = compare::storage_text(*group.channels[0]->reference),
                     test = compare::storage_text(*group.channels[0]->test);
   if (reference == test) return "Values as they are stored: " + reference + ".";
   return "Stored as " + reference + " and " + test + "; these are the values that both stand for.";
 }
 
-std::string viewer_of(const ComparedPictures &pictures) {
-  const Comparison &c = pictures.comparison;
+std::string viewer_of(const ComparedPictures& pictures) {
+  const Comparison& c = pictures.comparison;
   std::vector<ChannelGroup> groups = channel_groups(c.pairing);
   if (groups.empty()) return "";
   // A page shows pictures of one size: those of the first group's.
-  std::erase_if(groups, [first = groups.front()](const ChannelGroup &g) {
+  std::erase_if(groups, [first = groups.front()](const ChannelGroup& g) {
     return g.width != first.width || g.height != first.height;
   });
   if (groups.size() > kMostGroups) groups.resize(kMostGroups);
@@ -114,23 +114,23 @@ std::string viewer_of(const ComparedPictures &pictures) {
   add_pixel(viewer, c.first, nullptr, "First pixel", "The first pixel that differs, row by row from the top.");
   add_pixel(viewer, c.first_not_finite, nullptr, "First that is not finite",
             "The first pixel with an infinity or NaN.");
-  if (const auto &judged = pictures.judged.validation) add_judgement(*judged, viewer, "group0-test");
+  if (const auto& judged = pictures.judged.validation) add_judgement(*judged, viewer, "group0-test");
   return viewer_part(viewer, figures + "</div>\n", 0);
 }
 
-std::string criteria_part(const ComparedPictures &pictures) {
+std::string criteria_part(const ComparedPictures& pictures) {
   if (pictures.judged.validation || pictures.comparison.criteria.empty()) return "";
   std::string html =
       "<h2>Criteria</h2>\n<p class=quiet>All must hold. Where "
       "none was asked for, every stored value must be "
       "equal.</p>\n<table>\n";
-  for (const compare::Judged &row : pictures.comparison.criteria)
+  for (const compare::Judged& row : pictures.comparison.criteria)
     html += "<tr><td>" + escaped(compare::text_of(row)) + "<td class=\"" +
             (row.holds ? "good\">holds" : "bad\">does not hold") + '\n';
   return html + "</table>\n";
 }
 
-std::string channel_row(const ChannelDifferences &c) {
+std::string channel_row(const ChannelDifferences& c) {
   const std::string place = c.largest > 0 && c.worst.part == 0
                                 ? "<a href=\"#" + std::to_string(c.worst.x) + ',' + std::to_string(c.worst.y) +
                                       "\" data-pixel=\"" + std::to_string(c.worst.x) + ',' + std::to_string(c.worst.y) +
@@ -145,7 +145,7 @@ std::string channel_row(const ChannelDifferences &c) {
          " | " + std::to_string(c.not_finite_test) + "<td>" + escaped(storage) + '\n';
 }
 
-std::string channels_part(const Comparison &c) {
+std::string channels_part(const Comparison& c) {
   if (c.differences.channels.empty()) return "";
   std::string html =
       "<h2>Channels</h2>\n<p class=quiet>Unequal: pixels whose stored values "
@@ -162,13 +162,13 @@ std::string channels_part(const Comparison &c) {
       "class=number>largest<th "
       "class=number>ULP<th>at<th "
       "class=number>PSNR<th class=number>not finite<th>stored as</thead>\n";
-  for (const ChannelDifferences &channel : c.differences.channels) html += channel_row(channel);
+  for (const ChannelDifferences& channel : c.differences.channels) html += channel_row(channel);
   return html + "</table></div>\n";
 }
 
-std::string facts_of(const Comparison &c) {
+std::string facts_of(const Comparison& c) {
   double largest = 0;
-  for (const ChannelDifferences &channel : c.differences.channels) largest = std::max(largest, channel.largest);
+  for (const ChannelDifferences& channel : c.differences.channels) largest = std::max(largest, channel.largest);
   std::string html =
       "<div class=facts>" +
       fact(grouped(std::to_string(c.differences.unequal_pixels)), "pixels differ",
@@ -183,23 +183,23 @@ std::string facts_of(const Comparison &c) {
   return html + "</div>\n";
 }
 
-std::string paragraph(const std::string &text) { return text.empty() ? "" : "<p>" + escaped(text) + ".</p>\n"; }
+std::string paragraph(const std::string& text) { return text.empty() ? "" : "<p>" + escaped(text) + ".</p>\n"; }
 
 }  // namespace
 
-std::string comparison_page(const ComparedPictures &pictures, const std::string &command) {
-  const Comparison &c = pictures.comparison;
+std::string comparison_page(const ComparedPictures& pictures, const std::string& command) {
+  const Comparison& c = pictures.comparison;
   std::string html = page_head("Two pictures, compared") + heading_part("Two pictures, compared") +
                      "<p class=\"verdict " + (passes(pictures) ? "good" : "bad") +
                      "\">Verdict: " + escaped(verdict_line(pictures)) + ".</p>\n";
   html += "<p class=quiet>reference " + escaped(pictures.reference.path + ": " + about_picture(pictures.reference)) +
           "<br>test " + escaped(pictures.test.path + ": " + about_picture(pictures.test)) + "</p>\n";
-  for (const std::string &failure : c.failures) html += "<p class=note>" + escaped(failure) + ".</p>\n";
-  if (const auto &judged = pictures.judged.validation) html += diagnosis_part(*judged);
+  for (const std::string& failure : c.failures) html += "<p class=note>" + escaped(failure) + ".</p>\n";
+  if (const auto& judged = pictures.judged.validation) html += diagnosis_part(*judged);
   html += viewer_of(pictures) + facts_of(c) + criteria_part(pictures) + channels_part(c);
-  if (const auto &judged = pictures.judged.validation) html += stages_part(*judged);
+  if (const auto& judged = pictures.judged.validation) html += stages_part(*judged);
   html += "<h2>About this comparison</h2>\n" + paragraph("Colours: " + c.colors);
-  for (const std::string &note : c.notes) html += paragraph(note);
+  for (const std::string& note : c.notes) html += paragraph(note);
   if (!c.no_flip.empty()) html += paragraph("FLIP was not measured: " + c.no_flip);
   if (!pictures.judged.why_not.empty()) html += paragraph("Not judged: " + pictures.judged.why_not);
   return html + "<p class=quiet>trueshade " + kVersion + "</p>\n" + reproduce_part(command) + page_end();
