@@ -12,12 +12,18 @@
 #include "cli/capture/plane_images.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/commands.h"
+#include "cli/notes.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
+#include "cli/written_files.h"
 #include "core/error.h"
+#include "core/file_ending.h"
+#include "core/image_files/image_io.h"
+#include "core/image_pixel.h"
 #include "explain/against.h"
 #include "judge/stages/legal_pixel.h"
 #include "scenes/pipeline/fit_lights.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 #include "shading/output/post_frame.h"
@@ -25,41 +31,44 @@
 namespace trueshade {
 namespace {
 
-/// What is explained: a pixel of the target before the post chain, and of the reference frame what it takes to judge
-/// another picture there.
+/// The planes that judging another picture reads.
+std::vector<std::string> planes_to_judge(const ExplainOptions& options, const Pipeline& pipeline) {
+  if (!options.against || pipeline.post.active()) return {};
+  std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object"};
+  if (reads_specular_plane(pipeline.light_model)) planes.emplace_back("specular");
+  if (pipeline.light_model.emission) planes.emplace_back("emission");
+  return planes;
+}
+
+/// What is explained: a pixel of the target before the post chain.
 struct Question {
   const ExplainOptions& options;
   const Scene& scene;
-  const Pipeline& pipeline;  ///< as render has it
-  const Pipeline large;      ///< before its post chain
-  const ExplainedFrame frame;
-  const int x, y;         ///< of `large`
-  const Frame reference;  ///< by `large`, with the planes that judging reads
+  const Pipeline& pipeline;    ///< as render has it
+  const ExplainedFrame frame;  ///< by the pipeline before the post chain, which may be larger
+  const int x, y;              ///< of that frame
+  const Frame reference;       ///< that frame, with planes_to_judge()
 
   Question(const ExplainOptions& o, const Scene& of_scene, const Pipeline& of_pipeline)
       : options(o),
         scene(of_scene),
         pipeline(of_pipeline),
-        large(pipeline_before_post(of_pipeline)),
-        frame(of_scene, large),
+        frame(of_scene, pipeline_before_post(of_pipeline)),
         x(o.x * of_pipeline.post.samples),
         y(o.y * of_pipeline.post.samples),
         reference(drawn()) {}
 
  private:
   Frame drawn() const {
-    std::vector<std::string> planes;
-    if (options.against) planes = {"depth", "position", "normal", "albedo", "uv", "id.object"};
-    if (options.against && reads_specular_plane(large.light_model)) planes.emplace_back("specular");
-    if (options.against && large.light_model.emission) planes.emplace_back("emission");
     ProgressBar bar("rendering", "tiles");
-    return render_frame(scene, frame.pipeline, {}, planes, [&bar](int done, int total) { bar.show(done, total); });
+    return render_frame(scene, frame.pipeline, {}, planes_to_judge(options, pipeline),
+                        [&bar](int done, int total) { bar.show(done, total); });
   }
 };
 
 /// The explanation is only worth its words if it ends where the frame does.
 void check_explanation(const Question& q, const PixelHistory& history) {
-  if (stored_difference(q.frame.target, stored_in(q.reference.color, q.x, q.y), history.target.stored) != 0.0)
+  if (stored_difference(q.frame.target, stored_in(q.reference.color, q.x, q.y), history.stored) != 0.0)
     throw std::logic_error("the explanation of pixel " + std::to_string(q.options.x) + ',' +
                            std::to_string(q.options.y) + " does not end in the rendered value");
 }
@@ -70,40 +79,55 @@ std::string words_of(const std::vector<AccountValue>& values) {
   return text;
 }
 
-oracle::Capture picture_of(const Question& q) {
-  const CaptureFiles files = read_picture_file(*q.options.against, q.options.limits.expansion);
-  if (files.width() != q.large.width || files.height() != q.large.height)
-    throw Error(ErrorKind::bad_input, *q.options.against,
+/// The asked pixel of another picture, in a format.
+Image given_pixel(const Question& q, Format format) {
+  const std::string& path = *q.options.against;
+  const CaptureFiles files = read_picture_file(path, q.options.limits.expansion);
+  if (files.width() != q.pipeline.width || files.height() != q.pipeline.height)
+    throw Error(ErrorKind::bad_input, path,
                 "it is " + std::to_string(files.width()) + 'x' + std::to_string(files.height()) + ", and the frame " +
-                    std::to_string(q.large.width) + 'x' + std::to_string(q.large.height),
+                    std::to_string(q.pipeline.width) + 'x' + std::to_string(q.pipeline.height),
                 "give --size as the picture has it");
   oracle::Capture capture;
-  capture.driver = *q.options.against;
-  capture.color = stored_plane_image(files.planes.front());
-  capture.has_alpha = files.planes.front().channels.size() > 3;
-  store_as(q.frame.pipeline, files.name, capture);
-  return capture;
+  capture.color = one_pixel(stored_plane_image(files.planes.front()), q.options.x, q.options.y);
+  Pipeline of_pixel = q.pipeline;
+  of_pixel.width = of_pixel.height = 1, of_pixel.target = format;
+  store_as(of_pixel, path, capture);
+  return capture.color;
 }
 
 /// How far a value is from another, as people say it.
-std::string distance_words(const BlendTarget& target, double difference) {
+std::string distance_words(Format format, double difference) {
   if (difference == 0.0) return "exactly what the picture has";
+  if (difference == HUGE_VAL) return "infinitely far away, or no number";
   char text[48];
-  const bool codes = info(target.format).number_class == NumberClass::unorm;
-  std::snprintf(text, sizeof text, codes ? "%.0f code%s away" : "%.3g of the value away%s", difference,
-                codes && difference != 1.0 ? "s" : "");
+  if (info(format).number_class == NumberClass::unorm)
+    std::snprintf(text, sizeof text, "%.0f code%s away", difference, difference == 1.0 ? "" : "s");
+  else
+    std::snprintf(text, sizeof text, "%.3g %% away", 100.0 * difference);
   return text;
 }
 
-/// Where another picture's value could have come from.
-Account against_account(const Question& q, const PixelHistory& history) {
-  oracle::Capture capture = picture_of(q);
-  const StoredPixel given = stored_in(capture.color, q.x, q.y);
-  const Format format = q.frame.target.format;
-  Account out("against", *q.options.against + " there");
-  out.quantities.push_back({"given", "what that picture holds", values_in_format(format, given)});
-  const double difference = stored_difference(q.frame.target, given, history.target.stored);
-  out.add("distance", difference == 0.0 ? "the same as here" : distance_words(q.frame.target, difference), "");
+/// What a picture of ours says of itself: preset and strategy, if it says so.
+std::string record_of(const std::string& path) {
+  if (!has_ending(path, ".png") && !has_ending(path, ".exr")) return {};
+  for (const auto& [key, value] : read_image_info(path).metadata) {
+    if (key != "trueshade:pipeline") continue;
+    try {
+      const Pipeline p = pipeline_from_json(value, path, presets().front().pipeline);
+      return "preset " + p.preset + ", " + std::string(name_of(p.strategy)) + ", " + std::string(info(p.target).name);
+    } catch (const Error&) {
+      return {};
+    }
+  }
+  return {};
+}
+
+/// What OpenGL allows the pixel to hold, and the class of what it holds.
+void add_legal(const Question& q, const Image& given, double difference, Account& out) {
+  oracle::Capture capture;
+  capture.color = q.reference.color;
+  for (int c = 0; c < info(given.format).channels; ++c) capture.color.set_code(q.x, q.y, c, given.code(0, 0, c));
   capture.planes = q.reference.aovs;
   const oracle::LegalPixel legal =
       oracle::legal_pixel(q.scene, q.frame.pipeline, oracle::Profile{}, capture, q.reference.color, q.x, q.y);
@@ -113,22 +137,45 @@ Account against_account(const Question& q, const PixelHistory& history) {
     if (channel.is_bounded)
       out.add(kChannels[c], std::array{channel.low, channel.high},
               "least and most that OpenGL allows any GPU on this surface");
+    else
+      out.add(kChannels[c], "any", "the judge has no bound here");
   }
-  out.add("class", std::string(oracle::text(legal.pixel_class)),
-          "of its value on this surface, as trueshade validate has it");
-  if (difference == 0.0) return out;
-  for (const Candidate& candidate : candidates_for(q.frame, history, q.reference.color, given)) {
-    Account& part = out.part("candidate", candidate.what + ": " + distance_words(q.frame.target, candidate.difference));
-    part.quantities.push_back({"would_be", "what the pixel would hold", values_in_format(format, candidate.stored)});
-    part.add("difference", candidate.difference, "largest over the channels");
-  }
-  return out;
+  const bool bounded = difference != 0.0 || legal.pixel_class != oracle::PixelClass::violation;
+  out.add("class", bounded ? std::string(oracle::text(legal.pixel_class)) : "not bounded",
+          "of its value on this surface (docs/validation.md); at an edge another surface may be legal too");
 }
 
-/// What the post chain makes of the target.
-std::vector<AccountValue> finished_pixel(const Question& q) {
-  const Image picture = render_frame(q.scene, q.pipeline).color;
-  return values_in_format(picture.format, stored_in(picture, q.options.x, q.options.y));
+/// Where another picture's value could have come from.
+Account against_account(const Question& q, const PixelHistory& history) {
+  Account out("against", *q.options.against + " there");
+  if (const std::string record = record_of(*q.options.against); !record.empty())
+    out.add("drawn_by", record, "as the picture says");
+  const bool finished = q.pipeline.post.active();
+  const Format format = finished ? q.pipeline.post.output : q.frame.target.format;
+  const Image given = given_pixel(q, format);
+  const StoredPixel value = stored_in(given, 0, 0);
+  out.quantities.push_back({"given", "what that picture holds", values_in_format(format, value), true, {}});
+  if (finished) {
+    const Image picture = render_frame(q.scene, q.pipeline).color;
+    const StoredPixel ours = stored_in(picture, q.options.x, q.options.y);
+    const double difference = stored_difference({format}, value, ours);
+    out.add("distance", difference == 0.0 ? "the same as here" : distance_words(format, difference),
+            "after the post chain, which OpenGL's rules do not bound");
+    return out;
+  }
+  const double difference = stored_difference(q.frame.target, value, history.stored);
+  out.add("distance", difference == 0.0 ? "the same as here" : distance_words(format, difference), "");
+  add_legal(q, given, difference, out);
+  if (difference == 0.0) return out;
+  const std::vector<Candidate> candidates = candidates_for(q.frame, history, q.reference.color, value);
+  if (candidates.empty()) out.add("causes", "no single change that is tried makes this value, or nearly so", "");
+  for (const Candidate& candidate : candidates) {
+    Account& part = out.part("candidate", candidate.what + ": " + distance_words(format, candidate.difference));
+    part.quantities.push_back(
+        {"would_be", "what the pixel would hold", values_in_format(format, candidate.stored), true, {}});
+    part.add("difference", candidate.difference, "largest over the channels: codes, or a share of the value");
+  }
+  return out;
 }
 
 /// Where a post chain follows, what is explained is the target, and the picture's value comes last.
@@ -140,9 +187,13 @@ void add_finished_pixel(const Question& q, Account& account) {
   Quantity& target = account.quantities.back();
   target.name = "target";
   target.meaning = which + target.meaning + ", before the post chain";
-  account.quantities.push_back(
-      {"stored", std::string(info(q.pipeline.post.output).name) + ", after the post chain (docs/post.md)",
-       finished_pixel(q)});
+  const Image picture = render_frame(q.scene, q.pipeline).color;
+  const std::string format(info(picture.format).name);
+  account.quantities.push_back({"stored",
+                                format + ", after the post chain (docs/post.md)",
+                                values_in_format(picture.format, stored_in(picture, q.options.x, q.options.y)),
+                                true,
+                                {}});
 }
 
 }  // namespace
@@ -152,24 +203,29 @@ void explain(const ExplainOptions& options) {
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   Pipeline pipeline = pipeline_of(options, scene);
+  const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
   fit_lights_of_ours(scene, pipeline.light_model);
-  check_memory(scene, pipeline, {}, {});
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",
                 std::to_string(options.x) + ',' + std::to_string(options.y) + " is not in the picture, which is " +
                     std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height),
                 "columns and rows count from 0 at the top left");
+  check_memory(scene, pipeline_before_post(pipeline), {}, planes_to_judge(options, pipeline));
   const Question question(options, scene, pipeline);
   const PixelHistory history = history_of(question.frame, question.x, question.y);
   check_explanation(question, history);
-  Account account = account_of(question.frame, history, options.all_lights ? LightDetail::every : LightDetail::adding);
+  Account account = account_of(question.frame, history, options.all ? Detail::all : Detail::usual);
   if (options.against) account.parts.push_back(against_account(question, history));
   add_finished_pixel(question, account);
-  if (options.json) return print(account_json(account) + '\n');
-  // The stored pixel is a line at the top, where it is looked for first, and at the end, where programs find it.
-  const Quantity& stored = account.quantities.back();
-  print(account_text(account) + "\nstored  " + words_of(stored.values) + "  " + stored.meaning + '\n');
+  const Quantity stored = account.quantities.back();
+  if (options.json)
+    print(account_json(account) + '\n');
+  else  // the stored pixel is among the first lines, where people look for it, and the last, where programs do
+    print(account_text(account) + "\nstored  " + words_of(stored.values) + "  " + stored.meaning + '\n');
+  Notes notes = notes_of(scene, pipeline);
+  if (other_view) notes.lines.emplace_back("the pipeline has a view; what is explained is the lit picture");
+  if (!options.quiet) say_notes(notes.lines);
 }
 
 }  // namespace trueshade

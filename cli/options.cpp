@@ -233,9 +233,11 @@ CLI::App* add_explain(CLI::App& app, ExplainOptions& options, ExplainTexts& text
   add_value(command, "--against", "IMAGE", options.against,
             "A picture of the same frame, .png, .exr, .tif, .dds or .npy: whether its value is legal there, and what "
             "would have made it");
-  add_switch(command, "--all-lights", options.all_lights, "Show lights that add nothing too, one by one");
+  add_switch(command, "--all", options.all,
+             "Print every covering triangle, every light and every draw, also those that change nothing");
   add_switch(command, "--json", options.json, "Print all of it as one JSON document");
   add_limit_options(command, options);
+  add_switch(command, "-q,--quiet", options.quiet, "Say no notes");
   command->footer("The last line is the stored pixel, as render stores it.");
   return command;
 }

@@ -129,8 +129,9 @@ struct ExplainOptions : PipelineOptions {
   double time = 0.0;                   ///< seconds of the scene's timeline
   int x = 0, y = 0;                    ///< column and row of the pixel, from the top left
   std::optional<std::string> against;  ///< a picture whose value is to be found out
-  bool all_lights = false;             ///< also those that add nothing, one by one
+  bool all = false;                    ///< every triangle, light and draw, also those that change nothing
   bool json = false;
+  bool quiet = false;                  ///< no notes
 };
 
 /// `trueshade compare`: two pictures, or two folders of them.

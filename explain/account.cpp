@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <type_traits>
 
 #include "core/json_number.h"
 #include "core/json_string.h"
+#include "core/printable_text.h"
 
 namespace trueshade {
 namespace {
@@ -53,17 +55,17 @@ void write(const Account& account, size_t depth, std::string& out) {
   constexpr size_t kName = 11, kValues = 42;  // characters; a longer one pushes the next column
   const std::string indent(2 * depth, ' ');
   if (depth == 1) out += '\n';
-  out += indent + account.title + '\n';
+  out += indent + printable(account.title, Lines::one) + '\n';
   for (const Quantity& quantity : account.quantities) {
     std::string line = indent + "  " + quantity.name;
     const auto column = [&](size_t at) { line.resize(std::max(line.size() + 2, indent.size() + 2 + at), ' '); };
     column(kName);
-    line += joined(quantity.values, value_text);
+    line += quantity.shown.empty() ? joined(quantity.values, value_text) : quantity.shown;
     if (!quantity.meaning.empty()) {
       column(kName + kValues);
       line += quantity.meaning;
     }
-    out += line + '\n';
+    out += printable(line, Lines::one) + '\n';
   }
   for (const Account& part : account.parts) write(part, depth + 1, out);
 }
@@ -84,32 +86,57 @@ std::string value_text(const AccountValue& value) {
       value);
 }
 
+std::string index_ranges(std::span<const int64_t> indices) {
+  std::string out;
+  for (size_t i = 0; i < indices.size();) {
+    size_t end = i + 1;
+    while (end < indices.size() && indices[end] == indices[end - 1] + 1) ++end;
+    if (!out.empty()) out += ", ";
+    out += std::to_string(indices[i]);
+    if (end - i > 1) out += '-' + std::to_string(indices[end - 1]);
+    i = end;
+  }
+  return out;
+}
+
 std::string account_text(const Account& account) {
   std::string out;
   write(account, 0, out);
   return out;
 }
 
-std::string account_json(const Account& account) {
-  std::string out = "{\"step\": " + json_string(account.key) + ", \"title\": " + json_string(account.title);
-  if (!account.quantities.empty()) {
-    out += ", \"values\": {";
-    for (const Quantity& quantity : account.quantities) {
-      if (&quantity != &account.quantities.front()) out += ", ";
-      const std::string values = joined(quantity.values, value_json);
-      out += json_string(quantity.name) + ": " + (quantity.values.size() == 1 ? values : '[' + values + ']');
-    }
-    out += '}';
+namespace {
+
+/// `told`: names whose meaning an earlier step has given.
+void write_json(const Account& account, std::set<std::string>& told, std::string& out) {
+  out += "{\"step\": " + json_string(account.key) + ", \"title\": " + json_string(account.title);
+  std::string values, meanings;
+  for (const Quantity& quantity : account.quantities) {
+    const std::string text = joined(quantity.values, value_json), name = json_string(quantity.name);
+    values += (values.empty() ? "" : ", ") + name + ": " + (quantity.is_list ? '[' + text + ']' : text);
+    if (!quantity.meaning.empty() && told.insert(quantity.name).second)
+      meanings += (meanings.empty() ? "" : ", ") + name + ": " + json_string(quantity.meaning);
   }
+  if (!values.empty()) out += ", \"values\": {" + values + '}';
+  if (!meanings.empty()) out += ", \"meanings\": {" + meanings + '}';
   if (!account.parts.empty()) {
     out += ", \"parts\": [";
     for (const Account& part : account.parts) {
       if (&part != &account.parts.front()) out += ", ";
-      out += account_json(part);
+      write_json(part, told, out);
     }
     out += ']';
   }
-  return out + '}';
+  out += '}';
+}
+
+}  // namespace
+
+std::string account_json(const Account& account) {
+  std::string out;
+  std::set<std::string> told;
+  write_json(account, told, out);
+  return out;
 }
 
 }  // namespace trueshade

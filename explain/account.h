@@ -19,6 +19,8 @@ struct Quantity {
   std::string name;     ///< as docs/arithmetic.md has it where it has one
   std::string meaning;  ///< with space and unit
   std::vector<AccountValue> values;
+  bool is_list = false;    ///< in JSON a list, whatever the number of values
+  std::string shown = {};  ///< for people, in place of the values
 };
 
 /// What happened at one step: a heading, quantities, and smaller steps, each in order.
@@ -33,7 +35,7 @@ struct Account {
 
   template <class T>
   Account& add(std::string_view name, const T& value, std::string_view meaning) {
-    quantities.push_back({std::string(name), std::string(meaning), {AccountValue(value)}});
+    quantities.push_back({std::string(name), std::string(meaning), {AccountValue(value)}, false, {}});
     return *this;
   }
   Account& add(std::string_view name, const char* value, std::string_view meaning) {
@@ -41,7 +43,7 @@ struct Account {
   }
   template <class T>
   Account& add(std::string_view name, std::span<const T> values, std::string_view meaning) {
-    quantities.push_back({std::string(name), std::string(meaning), {values.begin(), values.end()}});
+    quantities.push_back({std::string(name), std::string(meaning), {values.begin(), values.end()}, true, {}});
     return *this;
   }
   template <class T>
@@ -62,14 +64,19 @@ struct Account {
   }
 };
 
+/// Indices as a reader writes them: `0-3, 7, 9-12`.
+std::string index_ranges(std::span<const int64_t> indices);
+
 /// One value: digits, or the word itself.
 std::string value_text(const AccountValue& value);
 
 /// Lines for people: a heading, then a line a quantity, `name  values  meaning`, smaller steps indented. Ends in a line
 /// feed.
+/// Names of files and meshes in it have no line breaks and nothing that a terminal obeys.
 std::string account_text(const Account& account);
 
-/// {"step": key, "title": ..., "values": {name: number or list, ...}, "parts": [...]}; empty members are left out.
+/// {"step": key, "title": ..., "values": {name: number or list, ...}, "meanings": {name: text, ...}, "parts": [...]};
+/// empty members are left out, and a meaning is given where a name first occurs.
 /// Integers beyond 2^53 are strings of digits, and so are numbers that are not finite: "inf", "-inf", "nan".
 std::string account_json(const Account& account);
 

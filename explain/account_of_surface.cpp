@@ -27,12 +27,13 @@ std::string_view depth_func_name(DepthFunc func) {
   return kNames[size_t(func)];
 }
 
-Account surface_account(const ExplainedFrame& frame, const PixelFragment& fragment, const PixelSurface& surface) {
+Account surface_account(const ExplainedFrame& frame, uint32_t of_instance, const PixelSurface& surface,
+                        const GBufferState& planes, const std::string& of) {
   const CornerWeights& w = surface.weights;
-  const Instance& instance = frame.scene.instances[fragment.instance];
+  const Instance& instance = frame.scene.instances[of_instance];
   const Material& material = frame.scene.materials[instance.material];
-  Account out("surface", "Surface (docs/arithmetic.md, sections 5, 7 and 13)");
-  out.add("u", w.u, "1 / w of corners 0, 1, 2 in canonical order");
+  Account out("surface", "Surface of " + of + " (docs/arithmetic.md, sections 5, 7 and 13)");
+  out.add("u", w.u, "1 / w of corners 0, 1, 2");
   out.add("q", w.q, "sum of E_i u_i");
   out.add("b", w.smooth, "perspective weights b_1, b_2");
   out.add("b_linear", w.linear, "the same without perspective");
@@ -50,12 +51,11 @@ Account surface_account(const ExplainedFrame& frame, const PixelFragment& fragme
     part.add("texel", lookup.texel, "filtered R, G, B, A");
   }
   const LightModel& model = frame.pipeline.light_model;
-  const GBufferState planes = surface_planes(frame.pipeline);
   add_planes(surface.computed, model, out.part("computed", "As interpolated, with maps and material"));
-  const bool forward = is_forward(frame.pipeline.strategy);
+  const bool stored = !is_forward(frame.pipeline.strategy);
   add_planes(surface.read, model,
-             out.part("read", forward ? "As lights read it: the same, a forward strategy stores no planes"
-                                      : "As lights read it from the planes: " + format_names(planes)));
+             out.part("read", stored ? "As lights read it from the planes: " + format_names(planes)
+                                     : "As lights read it: the same, a forward strategy stores no planes"));
   return out;
 }
 

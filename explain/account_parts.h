@@ -8,12 +8,22 @@ namespace trueshade {
 
 // Parts of a pixel's account that have files of their own.
 
-/// Weights, attributes, maps and planes of the visible surface (account_of_surface.cpp).
-Account surface_account(const ExplainedFrame& frame, const PixelFragment& fragment, const PixelSurface& surface);
+/// What became of every triangle at the pixel (account_of_triangles.cpp).
+Account triangles_account(const ExplainedFrame& frame, const PixelHistory& history, Surfaces which, Detail detail);
+
+/// `object 3 (cube), triangle 5`, the mesh by its name without folders.
+std::string name_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle);
+
+/// Weights, attributes, maps and planes of a surface (account_of_surface.cpp).
+///   of: which surface that is, for the title; `planes` as it was rounded to
+Account surface_account(const ExplainedFrame& frame, uint32_t instance, const PixelSurface& surface,
+                        const GBufferState& planes, const std::string& of);
 
 /// The lights on one surface and their sum (account_of_lights.cpp).
-Account lights_account(const ExplainedFrame& frame, const LightTotal& total, const std::string& key,
-                       LightDetail detail);
+///   of: which surface that is; `sums`: whether the target receives the sum, or each light by itself
+enum class LightsReach : uint8_t { as_a_sum, one_by_one };
+Account lights_account(const ExplainedFrame& frame, const LightTotal& total, LightsReach reach, const std::string& of,
+                       Detail detail);
 
 /// GL's name of a depth function.
 std::string_view depth_func_name(DepthFunc func);

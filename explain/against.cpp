@@ -7,11 +7,13 @@
 
 #include "core/fp_env.h"
 #include "core/srgb.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/light/power.h"
 
 namespace trueshade {
 namespace {
 
-constexpr size_t kMostLights = 256;  // that are left out or doubled, one after the other
+constexpr size_t kMostLights = 256;  // the strongest, which are left out or doubled one after the other
 
 bool is_same(const StoredPixel& a, const StoredPixel& b) {
   for (size_t c = 0; c < 4; ++c)
@@ -19,24 +21,30 @@ bool is_same(const StoredPixel& a, const StoredPixel& b) {
   return true;
 }
 
+/// IEC 61966-2-1.
+float srgb_of(float linear) {
+  const double x = double(std::clamp(linear, 0.0f, 1.0f));
+  return float(x <= 0.0031308 ? 12.92 * x : 1.055 * power(x, 1.0 / 2.4) - 0.055);
+}
+
 /// Collects what changes would make of one pixel.
 class Search {
  public:
   Search(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference, const StoredPixel& given)
-      : frame_(frame),
-        history_(history),
-        reference_(reference),
-        given_(given),
-        surfaces_(lit_surfaces(frame, history)) {}
+      : frame_(frame), history_(history), reference_(reference), given_(given) {
+    surfaces_ = surfaces_to_light(frame, history);
+  }
 
   std::vector<Candidate> run(size_t most) {
     try_surfaces();
     try_lights();
     try_models();
-    try_places();
+    try_pipelines();
     try_stores();
-    const double here = stored_difference(frame_.target, history_.target.stored, given_);
-    std::erase_if(found_, [here](const Candidate& c) { return !(c.difference < here); });
+    try_places();
+    // An answer that is far off answers nothing.
+    const double here = stored_difference(frame_.target, history_.stored, given_);
+    std::erase_if(found_, [here](const Candidate& c) { return !(c.difference <= 0.25 * here); });
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.difference < b.difference; });
     if (found_.size() > most) found_.resize(most);
@@ -45,8 +53,12 @@ class Search {
 
  private:
   void add(std::string what, const StoredPixel& stored) {
-    if (is_same(stored, history_.target.stored)) return;
+    if (is_same(stored, history_.stored)) return;
     found_.push_back({std::move(what), stored, stored_difference(frame_.target, stored, given_)});
+  }
+
+  StoredPixel drawn(const PixelSurfaces& surfaces) const {
+    return drawn_target(frame_, lit_surfaces(frame_, surfaces, history_.lit.geometry));
   }
 
   void try_surface(const PixelFragment& fragment, const std::string& how) {
@@ -55,32 +67,45 @@ class Search {
     surfaces.tied.clear();
     surfaces.visible = surface_of(frame_, fragment, surface_planes(frame_.pipeline), history_.pixel).read;
     add("object " + std::to_string(fragment.instance) + ", triangle " + std::to_string(fragment.triangle) + how,
-        target_of(frame_, surfaces, history_.pixel).stored);
+        drawn(surfaces));
   }
 
   void try_surfaces() {
-    for (size_t i = 0; i < history_.opaque.covering.size(); ++i)
-      if (history_.visible != i) try_surface(history_.opaque.covering[i], " seen instead");
+    constexpr size_t kMostSurfaces = 64;
+    const std::vector<CoveringTriangle>& covering = history_.opaque.covering;
+    for (size_t i = covering.size(), tried = 0; i-- > 0 && tried < kMostSurfaces; ++tried)
+      if (history_.visible != i) try_surface(fragment_of(frame_, covering[i], history_.pixel), " seen instead");
+    for (const PixelFragment& fragment : history_.opaque.culled) try_surface(fragment, " not culled, and seen");
     for (const PixelFragment& fragment : history_.opaque.nearest)
       try_surface(fragment, ", which lies beside the sample, seen instead");
     PixelSurfaces none = surfaces_;
     none.covered = false, none.tied.clear();
-    add("no surface there", target_of(frame_, none, history_.pixel).stored);
+    add("no surface there", drawn(none));
     if (surfaces_.glass.empty()) return;
     PixelSurfaces opaque = surfaces_;
     opaque.glass.clear();
-    add("transparent surfaces left out", target_of(frame_, opaque, history_.pixel).stored);
+    add("transparent surfaces left out", drawn(opaque));
+  }
+
+  /// The lights that add most to the visible surface.
+  std::vector<size_t> strongest() const {
+    const std::vector<LightAtPixel>& lights = history_.lit.visible.lights;
+    const auto brightness = [&](size_t i) {
+      const float sum = std::fabs(lights[i].term[0]) + std::fabs(lights[i].term[1]) + std::fabs(lights[i].term[2]);
+      return sum == sum ? sum : HUGE_VALF;
+    };
+    std::vector<size_t> out;
+    for (size_t i = 0; i < lights.size(); ++i)
+      if (lights[i].fate == LightFate::adds) out.push_back(i);
+    std::stable_sort(out.begin(), out.end(), [&](size_t a, size_t b) { return brightness(a) > brightness(b); });
+    out.resize(std::min(out.size(), kMostLights));
+    return out;
   }
 
   void try_lights() {
     std::vector<uint8_t> times(frame_.scene.lights.size(), 1);
-    const auto with = [&](const std::string& what) {
-      add(what, target_of(frame_, surfaces_, history_.pixel, times).stored);
-    };
-    size_t tried = 0;
-    for (size_t i = 0; i < history_.target.visible.lights.size() && tried < kMostLights; ++i) {
-      if (history_.target.visible.lights[i].fate != LightFate::adds) continue;
-      ++tried;
+    const auto with = [&](const std::string& what) { add(what, drawn_target(frame_, history_.lit, times)); };
+    for (const size_t i : strongest()) {
       times[i] = 0, with("light " + std::to_string(i) + " left out");
       times[i] = 2, with("light " + std::to_string(i) + " counted twice");
       times[i] = 1;
@@ -89,12 +114,13 @@ class Search {
     with("no light counted");
   }
 
+  /// The same surfaces under another light model or other lights' extents.
   void try_model(const std::string& what, const std::function<void(Pipeline&)>& change) {
     Pipeline changed = frame_.pipeline;
     change(changed);
     if (changed == frame_.pipeline) return;
     const ExplainedFrame frame(frame_.scene, changed);
-    add(what, target_of(frame, surfaces_, history_.pixel).stored);
+    add(what, drawn_target(frame, lit_surfaces(frame, surfaces_, geometry_at(frame, history_.pixel))));
   }
 
   void try_models() {
@@ -113,13 +139,40 @@ class Search {
     try_model("falloff inverse_square", [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
     try_model("light extents not applied",
               [](Pipeline& p) { p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded; });
-    try_model("lights summed and stored once", [](Pipeline& p) {
-      p.strategy = is_forward(p.strategy) ? Strategy::forward_loop : Strategy::deferred_loop;
-    });
   }
 
+  /// The whole pixel under another pipeline.
+  void try_pipeline(const std::string& what, Pipeline changed) {
+    changed.width = frame_.pipeline.width, changed.height = frame_.pipeline.height;
+    changed.target = frame_.pipeline.target;
+    changed.geometry.viewport = frame_.pipeline.geometry.viewport;
+    changed.preset = frame_.pipeline.preset;
+    if (changed == frame_.pipeline) return;
+    const ExplainedFrame frame(frame_.scene, changed);
+    add(what, history_of(frame, history_.pixel.x, frame_.pipeline.height - 1 - history_.pixel.y).stored);
+  }
+
+  void try_pipelines() {
+    for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
+      Pipeline changed = frame_.pipeline;
+      changed.strategy = Strategy(i);
+      try_pipeline("the strategy " + std::string(kStrategyNames[i]), changed);
+    }
+    for (const Preset& preset : presets()) try_pipeline("the preset " + std::string(preset.name), preset.pipeline);
+    Pipeline changed = frame_.pipeline;
+    changed.profile =
+        changed.profile == NumericProfile::ideal ? NumericProfile::mesa_llvmpipe_22_3 : NumericProfile::ideal;
+    try_pipeline("the profile " + std::string(profile_name(changed.profile)), changed);
+    changed = frame_.pipeline;
+    const bool nearest = changed.gbuffer.half_round == HalfRound::nearest;
+    changed.gbuffer.half_round = nearest ? HalfRound::toward_zero : HalfRound::nearest;
+    try_pipeline(nearest ? "halves rounded toward zero" : "halves rounded to nearest", changed);
+  }
+
+  /// Values of other pixels: at most two of those beside this one, the nearest to what is given.
   void try_places() {
     constexpr int kRadius = 3;
+    constexpr size_t kMostBeside = 2;
     const int w = reference_.width, h = reference_.height;
     const int x = history_.pixel.x, y = h - 1 - history_.pixel.y;
     const auto place = [&](int px, int py, const std::string& why) {
@@ -127,25 +180,31 @@ class Search {
       add("the value of the pixel " + std::to_string(px) + ',' + std::to_string(py) + why,
           stored_in(reference_, px, py));
     };
-    for (int dy = -kRadius; dy <= kRadius; ++dy)
-      for (int dx = -kRadius; dx <= kRadius; ++dx) place(x + dx, y + dy, "");
     place(x, h - 1 - y, ": the picture upside down");
     place(w - 1 - x, y, ": left and right exchanged");
     place(w - 1 - x, h - 1 - y, ": the picture turned round");
+    const size_t before = found_.size();
+    for (int dy = -kRadius; dy <= kRadius; ++dy)
+      for (int dx = -kRadius; dx <= kRadius; ++dx) {
+        const bool mirrored = (x + dx == w - 1 - x && dy == 0) || (y + dy == h - 1 - y && dx == 0);
+        if (!mirrored) place(x + dx, y + dy, "");
+      }
+    std::stable_sort(found_.begin() + std::ptrdiff_t(before), found_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.difference < b.difference; });
+    found_.resize(std::min(found_.size(), before + kMostBeside));
   }
 
   /// Stores of the same values by another rule; of the values that a shader would read, where lights are blended.
   void try_stores() {
     const FormatInfo layout = info(frame_.target.format);
     const bool sums = !blends_lights(frame_.pipeline.strategy) && surfaces_.covered && surfaces_.glass.empty();
-    const std::array<float, 4> values =
-        sums ? history_.target.visible.sum : values_of(frame_.target, history_.target.stored);
+    const std::array<float, 4> values = sums ? history_.lit.visible.sum : values_of(frame_.target, history_.stored);
     const auto with = [&](const std::string& what, std::array<float, 4> source) {
       add(what, stored_alone(frame_.target, source));
     };
     std::array<float, 4> encoded = values, decoded = values, swapped = values, multiplied = values;
     for (size_t c = 0; c < 3; ++c) {
-      encoded[c] = float(srgb8_from_linear(values[c])) / 255.0f;
+      encoded[c] = srgb_of(values[c]);
       decoded[c] = float(linear_from_srgb(double(std::clamp(values[c], 0.0f, 1.0f))));
       multiplied[c] = values[c] * values[3];
     }
@@ -154,6 +213,8 @@ class Search {
     with("values decoded from sRGB before they are stored", decoded);
     with("red and blue exchanged", swapped);
     with("colour multiplied by alpha", multiplied);
+    with("alpha 0", {values[0], values[1], values[2], 0.0f});
+    with("alpha 1", {values[0], values[1], values[2], 1.0f});
     with("twice as bright", {2 * values[0], 2 * values[1], 2 * values[2], values[3]});
     with("half as bright", {0.5f * values[0], 0.5f * values[1], 0.5f * values[2], values[3]});
     if (!sums || layout.number_class != NumberClass::unorm || layout.srgb) return;
@@ -167,7 +228,7 @@ class Search {
   const PixelHistory& history_;
   const Image& reference_;
   const StoredPixel given_;
-  const PixelSurfaces surfaces_;
+  PixelSurfaces surfaces_;
   std::vector<Candidate> found_;
 };
 

@@ -15,7 +15,7 @@ struct Candidate {
 };
 
 /// What one change each of surface, lights, light model, place or store would have made of a pixel, those nearest to
-/// `given` first, at most `most`. A change is no candidate where the pixel without it is as near.
+/// `given` first, at most `most`. What is not four times nearer than the pixel without any change is no candidate.
 ///   reference: the frame's target, for values of other pixels
 ///   given:     what another image holds, in the target's stored form
 std::vector<Candidate> candidates_for(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference,

@@ -29,10 +29,11 @@ bool passes_depth(DepthFunc func, float z, float there) {
   return false;
 }
 
-DepthOutcome tested(const ExplainedFrame& frame, const PixelFragment& fragment, DepthFunc func, float there) {
+DepthOutcome tested(const ExplainedFrame& frame, const CoveringTriangle& fragment, WindowPixel pixel, DepthFunc func,
+                    float there) {
   DepthOutcome out{there, passes_depth(func, fragment.depth, there), std::nullopt, false};
   if (!out.passes) return out;
-  out.alpha = tested_alpha(frame, fragment);
+  if (has_alpha_test(frame, fragment.instance)) out.alpha = tested_alpha(frame, fragment_of(frame, fragment, pixel));
   const uint32_t material = frame.scene.instances[fragment.instance].material;
   out.drawn = !out.alpha || *out.alpha >= frame.scene.materials[material].alpha_cutoff;
   return out;
@@ -42,7 +43,7 @@ void find_visible(const ExplainedFrame& frame, PixelHistory& out) {
   const GeometryState& state = frame.pipeline.geometry;
   out.depth = frame.view.window.depth.stored(state.clear_depth);
   for (size_t i = 0; i < out.opaque.covering.size(); ++i) {
-    out.of_opaque.push_back(tested(frame, out.opaque.covering[i], state.depth_func, out.depth));
+    out.of_opaque.push_back(tested(frame, out.opaque.covering[i], out.pixel, state.depth_func, out.depth));
     if (!out.of_opaque.back().drawn) continue;
     out.depth = out.opaque.covering[i].depth;
     out.visible = i;
@@ -51,20 +52,23 @@ void find_visible(const ExplainedFrame& frame, PixelHistory& out) {
 
 /// The fragments that every light but the first draws: those at the stored depth.
 void find_tied(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
-  std::vector<const PixelFragment*> tied;
-  for (const PixelFragment& fragment : out.opaque.covering)
-    if (tested(frame, fragment, DepthFunc::equal, out.depth).drawn) tied.push_back(&fragment);
-  if (tied.empty() || (tied.size() == 1 && out.visible)) return;
-  for (const PixelFragment* fragment : tied) out.tied.push_back(surface_of(frame, *fragment, planes, out.pixel));
+  for (size_t i = 0; i < out.opaque.covering.size(); ++i)
+    if (tested(frame, out.opaque.covering[i], out.pixel, DepthFunc::equal, out.depth).drawn) out.tied_at.push_back(i);
+  if (out.tied_at.size() == 1 && out.visible) out.tied_at.clear();
+  for (const size_t i : out.tied_at)
+    out.tied.push_back(surface_of(frame, fragment_of(frame, out.opaque.covering[i], out.pixel), planes, out.pixel));
 }
 
 void find_glass(const ExplainedFrame& frame, PixelHistory& out) {
   Pipeline forward = frame.pipeline;
   forward.strategy = Strategy::forward_loop;
   const GBufferState floats = surface_planes(forward);
-  for (const PixelFragment& fragment : out.transparent.covering) {
-    out.of_transparent.push_back(tested(frame, fragment, frame.pipeline.geometry.depth_func, out.depth));
-    if (out.of_transparent.back().drawn) out.glass.push_back(surface_of(frame, fragment, floats, out.pixel));
+  for (size_t i = 0; i < out.transparent.covering.size(); ++i) {
+    const CoveringTriangle& fragment = out.transparent.covering[i];
+    out.of_transparent.push_back(tested(frame, fragment, out.pixel, frame.pipeline.geometry.depth_func, out.depth));
+    if (!out.of_transparent.back().drawn) continue;
+    out.glass_at.push_back(i);
+    out.glass.push_back(surface_of(frame, fragment_of(frame, fragment, out.pixel), floats, out.pixel));
   }
 }
 
@@ -75,8 +79,8 @@ void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelH
   for (const PixelSurface& glass : out.glass) {
     const std::array<float, 4>& source = glass.read.albedo;
     const StoredPixel after = after_draw(frame.pipeline.transparency.blend, plane, source, stored);
-    out.albedo_draws.push_back(
-        {"transparent surface " + std::to_string(out.albedo_draws.size()), -1, source, stored, after});
+    out.albedo_draws.push_back({"transparent surface " + std::to_string(out.albedo_draws.size()), -1,
+                                frame.pipeline.transparency.blend.enabled, source, stored, after});
     stored = after;
   }
   if (!out.glass.empty()) out.surface.read.albedo = values_of(plane, stored);
@@ -84,7 +88,7 @@ void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelH
 
 }  // namespace
 
-PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history) {
+PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history) {
   PixelSurfaces out;
   out.covered = history.visible.has_value();
   out.visible = history.surface.read;
@@ -106,14 +110,17 @@ PixelHistory history_of(const ExplainedFrame& frame, int x, int y) {
   out.opaque = triangles_at(frame, out.pixel, Surfaces::opaque);
   find_visible(frame, out);
   const GBufferState planes = surface_planes(frame.pipeline);
-  if (out.visible) out.surface = surface_of(frame, out.opaque.covering[*out.visible], planes, out.pixel);
+  if (out.visible)
+    out.surface =
+        surface_of(frame, fragment_of(frame, out.opaque.covering[*out.visible], out.pixel), planes, out.pixel);
   if (frame.pipeline.strategy == Strategy::forward_multipass) find_tied(frame, planes, out);
   if (frame.transparency != TransparencyMode::none) {
     out.transparent = triangles_at(frame, out.pixel, Surfaces::transparent);
     find_glass(frame, out);
   }
   if (frame.transparency == TransparencyMode::into_albedo && out.visible) tint_albedo(frame, planes, out);
-  out.target = target_of(frame, lit_surfaces(frame, out), out.pixel);
+  out.lit = lit_surfaces(frame, surfaces_to_light(frame, out), geometry_at(frame, out.pixel));
+  out.stored = drawn_target(frame, out.lit, {}, &out.draws);
   return out;
 }
 

@@ -24,11 +24,14 @@ struct PixelHistory {
   PixelTriangles opaque, transparent;
   std::vector<DepthOutcome> of_opaque, of_transparent;  ///< of each covering fragment
   std::optional<size_t> visible;                        ///< index into opaque.covering
+  std::vector<size_t> tied_at, glass_at;                ///< of `tied` and `glass`: indices into the covering triangles
   float depth = 0;                                      ///< stored, or the clear depth
   PixelSurface surface;                                 ///< the visible one
   std::vector<PixelSurface> tied, glass;                ///< of forward-multipass; of transparent fragments drawn
   std::vector<TargetDraw> albedo_draws;                 ///< transparent fragments blended into the albedo plane
-  PixelTarget target;
+  LitSurfaces lit;
+  std::vector<TargetDraw> draws;  ///< into the target, in their order; the first is the clear
+  StoredPixel stored{};           ///< what the target holds at last
 };
 
 /// Follows one pixel through the frame; (x, y) counts from the top left of the picture. Error(usage) for a pixel that
@@ -36,15 +39,17 @@ struct PixelHistory {
 PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 
 /// The surfaces that light a history's target.
-PixelSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelHistory& history);
+PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history);
 
 /// A stored pixel as its format has it: codes, or floats.
 std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored);
 
 /// The same in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
-/// pixel. Under `every`, lights that add nothing and
-/// draws that change nothing are parts too, not only counted.
-enum class LightDetail : uint8_t { adding, every };
-Account account_of(const ExplainedFrame& frame, const PixelHistory& history, LightDetail detail = LightDetail::adding);
+/// pixel. Of very many triangles, lights and draws those that matter most are parts, and the others are counted.
+enum class Detail : uint8_t {
+  usual,  ///< the 64 lights that add most, the 64 covering triangles drawn last; draws that change something
+  all     ///< every covering triangle, every light and every draw
+};
+Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Detail detail = Detail::usual);
 
 }  // namespace trueshade

@@ -11,8 +11,8 @@ namespace trueshade {
 namespace {
 
 constexpr float kAnywhere = std::numeric_limits<float>::quiet_NaN();
-constexpr size_t kNearest = 8;
-constexpr double kSlack = 2.0;  // pixels: more than snapping moves a corner
+constexpr size_t kMostListed = 8;  // of triangles that do not cover the sample
+constexpr double kSlack = 2.0;     // pixels: more than snapping moves a corner
 
 /// Where a vertex appears, in pixels, to about 1/256 pixel; kAnywhere where that is not known so simply.
 struct RoughPosition {
@@ -30,7 +30,7 @@ RoughPosition rough_position(const ClipVertex& v, const WindowTransform& t) {
 }
 
 /// Whether a triangle's box surely leaves the sample out. A NaN answers no.
-bool surely_elsewhere(const RoughPosition& a, const RoughPosition& b, const RoughPosition& c, double px, double py) {
+bool boxed_elsewhere(const RoughPosition& a, const RoughPosition& b, const RoughPosition& c, double px, double py) {
   const auto beyond = [](double p, float u, float v, float w) {
     const double low = p - kSlack, high = p + kSlack;
     return (u < low && v < low && w < low) || (u > high && v > high && w > high);
@@ -56,14 +56,14 @@ bool all_beyond_a_plane(const ClipVertex v[3], const WindowTransform& t) {
 /// sign of the polygon's area, and the first piece of that sign gives the values.
 void cover(const WindowTransform& window, PixelFragment& out) {
   int winding = 0, drawn = -1;
-  double nearest = std::numeric_limits<double>::infinity();
+  out.distance = std::numeric_limits<double>::infinity();
   EdgeValues of_drawn{}, of_nearest{};
   int nearest_piece = 0;
   for (int i = 0; i < out.fan.count; ++i) {
     const ClippedFan::Piece& piece = out.fan.piece[i];
     const EdgeValues edges = edge_values(piece.triangle, window.upper_left);
-    if (const double outside = edges.pixels_outside(); outside < nearest)
-      nearest = outside, nearest_piece = i, of_nearest = edges;
+    if (const double distance = distance_to(piece.triangle); distance < out.distance)
+      out.distance = distance, nearest_piece = i, of_nearest = edges;
     if (!edges.covers()) continue;
     winding += piece.sign;
     if (drawn < 0 && piece.sign == out.fan.facing) drawn = i, of_drawn = edges;
@@ -72,6 +72,7 @@ void cover(const WindowTransform& window, PixelFragment& out) {
   out.fate = covered ? Fate::covers : Fate::beside;
   out.piece = covered ? drawn : nearest_piece;
   out.edges = covered ? of_drawn : of_nearest;
+  if (covered) out.distance = 0.0;
 }
 
 /// r of docs/arithmetic.md section 5.
@@ -100,13 +101,23 @@ void find_depth(const WindowTransform& window, PixelFragment& out) {
 
 /// Keeps a triangle beside the sample if it is among the nearest.
 void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest) {
-  const auto outside = [](const PixelFragment& f) { return f.edges.pixels_outside(); };
-  const double mine = outside(fragment);
-  const auto place = std::upper_bound(nearest.begin(), nearest.end(), mine,
-                                      [&](double value, const PixelFragment& f) { return value < outside(f); });
-  if (size_t(place - nearest.begin()) >= kNearest) return;
+  if (!(fragment.distance <= kSlack)) return;
+  const auto place = std::upper_bound(nearest.begin(), nearest.end(), fragment.distance,
+                                      [](double value, const PixelFragment& f) { return value < f.distance; });
+  if (size_t(place - nearest.begin()) >= kMostListed) return;
   nearest.insert(place, std::move(fragment));
-  if (nearest.size() > kNearest) nearest.pop_back();
+  if (nearest.size() > kMostListed) nearest.pop_back();
+}
+
+/// Keeps a culled triangle if it would cover the sample.
+void keep_culled(const ExplainedFrame& frame, const PixelFragment& fragment, WindowPixel pixel, PixelTriangles& out) {
+  if (out.culled.size() >= kMostListed) return;
+  GeometryState any_side = frame.view.faces.of(fragment.instance);
+  any_side.cull_face = CullFace::none;
+  PixelFragment drawn = fragment_at(fragment.clip, frame.view.window, any_side, pixel);
+  if (drawn.fate != Fate::covers) return;
+  drawn.instance = fragment.instance, drawn.triangle = fragment.triangle, drawn.fate = Fate::culled;
+  out.culled.push_back(std::move(drawn));
 }
 
 bool is_asked(const ExplainedFrame& frame, const Instance& instance, Surfaces which) {
@@ -130,7 +141,7 @@ void ask_instance(const ExplainedFrame& frame, uint32_t instance, WindowPixel pi
   }
   for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
     const uint32_t* const corner = mesh.indices.data() + 3 * size_t(triangle);
-    if (surely_elsewhere(rough[corner[0]], rough[corner[1]], rough[corner[2]], pixel.x + 0.5, pixel.y + 0.5)) {
+    if (boxed_elsewhere(rough[corner[0]], rough[corner[1]], rough[corner[2]], pixel.x + 0.5, pixel.y + 0.5)) {
       ++out.count[size_t(Fate::elsewhere)];
       continue;
     }
@@ -139,9 +150,11 @@ void ask_instance(const ExplainedFrame& frame, uint32_t instance, WindowPixel pi
     fragment.instance = instance, fragment.triangle = triangle;
     ++out.count[size_t(fragment.fate)];
     if (fragment.fate == Fate::covers)
-      out.covering.push_back(std::move(fragment));
+      out.covering.push_back({instance, triangle, fragment.depth});
     else if (fragment.fate == Fate::beside)
       keep_nearest(std::move(fragment), out.nearest);
+    else if (fragment.fate == Fate::culled)
+      keep_culled(frame, fragment, pixel, out);
   }
 }
 
@@ -153,10 +166,19 @@ bool EdgeValues::covers() const {
   return true;
 }
 
-double EdgeValues::pixels_outside() const {
-  double most = -std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < 3; ++i) most = std::max(most, -double(e[i]) / std::hypot(double(across[i]), double(up[i])));
-  return most;
+double distance_to(const WindowTriangle& triangle) {
+  constexpr double kPixel = 256.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  int left = 0;  // sides that have the sample to their left
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t next = (i + 1) % 3;
+    const double x = double(triangle.x[i]), y = double(triangle.y[i]);
+    const double dx = double(triangle.x[next]) - x, dy = double(triangle.y[next]) - y, length2 = dx * dx + dy * dy;
+    const double along = length2 > 0.0 ? std::clamp(-(x * dx + y * dy) / length2, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, std::hypot(x + along * dx, y + along * dy) / kPixel);
+    left += x * dy - y * dx > 0.0 ? 1 : 0;
+  }
+  return left == 0 || left == 3 ? 0.0 : nearest;
 }
 
 EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left) {
@@ -201,6 +223,24 @@ PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& windo
   const bool inside = pixel.x >= window.x0 && pixel.x < window.x1 && pixel.y >= window.y0 && pixel.y < window.y1;
   if (!inside) out.fate = Fate::beside;
   find_depth(window, out);
+  return out;
+}
+
+bool surely_elsewhere(const ClipVertex clip[3], const WindowTransform& window, WindowPixel pixel) {
+  return boxed_elsewhere(rough_position(clip[0], window), rough_position(clip[1], window),
+                         rough_position(clip[2], window), pixel.x + 0.5, pixel.y + 0.5);
+}
+
+PixelFragment fragment_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle, WindowPixel pixel) {
+  const Mesh& mesh = frame.scene.meshes[frame.scene.instances[instance].mesh];
+  ClipVertex clip[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const uint32_t v = mesh.indices[3 * size_t(triangle) + k];
+    const float point[3] = {mesh.position[0][v], mesh.position[1][v], mesh.position[2][v]};
+    clip[k] = clip_position(frame.view.instances[instance].clip[0], point);
+  }
+  PixelFragment out = fragment_at(clip, frame.view.window, frame.view.faces.of(instance), pixel);
+  out.instance = instance, out.triangle = triangle;
   return out;
 }
 

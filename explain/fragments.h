@@ -34,10 +34,11 @@ struct EdgeValues {
   __int128 area;
 
   bool covers() const;
-  /// How far the sample lies outside, in pixels: over the edge that it is farthest beyond. Negative inside.
-  double pixels_outside() const;
 };
 EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left);
+
+/// How far a window triangle, relative to the sample, is from the sample: pixels, 0 inside.
+double distance_to(const WindowTriangle& triangle);
 
 /// One triangle near a pixel.
 struct PixelFragment {
@@ -47,17 +48,25 @@ struct PixelFragment {
   ClippedFan fan;          ///< window coordinates are relative to the sample
   int piece = 0;           ///< of the fan, whose values count
   EdgeValues edges{};      ///< of that piece
+  double distance = 0;     ///< of the sample from the nearest piece, pixels; 0 where it is covered
   double plane_depth = 0;  ///< of the piece's plane, with its polygon offset, clamped
   double offset = 0;       ///< of it the polygon offset
   float depth = 0;         ///< what the depth test compares
 };
 
+/// A triangle that covers the sample. There may be millions; fragment_of() gives the rest.
+struct CoveringTriangle {
+  uint32_t instance, triangle;
+  float depth;  ///< what the depth test compares
+};
+
 /// The triangles of some instances at a pixel.
 struct PixelTriangles {
   std::array<uint64_t, kFates> count{};
-  std::vector<PixelFragment> covering;  ///< in the order of submission
-  std::vector<PixelFragment>
-      nearest;  ///< those beside the sample that come nearest to it, at most eight, nearest first
+  std::vector<CoveringTriangle> covering;  ///< in the order of submission
+  /// Those that lie within two pixels of the sample but do not cover it, at most eight, nearest first.
+  std::vector<PixelFragment> nearest;
+  std::vector<PixelFragment> culled;  ///< those that would cover it if they were not culled, the first eight
 };
 
 /// Asks every triangle of the scene's opaque instances, or of its transparent ones (all are opaque where the frame
@@ -65,9 +74,18 @@ struct PixelTriangles {
 enum class Surfaces : uint8_t { opaque, transparent };
 PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which);
 
+/// A triangle's fragment, with all numbers.
+PixelFragment fragment_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle, WindowPixel pixel);
+inline PixelFragment fragment_of(const ExplainedFrame& frame, const CoveringTriangle& of, WindowPixel pixel) {
+  return fragment_of(frame, of.instance, of.triangle, pixel);
+}
+
 /// What became of a triangle with these corners, drawn with a state, and its fragment.
 PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& window, const GeometryState& state,
                           WindowPixel pixel);
+
+/// Whether a triangle's box surely leaves the sample out: a quick answer; false where it takes more to tell.
+bool surely_elsewhere(const ClipVertex clip[3], const WindowTransform& window, WindowPixel pixel);
 
 /// The clip position of a point: docs/arithmetic.md section 2. `rows` has four rows of four.
 ClipVertex clip_position(const float* rows, const float point[3]);

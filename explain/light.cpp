@@ -169,7 +169,8 @@ LitPixel lit_pixel(const LightModel& model, const LightTable& lights, const Surf
                    ? unit({eye[0] - out.position[0], eye[1] - out.position[1], eye[2] - out.position[2]})
                    : Vector{lights.view_axis[0], lights.view_axis[1], lights.view_axis[2]};
   const bool glossy = reads_specular_plane(model), tinted = model.specular_source == SpecularSource::albedo;
-  for (size_t k = 0; k < 3; ++k) out.specular[k] = glossy ? surface.specular[k] : tinted ? out.albedo[k] : model.specular_color[int(k)];
+  for (size_t k = 0; k < 3; ++k)
+    out.specular[k] = glossy ? surface.specular[k] : tinted ? out.albedo[k] : model.specular_color[int(k)];
   // A plane that was handed over may hold any shininess.
   const float low = positive(surface.specular[3]);
   out.shininess = glossy ? std::nearbyint(at_most(low, 8192.0f)) : model.shininess;

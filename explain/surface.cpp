@@ -227,6 +227,11 @@ PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragme
   return out;
 }
 
+bool has_alpha_test(const ExplainedFrame& frame, uint32_t instance) {
+  const SceneMaps& maps = frame.view.maps;
+  return maps.textured() && maps.material[frame.scene.instances[instance].material].alpha_cutoff != 0.0f;
+}
+
 std::optional<float> tested_alpha(const ExplainedFrame& frame, const PixelFragment& fragment) {
   const MaterialMaps* const maps = maps_of_fragment(frame, fragment);
   if (maps == nullptr || maps->alpha_cutoff == 0.0f) return std::nullopt;

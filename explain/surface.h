@@ -38,6 +38,9 @@ struct PixelSurface {
 PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragment, const GBufferState& planes,
                         WindowPixel pixel);
 
+/// Whether fragments of an instance are tested for alpha.
+bool has_alpha_test(const ExplainedFrame& frame, uint32_t instance);
+
 /// The alpha that is compared with the material's cutoff; nothing where the material has none.
 std::optional<float> tested_alpha(const ExplainedFrame& frame, const PixelFragment& fragment);
 

@@ -7,7 +7,7 @@
 namespace trueshade {
 namespace {
 
-constexpr size_t kNoLight = size_t(-1);
+constexpr int64_t kNoLight = -1;
 
 /// How often each light counts.
 struct LightTimes {
@@ -15,52 +15,59 @@ struct LightTimes {
   int operator[](size_t light) const { return times.empty() ? 1 : int(times[light]); }
 };
 
-/// Adds draws to a pixel one after the other.
+/// Draws into a pixel, one after the other.
 struct Drawing {
   const BlendTarget& target;
-  PixelTarget& out;
+  std::vector<TargetDraw>* draws;
+  StoredPixel stored{};
 
-  void draw(std::string what, size_t light, const BlendState& state, const std::array<float, 4>& source) {
-    const StoredPixel before = out.stored;
-    out.stored = after_draw(state, target, source, before);
-    out.draws.push_back({std::move(what), light == kNoLight ? -1 : int64_t(light), source, before, out.stored});
+  void draw(const std::string& what, int64_t light, const BlendState& state, const std::array<float, 4>& source) {
+    const StoredPixel before = stored;
+    stored = after_draw(state, target, source, before);
+    if (draws == nullptr) return;
+    const std::string name = light == kNoLight ? what : what + "light " + std::to_string(light);
+    draws->push_back({name, light, state.enabled, source, before, stored});
   }
-  void store(std::string what, size_t light, const std::array<float, 4>& source) {
-    draw(std::move(what), light, BlendState{}, source);
+  void store(const std::string& what, const std::array<float, 4>& source) {
+    draw(what, kNoLight, BlendState{}, source);
   }
 };
 
-std::string name_of_light(size_t light) { return "light " + std::to_string(light); }
-
-LightTotal lit(const LightModel& model, const LightTable& table, const SurfacePlanes& surface, LightTimes times) {
-  LightTotal out{lit_pixel(model, table, surface), {}, {}};
+LightTotal lit(const LightModel& model, const LightTable& table, const SurfacePlanes& surface) {
+  LightTotal out{lit_pixel(model, table, surface), &table, {}, {}};
   std::array<float, 3> sum = out.pixel.start;
   for (const LightRow& row : table.row) {
     out.lights.push_back(light_at(model, row, out.pixel));
     if (out.lights.back().fate != LightFate::adds) continue;
-    for (int n = times[out.lights.size() - 1]; n > 0; --n)
-      for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + out.lights.back().term[k];
+    for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + out.lights.back().term[k];
   }
   out.sum = received(model, out.pixel, sum);
   return out;
 }
 
-/// How often the geometry of a light covers the pixel: quads cover all pixels once, meshes by their triangles.
-uint32_t geometry_at(const ExplainedFrame& frame, const Light& light, WindowPixel pixel) {
-  const LightExtent extent = drawn_extent(light, frame.pipeline.light_volumes);
-  if (!is_mesh(extent)) return 1;
-  const LightMesh& mesh = frame.meshes[extent];
+/// The sum of the lights, each as often as it counts.
+std::array<float, 4> sum_of(const LightModel& model, const LightTotal& total, LightTimes times) {
+  if (times.times.empty()) return total.sum;
+  std::array<float, 3> sum = total.pixel.start;
+  for (size_t i = 0; i < total.lights.size(); ++i)
+    for (int n = total.lights[i].fate == LightFate::adds ? times[i] : 0; n > 0; --n)
+      for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + total.lights[i].term[k];
+  return received(model, total.pixel, sum);
+}
+
+uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const LightMesh& mesh, WindowPixel pixel) {
   std::vector<glm::vec3> vertices(mesh.unit.size());
+  std::vector<ClipVertex> clip;
   light_vertices(mesh, light, vertices);
+  for (const glm::vec3& v : vertices) {
+    const float point[3] = {v.x, v.y, v.z};
+    clip.push_back(clip_position(frame.view.clip_from_world.data(), point));
+  }
   uint32_t count = 0;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-    ClipVertex clip[3];
-    for (size_t k = 0; k < 3; ++k) {
-      const glm::vec3& v = vertices[mesh.indices[i + k]];
-      const float point[3] = {v.x, v.y, v.z};
-      clip[k] = clip_position(frame.view.clip_from_world.data(), point);
-    }
-    count += fragment_at(clip, frame.volume_window, frame.volume_state, pixel).fate == Fate::covers ? 1 : 0;
+    const ClipVertex corner[3] = {clip[mesh.indices[i]], clip[mesh.indices[i + 1]], clip[mesh.indices[i + 2]]};
+    if (surely_elsewhere(corner, frame.volume_window, pixel)) continue;
+    count += fragment_at(corner, frame.volume_window, frame.volume_state, pixel).fate == Fate::covers ? 1 : 0;
   }
   return count;
 }
@@ -70,79 +77,97 @@ std::array<float, 4> source_of(const LightModel& model, const LitPixel& pixel, c
   return received(model, pixel, at.fate == LightFate::adds ? at.term : std::array<float, 3>{});
 }
 
-void draw_volumes(const ExplainedFrame& frame, const PixelSurfaces& surfaces, WindowPixel pixel, LightTimes times,
-                  Drawing& drawing) {
+void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
   const LightModel& model = frame.pipeline.light_model;
-  PixelTarget& out = drawing.out;
-  if (!surfaces.covered) return;
-  const LitPixel& surface = out.visible.pixel;
+  if (!lit.covered) return;
+  const LitPixel& surface = lit.visible.pixel;
   if (frame.pipeline.light_volumes.base)
-    drawing.store("what the surface has without lights", kNoLight, received(model, surface, surface.start));
-  for (size_t i = 0; i < frame.scene.lights.size(); ++i) {
-    out.geometry.push_back(geometry_at(frame, frame.scene.lights[i], pixel));
-    if (out.geometry.back() == 0) out.visible.lights[i].fate = LightFate::not_drawn;
+    drawing.store("what the surface has without lights", received(model, surface, surface.start));
+  for (size_t i = 0; i < lit.visible.lights.size(); ++i) {
     if (!inside_extent(frame.lights.row[i], surface)) continue;
-    for (uint32_t k = 0; k < out.geometry.back() * uint32_t(times[i]); ++k)
-      drawing.draw(name_of_light(i), i, frame.pipeline.blend, source_of(model, surface, out.visible.lights[i]));
+    for (uint32_t k = 0; k < lit.geometry[i] * uint32_t(times[i]); ++k)
+      drawing.draw("", int64_t(i), frame.pipeline.blend, source_of(model, surface, lit.visible.lights[i]));
   }
 }
 
-void draw_passes(const ExplainedFrame& frame, const PixelSurfaces& surfaces, LightTimes times, Drawing& drawing) {
+void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
   const LightModel& model = frame.pipeline.light_model;
-  PixelTarget& out = drawing.out;
-  const size_t lights = frame.scene.lights.size();
-  if (surfaces.covered) {
-    const LitPixel& pixel = out.visible.pixel;
-    std::array<float, 3> first = pixel.start;
-    for (int n = lights > 0 && out.visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
-      for (size_t k = 0; k < 3; ++k) first[k] = first[k] + out.visible.lights[0].term[k];
-    drawing.store(lights > 0 ? "the first light's draw" : "a draw without lights", lights > 0 ? 0 : kNoLight,
-                  received(model, pixel, first));
+  const size_t lights = frame.lights.size();
+  if (lit.covered) {
+    const LightTotal& visible = lit.visible;
+    std::array<float, 3> first = visible.pixel.start;
+    for (int n = lights > 0 && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
+      for (size_t k = 0; k < 3; ++k) first[k] = first[k] + visible.lights[0].term[k];
+    drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights",
+                  received(model, visible.pixel, first));
   }
-  std::vector<LitPixel> layers;
-  if (surfaces.tied.empty() && surfaces.covered) layers.push_back(out.visible.pixel);
-  for (const SurfacePlanes& tied : surfaces.tied) layers.push_back(lit_pixel(model, frame.lights, tied));
+  std::vector<const LightTotal*> layers;
+  if (lit.tied.empty() && lit.covered) layers.push_back(&lit.visible);
+  for (const LightTotal& tied : lit.tied) layers.push_back(&tied);
   for (size_t i = 1; i < lights; ++i)
-    for (const LitPixel& layer : layers)
-      for (int n = inside_extent(frame.lights.row[i], layer) ? times[i] : 0; n > 0; --n)
-        drawing.draw(name_of_light(i), i, kAddLight,
-                     source_of(model, layer, light_at(model, frame.lights.row[i], layer)));
+    for (size_t layer = 0; layer < layers.size(); ++layer) {
+      const LightTotal& of = *layers[layer];
+      const std::string where = lit.tied.empty() ? "" : "surface " + std::to_string(layer) + " at this depth, ";
+      for (int n = inside_extent(frame.lights.row[i], of.pixel) ? times[i] : 0; n > 0; --n)
+        drawing.draw(where, int64_t(i), kAddLight, source_of(model, of.pixel, of.lights[i]));
+    }
 }
 
-void draw_glass(const ExplainedFrame& frame, const PixelSurfaces& surfaces, LightTimes times, Drawing& drawing) {
+LightModel model_of_glass(const ExplainedFrame& frame) {
   LightModel model = frame.pipeline.light_model;
   model.alpha_from_albedo = true;
-  for (size_t i = 0; i < surfaces.glass.size(); ++i) {
-    drawing.out.glass.push_back(lit(model, frame.glass_lights, surfaces.glass[i], times));
-    drawing.draw("transparent surface " + std::to_string(i), kNoLight, frame.pipeline.transparency.blend,
-                 drawing.out.glass.back().sum);
-  }
+  return model;
 }
 
 }  // namespace
 
-PixelTarget target_of(const ExplainedFrame& frame, const PixelSurfaces& surfaces, WindowPixel pixel,
-                      std::span<const uint8_t> given_times) {
+std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel) {
+  std::vector<uint32_t> out;
+  if (frame.pipeline.strategy != Strategy::deferred_volumes) return out;
+  for (const Light& light : frame.scene.lights) {
+    const LightExtent extent = drawn_extent(light, frame.pipeline.light_volumes);
+    out.push_back(is_mesh(extent) ? mesh_covers(frame, light, frame.meshes[extent], pixel) : 1);
+  }
+  return out;
+}
+
+LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry) {
+  const LightModel& model = frame.pipeline.light_model;
+  LitSurfaces out;
+  out.covered = surfaces.covered;
+  out.geometry = std::move(geometry);
+  if (surfaces.covered) out.visible = lit(model, frame.lights, surfaces.visible);
+  for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
+    if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
+      out.visible.lights[i].fate = LightFate::not_drawn;
+  for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(model, frame.lights, tied));
+  for (const SurfacePlanes& glass : surfaces.glass)
+    out.glass.push_back(lit(model_of_glass(frame), frame.glass_lights, glass));
+  return out;
+}
+
+StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, std::span<const uint8_t> given_times,
+                         std::vector<TargetDraw>* draws) {
   const LightTimes times{given_times};
-  PixelTarget out;
-  Drawing drawing{frame.target, out};
+  Drawing drawing{frame.target, draws};
   const glm::vec4 clear = drawn_clear(frame.scene.clear, frame.target);
-  drawing.store("the clear colour", kNoLight, {clear.r, clear.g, clear.b, clear.a});
-  if (surfaces.covered) out.visible = lit(frame.pipeline.light_model, frame.lights, surfaces.visible, times);
+  drawing.store("the clear colour", {clear.r, clear.g, clear.b, clear.a});
   switch (frame.pipeline.strategy) {
     case Strategy::forward_loop:
     case Strategy::deferred_loop:
-      if (surfaces.covered) drawing.store("the sum of the lights", kNoLight, out.visible.sum);
+      if (lit.covered) drawing.store("the sum of the lights", sum_of(frame.pipeline.light_model, lit.visible, times));
       break;
     case Strategy::deferred_volumes:
-      draw_volumes(frame, surfaces, pixel, times, drawing);
+      draw_volumes(frame, lit, times, drawing);
       break;
     case Strategy::forward_multipass:
-      draw_passes(frame, surfaces, times, drawing);
+      draw_passes(frame, lit, times, drawing);
       break;
   }
-  draw_glass(frame, surfaces, times, drawing);
-  return out;
+  for (size_t i = 0; i < lit.glass.size(); ++i)
+    drawing.draw("transparent surface " + std::to_string(i), kNoLight, frame.pipeline.transparency.blend,
+                 sum_of(model_of_glass(frame), lit.glass[i], times));
+  return drawing.stored;
 }
 
 }  // namespace trueshade

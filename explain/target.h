@@ -19,33 +19,44 @@ struct PixelSurfaces {
   std::vector<SurfacePlanes> glass;  ///< transparent ones that are blended after the lights, in order of submission
 };
 
+/// The lights on one surface.
+struct LightTotal {
+  LitPixel pixel;
+  const LightTable* table = nullptr;  ///< whose rows the lights are
+  std::vector<LightAtPixel> lights;   ///< by index in the scene
+  std::array<float, 4> sum{};         ///< of all, as the target receives it
+};
+
+/// The surfaces of a pixel under their lights.
+struct LitSurfaces {
+  bool covered = false;
+  LightTotal visible;
+  std::vector<LightTotal> tied, glass;  ///< as PixelSurfaces has them
+  std::vector<uint32_t> geometry;       ///< deferred-volumes: how often each light's geometry covers the pixel
+};
+
+/// How often each light's geometry covers a pixel, under deferred-volumes: quads cover all pixels once, meshes by their
+/// triangles. Empty under other strategies.
+std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel);
+
+/// Lights the surfaces. docs/arithmetic.md sections 8, 9 and 15. Borrows the frame.
+///   geometry: as geometry_at() gives it
+LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry);
+
 /// One draw into the target.
 struct TargetDraw {
   std::string what;
-  int64_t light = -1;  ///< index of the light that is drawn; -1: none, or many
+  int64_t light = -1;   ///< index of the light that is drawn; -1: none, or many
+  bool blends = false;  ///< false: it replaces what is there
   std::array<float, 4> source{};
   StoredPixel before{}, after{};
 };
 
-/// A sum of lights over one surface.
-struct LightTotal {
-  LitPixel pixel;
-  std::vector<LightAtPixel> lights;  ///< by index in the scene
-  std::array<float, 4> sum{};        ///< as the target receives it
-};
-
-/// How the target's pixel came about.
-struct PixelTarget {
-  LightTotal visible;              ///< of the visible surface; `sum` means nothing where lights are blended one by one
-  std::vector<LightTotal> glass;   ///< of each transparent fragment
-  std::vector<uint32_t> geometry;  ///< deferred-volumes: how often each light's geometry covers the pixel
-  std::vector<TargetDraw> draws;   ///< in their order; the first is the clear
-  StoredPixel stored{};
-};
-
-/// Lights the surfaces and stores them as the pipeline's strategy does. docs/arithmetic.md sections 8, 10, 14 and 15.
+/// Draws lit surfaces into a pixel as the pipeline's strategy does, and returns what it holds then. docs/arithmetic.md
+/// sections 7, 10, 14 and 15.
 ///   times: for questions of the kind "what if": how often each light counts; empty: each once
-PixelTarget target_of(const ExplainedFrame& frame, const PixelSurfaces& surfaces, WindowPixel pixel,
-                      std::span<const uint8_t> times = {});
+///   draws: if not null, receives every draw in order; the first is the clear
+StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, std::span<const uint8_t> times = {},
+                         std::vector<TargetDraw>* draws = nullptr);
 
 }  // namespace trueshade

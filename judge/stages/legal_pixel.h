@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <string>
 
 #include "judge/bounds/profile.h"
 #include "judge/legal/pixel_class.h"
@@ -13,7 +12,7 @@ namespace trueshade::oracle {
 /// What one channel of the target may hold; unorm in codes.
 struct LegalChannel {
   double low = 0, high = 0;
-  bool is_bounded = true;  ///< false: no value that was tried is illegal
+  bool is_bounded = true;  ///< false: neither end of the format is illegal
 };
 
 /// What one pixel of the target may hold, and what it does.
@@ -21,7 +20,6 @@ struct LegalPixel {
   PixelClass pixel_class = PixelClass::exact;
   int channels = 0;
   std::array<LegalChannel, 4> channel{};  ///< each where the other channels are the nominal ones
-  std::string note;                       ///< the surface meant, where the class needs one
 };
 
 /// Judges the target of one pixel by the capture's own planes there, as judge_lighting() judges all. (x, y) counts from

@@ -32,8 +32,8 @@ TEST_CASE("a light that another renderer leaves out is named, wherever it makes 
   // The light that adds most at the middle of the picture.
   const PixelHistory middle = history_of(ExplainedFrame(e.scene, e.pipeline), 80, 60);
   size_t left_out = 0;
-  for (size_t i = 0; i < middle.target.visible.lights.size(); ++i)
-    if (middle.target.visible.lights[i].term[0] > middle.target.visible.lights[left_out].term[0]) left_out = i;
+  for (size_t i = 0; i < middle.lit.visible.lights.size(); ++i)
+    if (middle.lit.visible.lights[i].term[0] > middle.lit.visible.lights[left_out].term[0]) left_out = i;
   Scene without = e.scene;
   without.lights[left_out].color = glm::vec3(0.0f);
   const Image other = render_frame(without, e.pipeline).color;

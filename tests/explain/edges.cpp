@@ -57,7 +57,7 @@ TEST_CASE("an explanation says which triangles nearly cover a sample, and how fa
   const PixelHistory history = history_of(frame, 20, 255 - 20);
   CHECK_FALSE(history.visible.has_value());
   REQUIRE(history.opaque.nearest.size() == 1);
-  CHECK(history.opaque.nearest[0].edges.pixels_outside() == Approx(0.25));
+  CHECK(history.opaque.nearest[0].distance == Approx(0.25));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class Comparison {
     const PixelHistory history = history_of(explained_, x, y);
     const std::string at = "pixel " + std::to_string(x) + ',' + std::to_string(y) + ": ";
     for (int c = 0; c < info(frame_.color.format).channels; ++c) {
-      const float there = stored_in(frame_.color, x, y, c), told = history.target.stored[size_t(c)];
+      const float there = stored_in(frame_.color, x, y, c), told = history.stored[size_t(c)];
       if (!same_bits(there, told))
         return at + "target channel " + std::to_string(c) + " is " + number(there) + ", explained as " + number(told) +
                '\n' + account_text(account_of(explained_, history));
@@ -128,10 +128,10 @@ TEST_CASE("a light whose geometry is culled at a pixel is said to be not drawn t
   pipeline.width = pipeline.height = 64;
   const ExplainedFrame frame(scene, pipeline);
   const PixelHistory history = history_of(frame, 20, 40);
-  REQUIRE(history.target.geometry.size() == 3);
-  CHECK(history.target.geometry[1] == 0);
-  CHECK(history.target.visible.lights[1].fate == LightFate::not_drawn);
-  CHECK(history.target.visible.lights[0].fate == LightFate::adds);
+  REQUIRE(history.lit.geometry.size() == 3);
+  CHECK(history.lit.geometry[1] == 0);
+  CHECK(history.lit.visible.lights[1].fate == LightFate::not_drawn);
+  CHECK(history.lit.visible.lights[0].fate == LightFate::adds);
 }
 
 TEST_CASE("an explanation ends in the stored pixel, of random scenes and pipelines with maps and glass") {
