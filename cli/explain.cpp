@@ -123,8 +123,8 @@ std::string record_of(const std::string& path) {
   return {};
 }
 
-/// What OpenGL allows the pixel to hold, and the class of what it holds.
-void add_legal(const Question& q, const Image& given, double difference, Account& out) {
+/// What OpenGL allows the pixel to hold, and the class of what it holds, which comes back.
+oracle::PixelClass add_legal(const Question& q, const Image& given, double difference, Account& out) {
   oracle::Capture capture;
   capture.color = q.reference.color;
   for (int c = 0; c < info(given.format).channels; ++c) capture.color.set_code(q.x, q.y, c, given.code(0, 0, c));
@@ -143,6 +143,7 @@ void add_legal(const Question& q, const Image& given, double difference, Account
   const bool bounded = difference != 0.0 || legal.pixel_class != oracle::PixelClass::violation;
   out.add("class", bounded ? std::string(oracle::text(legal.pixel_class)) : "not bounded",
           "of its value on this surface (docs/validation.md); at an edge another surface may be legal too");
+  return legal.pixel_class;
 }
 
 /// Where another picture's value could have come from.
@@ -165,8 +166,12 @@ Account against_account(const Question& q, const PixelHistory& history) {
   }
   const double difference = stored_difference(q.frame.target, value, history.stored);
   out.add("distance", difference == 0.0 ? "the same as here" : distance_words(format, difference), "");
-  add_legal(q, given, difference, out);
+  const oracle::PixelClass found = add_legal(q, given, difference, out);
   if (difference == 0.0) return out;
+  if (found != oracle::PixelClass::violation) {
+    out.add("causes", "none is looked for: OpenGL allows this value", "");
+    return out;
+  }
   const std::vector<Candidate> candidates = candidates_for(q.frame, history, q.reference.color, value);
   if (candidates.empty()) out.add("causes", "no single change that is tried makes this value, or nearly so", "");
   for (const Candidate& candidate : candidates) {

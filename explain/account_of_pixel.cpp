@@ -46,10 +46,12 @@ float strength(const LightAtPixel& at) {
 
 /// What most people ask: what is seen, and which lights make it bright.
 void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Account& to) {
+  std::vector<std::string> through;
   for (const size_t i : history.glass_at) {
     const CoveringTriangle& f = history.transparent.covering[i];
-    to.add("through", name_of(frame, f.instance, f.triangle), "transparent, drawn over what is seen");
+    through.push_back(name_of(frame, f.instance, f.triangle));
   }
+  if (!through.empty()) to.add("through", through, "transparent, drawn over what is seen");
   if (!history.visible) {
     to.add("seen", history.draws.size() > 1 ? "no opaque surface" : "nothing: the clear colour", "");
     return;

@@ -1,4 +1,5 @@
 // `trueshade explain`: the last line is the pixel that render stores; what it refuses.
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "core/image_files/image_io.h"
@@ -45,6 +46,57 @@ TEST_CASE("the last line of explain is the pixel that render stores, as text and
   }
 }
 
+/// What is wrong with an explanation's own arithmetic: a sum that is not that of its terms, a draw that does not begin
+/// where the one before ended.
+std::string contradiction(const nlohmann::json& document) {
+  std::vector<double> before;
+  for (const auto& part : document["parts"]) {
+    const std::string step = part["step"];
+    if (step == "lights") {
+      std::array<float, 3> sum{};
+      for (size_t k = 0; k < 3; ++k) sum[k] = part["values"]["start"][k].get<float>();
+      for (const auto& light : part["parts"]) {
+        if (light["step"] == "light" && light["values"]["fate"] == "adds")
+          for (size_t k = 0; k < 3; ++k) sum[k] += light["values"]["term"][k].get<float>();
+        if (light["step"] == "sum" && light["values"]["sum"][1].get<float>() != sum[1]) return "a sum";
+      }
+    }
+    if (step != "target") continue;
+    for (const auto& draw : part["parts"]) {
+      const auto& values = draw["values"];
+      if (values.contains("before") && values["before"].get<std::vector<double>>() != before) return "a draw";
+      before = values["after"].get<std::vector<double>>();
+    }
+  }
+  return before == document["values"]["stored"].get<std::vector<double>>() ? "" : "the last draw";
+}
+
+TEST_CASE("what explain prints adds up: terms to the sum, draws one after the other to the stored pixel") {
+  for (const char* strategy : {"forward-multipass", "forward-loop", "deferred-volumes", "deferred-loop"})
+    for (const char* pixel : {"30,30", "50,41", "20,40"}) {
+      const Outcome told =
+          run_command({"explain", "builtin:cornell", "--preset", "light-volumes", "--strategy", strategy, "--target",
+                       "rgba32f", "--size", "64x64", "--pixel", pixel, "--all", "--json"});
+      INFO(strategy << ' ' << pixel << told.err);
+      REQUIRE(told.exit_code == 0);
+      CHECK(contradiction(nlohmann::json::parse(told.out)) == "");
+    }
+}
+
+TEST_CASE("explain follows time and profile as render does") {
+  const ScratchFolder folder;
+  const Words how = {"builtin:circle",     "--size",     "64x48",           "--time", "1.5", "--profile",
+                     "mesa-llvmpipe-22.3", "--strategy", "deferred-volumes"};
+  Words render = {"render"}, explain = {"explain"};
+  render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
+  for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
+  for (const char* word : {"--pixel", "32,20", "-q"}) explain.emplace_back(word);
+  REQUIRE(run_command(render, folder.path("")).exit_code == 0);
+  const Outcome told = run_command(explain, folder.path(""));
+  CHECK(last_line(told.out) == "stored  " + codes_at(folder.path("a.png"), 32, 20) + "  rgba8, R, G, B, A");
+  CHECK(told.err.empty());
+}
+
 TEST_CASE("explain ends in the picture's value where a post chain follows the target") {
   const ScratchFolder folder;
   write_bytes(folder.path("p.json"),
@@ -59,6 +111,11 @@ TEST_CASE("explain ends in the picture's value where a post chain follows the ta
   INFO(told.err);
   CHECK(last_line(told.out).starts_with("stored  " + codes_at(folder.path("a.png"), 20, 15) + "  "));
   CHECK(told.out.find("samples, ") != std::string::npos);
+  explain.insert(explain.end(), {"--against", "a.png"});
+  const Outcome against = run_command(explain, folder.path(""));
+  INFO(against.err);
+  CHECK(against.out.find("the same as here") != std::string::npos);
+  CHECK(against.out.find("VIOLATION") == std::string::npos);
 }
 
 TEST_CASE("explain says whether another picture's value is legal, and what makes it") {
@@ -73,6 +130,7 @@ TEST_CASE("explain says whether another picture's value is legal, and what makes
   CHECK(of_same.out.find("the same as here") != std::string::npos);
   CHECK(of_same.out.find("EXACT") != std::string::npos);
   CHECK(of_other.out.find("no specular term: exactly what the picture has") != std::string::npos);
+  CHECK(of_other.out.find("drawn_by   preset light-volumes") != std::string::npos);
 }
 
 TEST_CASE("explain refuses what names no pixel and what is no picture, in one line") {
