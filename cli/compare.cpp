@@ -63,9 +63,9 @@ StandardOutput answers(const CompareOptions& options) {
 FolderComparison as_row(const CompareOptions& options, const ComparedPictures& pictures, bool accepted) {
   PictureRow row;
   row.name = options.test;
-  row.state = passes(pictures)                                                  ? RowState::same
+  row.state = passes(pictures)                                              ? RowState::same
               : pictures.comparison.outcome == compare::Outcome::mismatched ? RowState::mismatched
-                                                                              : RowState::different;
+                                                                            : RowState::different;
   row.reason = verdict_line(pictures);
   row.is_accepted = accepted;
   return {options.reference, options.test, {row}, 0};

@@ -21,9 +21,11 @@ std::optional<double> decimal(std::string_view text) {
 double bound_from_text(const std::string& option, const std::string& text) {
   const size_t slash = text.find('/');
   const auto above = decimal(std::string_view(text).substr(0, slash));
-  const auto below = slash == std::string::npos ? std::optional(1.0) : decimal(std::string_view(text).substr(slash + 1));
+  const auto below =
+      slash == std::string::npos ? std::optional(1.0) : decimal(std::string_view(text).substr(slash + 1));
   if (!above || !below || !(*above >= 0.0) || !(*below > 0.0))
-    throw usage(option, "'" + text + "' is neither a number of at least 0 nor a fraction", "give one, like 0.01 or 2/255");
+    throw usage(option, "'" + text + "' is neither a number of at least 0 nor a fraction",
+                "give one, like 0.01 or 2/255");
   return *above / *below;
 }
 
@@ -78,7 +80,8 @@ void set_flip(const CompareTexts& texts, compare::CompareRules& rules) {
   if (texts.ppd) {
     const auto ppd = decimal(*texts.ppd);
     if (!ppd || *ppd < kLeastPpd || *ppd > kMostPpd)
-      throw usage("--ppd", "'" + *texts.ppd + "' is no number of pixels per degree from 1 to 1000", "give one, like 67");
+      throw usage("--ppd", "'" + *texts.ppd + "' is no number of pixels per degree from 1 to 1000",
+                  "give one, like 67");
     rules.flip.pixels_per_degree = *ppd;
   }
   if (texts.mapper) {

@@ -57,12 +57,12 @@ std::string channel_table(const std::vector<ChannelDifferences>& channels) {
     const std::string storage =
         c.reference_storage == c.test_storage ? c.reference_storage : c.reference_storage + " and " + c.test_storage;
     const uint64_t not_finite = c.not_finite_reference + c.not_finite_test;
-    rows.push_back({printable(c.name, Lines::one), std::to_string(c.unequal), number_of(c.mean(), "%.4g"),
-                    number_of(c.rms(), "%.4g"), number_of(c.largest), number_of(c.largest_ulp, "%.0f"),
-                    c.largest > 0 ? place_text(c.worst) : "-", number_of(c.psnr(), "%.2f"),
-                    not_finite == 0 ? "-"
-                                    : std::to_string(c.not_finite_reference) + " and " + std::to_string(c.not_finite_test),
-                    storage});
+    rows.push_back(
+        {printable(c.name, Lines::one), std::to_string(c.unequal), number_of(c.mean(), "%.4g"),
+         number_of(c.rms(), "%.4g"), number_of(c.largest), number_of(c.largest_ulp, "%.0f"),
+         c.largest > 0 ? place_text(c.worst) : "-", number_of(c.psnr(), "%.2f"),
+         not_finite == 0 ? "-" : std::to_string(c.not_finite_reference) + " and " + std::to_string(c.not_finite_test),
+         storage});
   }
   return table_of(rows);
 }
@@ -131,7 +131,12 @@ std::string pixel_json(const PixelValues& pixel) {
                        .put("test", v.test)
                        .put("equal", v.equal)
                        .text());
-  return JsonObject().put("part", pixel.part).put("x", pixel.x).put("y", pixel.y).put_raw("values", values.text()).text();
+  return JsonObject()
+      .put("part", pixel.part)
+      .put("x", pixel.x)
+      .put("y", pixel.y)
+      .put_raw("values", values.text())
+      .text();
 }
 
 std::string flip_json(const compare::FlipResult& flip) {
@@ -157,7 +162,8 @@ std::string strings_json(const std::vector<std::string>& lines) {
 
 std::string about_picture(const PictureFile& picture) {
   const ChannelFile& first = picture.parts.front();
-  std::string line = std::string(picture.kind) + ", " + std::to_string(first.width) + 'x' + std::to_string(first.height);
+  std::string line =
+      std::string(picture.kind) + ", " + std::to_string(first.width) + 'x' + std::to_string(first.height);
   if (picture.parts.size() > 1) line += ", " + std::to_string(picture.parts.size()) + " parts";
   std::string storage;
   size_t channels = 0;
@@ -183,7 +189,8 @@ std::string verdict_line(const ComparedPictures& pictures) {
   if (const auto& v = pictures.judged.validation)
     return "judged by the reference's scene: " + conclusion(*v) + "; " + extent + " from the reference";
   if (c.outcome == Outcome::within) return "the pictures differ within what is allowed: " + extent;
-  const std::string verb = c.outcome == Outcome::different ? "the pictures differ: " : "the pictures do not fit together: ";
+  const std::string verb =
+      c.outcome == Outcome::different ? "the pictures differ: " : "the pictures do not fit together: ";
   const bool by_equality = c.failures.front() == compare::text_of(c.criteria.front()) &&
                            c.criteria.front().criterion.measure == compare::Measure::unequal_pixels;
   if (by_equality) return verb + extent;

@@ -53,7 +53,8 @@ class SceneJudge {
     const oracle::Capture& capture = v_.capture;
     v_.verdict = oracle::validate_capture(scene_, v_.pipeline, capture, {v_.profile});
     v_.is_diagnosed = v_.verdict.violations() > 0 || v_.verdict.convicted();
-    if (v_.is_diagnosed) v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
+    if (v_.is_diagnosed)
+      v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
     for (oracle::Finding& finding : v_.findings)
       finding.command = "trueshade validate " + scene_.spec + " --gbuffer PLANES.exr --image " + pictures_.test.path +
                         " --suppose " + finding.name;

@@ -32,12 +32,18 @@ std::string testcase(const FolderComparison& folders, const PictureRow& row) {
 std::string xml_text(std::string_view text) {
   std::string xml;
   for (const char c : printable(text, Lines::one)) {
-    if (c == '&') xml += "&amp;";
-    else if (c == '<') xml += "&lt;";
-    else if (c == '>') xml += "&gt;";
-    else if (c == '"') xml += "&quot;";
-    else if (c == '\'') xml += "&apos;";
-    else xml += c;
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
+    else if (c == '\'')
+      xml += "&apos;";
+    else
+      xml += c;
   }
   return xml;
 }
@@ -52,9 +58,8 @@ std::string junit_xml(const FolderComparison& folders) {
   const std::string figures = attribute("tests", std::to_string(folders.rows.size())) +
                               attribute("failures", std::to_string(folders.failures() - errors)) +
                               attribute("errors", std::to_string(errors)) + attribute("time", seconds_text(seconds));
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
-                    attribute("name", "trueshade compare") + figures + ">\n  <testsuite" +
-                    attribute("name", folders.reference) + figures + ">\n";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", "trueshade compare") +
+                    figures + ">\n  <testsuite" + attribute("name", folders.reference) + figures + ">\n";
   for (const PictureRow& row : folders.rows) xml += testcase(folders, row);
   return xml + "  </testsuite>\n</testsuites>\n";
 }

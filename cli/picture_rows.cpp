@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPictureEndings[] = {".exr", ".png", ".hdr", ".pic", ".tif", ".tiff",
-                                                ".dds", ".npy", ".jpg", ".jpeg"};
+constexpr std::string_view kPictureEndings[] = {".exr",  ".png", ".hdr", ".pic", ".tif",
+                                                ".tiff", ".dds", ".npy", ".jpg", ".jpeg"};
 
 bool has_picture_ending(const fs::path& path) {
   std::string name = path.filename().string();

@@ -20,7 +20,7 @@ struct PictureRow {
   uint64_t unequal_pixels = 0, pixels = 0;
   double largest = 0.0;  ///< difference in any channel
   std::optional<double> flip_mean;
-  int exit_code = 0;    ///< of a picture that cannot be read
+  int exit_code = 0;     ///< of a picture that cannot be read
   double seconds = 0.0;  ///< wall time
   bool is_accepted = false;
   std::string not_accepted;  ///< why --accept left the reference as it is

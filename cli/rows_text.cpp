@@ -50,10 +50,11 @@ std::string rows_text(const FolderComparison& folders) {
     same += row.state == RowState::same ? 1 : 0;
     if (row.state != RowState::same) name_width = std::max(name_width, printable(row.name, Lines::one).size());
   }
-  std::string text = "verdict     " +
-                     (failures == 0 ? "all " + std::to_string(all) + " pictures pass"
-                                    : std::to_string(failures) + " of " + std::to_string(all) + " pictures do not pass") +
-                     (accepted > 0 ? ", " + std::to_string(accepted) + " accepted" : "") + '\n';
+  std::string text =
+      "verdict     " +
+      (failures == 0 ? "all " + std::to_string(all) + " pictures pass"
+                     : std::to_string(failures) + " of " + std::to_string(all) + " pictures do not pass") +
+      (accepted > 0 ? ", " + std::to_string(accepted) + " accepted" : "") + '\n';
   text += "reference   " + printable(folders.reference, Lines::one) + '\n';
   text += "test        " + printable(folders.test, Lines::one) + '\n';
   if (folders.passed_over > 0)
@@ -70,7 +71,8 @@ std::string rows_text(const FolderComparison& folders) {
                     row.pixels > 0 ? row_number(row.largest).c_str() : "-",
                     row.flip_mean ? row_number(*row.flip_mean).c_str() : "-");
       const std::string name = printable(row.name, Lines::one);
-      text += line + name + std::string(name_width + 2 - name.size(), ' ') + printable(row_reason(row), Lines::one) + '\n';
+      text +=
+          line + name + std::string(name_width + 2 - name.size(), ' ') + printable(row_reason(row), Lines::one) + '\n';
     }
   }
   return same > 0 ? text + "same        " + std::to_string(same) + (same == 1 ? " picture\n" : " pictures\n") : text;

@@ -49,9 +49,8 @@ PixelValues values_at(const Comparison& c, Place place) {
 }
 
 bool holds_floats(const ChannelFile& part) {
-  return std::any_of(part.channels.begin(), part.channels.end(), [](const Channel& channel) {
-    return is_color(channel) && channel.kind == ChannelKind::floating;
-  });
+  return std::any_of(part.channels.begin(), part.channels.end(),
+                     [](const Channel& channel) { return is_color(channel) && channel.kind == ChannelKind::floating; });
 }
 
 void measure_flip(const PictureFile& reference, const PictureFile& test, const CompareRules& rules, Comparison& c) {
@@ -128,11 +127,11 @@ void judge(const CompareRules& rules, Comparison& c) {
 void check_finite(const CompareRules& rules, Comparison& c) {
   const Differences& d = c.differences;
   if (d.apart_pixels > 0)
-    c.failures.push_back(std::to_string(d.apart_pixels) +
-                         (d.apart_pixels == 1 ? " pixel has" : " pixels have") +
+    c.failures.push_back(std::to_string(d.apart_pixels) + (d.apart_pixels == 1 ? " pixel has" : " pixels have") +
                          " an infinity or NaN that is another value in the other picture");
   else if (d.not_finite_pixels > 0 && !rules.allow_not_finite)
-    c.failures.push_back(std::to_string(d.not_finite_pixels) + (d.not_finite_pixels == 1 ? " pixel has" : " pixels have") +
+    c.failures.push_back(std::to_string(d.not_finite_pixels) +
+                         (d.not_finite_pixels == 1 ? " pixel has" : " pixels have") +
                          " an infinity or NaN, the same in both pictures (--allow-nonfinite lets it pass)");
 }
 
@@ -184,8 +183,8 @@ std::optional<LinearPicture> linear_picture(const ChannelFile& part, bool decode
   parallel_for(part.height, 0, [&](int y) {
     for (size_t c = 0; c < 3; ++c)
       for (size_t i = size_t(y) * size_t(part.width), end = i + size_t(part.width); i < end; ++i) {
-        const bool listed = channels[c]->is_code() && channels[c]->words[i] < light.size() &&
-                            channels[c]->bits == channels[0]->bits;
+        const bool listed =
+            channels[c]->is_code() && channels[c]->words[i] < light.size() && channels[c]->bits == channels[0]->bits;
         picture.rgb[c][i] = listed ? light[channels[c]->words[i]] : light_of(channels[c]->value(i), decode);
       }
   });

@@ -13,9 +13,9 @@ namespace trueshade::compare {
 
 /// What is asked of two pictures.
 struct CompareRules {
-  std::vector<Criterion> criteria;         ///< all must hold; empty: stored values are equal
-  bool allow_not_finite = false;           ///< infinities and NaN pass where both pictures have the same
-  std::optional<ColorSpace> color_space;   ///< what both pictures' colours are, whatever their files say
+  std::vector<Criterion> criteria;        ///< all must hold; empty: stored values are equal
+  bool allow_not_finite = false;          ///< infinities and NaN pass where both pictures have the same
+  std::optional<ColorSpace> color_space;  ///< what both pictures' colours are, whatever their files say
   enum class Range : uint8_t { by_storage, low, high } range = Range::by_storage;  ///< FLIP or HDR-FLIP
   FlipOptions flip;
   bool wants_flip = false;  ///< measure FLIP though no criterion asks for it
@@ -57,12 +57,12 @@ struct Comparison {
   bool passes() const { return outcome == Outcome::same || outcome == Outcome::within; }
 };
 
-/// Compares what of the pictures belongs together. Where anything does not, the outcome is `mismatched`, and the rest is
-/// measured all the same.
+/// Compares what of the pictures belongs together. Where anything does not, the outcome is `mismatched`, and the rest
+/// is measured all the same.
 Comparison compared(const PictureFile& reference, const PictureFile& test, const CompareRules& rules);
 
-/// R, G and B of a picture's first part as linear light, or Y as all three; what is not finite as 0. Nothing where it has
-/// neither. `decode`: they are sRGB values.
+/// R, G and B of a picture's first part as linear light, or Y as all three; what is not finite as 0. Nothing where it
+/// has neither. `decode`: they are sRGB values.
 std::optional<LinearPicture> linear_picture(const ChannelFile& part, bool decode);
 
 }  // namespace trueshade::compare

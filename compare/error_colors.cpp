@@ -6,7 +6,7 @@
 namespace trueshade::compare {
 
 std::array<uint8_t, 3> error_color(float error) {
-  constexpr int kColors[][3] = {{0, 0, 4},      {29, 17, 71},   {81, 18, 124},  {131, 38, 129}, {183, 55, 121},
+  constexpr int kColors[][3] = {{0, 0, 4},      {29, 17, 71},   {81, 18, 124},   {131, 38, 129}, {183, 55, 121},
                                 {230, 81, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};  // eighths
   constexpr int kSteps = int(std::size(kColors)) - 1;
   const float at = std::clamp(error, 0.0f, 1.0f) * float(kSteps);

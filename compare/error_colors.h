@@ -7,8 +7,8 @@
 
 namespace trueshade::compare {
 
-/// Errors in [0, 1] as a picture: black, violet, orange, pale yellow, ever lighter, for people who see colours otherwise
-/// too.
+/// Errors in [0, 1] as a picture: black, violet, orange, pale yellow, ever lighter, for people who see colours
+/// otherwise too.
 Image error_picture(std::span<const float> map, int width, int height);
 
 /// The colour of one error, codes of sRGB.

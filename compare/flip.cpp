@@ -1,5 +1,6 @@
 // HDR-FLIP: Pontus Andersson, Jim Nilsson, Peter Shirley, Tomas Akenine-Möller: "Visualizing Errors in Rendered High
-// Dynamic Range Images", Eurographics Short Papers, 2021: sections 3 and 4 (exposures, the largest error of each pixel).
+// Dynamic Range Images", Eurographics Short Papers, 2021: sections 3 and 4 (exposures, the largest error of each
+// pixel).
 #include "compare/flip.h"
 
 #include <algorithm>
@@ -49,8 +50,8 @@ double median(std::vector<float>& values) {
   const size_t half = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(half), values.end());
   if (values.size() % 2 == 1) return double(values[half]);
-  return 0.5 * (double(values[half]) +
-                double(*std::max_element(values.begin(), values.begin() + std::ptrdiff_t(half))));
+  return 0.5 *
+         (double(values[half]) + double(*std::max_element(values.begin(), values.begin() + std::ptrdiff_t(half))));
 }
 
 FlipResult dark_result(const LinearPicture& picture) {

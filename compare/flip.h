@@ -23,7 +23,8 @@ struct Exposures {
 };
 
 struct FlipOptions {
-  double pixels_per_degree = 67.0206433;  ///< a screen of 3840 pixels and 0.7 m, seen from 0.7 m: 0.7 * 3840/0.7 * pi/180
+  double pixels_per_degree =
+      67.0206433;  ///< a screen of 3840 pixels and 0.7 m, seen from 0.7 m: 0.7 * 3840/0.7 * pi/180
   ToneMapper tone_mapper = ToneMapper::aces;  ///< of HDR-FLIP
   std::optional<Exposures> exposures;         ///< of HDR-FLIP; nothing: exposures_of()
   int threads = 0;                            ///< 0: one a core. Never changes a figure
@@ -32,7 +33,8 @@ struct FlipOptions {
 /// Pixels' errors in [0, 1], and their figures. A weighted percentile counts each pixel by its error.
 struct FlipResult {
   std::vector<float> map;  ///< rows from the top
-  double mean = 0, weighted_median = 0, weighted_first_quartile = 0, weighted_third_quartile = 0, least = 0, largest = 0;
+  double mean = 0, weighted_median = 0, weighted_first_quartile = 0, weighted_third_quartile = 0, least = 0,
+         largest = 0;
   std::optional<Exposures> exposures;  ///< of HDR-FLIP
 };
 

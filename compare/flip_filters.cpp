@@ -71,8 +71,8 @@ FlipFilters flip_filters(double pixels_per_degree) {
                             second = gaussian(kBlueYellowSecond.b, pixels_per_degree, radius);
   const double first_scale = kBlueYellow.a * std::sqrt(kPi / kBlueYellow.b),
                second_scale = kBlueYellowSecond.a * std::sqrt(kPi / kBlueYellowSecond.b);
-  const double total = first_scale * whole_sum(first) * whole_sum(first) +
-                       second_scale * whole_sum(second) * whole_sum(second);
+  const double total =
+      first_scale * whole_sum(first) * whole_sum(first) + second_scale * whole_sum(second) * whole_sum(second);
   f.blue_yellow = scaled(first, std::sqrt(first_scale / total));
   f.blue_yellow_wide = scaled(second, std::sqrt(second_scale / total));
 

@@ -124,8 +124,8 @@ void filter_column(BandPlanes& band, int plane, int y, int height, const HalfFil
   for (int x = 0; x < band.width; ++x) out[x] = filter[0] * middle[x];
   for (int r = 1; r < int(filter.size()); ++r) {
     const float weight = filter[size_t(r)];
-    const float *const below = band.row(plane, std::min(y + r, height - 1)),
-                *const above = band.row(plane, std::max(y - r, 0));
+    const float *const below = band.row(plane, std::min(y + r, height - 1)), *const above =
+                                                                                 band.row(plane, std::max(y - r, 0));
     if (antisymmetric)
       for (int x = 0; x < band.width; ++x) out[x] += weight * (below[x] - above[x]);
     else
@@ -199,8 +199,8 @@ class FilteredBand {
     float shown[3];
     for (size_t c = 0; c < 3; ++c) {
       const double v = double(picture_.rgb[c][pixel]) * curve.scale;
-      const double mapped = ((curve.k[0] * v + curve.k[1]) * v + curve.k[2]) /
-                            ((curve.k[3] * v + curve.k[4]) * v + curve.k[5]);
+      const double mapped =
+          ((curve.k[0] * v + curve.k[1]) * v + curve.k[2]) / ((curve.k[3] * v + curve.k[4]) * v + curve.k[5]);
       shown[c] = mapped > 0 ? float(std::min(mapped, 1.0)) : 0.0f;  // NaN is not above 0
     }
     return kXyzOfRgb.times(shown[0], shown[1], shown[2]);
@@ -233,8 +233,7 @@ void raise_band(const LinearPicture& reference, const LinearPicture& test, const
     float* const out = map.data() + size_t(y) * size_t(reference.width);
     for (size_t x = 0; x < size_t(reference.width); ++x) {
       const float color = color_error(color_distance(of_r.lab[x], of_t.lab[x]));
-      const float features =
-          std::max(std::fabs(of_r.edge[x] - of_t.edge[x]), std::fabs(of_r.point[x] - of_t.point[x]));
+      const float features = std::max(std::fabs(of_r.edge[x] - of_t.edge[x]), std::fabs(of_r.point[x] - of_t.point[x]));
       const float feature_error = std::sqrt(std::min(features / std::sqrt(2.0f), 1.0f));
       out[x] = std::max(out[x], std::pow(color, 1.0f - feature_error));
     }

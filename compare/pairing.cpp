@@ -5,7 +5,9 @@
 namespace trueshade::compare {
 namespace {
 
-std::string size_text(const ChannelFile& part) { return std::to_string(part.width) + 'x' + std::to_string(part.height); }
+std::string size_text(const ChannelFile& part) {
+  return std::to_string(part.width) + 'x' + std::to_string(part.height);
+}
 
 std::string window_text(const ChannelFile& part) {
   if (!part.is_window()) return "the whole picture";

@@ -13,15 +13,17 @@ struct NumberPair {
   double reference, test;  ///< what they stand for
   bool equal;              ///< stored alike: the same bits, or of two kinds of storage the same value
   bool reference_finite, test_finite;
-  double difference;  ///< of the values, 0 where both are the same infinity or both NaN; infinite where one is not finite
-  double ulp;         ///< steps of what both store between them: floats, halves, codes, whole numbers; else infinite
+  double
+      difference;  ///< of the values, 0 where both are the same infinity or both NaN; infinite where one is not finite
+  double ulp;      ///< steps of what both store between them: floats, halves, codes, whole numbers; else infinite
 };
 
 /// How the numbers of a pair of channels are read.
 ///
 /// A code k of b bits stands for k / (2^b - 1), for that rounded to float where the other channel holds floats, and an
 /// sRGB code for an sRGB value. Two codes of equal bits differ by their codes' difference over 2^b - 1.
-/// `decode_...`: the numbers are sRGB values, and are decoded to linear light (IEC 61966-2-1), as the other picture's are.
+/// `decode_...`: the numbers are sRGB values, and are decoded to linear light (IEC 61966-2-1), as the other picture's
+/// are.
 class PairReader {
  public:
   PairReader(const ChannelPair& pair, bool decode_reference, bool decode_test);
