@@ -35,6 +35,21 @@ EdgeSpan edge_span(const WindowVertex& a, const WindowVertex& b, double x, doubl
   return {p.low - q.high - slack, p.high - q.low + slack};
 }
 
+/// The hull of edge_span() over a box of samples, whatever each of them rounds: |E| is made of products of sizes that
+/// are largest at corners too, and a sample's rounding and slack are below 2^-48 of them.
+EdgeSpan edge_span_of_box(const WindowVertex& a, const WindowVertex& b, const Pair& low, const Pair& high) {
+  EdgeSpan all{HUGE_VAL, -HUGE_VAL};
+  double size = 0;
+  for (unsigned corner = 0; corner < 4; ++corner) {
+    const double x = (corner & 1u) != 0 ? high[0] : low[0], y = (corner & 2u) != 0 ? high[1] : low[1];
+    const EdgeSpan p = times({a.low[0] - x, a.high[0] - x}, {b.low[1] - y, b.high[1] - y});
+    const EdgeSpan q = times({a.low[1] - y, a.high[1] - y}, {b.low[0] - x, b.high[0] - x});
+    all.low = std::min(all.low, p.low - q.high), all.high = std::max(all.high, p.high - q.low);
+    size = std::max(size, std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
+  }
+  return {all.low - 0x1p-46 * size, all.high + 0x1p-46 * size};
+}
+
 /// Whether a sample on the edge a -> b of a counter-clockwise triangle belongs to it.
 bool owns_edge(const WindowVertex& a, const WindowVertex& b, int sign, bool low_side) {
   const double dx = sign * (b.low[0] - a.low[0]), dy = sign * (b.low[1] - a.low[1]);
@@ -79,6 +94,18 @@ Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin orig
   }
   if (!any_inside[0] && !any_inside[1]) return {};
   return result;
+}
+
+Cover coverage_of_box(const Piece& piece, const Pair& low, const Pair& high) {
+  if (!piece.facing_known) return Cover::maybe;
+  Cover cover = Cover::certain;
+  for (size_t i = 0; i < 3; ++i) {
+    EdgeSpan e = edge_span_of_box(piece.v[(i + 1) % 3], piece.v[(i + 2) % 3], low, high);
+    if (piece.sign < 0) e = {-e.high, -e.low};
+    if (e.high < 0) return Cover::no;
+    if (!(e.low > 0)) cover = Cover::maybe;
+  }
+  return cover;
 }
 
 bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y) {

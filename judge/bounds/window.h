@@ -49,6 +49,10 @@ struct Coverage {
 };
 Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y);
 
+/// What coverage_at() says of every sample of a box, corners included: `certain` and `no` of all; `maybe` where samples
+/// may differ, or one has an edge in doubt. An edge function is affine in the sample, so its extremes are at corners.
+Cover coverage_of_box(const Piece& piece, const Pair& low, const Pair& high);
+
 /// Signed area times two of (a, b, sample), exactly antisymmetric in a and b; 0 is decided by the edge's direction, so
 /// that a closed mesh of `exact` vertices has a definite winding number about every sample.
 bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y);

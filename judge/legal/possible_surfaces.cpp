@@ -1,6 +1,7 @@
 #include "judge/legal/possible_surfaces.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/threads/parallel_for.h"
 #include "judge/legal/map_range.h"
@@ -10,9 +11,11 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr uint32_t kChunk = 8192;  // triangles a piece of work
-constexpr size_t kBatch = 64;      // pieces of work between merges: bounds the memory of entries not yet pruned
+constexpr uint32_t kChunk = 8192;          // triangles a piece of work, of one instance
+constexpr uint32_t kBatch = 64 * kChunk;   // triangles looked at together: bounds the memory of those that are near
+constexpr int kBoxWidth = 16;              // pixels whose coverage is asked for together
 
+/// A possible surface of a pixel of a band, `pixel` counted from the band's first.
 struct Entry {
   uint32_t pixel;
   PossibleSurface surface;
@@ -20,6 +23,13 @@ struct Entry {
 
 struct Work {
   uint32_t instance, first, last;
+  double order;  ///< of the first triangle among all
+};
+
+/// A triangle that may have samples, and the bands that these are in.
+struct NearTriangle {
+  uint32_t triangle;
+  PixelRect rect;
 };
 
 /// What a search is for.
@@ -73,67 +83,170 @@ bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& poin
   return true;
 }
 
-/// `bound`: of each pixel, what is sure to be in front; what lies behind is not added.
-void add_piece(const Projector& p, const Piece& piece, PossibleSurface base, double order, const PixelRect& rect,
-               const std::vector<double>& bound, std::vector<Entry>& out) {
-  const GeometryState& state = p.pipeline().geometry;
-  const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
-  const bool masked = p.scene().materials[p.scene().instances[base.instance].material].masked();
-  const TriangleValues values = masked ? triangle_values(p, base.instance, base.triangle) : TriangleValues{};
-  double largest = 0;
-  for (const WindowVertex& v : piece.v) largest = std::max(largest, std::fabs(v.z));
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (const WindowVertex& v : piece.v)
-    for (size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], v.low[k]), high[k] = std::max(high[k], v.high[k]);
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    if (y + 0.5 < low[1] || y + 0.5 > high[1]) continue;
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      if (x + 0.5 < low[0] || x + 0.5 > high[0]) continue;
-      const Coverage cover = coverage_at(piece, p.profile(), state.clip_origin, x + 0.5, y + 0.5);
-      if (cover.cover == Cover::no) continue;
-      const SurfacePoint point(piece, p.profile(), p.window_reach(), x + 0.5, y + 0.5);
-      const Range z = stored_depth(point, state, p.profile(), largest);
-      PossibleSurface c = base;
-      c.cut = piece.cut || piece.leaves_view;
-      c.certain = cover.cover == Cover::certain && point.bounded();
-      c.chance_other = float(cover.chance_other);
-      c.nominal = cover.nominal;
-      if (!p.profile().exact_planes && near_a_limit(state, offset ? point.depth() : z))
-        c.certain = false, c.cut = true, c.chance_other = 0.5f;
-      if (masked && !test_alpha(p, piece, point, values, x + 0.5, y + 0.5, c)) continue;
-      key_range(state, z, order, c);
-      const uint32_t pixel = uint32_t(y) * uint32_t(p.width()) + uint32_t(x);
-      if (c.low <= bound[pixel]) out.push_back({pixel, c});
-    }
+/// Whole rows of the image, which one thread fills. Rows count from the bottom.
+class Band {
+ public:
+  Band(const Projector& projector, const Search& search, int y0, int y1, const std::vector<double>& front)
+      : projector_(projector),
+        state_(projector.pipeline().geometry),
+        search_(search),
+        clear_(clear_key(state_)),
+        y0_(y0),
+        y1_(y1),
+        bound_(front.begin() + int64_t(y0) * projector.width(), front.begin() + int64_t(y1) * projector.width()),
+        most_(4 * bound_.size()) {}
+
+  /// In order of submission. `rect`: the pixels that it may have.
+  void add(uint32_t instance, const NearTriangle& near, double order);
+
+  int first_row() const { return y0_; }
+  int last_row() const { return y1_; }
+  void finish(PossibleSurfaces& map);                   ///< writes how many each pixel has behind map.first[pixel]
+  void write(PossibleSurfaces& map) const;              ///< once map.first is known
+
+ private:
+  void add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
+                 const PixelRect& rect);
+  void add_sample(const Piece& piece, const PieceShape& shape, const TriangleValues* values, const Coverage& cover,
+                  double largest, PossibleSurface c, double order, int x, int y);
+  void keep(Entry entry);
+  void drop_hidden() {
+    std::erase_if(entries_, [&](const Entry& e) { return e.surface.low > bound_[e.pixel]; });
+  }
+
+  const Projector& projector_;
+  const GeometryState& state_;
+  const Search& search_;
+  const double clear_;
+  const int y0_, y1_;
+  std::vector<double> bound_;  ///< of each pixel, what is sure to be in front; what lies behind is not added
+  std::vector<Entry> entries_;
+  size_t most_;  ///< entries, before those that are hidden by now are dropped
+  std::vector<Piece> pieces_;
+};
+
+void Band::add(uint32_t instance, const NearTriangle& near, double order) {
+  const PixelRect rect{near.rect.x0, std::max(near.rect.y0, y0_), near.rect.x1, std::min(near.rect.y1, y1_)};
+  if (rect.y0 >= rect.y1) return;
+  projector_.pieces(instance, near.triangle, pieces_);
+  PossibleSurface base;
+  base.instance = instance, base.triangle = near.triangle;
+  const Scene& scene = projector_.scene();
+  std::optional<TriangleValues> values;
+  if (scene.materials[scene.instances[instance].material].masked())
+    values = triangle_values(projector_, instance, near.triangle);
+  for (size_t k = 0; k < pieces_.size(); ++k) {
+    base.piece = uint8_t(k);
+    add_piece(pieces_[k], values ? &*values : nullptr, base, order, rect);
   }
 }
 
-void scan(const Projector& projector, const Work& work, double order, const std::vector<double>& bound,
-          std::vector<Entry>& out) {
-  std::vector<Piece> pieces;
-  PixelRect rect;
-  for (uint32_t t = work.first; t < work.last; ++t) {
-    if (!projector.near_pixels(work.instance, t, rect)) continue;
-    projector.pieces(work.instance, t, pieces);
-    PossibleSurface base;
-    base.instance = work.instance;
-    base.triangle = t;
-    for (size_t k = 0; k < pieces.size(); ++k) {
-      base.piece = uint8_t(k);
-      add_piece(projector, pieces[k], base, order + (t - work.first), rect, bound, out);
-    }
+void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
+                     const PixelRect& rect) {
+  double largest = 0, low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const WindowVertex& v : piece.v) {
+    largest = std::max(largest, std::fabs(v.z));
+    for (size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], v.low[k]), high[k] = std::max(high[k], v.high[k]);
   }
+  const auto first = [](double v, int from, int to) { return int(std::clamp(std::ceil(v - 0.5), double(from), double(to))); };
+  const auto end_of = [](double v, int from, int to) { return int(std::clamp(std::floor(v - 0.5) + 1, double(from), double(to))); };
+  const int x0 = first(low[0], rect.x0, rect.x1), x1 = end_of(high[0], rect.x0, rect.x1);
+  const int y0 = first(low[1], rect.y0, rect.y1), y1 = end_of(high[1], rect.y0, rect.y1);
+  if (x0 >= x1 || y0 >= y1) return;
+  const PieceShape shape(piece, projector_.profile(), projector_.window_reach());
+  base.cut = piece.cut || piece.leaves_view;
+  for (int x = x0; x < x1; x += kBoxWidth) {
+    const int end = std::min(x + kBoxWidth, x1);
+    const Cover box = (end - x) * (y1 - y0) <= 8
+                          ? Cover::maybe
+                          : coverage_of_box(piece, {x + 0.5, y0 + 0.5}, {end - 0.5, y1 - 0.5});
+    if (box == Cover::no) continue;
+    for (int row = y0; row < y1; ++row)
+      for (int column = x; column < end; ++column) {
+        Coverage cover;
+        cover.cover = Cover::certain;
+        if (box == Cover::maybe)
+          cover = coverage_at(piece, projector_.profile(), state_.clip_origin, column + 0.5, row + 0.5);
+        if (cover.cover != Cover::no) add_sample(piece, shape, values, cover, largest, base, order, column, row);
+      }
+  }
+}
+
+void Band::add_sample(const Piece& piece, const PieceShape& shape, const TriangleValues* values, const Coverage& cover,
+                      double largest, PossibleSurface c, double order, int x, int y) {
+  const Profile& profile = projector_.profile();
+  const bool offset = state_.polygon_offset_factor != 0 || state_.polygon_offset_units != 0;
+  const SurfacePoint point(piece, shape, profile, x + 0.5, y + 0.5);
+  const Range z = stored_depth(point, state_, profile, largest);
+  c.certain = cover.cover == Cover::certain && point.bounded();
+  c.chance_other = float(cover.chance_other);
+  c.nominal = cover.nominal;
+  if (!profile.exact_planes && near_a_limit(state_, offset ? point.depth() : z))
+    c.certain = false, c.cut = true, c.chance_other = 0.5f;
+  if (values != nullptr && !test_alpha(projector_, piece, point, *values, x + 0.5, y + 0.5, c)) return;
+  key_range(state_, z, order, c);
+  keep({uint32_t(y - y0_) * uint32_t(projector_.width()) + uint32_t(x), c});
+}
+
+void Band::keep(Entry e) {
+  double& limit = bound_[e.pixel];
+  if (!(e.surface.low <= limit)) return;
+  if (!search_.transparent) {
+    const bool equal_passes = state_.depth_func == DepthFunc::lequal || state_.depth_func == DepthFunc::gequal;
+    const bool ordered = state_.depth_func != DepthFunc::equal && state_.depth_func != DepthFunc::notequal &&
+                         state_.depth_func != DepthFunc::never;
+    if (e.surface.low == clear_ && !equal_passes) return;
+    if (e.surface.high > clear_ || (e.surface.high == clear_ && !equal_passes)) e.surface.certain = false;
+    e.surface.certain = e.surface.certain && ordered;
+    if (e.surface.certain) limit = std::min(limit, e.surface.high);
+  }
+  entries_.push_back(e);
+  if (entries_.size() < most_) return;
+  drop_hidden();
+  most_ = std::max(most_, 2 * entries_.size());
+}
+
+void Band::finish(PossibleSurfaces& map) {
+  drop_hidden();
+  const size_t first = size_t(y0_) * size_t(projector_.width());
+  for (const Entry& e : entries_) ++map.first[first + e.pixel + 1];
+}
+
+void Band::write(PossibleSurfaces& map) const {
+  const size_t first = size_t(y0_) * size_t(projector_.width());
+  std::vector<uint32_t> next(map.first.begin() + int64_t(first), map.first.begin() + int64_t(first + bound_.size()));
+  for (const Entry& e : entries_) map.list[next[e.pixel]++] = e.surface;
 }
 
 std::vector<Work> work_of(const Projector& projector, const Search& search) {
   const Scene& scene = projector.scene();
   std::vector<Work> work;
+  double order = 0;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     if (!search.wants(projector, i)) continue;
     const auto count = uint32_t(scene.meshes[scene.instances[i].mesh].triangle_count());
-    for (uint32_t t = 0; t < count; t += kChunk) work.push_back({i, t, std::min(count, t + kChunk)});
+    for (uint32_t t = 0; t < count; t += kChunk)
+      work.push_back({i, t, std::min(count, t + kChunk), order + t});
+    order += count;
   }
   return work;
+}
+
+/// Those of the work's triangles that may have samples, in order.
+std::vector<NearTriangle> near_of(const Projector& projector, const Work& work) {
+  std::vector<NearTriangle> near;
+  NearTriangle n{};
+  for (n.triangle = work.first; n.triangle < work.last; ++n.triangle)
+    if (projector.near_pixels(work.instance, n.triangle, n.rect)) near.push_back(n);
+  return near;
+}
+
+/// Pieces of work that are done together, from `from` on.
+size_t batch_end(const std::vector<Work>& work, size_t from) {
+  size_t end = from;
+  for (uint32_t triangles = 0; end < work.size() && triangles < kBatch; ++end)
+    triangles += work[end].last - work[end].first;
+  return end;
 }
 
 }  // namespace
@@ -155,62 +268,57 @@ double clear_key(const GeometryState& state) {
 
 namespace {
 
-/// `bound`: of each pixel, what is in front of all that is looked for.
-PossibleSurfaces found(const Projector& projector, const Search& search, std::vector<double> bound, int threads) {
-  const size_t pixels = bound.size();
-  const GeometryState& state = projector.pipeline().geometry;
-  const double clear = clear_key(state);
-  const bool equal_passes = state.depth_func == DepthFunc::lequal || state.depth_func == DepthFunc::gequal;
-  const bool ordered = state.depth_func != DepthFunc::equal && state.depth_func != DepthFunc::notequal &&
-                       state.depth_func != DepthFunc::never;
+std::vector<Band> bands_of(const Projector& projector, const Search& search, const std::vector<double>& front,
+                           const JudgedRows& rows) {
+  std::vector<Band> bands;
+  const int height = projector.height();
+  for (int band = 0; band < JudgedRows::bands_of(height); ++band) {
+    const int top = band * JudgedRows::kBand, end = std::min(top + JudgedRows::kBand, height);
+    if (rows.has_band(band)) bands.emplace_back(projector, search, height - end, height - top, front);
+  }
+  return bands;
+}
+
+/// `front`: of each pixel, what is in front of all that is looked for.
+PossibleSurfaces found(const Projector& projector, const Search& search, const std::vector<double>& front,
+                       const JudgedRows& rows, int threads) {
+  std::vector<Band> bands = bands_of(projector, search, front, rows);
   const std::vector<Work> work = work_of(projector, search);
-  std::vector<Entry> entries;
-  double order = 0;
-  for (size_t from = 0; from < work.size(); from += kBatch) {
-    const size_t count = std::min(kBatch, work.size() - from);
-    std::vector<std::vector<Entry>> lists(count);
-    std::vector<double> starts(count);
-    for (size_t k = 0; k < count; ++k) starts[k] = order, order += work[from + k].last - work[from + k].first;
-    // Nothing writes `bound` meanwhile, and it only falls: what it drops here the merge would drop as well.
-    parallel_for(int(count), threads,
-                 [&](int k) { scan(projector, work[from + size_t(k)], starts[size_t(k)], bound, lists[size_t(k)]); });
-    for (const std::vector<Entry>& list : lists)
-      for (Entry e : list) {
-        double& limit = bound[e.pixel];
-        if (e.surface.low > limit) continue;
-        if (!search.transparent) {
-          if (e.surface.low == clear && !equal_passes) continue;
-          if (e.surface.high > clear || (e.surface.high == clear && !equal_passes)) e.surface.certain = false;
-          e.surface.certain = e.surface.certain && ordered;
-          if (e.surface.certain) limit = std::min(limit, e.surface.high);
-        }
-        entries.push_back(e);
-      }
+  for (size_t from = 0; from < work.size();) {
+    const size_t end = batch_end(work, from);
+    std::vector<std::vector<NearTriangle>> near(end - from);
+    parallel_for(int(near.size()), threads,
+                 [&](int k) { near[size_t(k)] = near_of(projector, work[from + size_t(k)]); });
+    parallel_for(int(bands.size()), threads, [&](int b) {
+      Band& band = bands[size_t(b)];
+      for (size_t k = 0; k < near.size(); ++k)
+        for (const NearTriangle& n : near[k])
+          if (n.rect.y0 < band.last_row() && n.rect.y1 > band.first_row())
+            band.add(work[from + k].instance, n, work[from + k].order + (n.triangle - work[from + k].first));
+    });
+    from = end;
   }
   PossibleSurfaces map;
-  map.first.assign(pixels + 1, 0);
-  const auto kept = [&](const Entry& e) { return e.surface.low <= bound[e.pixel]; };
-  for (const Entry& e : entries)
-    if (kept(e)) ++map.first[e.pixel + 1];
-  for (size_t i = 0; i < pixels; ++i) map.first[i + 1] += map.first[i];
-  map.list.resize(map.first[pixels]);
-  std::vector<uint32_t> next(map.first.begin(), map.first.end() - 1);
-  for (const Entry& e : entries)
-    if (kept(e)) map.list[next[e.pixel]++] = e.surface;
+  map.first.assign(front.size() + 1, 0);
+  parallel_for(int(bands.size()), threads, [&](int b) { bands[size_t(b)].finish(map); });
+  for (size_t i = 0; i < front.size(); ++i) map.first[i + 1] += map.first[i];
+  map.list.resize(map.first.back());
+  parallel_for(int(bands.size()), threads, [&](int b) { bands[size_t(b)].write(map); });
   return map;
 }
 
 }  // namespace
 
-PossibleSurfaces possible_surfaces(const Projector& projector, int threads) {
+PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows, int threads) {
   const std::vector<double> clear(size_t(projector.width()) * size_t(projector.height()),
                                   clear_key(projector.pipeline().geometry));
   const Search search{false, draws_transparent(projector.scene(), projector.pipeline())};
-  return found(projector, search, clear, threads);
+  return found(projector, search, clear, rows, threads);
 }
 
-PossibleSurfaces find_transparent(const Projector& projector, std::vector<double> front, int threads) {
-  return found(projector, {true, true}, std::move(front), threads);
+PossibleSurfaces find_transparent(const Projector& projector, const std::vector<double>& front, const JudgedRows& rows,
+                                  int threads) {
+  return found(projector, {true, true}, front, rows, threads);
 }
 
 }  // namespace trueshade::oracle

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "judge/legal/judged_rows.h"
 #include "judge/legal/surface.h"
 #include "judge/bounds/window.h"
 
@@ -35,11 +36,12 @@ struct PossibleSurfaces {
 double clear_key(const GeometryState& state);
 
 /// The possible surfaces of pixels where surfaces hide one another, found with every core. Memory: 56 bytes each, a few
-/// per covered pixel.
-PossibleSurfaces possible_surfaces(const Projector& projector, int threads = 0);
+/// per covered pixel. `rows`: where they are looked for; other pixels get none.
+PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows = {}, int threads = 0);
 
 /// All fragments of transparent surfaces but those sure to lie behind `front`, the key of what is in front of each
 /// pixel (row 0 the bottom row). None hides another; `certain` is of coverage and the alpha test alone.
-PossibleSurfaces find_transparent(const Projector& projector, std::vector<double> front, int threads = 0);
+PossibleSurfaces find_transparent(const Projector& projector, const std::vector<double>& front,
+                                  const JudgedRows& rows = {}, int threads = 0);
 
 }  // namespace trueshade::oracle

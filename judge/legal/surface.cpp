@@ -22,36 +22,22 @@ double fixed_point_codes(const GeometryState& state) {
 }  // namespace
 
 SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
-    : piece_(piece), profile_(profile), window_reach_(window_reach) {
+    : SurfacePoint(piece, PieceShape(piece, profile, window_reach), profile, x, y) {}
+
+SurfacePoint::SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y)
+    : piece_(piece), shape_(shape), profile_(profile) {
   const auto& v = piece.v;
-  double reach[2] = {0, 0};
-  for (const WindowVertex& p : v)
-    for (size_t k = 0; k < 2; ++k) reach[k] = std::max(reach[k], p.plane_reach[k]);
-  const bool points = reach[0] == 0 && reach[1] == 0;
   std::array<double, 3> edge{};
-  const auto edges_at = [&](double px, double py, std::array<double, 3>& e) {
-    for (size_t i = 0; i < 3; ++i) {
-      const Pair &a = v[(i + 1) % 3].plane, &b = v[(i + 2) % 3].plane;
-      e[i] = (a[0] - px) * (b[1] - py) - (a[1] - py) * (b[0] - px);
-    }
-  };
-  edges_at(x, y, edge);
-  area_ = (v[1].plane[0] - v[0].plane[0]) * (v[2].plane[1] - v[0].plane[1]) -
-          (v[1].plane[1] - v[0].plane[1]) * (v[2].plane[0] - v[0].plane[0]);
   for (size_t i = 0; i < 3; ++i) {
     const Pair &a = v[(i + 1) % 3].plane, &b = v[(i + 2) % 3].plane;
-    dx_[i] = (a[1] - b[1]) / area_;
-    dy_[i] = (b[0] - a[0]) / area_;
-    span_x_ = std::max(span_x_, std::fabs(a[0] - b[0]));
-    span_y_ = std::max(span_y_, std::fabs(a[1] - b[1]));
-    lambda_[0][i] = edge[i] / area_;
+    edge[i] = (a[0] - x) * (b[1] - y) - (a[1] - y) * (b[0] - x);
+    lambda_[i].fill(edge[i] / shape_.area);
   }
-  if (area_ == 0) {
+  if (shape_.area == 0) {
     no_plane(x, y);
     return;
   }
-  condition_ = 2 * span_x_ * span_y_ / std::fabs(area_);
-  if (points) return;
+  if (shape_.points) return;
 
   // With A and B the ends about the sample, E = Ax By - Ay Bx changes by at most the sum of |end| times the other's
   // reach.
@@ -66,7 +52,7 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
     change[i] = moved(0, 1, x, y) + moved(1, 0, y, x);
     area_change += change[i];
   }
-  const double smallest_area = std::fabs(area_) - area_change;
+  const double smallest_area = std::fabs(shape_.area) - area_change;
   if (!(smallest_area > 0)) {
     no_plane(x, y);
     return;
@@ -75,10 +61,10 @@ SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pai
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 2; ++k) shift[k] += (std::fabs(edge[i]) + change[i]) / smallest_area * v[i].plane_reach[k];
   points_ = 5;
-  for (size_t corner = 1; corner < 5; ++corner) {
-    const double qx = ((corner & 1) != 0 ? 1 : -1) * shift[0], qy = ((corner & 2) != 0 ? 1 : -1) * shift[1];
-    for (size_t i = 0; i < 3; ++i) lambda_[corner][i] = lambda_[0][i] + qx * dx_[i] + qy * dy_[i];
-  }
+  const double qx[] = {-shift[0], shift[0], -shift[0], shift[0]}, qy[] = {-shift[1], -shift[1], shift[1], shift[1]};
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t c = 0; c < 4; ++c)
+      lambda_[i][c + 1] = lambda_[i][0] + qx[c] * shape_.dx[i] + qy[c] * shape_.dy[i];
 }
 
 void SurfacePoint::no_plane(double x, double y) {
@@ -93,7 +79,7 @@ void SurfacePoint::no_plane(double x, double y) {
     v.plane = v.exact, v.plane_reach = v.float_reach;
   }
   tiny_ = same ? Tiny::anything : Tiny::hull_and_plane;
-  if (!same) unsnapped_ = std::make_unique<SurfacePoint>(*float_piece_, profile_, window_reach_, x, y);
+  if (!same) unsnapped_ = std::make_unique<SurfacePoint>(*float_piece_, profile_, shape_.window_reach, x, y);
 }
 
 Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error,
@@ -106,37 +92,30 @@ Range SurfacePoint::of_tiny(const std::array<double, 3>& value, const std::array
   return {std::clamp(r.value, r.low, r.high), r.low, r.high};
 }
 
-double SurfacePoint::plane_error(const std::array<double, 3>& n) const {
-  const double v = profile_.arithmetic.roundoff;
-  double gx = 0, gy = 0, largest = 0, spread = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    gx += dx_[i] * n[i];
-    gy += dy_[i] * n[i];
-    largest = std::max(largest, std::fabs(n[i]));
-    spread = std::max(spread, std::fabs(n[i] - n[(i + 1) % 3]));
-  }
-  gx = std::fabs(gx), gy = std::fabs(gy);
-  const double anchored = gx * window_reach_[0] + gy * window_reach_[1];
-  const double sums_x = 2 * spread * span_y_ / std::fabs(area_), sums_y = 2 * spread * span_x_ / std::fabs(area_);  // G
-  const double det = 3 * condition_ * v + profile_.arithmetic.divide + v;
-  const double setup = (4 * v * sums_x + gx * det) * span_x_ + (4 * v * sums_y + gy * det) * span_y_;
-  return setup + 10 * v * anchored + 4 * v * largest;
+double plane_error_of(const Piece& piece, const PieceShape& shape, const std::array<double, 3>& value,
+                      Interpolation interpolation) {
+  if (interpolation != Interpolation::smooth) return shape.plane_error(value);
+  return shape.plane_error({value[0] * piece.v[0].u, value[1] * piece.v[1].u, value[2] * piece.v[2].u});
 }
 
-Range SurfacePoint::affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const {
-  Range r;
-  double inherited = 0;
-  for (size_t k = 0; k < size_t(points_); ++k) {
-    double at = value[0], carried = 0;  // from differences, so that constants stay constant
+template <size_t kSamples>
+Range SurfacePoint::affine(const VertexAttribute& vertices) const {
+  const std::array<double, 3>&value = vertices.value, &error = vertices.error;
+  std::array<double, kSamples> at, carried;
+  for (size_t k = 0; k < kSamples; ++k) {
+    at[k] = value[0], carried[k] = 0;  // from differences, so that constants stay constant
     for (size_t i = 0; i < 3; ++i) {
-      at += lambda_[k][i] * (value[i] - value[0]);
-      carried += std::fabs(lambda_[k][i]) * error[i];
+      at[k] += lambda_[i][k] * (value[i] - value[0]);
+      carried[k] += std::fabs(lambda_[i][k]) * error[i];
     }
-    if (k == 0) r = {at, at, at};
-    r.low = std::min(r.low, at), r.high = std::max(r.high, at);
-    inherited = std::max(inherited, carried);
   }
-  const double more = inherited + plane_error(value);
+  Range r{at[0], at[0], at[0]};
+  double inherited = 0;
+  for (size_t k = 0; k < kSamples; ++k) {
+    r.low = std::min(r.low, at[k]), r.high = std::max(r.high, at[k]);
+    inherited = std::max(inherited, carried[k]);
+  }
+  const double more = inherited + vertices.plane_error;
   return {r.value, r.low - more, r.high + more};
 }
 
@@ -145,10 +124,10 @@ Range SurfacePoint::depth() const {
   for (size_t i = 0; i < 3; ++i) z[i] = piece_.v[i].z, error[i] = piece_.v[i].z_error;
   if (!bounded()) return {z[0], -HUGE_VAL, HUGE_VAL};
   if (!bounded_) return of_tiny(z, error, unsnapped_ ? unsnapped_->depth() : Range{z[0], z[0], z[0]});
-  if (!profile_.exact_planes) return affine(z, error);
+  if (!profile_.exact_planes) return affine({z, error, shape_.z_error});
   double at = z[0], largest = 1;
   for (size_t i = 0; i < 3; ++i) {
-    at += lambda_[0][i] * (z[i] - z[0]);
+    at += lambda_[i][0] * (z[i] - z[0]);
     largest = std::max(largest, std::fabs(z[i]));
   }
   // The stated formula has some ten roundings in double (docs/arithmetic.md section 5).
@@ -161,8 +140,8 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   if (!bounded_) return kAnyValue;
   double gx = 0, gy = 0, spread = 0, reach = 0;
   for (size_t i = 0; i < 3; ++i) {
-    gx += dx_[i] * piece_.v[i].z;
-    gy += dy_[i] * piece_.v[i].z;
+    gx += shape_.dx[i] * piece_.v[i].z;
+    gy += shape_.dy[i] * piece_.v[i].z;
     spread = std::max(spread, std::fabs(piece_.v[i].z - piece_.v[(i + 1) % 3].z) + 2 * piece_.v[i].z_error);
     for (const double r : piece_.v[i].plane_reach) reach = std::max(reach, r);
   }
@@ -170,12 +149,12 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   Range m{std::max(gx, gy), std::max(gx, gy), profile_.max_norm_slope ? std::max(gx, gy) : std::hypot(gx, gy)};
   if (!profile_.exact_planes) {
     // Moving the ends of a plane's edges by 2 reach moves its slope by share = |inverse| 4 reach of what it becomes.
-    const double share = 4 * reach * (span_x_ + span_y_) / std::fabs(area_);
+    const double share = 4 * reach * (shape_.span_x + shape_.span_y) / std::fabs(shape_.area);
     if (!(share < 1)) return kAnyValue;
-    const double v = profile_.arithmetic.roundoff, det = 3 * condition_ * v + profile_.arithmetic.divide + v;
+    const double v = profile_.arithmetic.roundoff, det = 3 * shape_.condition * v + profile_.arithmetic.divide + v;
     double errors = 0;  // of the vertices' depths
     for (const WindowVertex& p : piece_.v) errors = std::max(errors, p.z_error);
-    const double sums = 2 * (4 * v * spread + 2 * errors) * (span_x_ + span_y_) / std::fabs(area_);
+    const double sums = 2 * (4 * v * spread + 2 * errors) * (shape_.span_x + shape_.span_y) / std::fabs(shape_.area);
     m.low = std::max(0.0, m.low * (1 - share / (1 - share)) - sums - m.low * det);
     m.high = m.high * (1 + share / (1 - share)) + sums + m.high * det;
   }
@@ -204,66 +183,84 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
 
 SurfacePoint::Divisors SurfacePoint::divisors_of(bool smooth) const {
   Divisors out;
-  std::array<double, 3> u{};
-  for (size_t i = 0; i < 3; ++i) u[i] = piece_.v[i].u;
-  for (size_t k = 0; k < size_t(points_); ++k) {
-    double d = 0, u_moves = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      d += lambda_[k][i] * (smooth ? u[i] : 1);
-      if (smooth) u_moves += std::fabs(lambda_[k][i]) * piece_.v[i].u_error;
+  for (size_t i = 0; i < 3; ++i) {
+    const double u = smooth ? piece_.v[i].u : 1, off = smooth ? piece_.v[i].u_error : 0;
+    for (size_t k = 0; k < out.value.size(); ++k) {
+      out.weight[i][k] = lambda_[i][k] * u;
+      out.moves[i][k] = std::fabs(lambda_[i][k]) * u;
+      out.moves_by_u[i][k] = std::fabs(lambda_[i][k]) * off;
     }
+  }
+  for (size_t k = 0; k < points_; ++k) {
+    double d = 0, u_moves = 0;
+    for (size_t i = 0; i < 3; ++i) d += out.weight[i][k], u_moves += out.moves_by_u[i][k];
     out.above_zero = out.above_zero && d - u_moves > 0;
-    out.value[k] = d, out.moves[k] = u_moves;
+    out.value[k] = d, out.least_value[k] = d - u_moves;
     out.least = std::min(out.least, d - u_moves);
   }
-  out.error = plane_error(u);
+  out.value[5] = out.value[0], out.least_value[5] = out.least_value[0];
+  out.error = smooth ? shape_.u_error : 0;
   return out;
 }
 
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
+  VertexAttribute vertices{value, error, 0};
+  if (bounded_ && !profile_.exact_planes)
+    vertices.plane_error = plane_error_of(piece_, shape_, value, interpolation);
+  return attribute(vertices, interpolation);
+}
+
+Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation interpolation) const {
+  const std::array<double, 3>&value = vertices.value, &error = vertices.error;
+  const bool smooth = interpolation == Interpolation::smooth;
+  if (bounded_) {
+    if (!smooth && !profile_.exact_planes) return affine(vertices);
+    return points_ == 1 ? quotient<1>(vertices, smooth) : quotient<6>(vertices, smooth);
+  }
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnyValue;
-  if (!bounded_)
-    return of_tiny(
-        value, error,
-        unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
-  const bool smooth = interpolation == Interpolation::smooth;
-  if (!smooth && !profile_.exact_planes) return affine(value, error);
+  return of_tiny(
+      value, error,
+      unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
+}
 
+template <size_t kSamples>
+Range SurfacePoint::quotient(const VertexAttribute& vertices, bool smooth) const {
+  const std::array<double, 3>&value = vertices.value, &error = vertices.error;
   if (smooth && !smooth_) smooth_ = divisors_of(true);
-  const Divisors divisors = smooth ? *smooth_ : divisors_of(false);
+  std::optional<Divisors> linear;
+  if (!smooth) linear = divisors_of(false);
+  const Divisors& divisors = smooth ? *smooth_ : *linear;
   if (!divisors.above_zero) return kAnyValue;
-  Range r;
-  double inherited = 0;
-  for (size_t k = 0; k < size_t(points_); ++k) {
+  std::array<double, kSamples> at, moved;
+  for (size_t k = 0; k < kSamples; ++k) {
     double n = 0, carried = 0;
     for (size_t i = 0; i < 3; ++i) {
-      const double u = smooth ? piece_.v[i].u : 1;
-      n += lambda_[k][i] * u * (value[i] - value[0]);
-      carried += std::fabs(lambda_[k][i]) * u * error[i];
+      n += divisors.weight[i][k] * (value[i] - value[0]);
+      carried += divisors.moves[i][k] * error[i];
     }
-    const double d = divisors.value[k], u_moves = divisors.moves[k];
-    const double at = value[0] + n / d;
-    double moved = carried;
-    if (smooth)
-      for (size_t i = 0; i < 3; ++i) moved += std::fabs(lambda_[k][i]) * piece_.v[i].u_error * std::fabs(value[i] - at);
-    if (k == 0) r = {at, at, at};
-    r.low = std::min(r.low, at), r.high = std::max(r.high, at);
-    inherited = std::max(inherited, moved / (d - u_moves));
+    at[k] = value[0] + n / divisors.value[k];
+    for (size_t i = 0; i < 3; ++i) carried += divisors.moves_by_u[i][k] * std::fabs(value[i] - at[k]);
+    moved[k] = carried / divisors.least_value[k];
   }
+  Range r{at[0], at[0], at[0]};
+  double inherited = 0;
+  for (size_t k = 0; k < kSamples; ++k) {
+    r.low = std::min(r.low, at[k]), r.high = std::max(r.high, at[k]);
+    inherited = std::max(inherited, moved[k]);
+  }
+  const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   const double largest = std::max(std::fabs(low), std::fabs(high));
   if (profile_.exact_planes) {
     const double ulp = low == high ? 0 : float_spacing(largest);
     return {std::clamp(r.value, low, high), std::max(low, r.value - ulp), std::min(high, r.value + ulp)};
   }
-  std::array<double, 3> n{};
-  for (size_t i = 0; i < 3; ++i) n[i] = value[i] * piece_.v[i].u;
   const double d_error = divisors.error, least_divisor = divisors.least;
   if (!(least_divisor - d_error > 0)) return kAnyValue;
   const double v = profile_.arithmetic.roundoff;
-  double more = inherited + (plane_error(n) + largest * d_error) / (least_divisor - d_error) +
-                (profile_.arithmetic.divide + 2 * v) * largest;
+  const double more = inherited + (vertices.plane_error + largest * d_error) / (least_divisor - d_error) +
+                      (profile_.arithmetic.divide + 2 * v) * largest;
   return {r.value, r.low - more, r.high + more};
 }
 

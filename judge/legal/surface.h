@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "judge/bounds/window.h"
+#include "judge/legal/piece_shape.h"
 #include "judge/legal/store.h"
 #include "oracle/scalar_renderer.h"
 
@@ -39,6 +40,9 @@ class SurfacePoint {
   /// reach: the X and Y above, Projector::window_reach().
   SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
+  /// The same with the piece's shape at hand, as for many samples of it.
+  SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y);
+
   /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
   bool bounded() const {
     return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_);
@@ -55,33 +59,41 @@ class SurfacePoint {
   /// value, error: at the three vertices of the piece.
   Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                   Interpolation interpolation) const;
+  Range attribute(const VertexAttribute& vertices, Interpolation interpolation) const;
 
  private:
   enum class Tiny : uint8_t { anything, hull, hull_and_plane };
   void no_plane(double x, double y);
   Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
-  double plane_error(const std::array<double, 3>& vertex) const;
-  Range affine(const std::array<double, 3>& value, const std::array<double, 3>& error) const;
+  template <size_t kSamples>
+  Range affine(const VertexAttribute& vertices) const;
+  Range affine(const VertexAttribute& vertices) const { return points_ == 1 ? affine<1>(vertices) : affine<6>(vertices); }
+  template <size_t kSamples>
+  Range quotient(const VertexAttribute& vertices, bool smooth) const;
 
-  /// What attributes are divided by, at each of the points: the same for all that are interpolated alike.
+  /// The sample, and the corners of its box; the sample again, so that there are as many as vectors hold.
+  using Samples = std::array<double, 6>;
+
+  /// What attributes are divided by, at each of the samples: the same for all that are interpolated alike.
   struct Divisors {
     bool above_zero = true;
-    std::array<double, 5> value{}, moves{};
+    Samples value{}, least_value{};
+    std::array<Samples, 3> weight{};       ///< of a vertex: its barycentric times its 1 / w
+    std::array<Samples, 3> moves{};        ///< the same of sizes
+    std::array<Samples, 3> moves_by_u{};   ///< the barycentric's size times the error of 1 / w
     double least = HUGE_VAL, error = 0;
   };
   Divisors divisors_of(bool smooth) const;
 
   const Piece& piece_;
+  const PieceShape shape_;
   const Profile& profile_;
   bool bounded_ = true;
-  Tiny tiny_ = Tiny::anything;                     ///< what is known where bounded_ is not true
-  std::unique_ptr<Piece> float_piece_;             ///< the piece with vertices not snapped, and
-  std::unique_ptr<SurfacePoint> unsnapped_;        ///< its planes
-  int points_ = 1;                                 ///< 1 where the vertices are points, 5 otherwise
-  std::array<std::array<double, 3>, 5> lambda_{};  ///< barycentrics at the sample and at the corners of its box
-  std::array<double, 3> dx_{}, dy_{};              ///< their gradients, 1/pixel
-  const Pair window_reach_;                        ///< X, Y
-  double span_x_ = 0, span_y_ = 0, area_ = 0, condition_ = 0;
+  Tiny tiny_ = Tiny::anything;               ///< what is known where bounded_ is not true
+  std::unique_ptr<Piece> float_piece_;       ///< the piece with vertices not snapped, and
+  std::unique_ptr<SurfacePoint> unsnapped_;  ///< its planes
+  size_t points_ = 1;                        ///< 1 where the vertices are points, 5 otherwise
+  std::array<Samples, 3> lambda_{};          ///< barycentrics at each of the samples
   mutable std::optional<Divisors> smooth_;  ///< once asked for
 };
 
@@ -94,6 +106,10 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
 /// Of attribute `index` at the vertices of a piece: convex combinations by their weights.
 void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
                   std::array<double, 3>& error);
+
+/// VertexAttribute::plane_error of such values.
+double plane_error_of(const Piece& piece, const PieceShape& shape, const std::array<double, 3>& value,
+                      Interpolation interpolation);
 
 /// Depth as the depth buffer may hold it: offset, clamped to the depth range, rounded to its format: fixed-point depth
 /// as k / largest, k the code.

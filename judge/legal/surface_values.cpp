@@ -6,15 +6,20 @@
 namespace trueshade::oracle {
 
 SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y)
+    : SurfaceValues(projector, std::make_shared<const TriangleForm>(projector, possible.instance, possible.triangle),
+                    possible, x, y) {}
+
+SurfaceValues::SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form,
+                             const PossibleSurface& possible, double x, double y)
     : projector_(projector),
       model_(projector.pipeline().light_model),
-      material_(&projector.scene().materials[projector.scene().instances[possible.instance].material]) {
-  projector.pieces(possible.instance, possible.triangle, pieces_);
-  piece_ = &pieces_[possible.piece];
-  point_.emplace(*piece_, projector.profile(), projector.window_reach(), x, y);
-  values_ = triangle_values(projector, possible.instance, possible.triangle);
+      material_(&projector.scene().materials[projector.scene().instances[possible.instance].material]),
+      form_(std::move(form)),
+      piece_index_(possible.piece),
+      piece_(&form_->pieces()[piece_index_]),
+      point_(*piece_, form_->shape(piece_index_), projector.profile(), x, y) {
   const auto texel = [&](const TextureSlot& slot) {
-    return map_texel(projector, slot, *piece_, *point_, values_, x, y);
+    return map_texel(projector, slot, *piece_, point_, form_->values(), x, y);
   };
   texel_ = texel(material_->color_map);
   const bool glass_in_albedo =
@@ -25,7 +30,7 @@ SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& 
   if (!unlit_ && model_.emission) glow_ = texel(material_->emission_map), shade_ = texel(material_->occlusion_map);
   const auto bumps = texel(material_->normal_map);
   if (!bumps) return;
-  bend(*bumps, possible.instance, possible.triangle);
+  bend(*bumps);
 }
 
 namespace {
@@ -39,8 +44,8 @@ Range either(const Range& a, const Range& b, bool first) {
 
 }  // namespace
 
-void SurfaceValues::bend(const std::array<Range, 4>& bumps, uint32_t instance, uint32_t triangle) {
-  const TangentFrame frame = tangent_frame(projector_, instance, triangle, values_, material_->normal_map.uv_set);
+void SurfaceValues::bend(const std::array<Range, 4>& bumps) {
+  const TangentFrame& frame = form_->tangents();
   std::array<Range, 3> n, turned;
   for (size_t k = 0; k < 3; ++k) {
     n[k] = attribute(kNormal + k, projector_.pipeline().gbuffer.normal.interpolation);
@@ -58,18 +63,16 @@ void SurfaceValues::bend(const std::array<Range, 4>& bumps, uint32_t instance, u
 Range SurfaceValues::depth() const {
   double largest = 0;
   for (const WindowVertex& v : piece_->v) largest = std::max(largest, std::fabs(v.z));
-  return stored_depth(*point_, projector_.pipeline().geometry, projector_.profile(), largest);
+  return stored_depth(point_, projector_.pipeline().geometry, projector_.profile(), largest);
 }
 
 Range SurfaceValues::attribute(size_t index, Interpolation interpolation) const {
   if (interpolation == Interpolation::flat) {
     const size_t corner = projector_.pipeline().geometry.provoking == Provoking::last ? 2 : 0;
-    const double v = values_.value[corner][index], e = values_.error[corner][index];
+    const double v = form_->values().value[corner][index], e = form_->values().error[corner][index];
     return {v, v - e, v + e};
   }
-  std::array<double, 3> value{}, error{};
-  piece_values(*piece_, values_, index, value, error);
-  return point_->attribute(value, error, interpolation);
+  return point_.attribute(form_->attribute(piece_index_, index, interpolation), interpolation);
 }
 
 Range SurfaceValues::normal(int k, Interpolation interpolation) const {

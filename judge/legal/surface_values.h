@@ -1,12 +1,13 @@
 #pragma once
 // What a possible surface hands to the fragment shader at a sample, and what the material makes of it.
+#include <memory>
 #include <optional>
-#include <vector>
 
 #include "judge/bounds/shading.h"
 #include "judge/legal/bent_normal.h"
 #include "judge/legal/map_range.h"
 #include "judge/legal/possible_surfaces.h"
+#include "judge/legal/triangle_form.h"
 
 namespace trueshade::oracle {
 
@@ -15,7 +16,11 @@ class SurfaceValues {
  public:
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
-  bool bounded() const { return point_->bounded(); }
+  /// The same of a triangle whose form is known.
+  SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form, const PossibleSurface& possible,
+                double x, double y);
+
+  bool bounded() const { return point_.bounded(); }
   // Which channels come from a lookup: the albedo's, the specular colour's, the shininess, the emission's, the share of
   // ambient light, the normal's.
   bool textured() const { return texel_ || metal_; }
@@ -39,17 +44,17 @@ class SurfaceValues {
 
  private:
   Range tinted(const Range& r, double tint) const;
-  void bend(const std::array<Range, 4>& bumps, uint32_t instance, uint32_t triangle);
+  void bend(const std::array<Range, 4>& bumps);
   Range metallic() const;
   double roundoff() const;
 
   const Projector& projector_;
   const LightModel& model_;
   const Material* material_;
-  std::vector<Piece> pieces_;
-  const Piece* piece_;
-  std::optional<SurfacePoint> point_;
-  TriangleValues values_;
+  const std::shared_ptr<const TriangleForm> form_;
+  const size_t piece_index_;
+  const Piece* const piece_;
+  const SurfacePoint point_;
   bool unlit_ = false;
   std::optional<std::array<Range, 4>> texel_, gloss_, metal_, glow_, shade_;  ///< of the maps that are read
   std::optional<std::array<Range, 3>> bent_;

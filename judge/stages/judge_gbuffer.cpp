@@ -26,7 +26,8 @@ struct AttributePlane {
 
 class GBufferJudge {
  public:
-  GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+  GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+               const JudgedRows& rows)
       : projector_(scene, pipeline, profile, capture.drawn_at),
         pipeline_(pipeline),
         profile_(profile),
@@ -46,17 +47,23 @@ class GBufferJudge {
     if (planes_.empty() && !depth_ && !object_ && !material_)
       throw Error(ErrorKind::bad_input, capture.name, "has no G-buffer plane",
                   "capture depth, position, normal, albedo, uv or ids");
-    possible_ = possible_surfaces(projector_);
+    possible_ = possible_surfaces(projector_, rows);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
         capture.plane("albedo") != nullptr)
       layers_.emplace(scene, pipeline, profile, capture);
   }
 
-  void judge_row(int y_top, RowTally& row) const {
-    for (int x = 0; x < pipeline_.width; ++x) judge_pixel(x, y_top, row);
+  /// Rows of a band, tile by tile: pixels that are near each other show the same triangles.
+  void judge_band(int y, int end, std::vector<RowTally>& rows) const {
+    TriangleForms forms(projector_);
+    for (int x = 0; x < pipeline_.width; x += kTile)
+      for (int row = y; row < end; ++row)
+        for (int column = x; column < std::min(x + kTile, pipeline_.width); ++column)
+          judge_pixel(column, row, forms, rows[size_t(row)]);
   }
 
  private:
+  static constexpr int kTile = 16;
   size_t pixel_of(int x, int y_top) const {
     return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
   }
@@ -120,7 +127,7 @@ class GBufferJudge {
     return widened(normalized(component(0), component(1), component(2), k, profile_), plane.view, x, y_top);
   }
 
-  Match match(const PossibleSurface& c, int x, int y_top, bool& bounded) const {
+  Match match(const PossibleSurface& c, int x, int y_top, TriangleForms& forms, bool& bounded) const {
     Match m;
     const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
     const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
@@ -132,7 +139,7 @@ class GBufferJudge {
     identifier(object_, "id.object", c.instance + 1.0);
     identifier(material_, "id.material", instance.material + 1.0);
     if (!m.legal && object_) return m;
-    const SurfaceValues surface(projector_, c, sx, sy);
+    const SurfaceValues surface(projector_, forms.of(c.instance, c.triangle), c, sx, sy);
     bounded = surface.bounded();
     if (depth_)
       m.channel_is(depth_, "depth", 0, widened(surface.depth(), depth_, x, y_top),
@@ -194,7 +201,7 @@ class GBufferJudge {
   /// Possible surfaces that may be seen, the nominal one first.
   std::vector<const PossibleSurface*> legal_surfaces(std::span<const PossibleSurface> all,
                                                      const PossibleSurface*& nominal, bool& certain) const;
-  void judge_pixel(int x, int y_top, RowTally& row) const;
+  void judge_pixel(int x, int y_top, TriangleForms& forms, RowTally& row) const;
   PixelClass class_of(const Match& m, bool bounded, const PossibleSurface* seen, const PossibleSurface* nominal) const;
 
   Projector projector_;
@@ -283,7 +290,7 @@ double chance_of_other(const std::vector<const PossibleSurface*>& legal, const P
   return 1 - same;
 }
 
-void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
+void GBufferJudge::judge_pixel(int x, int y_top, TriangleForms& forms, RowTally& row) const {
   const std::span<const PossibleSurface> all = possible_.at(pixel_of(x, y_top));
   const PossibleSurface* nominal = nullptr;
   bool certain = false;
@@ -300,7 +307,8 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
     Match none;
     const bool hidden = !clear_legal || passes_clear(patch_key(projector_, all, sx, sy));
     if (hidden) none.note("id.object", 0, {1, 1, 1}, 0, 1);
-    row.take(x, y_top, hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal), none, name_of(nominal));
+    const PixelClass c = hidden ? PixelClass::violation : class_of(none, true, nullptr, nominal);
+    row.take(x, y_top, c, none, is_told(c) ? name_of(nominal) : std::string());
     return;
   }
   Match closest;
@@ -308,13 +316,14 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
   std::optional<double> patch;
   for (const PossibleSurface* c : legal) {
     bool bounded = true;
-    Match m = match(*c, x, y_top, bounded);
+    Match m = match(*c, x, y_top, forms, bounded);
     if (m.legal && c != nominal) {
       if (!patch) patch = patch_key(projector_, all, sx, sy);
       if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch}, c->middle, 1);
     }
     if (m.legal) {
-      row.take(x, y_top, class_of(m, bounded, c, nominal), m, name_of(c));
+      const PixelClass shown = class_of(m, bounded, c, nominal);
+      row.take(x, y_top, shown, m, is_told(shown) ? name_of(c) : std::string());
       return;
     }
     if (first || m.excess < closest.excess) closest = m;
@@ -329,11 +338,14 @@ void GBufferJudge::judge_pixel(int x, int y_top, RowTally& row) const {
 }  // namespace
 
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture) {
+                           const Capture& capture, const JudgedRows& judged) {
   const Profile p = resolved(profile, pipeline);
-  const GBufferJudge judge(scene, pipeline, p, capture);
+  const GBufferJudge judge(scene, pipeline, p, capture, judged);
   std::vector<RowTally> rows(size_t(pipeline.height));
-  parallel_for(pipeline.height, 0, [&](int y) { judge.judge_row(y, rows[size_t(y)]); });
+  parallel_for(JudgedRows::bands_of(pipeline.height), 0, [&](int band) {
+    const int y = band * JudgedRows::kBand;
+    if (judged.has_band(band)) judge.judge_band(y, std::min(y + JudgedRows::kBand, pipeline.height), rows);
+  });
   return verdict_of("gbuffer", p, pipeline.width, pipeline.height, rows);
 }
 

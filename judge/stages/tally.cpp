@@ -55,9 +55,10 @@ PlaneView::PlaneView(const Image* i) : image(i) {
   if (i == nullptr) return;
   layout = info(i->format);
   channels = layout.channels;
+  is_words_ = layout.bytes_per_channel == 4 && layout.number_class != NumberClass::unorm;
 }
 
-double PlaneView::stored(int x, int y, int channel) const {
+double PlaneView::stored_otherwise(int x, int y, int channel) const {
   uint32_t code = 0;
   if (layout.packed()) {
     code = image->code(x, y, channel);
@@ -174,7 +175,7 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
   stored_values += match.stored_values;
   worst_error = std::max(worst_error, match.worst_error);
   keep_choices(y, match);
-  if (c == PixelClass::exact || c == PixelClass::store_2) return;
+  if (!is_told(c)) return;
   worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
                    match.legal_value.nominal, match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);

@@ -1,6 +1,8 @@
 #pragma once
 // Building a verdict: rows are judged apart and added up in order.
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "core/image.h"
 #include "judge/legal/store.h"
@@ -20,7 +22,13 @@ struct PlaneView {
   PlaneView() = default;
   explicit PlaneView(const Image* i);
   explicit operator bool() const { return image != nullptr; }
-  double stored(int x, int y, int channel) const;  ///< y from the top
+  double stored(int x, int y, int channel) const {  ///< y from the top
+    if (!is_words_) return stored_otherwise(x, y, channel);
+    uint32_t word;
+    std::memcpy(&word, &image->texels[(pixel(x, y) * size_t(layout.channels) + size_t(channel)) * sizeof word],
+                sizeof word);
+    return layout.number_class == NumberClass::integer ? double(word) : double(std::bit_cast<float>(word));
+  }
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
   /// Bounds of DecodedPlane on a component; 0 of a plane that is as it was stored. y from the top.
   double reading_error(int x, int y) const {
@@ -33,6 +41,10 @@ struct PlaneView {
   bool quantised() const { return unorm() || layout.small_float(); }
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
+
+ private:
+  double stored_otherwise(int x, int y, int channel) const;
+  bool is_words_ = false;  ///< floats of 32 bits or integers
 };
 
 /// A channel of a plane as verdicts name it: `color.R`, `position.Z`, `uv.U`, `depth.Z`; planes of one number, such as
@@ -88,6 +100,9 @@ struct Match {
 StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double value, const LegalTexel& likely,
                       double stored, const Profile& profile);
 
+/// Whether a verdict may list a pixel of that class.
+inline bool is_told(PixelClass c) { return c != PixelClass::exact && c != PixelClass::store_2; }
+
 /// One row's share of a verdict.
 struct RowTally {
   std::vector<PixelClass> classes;
@@ -100,6 +115,7 @@ struct RowTally {
 
   /// `pixel`: y * width + x, y from the top.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
+  /// `surface`: where the class is_told().
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
   /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace trueshade::oracle {
+
+/// Which rows of an image are judged: all of them, or some whole bands. Rows count from the top.
+class JudgedRows {
+ public:
+  static constexpr int kBand = 16;  ///< rows; bands count from the top as well
+
+  JudgedRows() = default;  ///< all rows
+  /// A band is judged where its entry is not 0.
+  explicit JudgedRows(std::vector<uint8_t> bands) : some_(true), bands_(std::move(bands)) {}
+
+  static int bands_of(int height) { return (height + kBand - 1) / kBand; }
+  bool all() const { return !some_; }
+  bool has_band(int band) const { return !some_ || bands_[size_t(band)] != 0; }
+  bool has(int y) const { return has_band(y / kBand); }
+
+ private:
+  bool some_ = false;
+  std::vector<uint8_t> bands_;
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,35 @@
+#pragma once
+// What the planes through the vertices of a piece have in common at all samples.
+#include <array>
+
+#include "judge/bounds/window.h"
+
+namespace trueshade::oracle {
+
+struct PieceShape {
+  /// reach: Projector::window_reach().
+  PieceShape(const Piece& piece, const Profile& profile, const Pair& reach);
+
+  /// What the arithmetic of the plane through the vertex values may be off by anywhere in the window (SurfacePoint says
+  /// how it is made up).
+  double plane_error(const std::array<double, 3>& vertex) const;
+
+  bool points = true;                ///< the vertices are points, not boxes
+  std::array<double, 3> dx{}, dy{};  ///< gradients of the barycentrics, 1/pixel
+  double span_x = 0, span_y = 0;     ///< of the widest edge, pixels
+  double area = 0;                   ///< twice the signed area, pixels^2; at 0 what follows is not set
+  double condition = 0;
+  double z_error = 0, u_error = 0;  ///< plane_error() of window depths and of 1 / w
+  Pair window_reach;
+
+ private:
+  double roundoff_, divide_;
+};
+
+/// An attribute at the vertices of a piece.
+struct VertexAttribute {
+  std::array<double, 3> value{}, error{};
+  double plane_error = 0;  ///< of value / w where the plane is smooth, else of the value
+};
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,62 @@
+#pragma once
+// A triangle as all of its samples see it, made once for those that are near each other.
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "judge/legal/bent_normal.h"
+#include "judge/legal/piece_shape.h"
+#include "judge/legal/surface.h"
+
+namespace trueshade::oracle {
+
+/// For one thread at a time: some of it is made when it is first asked for.
+class TriangleForm {
+ public:
+  TriangleForm(const Projector& projector, uint32_t instance, uint32_t triangle);
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const PieceShape& shape(size_t piece) const { return forms_[piece].shape; }
+  const TriangleValues& values() const { return values_; }
+
+  /// A ValueIndex plus a component, at the vertices of a piece, to be interpolated so. Not for flat ones.
+  const VertexAttribute& attribute(size_t piece, size_t index, Interpolation interpolation) const;
+
+  /// Of the uv set that the material's normal map reads.
+  const TangentFrame& tangents() const;
+
+ private:
+  struct KnownAttribute {
+    VertexAttribute attribute;
+    Interpolation interpolation = Interpolation::flat;  ///< flat: not made yet
+  };
+  struct PieceForm {
+    PieceShape shape;
+    std::array<KnownAttribute, kMaxValues> attributes{};
+  };
+  const Projector& projector_;
+  const uint32_t instance_, triangle_;
+  std::vector<Piece> pieces_;
+  TriangleValues values_;
+  mutable std::vector<PieceForm> forms_;
+  mutable std::optional<TangentFrame> tangents_;
+};
+
+/// The triangles that were asked for last. For one thread at a time.
+class TriangleForms {
+ public:
+  explicit TriangleForms(const Projector& projector) : projector_(projector), slots_(kSlots) {}
+  std::shared_ptr<const TriangleForm> of(uint32_t instance, uint32_t triangle);
+
+ private:
+  static constexpr size_t kSlots = 256;  ///< a tile of 16 x 16 pixels sees fewer
+  struct Slot {
+    uint32_t instance = 0, triangle = 0;
+    std::shared_ptr<const TriangleForm> form;
+  };
+  const Projector& projector_;
+  std::vector<Slot> slots_;
+};
+
+}  // namespace trueshade::oracle
