@@ -91,13 +91,17 @@ std::string profile_line(const oracle::Profile& p) {
 }
 
 std::string tightest_line(const oracle::Inference& inferred) {
-  if (!inferred.known_as.empty()) return text(inferred) + "; as " + inferred.known_as;
+  const std::string sample = inferred.sampled_rows == 0
+                                 ? std::string()
+                                 : "; what is kept explains all rows, what is refused fails in " +
+                                       std::to_string(inferred.sampled_rows) + " of them";
+  if (!inferred.known_as.empty()) return text(inferred) + "; as " + inferred.known_as + sample;
   const auto nearest = std::find_if(inferred.tried.begin(), inferred.tried.end(),
                                     [&](const oracle::Hypothesis& h) { return h.value == inferred.nearest; });
   const std::string line = text(inferred) + "; no named profile explains it";
-  if (nearest == inferred.tried.end()) return line;
+  if (nearest == inferred.tried.end()) return line + sample;
   return line + ", " + nearest->value + " comes nearest with " + std::to_string(nearest->violations()) +
-         " pixels against it";
+         " pixels against it" + sample;
 }
 
 std::string finding_line(const oracle::Finding& f) {
@@ -183,7 +187,7 @@ std::string blind_spot_line(const Validation& v) {
   double codes = 0;  // all stored, so that an error of e changes e * codes of them
   for (int y = 0; y < color.height; ++y)
     for (int x = 0; x < color.width; ++x)
-      for (int k = 0; k < 3; ++k) codes += double(color.code(x, y, k));
+      for (int k = 0; k < 3; ++k) codes += double(color.code(layout, x, y, k));
   constexpr double kTold = 30;        // stores that a rule rules out and that the tests tell
   constexpr double kSmallest = 1e-3;  // percent: what sums of floats may be off
   const double one = 100.0 / double(layout.largest_code(0)), all = codes > 0 ? 100 * kTold / codes : 100;

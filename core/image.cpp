@@ -62,24 +62,41 @@ Image::Image(int w, int h, Format f) : width(w), height(h), format(f) {
   texels.resize(row_bytes() * size_t(h));
 }
 
-uint32_t Image::code(int x, int y, int channel) const {
-  const FormatInfo layout = info(format);
+uint32_t Image::code(int x, int y, int channel) const { return code(info(format), x, y, channel); }
+
+uint32_t Image::code(const FormatInfo& layout, int x, int y, int channel) const {
   assert(x >= 0 && x < width && y >= 0 && y < height && channel >= 0 && channel < layout.channels);
   uint32_t word = 0;
   if (layout.packed()) {
     std::memcpy(&word, texel(x, y), sizeof word);
     return (word >> first_bit(layout, channel)) & mask_of(layout, channel);
   }
-  std::memcpy(&word, texel(x, y) + channel * layout.bytes_per_channel, size_t(layout.bytes_per_channel));
-  return word;
+  const size_t pixel = size_t(y) * size_t(width) + size_t(x), at = pixel * size_t(layout.channels) + size_t(channel);
+  switch (layout.bytes_per_channel) {  // sizes that the compiler knows
+    case 1:
+      return texels[at];
+    case 2:
+      std::memcpy(&word, &texels[2 * at], 2);
+      return word;
+    default:
+      std::memcpy(&word, &texels[4 * at], 4);
+      return word;
+  }
 }
 
-void Image::set_code(int x, int y, int channel, uint32_t bits) {
-  const FormatInfo layout = info(format);
+void Image::set_code(int x, int y, int channel, uint32_t bits) { set_code(info(format), x, y, channel, bits); }
+
+void Image::set_code(const FormatInfo& layout, int x, int y, int channel, uint32_t bits) {
   assert(x >= 0 && x < width && y >= 0 && y < height && channel >= 0 && channel < layout.channels);
   assert((bits & ~mask_of(layout, channel)) == 0);
   if (!layout.packed()) {
-    std::memcpy(texel(x, y) + channel * layout.bytes_per_channel, &bits, size_t(layout.bytes_per_channel));
+    const size_t pixel = size_t(y) * size_t(width) + size_t(x), at = pixel * size_t(layout.channels) + size_t(channel);
+    if (layout.bytes_per_channel == 1)
+      texels[at] = uint8_t(bits);
+    else if (layout.bytes_per_channel == 2)
+      std::memcpy(&texels[2 * at], &bits, 2);
+    else
+      std::memcpy(&texels[4 * at], &bits, 4);
     return;
   }
   uint32_t word;

@@ -25,8 +25,10 @@ struct Image {
 
   /// The stored bits of one channel, as the lowest bits of the word. y counts from the top.
   uint32_t code(int x, int y, int channel) const;
+  uint32_t code(const FormatInfo& layout, int x, int y, int channel) const;  ///< layout: info(format), for many texels
   /// Replaces the stored bits of one channel. The bits above the channel's are 0.
   void set_code(int x, int y, int channel, uint32_t bits);
+  void set_code(const FormatInfo& layout, int x, int y, int channel, uint32_t bits);
 
   /// Value of one channel, as a float: unorm RN(code / largest), sRGB decoded to linear, floats of any size as they
   /// are; integers converted. y from the top.

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/half.h"
+#include "core/threads/parallel_for.h"
 
 namespace trueshade {
 namespace {
@@ -42,6 +43,32 @@ Error bad_plane(const PlaneChannelList& plane, int x, int y, const std::string& 
           plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + ' ' + reason, remedy};
 }
 
+/// Row y of the image. Returns the first x whose value is not a number, -1 where there is none.
+int store_row(const PlaneChannelList& plane, int y, Image& image) {
+  const FormatInfo layout = info(image.format);
+  const bool keeps_codes = layout.number_class != NumberClass::floating, halves = layout.small_float();
+  int first = -1;
+  for (int c = 0; c < layout.channels; ++c) {
+    const Channel* const channel = size_t(c) < plane.channels.size() ? plane.channels[size_t(c)] : nullptr;
+    for (int x = 0; x < image.width; ++x) {
+      if (channel == nullptr) {
+        image.set_code(layout, x, y, c, layout.largest_code(c));
+        continue;
+      }
+      const size_t pixel = file_pixel(plane, x, y);
+      if (keeps_codes) {
+        image.set_code(layout, x, y, c, channel->words[pixel]);
+        continue;
+      }
+      const auto value = float(channel->value(pixel));
+      if (std::isnan(value) && (first < 0 || x < first)) first = x;
+      image.set_code(layout, x, y, c,
+                     halves ? half_from_float(value, HalfRound::toward_zero) : std::bit_cast<uint32_t>(value));
+    }
+  }
+  return first;
+}
+
 }  // namespace
 
 Image stored_plane_image(const PlaneChannelList& plane) {
@@ -51,29 +78,12 @@ Image stored_plane_image(const PlaneChannelList& plane) {
     throw Error(ErrorKind::bad_input, plane.file->path, name + " is stored as integers",
                 "save it as floats, or as codes of 8 or 16 bits");
   Image image(plane.file->width, plane.file->height, format_of_channels(plane));
-  const FormatInfo layout = info(image.format);
-  const bool keeps_codes = layout.number_class != NumberClass::floating;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const size_t pixel = file_pixel(plane, x, y);
-      for (size_t c = 0; c < size_t(layout.channels); ++c) {
-        if (c >= plane.channels.size()) {
-          image.set_code(x, y, int(c), layout.largest_code(int(c)));
-          continue;
-        }
-        const Channel& channel = *plane.channels[c];
-        if (keeps_codes) {
-          image.set_code(x, y, int(c), channel.words[pixel]);
-          continue;
-        }
-        const auto value = float(channel.value(pixel));
-        if (std::isnan(value) && name != "color")
-          throw bad_plane(plane, x, y, "is not a number", "find what the shader divides by, or capture another frame");
-        const uint16_t half = layout.small_float() ? half_from_float(value, HalfRound::toward_zero) : uint16_t(0);
-        const void* const bits = layout.small_float() ? static_cast<const void*>(&half) : &value;
-        std::memcpy(image.texel(x, y) + c * size_t(layout.bytes_per_channel), bits, size_t(layout.bytes_per_channel));
-      }
-    }
+  std::vector<int> nan_at(size_t(image.height), -1);  // the first x of each row that is not a number
+  parallel_for(image.height, 0, [&](int y) { nan_at[size_t(y)] = store_row(plane, y, image); });
+  for (int y = 0; y < image.height && name != "color"; ++y)
+    if (nan_at[size_t(y)] >= 0)
+      throw bad_plane(plane, nan_at[size_t(y)], y, "is not a number",
+                      "find what the shader divides by, or capture another frame");
   return image;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/half.h"
+#include "core/image_rows.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
 #include "core/threads/parallel_for.h"
@@ -122,7 +123,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
                       "write it as float, or name half formats in --pipeline");
   Image image(given.width, given.height, format);
   const auto value_at = [&](int x, int y, int k) {
-    if (k < from.channels) return given.value(x, y, k);
+    if (k < from.channels) return value_of_code(from, k, given.code(from, x, y, k));
     if (k < 3) return 0.0;
     return pads_normal && untouched(given, x, y) ? 0.0 : 1.0;  // w of what is drawn is 1
   };
@@ -132,7 +133,7 @@ Image converted(const std::string& where, const std::string& name, const Image& 
       for (int k = 0; k < to.channels; ++k) {
         const std::optional<uint32_t> bits = bits_of(value_at(x, y, k), to, k, from);
         if (bits)
-          image.set_code(x, y, k, *bits);
+          image.set_code(to, x, y, k, *bits);
         else if (unheld[size_t(y)][0] < 0)
           unheld[size_t(y)] = {x, k};
       }

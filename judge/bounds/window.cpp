@@ -61,11 +61,13 @@ constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which 
 
 }  // namespace
 
-Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y) {
+Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y,
+                     unsigned edges) {
   Coverage result;
   result.cover = piece.facing_known ? Cover::certain : Cover::maybe;
   bool any_inside[2] = {true, true};  // for either sign, where the facing is not known
   for (size_t i = 0; i < 3; ++i) {
+    if ((edges >> i & 1u) == 0) continue;
     const WindowVertex &a = piece.v[(i + 1) % 3], &b = piece.v[(i + 2) % 3];
     EdgeSpan e = edge_span(a, b, x, y);
     if (!piece.facing_known) {
@@ -96,16 +98,16 @@ Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin orig
   return result;
 }
 
-Cover coverage_of_box(const Piece& piece, const Pair& low, const Pair& high) {
-  if (!piece.facing_known) return Cover::maybe;
-  Cover cover = Cover::certain;
+BoxCoverage coverage_of_box(const Piece& piece, const Pair& low, const Pair& high) {
+  BoxCoverage box;
+  if (!piece.facing_known) return box;
   for (size_t i = 0; i < 3; ++i) {
     EdgeSpan e = edge_span_of_box(piece.v[(i + 1) % 3], piece.v[(i + 2) % 3], low, high);
     if (piece.sign < 0) e = {-e.high, -e.low};
-    if (e.high < 0) return Cover::no;
-    if (!(e.low > 0)) cover = Cover::maybe;
+    if (e.high < 0) box.none = true;
+    if (e.low > 0) box.edges &= ~(1u << i);
   }
-  return cover;
+  return box;
 }
 
 bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y) {

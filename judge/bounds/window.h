@@ -47,11 +47,17 @@ struct Coverage {
   double chance_other = 0;       ///< predicted probability that the sample is not where nominal vertices put it
   bool nominal = true;           ///< covered where every interval is at its middle
 };
-Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y);
+/// Edges that are not in `edges` are known to have the sample inside.
+Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y,
+                     unsigned edges = 7);
 
-/// What coverage_at() says of every sample of a box, corners included: `certain` and `no` of all; `maybe` where samples
-/// may differ, or one has an edge in doubt. An edge function is affine in the sample, so its extremes are at corners.
-Cover coverage_of_box(const Piece& piece, const Pair& low, const Pair& high);
+/// What coverage_at() says of every sample of a box, corners included. An edge function is affine in the sample, so its
+/// extremes are at corners.
+struct BoxCoverage {
+  bool none = false;   ///< no sample is covered
+  unsigned edges = 7;  ///< bit i: some sample may not be inside of edge i; 0: all are certain
+};
+BoxCoverage coverage_of_box(const Piece& piece, const Pair& low, const Pair& high);
 
 /// Signed area times two of (a, b, sample), exactly antisymmetric in a and b; 0 is decided by the edge's direction, so
 /// that a closed mesh of `exact` vertices has a definite winding number about every sample.

@@ -17,6 +17,7 @@ class JudgedRows {
 
   static int bands_of(int height) { return (height + kBand - 1) / kBand; }
   bool all() const { return !some_; }
+  const std::vector<uint8_t>& bands() const { return bands_; }  ///< empty where all rows are judged
   bool has_band(int band) const { return !some_ || bands_[size_t(band)] != 0; }
   bool has(int y) const { return has_band(y / kBand); }
 

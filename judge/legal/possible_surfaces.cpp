@@ -157,16 +157,15 @@ void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleS
   base.cut = piece.cut || piece.leaves_view;
   for (int x = x0; x < x1; x += kBoxWidth) {
     const int end = std::min(x + kBoxWidth, x1);
-    const Cover box = (end - x) * (y1 - y0) <= 8
-                          ? Cover::maybe
-                          : coverage_of_box(piece, {x + 0.5, y0 + 0.5}, {end - 0.5, y1 - 0.5});
-    if (box == Cover::no) continue;
+    BoxCoverage box;
+    if ((end - x) * (y1 - y0) > 8) box = coverage_of_box(piece, {x + 0.5, y0 + 0.5}, {end - 0.5, y1 - 0.5});
+    if (box.none) continue;
     for (int row = y0; row < y1; ++row)
       for (int column = x; column < end; ++column) {
         Coverage cover;
         cover.cover = Cover::certain;
-        if (box == Cover::maybe)
-          cover = coverage_at(piece, projector_.profile(), state_.clip_origin, column + 0.5, row + 0.5);
+        if (box.edges != 0)
+          cover = coverage_at(piece, projector_.profile(), state_.clip_origin, column + 0.5, row + 0.5, box.edges);
         if (cover.cover != Cover::no) add_sample(piece, shape, values, cover, largest, base, order, column, row);
       }
   }

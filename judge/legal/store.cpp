@@ -221,8 +221,6 @@ LegalTexel narrowed(const LegalTexel& wide, int channel) {
 
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile) {
   const FormatInfo layout = info(format);
-  if (layout.number_class == NumberClass::floating && !layout.small_float())
-    return {range.value, float_below(range.low), float_above(range.high)};
   const bool has_mesa_codes = layout.srgb_channel(channel) || format == Format::rgb10_a2;
   if (profile.likely.mesa_codes && profile.blend != BlendRule::mesa_codes && has_mesa_codes) {
     const LegalTexel likely = legal_texel(range, format, channel, following(profile.likely, profile));
@@ -240,6 +238,10 @@ LegalTexel legal_texel(const Range& range, Format format, int channel, const Pro
     const int bits = layout.bits[size_t(channel)];
     return small_float(range, {bits == 16 ? 10 : bits - 5}, profile);
   }
+  return legal_float(range);
+}
+
+LegalTexel legal_float(const Range& range) {
   return {range.value, float_below(range.low), float_above(range.high)};
 }
 

@@ -29,6 +29,7 @@ struct LegalTexel {
 ///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
 ///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
+LegalTexel legal_float(const Range& range);  ///< of channels that hold floats of 32 bits or numbers alone
 
 /// A profile of which stores and blends are those of the rule, wherever it leaves them open.
 Profile following(const StoreRule& rule, const Profile& profile);

@@ -22,11 +22,20 @@ double fixed_point_codes(const GeometryState& state) {
 }  // namespace
 
 SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
-    : SurfacePoint(piece, PieceShape(piece, profile, window_reach), profile, x, y) {}
+    : piece_(piece),
+      own_shape_(std::in_place, piece, profile, window_reach),
+      shape_(*own_shape_),
+      profile_(profile) {
+  find_samples(x, y);
+}
 
 SurfacePoint::SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y)
     : piece_(piece), shape_(shape), profile_(profile) {
-  const auto& v = piece.v;
+  find_samples(x, y);
+}
+
+void SurfacePoint::find_samples(double x, double y) {
+  const auto& v = piece_.v;
   std::array<double, 3> edge{};
   for (size_t i = 0; i < 3; ++i) {
     const Pair &a = v[(i + 1) % 3].plane, &b = v[(i + 2) % 3].plane;
@@ -101,13 +110,12 @@ double plane_error_of(const Piece& piece, const PieceShape& shape, const std::ar
 template <size_t kSamples>
 Range SurfacePoint::affine(const VertexAttribute& vertices) const {
   const std::array<double, 3>&value = vertices.value, &error = vertices.error;
+  const double d0 = value[0] - value[0], d1 = value[1] - value[0], d2 = value[2] - value[0];
   std::array<double, kSamples> at, carried;
-  for (size_t k = 0; k < kSamples; ++k) {
-    at[k] = value[0], carried[k] = 0;  // from differences, so that constants stay constant
-    for (size_t i = 0; i < 3; ++i) {
-      at[k] += lambda_[i][k] * (value[i] - value[0]);
-      carried[k] += std::fabs(lambda_[i][k]) * error[i];
-    }
+  for (size_t k = 0; k < kSamples; ++k) {  // from differences, so that constants stay constant
+    at[k] = value[0] + lambda_[0][k] * d0 + lambda_[1][k] * d1 + lambda_[2][k] * d2;
+    carried[k] = std::fabs(lambda_[0][k]) * error[0] + std::fabs(lambda_[1][k]) * error[1] +
+                 std::fabs(lambda_[2][k]) * error[2];
   }
   Range r{at[0], at[0], at[0]};
   double inherited = 0;
@@ -216,7 +224,9 @@ Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation int
   const bool smooth = interpolation == Interpolation::smooth;
   if (bounded_) {
     if (!smooth && !profile_.exact_planes) return affine(vertices);
-    return points_ == 1 ? quotient<1>(vertices, smooth) : quotient<6>(vertices, smooth);
+    if (smooth && !smooth_) smooth_ = divisors_of(true);
+    if (smooth) return points_ == 1 ? quotient<1>(vertices, *smooth_) : quotient<6>(vertices, *smooth_);
+    return quotient<1>(vertices, divisors_of(false));  // of exact planes, whose vertices are points
   }
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnyValue;
@@ -226,29 +236,28 @@ Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation int
 }
 
 template <size_t kSamples>
-Range SurfacePoint::quotient(const VertexAttribute& vertices, bool smooth) const {
+Range SurfacePoint::quotient(const VertexAttribute& vertices, const Divisors& divisors) const {
   const std::array<double, 3>&value = vertices.value, &error = vertices.error;
-  if (smooth && !smooth_) smooth_ = divisors_of(true);
-  std::optional<Divisors> linear;
-  if (!smooth) linear = divisors_of(false);
-  const Divisors& divisors = smooth ? *smooth_ : *linear;
   if (!divisors.above_zero) return kAnyValue;
-  std::array<double, kSamples> at, moved;
-  for (size_t k = 0; k < kSamples; ++k) {
-    double n = 0, carried = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      n += divisors.weight[i][k] * (value[i] - value[0]);
-      carried += divisors.moves[i][k] * error[i];
-    }
-    at[k] = value[0] + n / divisors.value[k];
-    for (size_t i = 0; i < 3; ++i) carried += divisors.moves_by_u[i][k] * std::fabs(value[i] - at[k]);
-    moved[k] = carried / divisors.least_value[k];
-  }
-  Range r{at[0], at[0], at[0]};
+  const double d0 = value[0] - value[0], d1 = value[1] - value[0], d2 = value[2] - value[0];
+  Range r{value[0], value[0], value[0]};
   double inherited = 0;
-  for (size_t k = 0; k < kSamples; ++k) {
-    r.low = std::min(r.low, at[k]), r.high = std::max(r.high, at[k]);
-    inherited = std::max(inherited, moved[k]);
+  const bool is_constant = d1 == 0 && d2 == 0 && error[0] == 0 && error[1] == 0 && error[2] == 0;
+  if (!is_constant) {
+    const auto &w = divisors.weight, &m = divisors.moves, &u = divisors.moves_by_u;
+    std::array<double, kSamples> at, moved;
+    for (size_t k = 0; k < kSamples; ++k) {
+      at[k] = value[0] + (w[0][k] * d0 + w[1][k] * d1 + w[2][k] * d2) / divisors.value[k];
+      const double by_values = m[0][k] * error[0] + m[1][k] * error[1] + m[2][k] * error[2];
+      moved[k] = (by_values + u[0][k] * std::fabs(value[0] - at[k]) + u[1][k] * std::fabs(value[1] - at[k]) +
+                  u[2][k] * std::fabs(value[2] - at[k])) /
+                 divisors.least_value[k];
+    }
+    r = {at[0], at[0], at[0]};
+    for (size_t k = 0; k < kSamples; ++k) {
+      r.low = std::min(r.low, at[k]), r.high = std::max(r.high, at[k]);
+      inherited = std::max(inherited, moved[k]);
+    }
   }
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   const double largest = std::max(std::fabs(low), std::fabs(high));

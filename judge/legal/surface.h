@@ -42,6 +42,8 @@ class SurfacePoint {
 
   /// The same with the piece's shape at hand, as for many samples of it.
   SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y);
+  SurfacePoint(const SurfacePoint&) = delete;
+  SurfacePoint& operator=(const SurfacePoint&) = delete;
 
   /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
   bool bounded() const {
@@ -63,13 +65,15 @@ class SurfacePoint {
 
  private:
   enum class Tiny : uint8_t { anything, hull, hull_and_plane };
+  struct Divisors;
+  void find_samples(double x, double y);
   void no_plane(double x, double y);
   Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
   template <size_t kSamples>
   Range affine(const VertexAttribute& vertices) const;
   Range affine(const VertexAttribute& vertices) const { return points_ == 1 ? affine<1>(vertices) : affine<6>(vertices); }
   template <size_t kSamples>
-  Range quotient(const VertexAttribute& vertices, bool smooth) const;
+  Range quotient(const VertexAttribute& vertices, const Divisors& divisors) const;
 
   /// The sample, and the corners of its box; the sample again, so that there are as many as vectors hold.
   using Samples = std::array<double, 6>;
@@ -86,7 +90,8 @@ class SurfacePoint {
   Divisors divisors_of(bool smooth) const;
 
   const Piece& piece_;
-  const PieceShape shape_;
+  const std::optional<PieceShape> own_shape_;  ///< where none was at hand
+  const PieceShape& shape_;
   const Profile& profile_;
   bool bounded_ = true;
   Tiny tiny_ = Tiny::anything;               ///< what is known where bounded_ is not true

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/threads/parallel_for.h"
 #include "judge/stages/regions.h"
 #include "judge/stages/thresholds.h"
 
@@ -156,14 +157,23 @@ double chance_of_at_least(double observed, double mean) {
 }
 
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
-  const std::vector<Group> stores = groups_of_stores(v);
-  const std::vector<PixelChoice> surfaces = choices_of_surfaces(v);
-  std::vector<AggregateTest> tests = {ruled_out(v, stores), stored_apart(v),    crossed(v),
-                                      second_neighbours(stores), store_bias(stores), store_clusters(v),
-                                      other_surfaces(surfaces)};
-  tests.push_back(least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height));
-  tests.push_back(least_likely_region("surfaces of a region", 0.5, surfaces, v.width, v.height));
-  return tests;
+  std::vector<Group> stores;
+  std::vector<PixelChoice> surfaces;
+  AggregateTest crossings, clusters, others, region_of_stores, region_of_surfaces;
+  const auto with_surfaces = [&] {
+    surfaces = choices_of_surfaces(v);
+    others = other_surfaces(surfaces);
+    region_of_surfaces = least_likely_region("surfaces of a region", 0.5, surfaces, v.width, v.height);
+  };
+  parallel_for(5, 0, [&](int part) {
+    if (part == 0) with_surfaces();
+    if (part == 1) region_of_stores = least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height);
+    if (part == 2) stores = groups_of_stores(v);
+    if (part == 3) clusters = store_clusters(v);
+    if (part == 4) crossings = crossed(v);
+  });
+  return {ruled_out(v, stores), stored_apart(v), crossings,        second_neighbours(stores), store_bias(stores),
+          clusters,             others,          region_of_stores, region_of_surfaces};
 }
 
 const AggregateTest& least_likely(const std::vector<AggregateTest>& tests) {

@@ -8,7 +8,7 @@ namespace trueshade::oracle {
 
 void BlendingJudge::find_layers(const Capture& capture) {
   if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)
-    layers_.emplace(scene_, pipeline_, profile_, capture);
+    layers_.emplace(scene_, pipeline_, profile_, capture, judged_);
 }
 
 /// A fragment blended into a sum that is kept in floats: of fixed-point targets one between 0 and 1, but for what is
@@ -177,8 +177,8 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
 }
 
 StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture) {
-  BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture);
+                           const Capture& capture, const JudgedRows& rows) {
+  BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture, rows);
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);
   judge.find_layers(capture);

@@ -28,8 +28,9 @@ bool same_row(const Image& a, const Image& b, int y) {
 }  // namespace
 
 BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                             const Capture& capture)
+                             const Capture& capture, const JudgedRows& judged)
     : scene_(scene),
+      judged_(judged),
       pipeline_(pipeline),
       profile_(profile),
       likely_(following(profile.likely, profile)),
@@ -59,7 +60,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
         ++rows_[size_t(y)].covered;
       }
   });
-  if (multipass_) tied_ = std::make_unique<TiedSurfaces>(scene, pipeline, profile, capture);
+  if (multipass_) tied_ = std::make_unique<TiedSurfaces>(scene, pipeline, profile, capture, judged);
 }
 
 void BlendingJudge::start(const Image* given) {

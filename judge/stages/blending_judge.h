@@ -42,7 +42,8 @@ struct ConversionsInDoubt {
 class BlendingJudge {
  public:
   /// Borrows all but the profile. Throws as CapturedSurface does.
-  BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+  BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                const JudgedRows& judged = {});
 
   /// The target before the first light. `given`: what it was seen to be; null: not seen.
   void start(const Image* given);
@@ -68,7 +69,9 @@ class BlendingJudge {
 
   template <class Job>
   void each_row(const Job& job) {
-    parallel_for(pipeline_.height, 0, [&](int y) { job(y); });
+    parallel_for(pipeline_.height, 0, [&](int y) {
+      if (judged_.has(y)) job(y);
+    });
   }
   size_t at(int x, int y) const { return size_t(y) * size_t(pipeline_.width) + size_t(x); }
   const Image& before(size_t i) const { return i == 0 ? before_ : batch_[i - 1]; }
@@ -119,6 +122,7 @@ class BlendingJudge {
   void keep(int x, int y, PixelClass c, const Match& m, int light);
 
   const Scene& scene_;
+  const JudgedRows judged_;
   const Pipeline pipeline_;
   const Profile profile_, likely_;
   const PlaneView color_, count_;  ///< the target, and light.count where it was captured

@@ -9,11 +9,91 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr const char* kNamed = "profile";  // the knob that named profiles are guesses of
+constexpr int kLeastBands = 3, kTellingBands = 1, kSampledPixels = 1 << 16, kMostBegins = 6;
 
+using Bands = std::vector<uint8_t>;  ///< of JudgedRows
+
+/// Adds to `bands` those in which a stage has a violation, `most` of them at most that were not there. Returns how many.
+int add_violating(const StageVerdict& v, int most, Bands& bands) {
+  int added = 0;
+  for (int y = 0; y < v.height && added < most; ++y) {
+    uint8_t& band = bands[size_t(y / JudgedRows::kBand)];
+    const auto row = v.classes.begin() + int64_t(y) * v.width;
+    if (band != 0 || std::find(row, row + v.width, PixelClass::violation) == row + v.width) continue;
+    band = 1, ++added;
+  }
+  return added;
+}
+
+/// Adds the bands whose float channels come nearest to their bounds: these tell tighter profiles apart.
+void add_telling(const StageVerdict& v, int most, Bands& bands) {
+  std::vector<std::pair<double, size_t>> errors(bands.size());
+  for (size_t y = 0; y < v.row_errors.size(); ++y) {
+    auto& [error, band] = errors[y / JudgedRows::kBand];
+    error = std::max(error, v.row_errors[y]), band = y / JudgedRows::kBand;
+  }
+  std::sort(errors.rbegin(), errors.rend());
+  for (size_t i = 0; i < errors.size() && int(i) < most; ++i)
+    if (errors[i].first > 0) bands[errors[i].second] = 1;
+}
+
+/// The first quarter of all bands, the second, and the rest.
+std::vector<Bands> portions_of(size_t bands) {
+  std::vector<Bands> portions(3, Bands(bands, 0));
+  for (size_t i = 0; i < bands; ++i) portions[std::min<size_t>(i % 4, 2)][i] = 1;
+  return portions;
+}
+
+/// Whether a box that one rule of snapping allows lies in that of the other.
+bool grid_within(const Profile& loose, const Profile& tight) {
+  if (loose.subpixel_bits == tight.subpixel_bits && loose.snap == tight.snap) return true;
+  return loose.snap == SnapRule::unstated && loose.subpixel_bits <= tight.subpixel_bits &&
+         tight.snap != SnapRule::toward_zero;
+}
+
+bool arithmetic_within(const Arithmetic& loose, const Arithmetic& tight) {
+  return loose.roundoff >= tight.roundoff && loose.divide >= tight.divide && loose.inverse_sqrt >= tight.inverse_sqrt &&
+         loose.square_root >= tight.square_root && (!loose.exact_pow || tight.exact_pow);
+}
+
+bool stores_within(const Profile& loose, const Profile& tight) {
+  return loose.unorm_reach >= tight.unorm_reach && loose.srgb_reach >= tight.srgb_reach &&
+         (loose.half == HalfStore::either || loose.half == tight.half) &&
+         (loose.blend == BlendRule::any_precision || loose.blend == tight.blend) &&
+         loose.fetch_error >= tight.fetch_error &&
+         (loose.sampling == Sampling{} || loose.sampling == tight.sampling);
+}
+
+/// What a guess bears on. The target is judged by the capture's own surfaces, which no grid changes.
+enum class Bears : uint8_t { on_surfaces, on_all_stages };
+
+struct Guess {
+  Profile profile;
+  Bears bears = Bears::on_surfaces;
+};
+
+bool is_same(const Guess& a, const Guess& b) {
+  return a.bears == b.bears && allows_all_of(a.profile, b.profile) && allows_all_of(b.profile, a.profile);
+}
+
+/// What is known of guesses beyond one inquiry.
+struct Knowledge {
+  /// A guess as far as it was judged.
+  struct Judged {
+    Guess guess;
+    Bands bands;
+    uint64_t surfaces = 0, lights = 0;  ///< violations in these
+  };
+  std::vector<Judged> judged;
+  std::vector<Guess> confirmed;  ///< on the whole image
+};
+
+/// One inquiry on one sample.
 class Inquiry {
  public:
-  Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture)
-      : scene_(scene), pipeline_(pipeline), capture_(capture) {
+  Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& rows,
+          Knowledge& known)
+      : scene_(scene), pipeline_(pipeline), capture_(capture), rows_(rows), known_(known) {
     const auto look = [&](const Image& image) {
       if (image.width == 0) return;
       const FormatInfo f = info(image.format);
@@ -33,23 +113,69 @@ class Inquiry {
     find_stores();
     find_name();
     rank();
+    for (int y = 0; y < pipeline_.height && !rows_.all(); ++y) result_.sampled_rows += rows_.has(y) ? 1 : 0;
     result_.tightest = loose_;
     result_.tightest.name = result_.known_as.empty() ? "inferred" : result_.known_as;
     if (const auto known = profile_named(result_.known_as)) result_.tightest = *known;
-    return std::move(result_);
+    return result_;
+  }
+
+  /// Bands of the image in which a guess fails that holds on the sample; empty where all hold. Of the guesses those that
+  /// were tried last allow the least.
+  Bands refuted() {
+    bool is_first = true;
+    for (auto guess = held_.rbegin(); guess != held_.rend() && !rows_.all(); ++guess) {
+      const bool is_implied = std::any_of(known_.confirmed.begin(), known_.confirmed.end(), [&](const Guess& g) {
+        return (g.bears == guess->bears || guess->bears == Bears::on_surfaces) &&
+               allows_all_of(guess->profile, g.profile);
+      });
+      if (is_implied) continue;
+      const auto bands = size_t(JudgedRows::bands_of(pipeline_.height));
+      // The one that allows the least is expected to hold; of the others a part may do.
+      const std::vector<Bands> portions = is_first ? std::vector<Bands>{Bands(bands, 1)} : portions_of(bands);
+      for (const Bands& portion : portions)
+        if (const Bands failing = failing_in(*guess, JudgedRows(portion)); !failing.empty()) return failing;
+      known_.confirmed.push_back(*guess);
+      is_first = false;
+    }
+    return {};
   }
 
  private:
-  /// What a guess bears on. The target is judged by the capture's own surfaces, which no grid changes.
-  enum class Bears : uint8_t { on_surfaces, on_all_stages };
+  Bands failing_in(const Guess& guess, const JudgedRows& rows) const {
+    Bands bands(size_t(JudgedRows::bands_of(pipeline_.height)), 0);
+    int failing = add_violating(judge_gbuffer(scene_, pipeline_, guess.profile, capture_, rows), kLeastBands, bands);
+    if (guess.bears == Bears::on_all_stages && lit_)
+      failing += add_violating(judge_lighting(scene_, pipeline_, guess.profile, capture_, rows), kLeastBands, bands);
+    return failing > 0 ? bands : Bands{};
+  }
 
   /// Counts the pixels of all stages, also where the first one fails: only so can guesses be ranked.
   uint64_t against(const Profile& profile, Bears bears, const char* knob, const std::string& value) {
-    Hypothesis guess{knob, value, judge_gbuffer(scene_, pipeline_, profile, capture_).count(PixelClass::violation), {}};
-    if (bears == Bears::on_all_stages && lit_)
-      guess.lights = judge_lighting(scene_, pipeline_, profile, capture_).count(PixelClass::violation);
-    result_.tried.push_back(guess);
-    return guess.violations();
+    const bool with_lights = bears == Bears::on_all_stages && lit_;
+    const Knowledge::Judged& judged = judged_on_sample({profile, bears}, with_lights);
+    result_.tried.push_back(
+        {knob, value, judged.surfaces, with_lights ? std::optional(judged.lights) : std::nullopt});
+    const uint64_t violations = judged.surfaces + judged.lights;
+    if (violations == 0) held_.push_back({profile, bears});
+    return violations;
+  }
+
+  /// Of a guess that was judged on an earlier sample only the bands are judged that have joined it.
+  const Knowledge::Judged& judged_on_sample(const Guess& guess, bool with_lights) {
+    auto known = std::find_if(known_.judged.begin(), known_.judged.end(),
+                              [&](const Knowledge::Judged& j) { return is_same(j.guess, guess); });
+    const auto count = size_t(JudgedRows::bands_of(pipeline_.height));
+    if (known == known_.judged.end()) known = known_.judged.insert(known, {guess, Bands(count, 0)});
+    Bands more(count, 0);
+    for (size_t i = 0; i < count; ++i) more[i] = rows_.has_band(int(i)) && known->bands[i] == 0 ? 1 : 0;
+    if (std::find(more.begin(), more.end(), 1) == more.end()) return *known;
+    for (size_t i = 0; i < count; ++i) known->bands[i] |= more[i];
+    const JudgedRows rows(std::move(more));
+    const auto violations = [](const StageVerdict& v) { return v.count(PixelClass::violation); };
+    known->surfaces += violations(judge_gbuffer(scene_, pipeline_, guess.profile, capture_, rows));
+    if (with_lights) known->lights += violations(judge_lighting(scene_, pipeline_, guess.profile, capture_, rows));
+    return *known;
   }
 
   /// Sorts the guesses of each knob; of guesses that are equally good, the likelier one, tried first, stays first.
@@ -126,6 +252,9 @@ class Inquiry {
   const Scene& scene_;
   const Pipeline& pipeline_;
   const Capture& capture_;
+  const JudgedRows& rows_;
+  Knowledge& known_;
+  std::vector<Guess> held_;  ///< guesses that explain the sample, in the order in which they were tried
   bool unorm_ = false, half_ = false, lit_ = false;
   Profile loose_;
   Inference result_;
@@ -133,8 +262,49 @@ class Inquiry {
 
 }  // namespace
 
-Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
-  return Inquiry(scene, pipeline, capture).run();
+bool allows_all_of(const Profile& loose, const Profile& tight) {
+  return grid_within(loose, tight) && (loose.fill == FillRule::unstated || loose.fill == tight.fill) &&
+         (loose.plane_origin == PlaneOrigin::either || loose.plane_origin == tight.plane_origin) &&
+         (!loose.exact_vertices || tight.exact_vertices) && (!loose.exact_planes || tight.exact_planes) &&
+         (loose.clips_to_view || !tight.clips_to_view) && loose.least_depth_unit <= tight.least_depth_unit &&
+         loose.most_depth_unit >= tight.most_depth_unit && (!loose.max_norm_slope || tight.max_norm_slope) &&
+         stores_within(loose, tight) && arithmetic_within(loose.arithmetic, tight.arithmetic);
+}
+
+JudgedRows sampled_rows(int width, int height) {
+  const int bands = JudgedRows::bands_of(height);
+  const int taken = std::max(kLeastBands, kSampledPixels / (JudgedRows::kBand * std::max(width, 1)));
+  if (2 * taken >= bands) return {};
+  Bands chosen(size_t(bands), 0);
+  for (int i = 0; i < taken; ++i) chosen[size_t((2 * i + 1) * bands / (2 * taken))] = 1;
+  return JudgedRows(std::move(chosen));
+}
+
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
+                        std::span<const StageVerdict> judged) {
+  JudgedRows sample = sampled_rows(pipeline.width, pipeline.height);
+  if (sample.all()) return infer_profile(scene, pipeline, capture, sample);
+  Bands bands = sample.bands();
+  for (const StageVerdict& stage : judged) {
+    add_violating(stage, kLeastBands, bands);
+    add_telling(stage, kTellingBands, bands);
+  }
+  return infer_profile(scene, pipeline, capture, JudgedRows(std::move(bands)));
+}
+
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
+                        const JudgedRows& sample) {
+  JudgedRows rows = sample;
+  Knowledge known;
+  for (int begin = 0;; ++begin) {
+    Inquiry inquiry(scene, pipeline, capture, rows, known);
+    Inference result = inquiry.run();
+    const Bands refuted = inquiry.refuted();
+    if (refuted.empty()) return result;
+    Bands bands = rows.bands();
+    for (size_t i = 0; i < bands.size(); ++i) bands[i] |= refuted[i];
+    rows = begin < kMostBegins ? JudgedRows(std::move(bands)) : JudgedRows();
+  }
 }
 
 std::string text(const Inference& i) {

@@ -1,6 +1,7 @@
 #pragma once
 // The tightest profile that explains an image: what the implementation does where OpenGL lets it choose.
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,25 @@ struct Inference {
   std::string nearest;            ///< where known_as is empty: the named profile that the fewest pixels speak against
   Profile tightest;               ///< all of it together
   std::vector<Hypothesis> tried;  ///< knob by knob; guesses of one knob by their violations, the fewest first
+  int sampled_rows = 0;           ///< in which the pixels of `tried` were counted; 0: in all
 };
+
+/// Some bands of rows, evenly apart; all rows of an image that is not much larger than such a sample.
+JudgedRows sampled_rows(int width, int height);
 
 /// Judges the capture under one guess after the other, everything else left as open as OpenGL leaves it. Some fifteen
 /// judgements; the image must have edges enough to tell grids apart (where several explain it, 8 bits are reported).
-Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture);
+///
+/// Guesses are first tried on `sample`. One that fails there fails on the image. One that holds is judged on all rows,
+/// unless a profile that allows less was found to hold there; where that fails, the rows that it fails in join the
+/// sample, and all begins again. So the answer is that of the whole image; only the counts of `tried` are of a sample.
+/// judged: the stages of the image under the profile that it is held to; some bands in which they fail join the sample.
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
+                        std::span<const StageVerdict> judged = {});
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample);
+
+/// Whether every value that `tight` allows is one that `loose` allows, as far as their knobs tell.
+bool allows_all_of(const Profile& loose, const Profile& tight);
 
 /// One line: `8 bits, nearest; planes snapped; half toward zero; unorm within 0.5`.
 std::string text(const Inference& inference);

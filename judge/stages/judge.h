@@ -21,7 +21,7 @@ namespace trueshade::oracle {
 /// triangles has exactly one owner: where triangles that meet about a sample close around it, the clear value and what
 /// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
 /// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
-/// `rows`: the verdict counts these alone, and has no list of classes unless they are all.
+/// `rows`: the verdict counts these alone.
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                            const Capture& capture, const JudgedRows& rows = {});
 
@@ -32,8 +32,9 @@ StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const P
 /// Under strategies that blend light by light: the final image against the interval of all blends (judge_blending.h),
 /// and light.count is not looked at.
 /// Throws Error(bad_input) naming the plane that is missing or of another size.
+/// `rows` as for judge_gbuffer().
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                            const Capture& capture);
+                            const Capture& capture, const JudgedRows& rows = {});
 
 /// Strategies that blend, light by light: the target after each light against what the driver's *own* target before it
 /// may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment (light_cover.h); EDGE

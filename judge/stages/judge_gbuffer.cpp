@@ -50,7 +50,7 @@ class GBufferJudge {
     possible_ = possible_surfaces(projector_, rows);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
         capture.plane("albedo") != nullptr)
-      layers_.emplace(scene, pipeline, profile, capture);
+      layers_.emplace(scene, pipeline, profile, capture, rows);
   }
 
   /// Rows of a band, tile by tile: pixels that are near each other show the same triangles.

@@ -19,7 +19,8 @@ constexpr size_t kMostBranches = 8;  // 256 sums; beyond that the hull of all of
 
 class LightingJudge {
  public:
-  LightingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+  LightingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                const JudgedRows& rows)
       : scene_(scene),
         pipeline_(pipeline),
         profile_(profile),
@@ -30,7 +31,7 @@ class LightingJudge {
                 view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
                 profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
-      layers_.emplace(scene, pipeline, profile, capture);
+      layers_.emplace(scene, pipeline, profile, capture, rows);
   }
 
   /// Rows from y on, tile by tile: pixels that are near each other have few lights.
@@ -43,7 +44,7 @@ class LightingJudge {
     }
   }
 
-  static constexpr int kTile = 16;
+  static constexpr int kTile = JudgedRows::kBand;
 
  private:
   /// The surfaces of some pixels, and the lights that may reach one of them.
@@ -216,14 +217,15 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
 }  // namespace
 
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                            const Capture& capture) {
-  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture);
+                            const Capture& capture, const JudgedRows& judged) {
+  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture, judged);
   const Profile p = resolved(profile, pipeline);
-  const LightingJudge judge(scene, pipeline, p, capture);
+  const LightingJudge judge(scene, pipeline, p, capture, judged);
   std::vector<RowTally> rows(size_t(pipeline.height));
-  constexpr int kRows = LightingJudge::kTile;
-  parallel_for((pipeline.height + kRows - 1) / kRows, 0,
-               [&](int i) { judge.judge_rows(i * kRows, std::min((i + 1) * kRows, pipeline.height), rows); });
+  constexpr int kRows = JudgedRows::kBand;
+  parallel_for(JudgedRows::bands_of(pipeline.height), 0, [&](int i) {
+    if (judged.has_band(i)) judge.judge_rows(i * kRows, std::min((i + 1) * kRows, pipeline.height), rows);
+  });
   return verdict_of("lighting", p, pipeline.width, pipeline.height, rows);
 }
 

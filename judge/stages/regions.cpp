@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <tuple>
 
 #include "core/threads/parallel_for.h"
 
@@ -34,29 +33,29 @@ std::string place(const Cut& cut, int x, int y) {
   return "tile of " + std::string(cut.name) + " at " + std::to_string(x) + ',' + std::to_string(y);
 }
 
-/// Choices with their region, so that those of one group in one region stand together.
-struct Placed {
-  uint32_t region;
-  PixelChoice choice;
-};
-
-std::vector<Sums> sums_by_region(std::vector<Placed>& placed, size_t regions) {
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return std::tie(a.region, a.choice.group) < std::tie(b.region, b.choice.group);
-  });
+/// The choices, those of one group together, by the regions of a cut. Regions count from the left, then from the top.
+std::vector<Sums> sums_by_region(const std::vector<PixelChoice>& by_group, const Cut& cut, int width, size_t across,
+                                 size_t regions) {
+  const auto region_of = [&](const PixelChoice& c) {
+    const uint32_t x = c.pixel % uint32_t(width), y = c.pixel / uint32_t(width);
+    return y / uint32_t(cut.height) * across + x / uint32_t(cut.width);
+  };
+  struct Open {
+    uint64_t group = 0;
+    double other = 0, chance = 0, count = 0;
+  };
   std::vector<Sums> sums(regions);
-  for (size_t i = 0; i < placed.size();) {
-    double other = 0, chance = 0;
-    size_t j = i;
-    for (;
-         j < placed.size() && placed[j].region == placed[i].region && placed[j].choice.group == placed[i].choice.group;
-         ++j)
-      other += placed[j].choice.other ? 1 : 0, chance += double(placed[j].choice.chance);
-    const auto count = double(j - i);
-    Sums& s = sums[placed[i].region];
-    s.other += other / count, s.expected += std::min(1.0, 2 * chance / count);
-    i = j;
+  std::vector<Open> open(regions);
+  const auto close = [](const Open& o, Sums& s) {
+    if (o.count > 0) s.other += o.other / o.count, s.expected += std::min(1.0, 2 * o.chance / o.count);
+  };
+  for (const PixelChoice& c : by_group) {
+    const size_t region = region_of(c);
+    Open& o = open[region];
+    if (o.count > 0 && o.group != c.group) close(o, sums[region]), o = {};
+    o.group = c.group, o.other += c.other ? 1 : 0, o.chance += double(c.chance), ++o.count;
   }
+  for (size_t i = 0; i < regions; ++i) close(open[i], sums[i]);
   return sums;
 }
 
@@ -75,18 +74,15 @@ AggregateTest least_likely_region(const char* name, double least_share, std::vec
   std::array<AggregateTest, kCuts> rarest;
   std::array<double, kCuts> tried{};
   rarest.fill({name, 0, 0, 0, 1});
+  std::sort(choices.begin(), choices.end(),
+            [](const PixelChoice& a, const PixelChoice& b) { return a.group < b.group; });
   parallel_for(int(kCuts), 0, [&](int c) {
     const Cut& cut = cuts[c];
     if (cut.width >= width && cut.height >= height) return;
     AggregateTest& least = rarest[size_t(c)];
-    std::vector<Placed> placed(choices.size());
     const auto across = uint32_t((width + cut.width - 1) / cut.width),
                down = uint32_t((height + cut.height - 1) / cut.height);
-    for (size_t i = 0; i < choices.size(); ++i) {
-      const uint32_t x = choices[i].pixel % uint32_t(width), y = choices[i].pixel / uint32_t(width);
-      placed[i] = {y / uint32_t(cut.height) * across + x / uint32_t(cut.width), choices[i]};
-    }
-    const std::vector<Sums> sums = sums_by_region(placed, size_t(across) * down);
+    const std::vector<Sums> sums = sums_by_region(choices, cut, width, across, size_t(across) * down);
     Sums all;
     for (const Sums& s : sums) all.other += s.other, all.expected += s.expected;
     for (size_t i = 0; i < sums.size(); ++i) {

@@ -59,13 +59,7 @@ PlaneView::PlaneView(const Image* i) : image(i) {
 }
 
 double PlaneView::stored_otherwise(int x, int y, int channel) const {
-  uint32_t code = 0;
-  if (layout.packed()) {
-    code = image->code(x, y, channel);
-  } else {
-    const size_t texel = size_t(y) * size_t(image->width) + size_t(x), bytes = size_t(layout.bytes_per_channel);
-    std::memcpy(&code, &image->texels[(texel * size_t(layout.channels) + size_t(channel)) * bytes], bytes);
-  }
+  const uint32_t code = image->code(layout, x, y, channel);
   return unorm() ? double(code) : value_of_code(layout, channel, code);
 }
 
@@ -114,7 +108,9 @@ void Match::note(const char* name, int at, const LegalTexel& value, double store
 
 void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
                        uint32_t pixel, const Profile& profile) {
-  texel_is(view, name, at, legal_texel(range, view.image->format, at, profile), range.value, stored, pixel, profile);
+  const LegalTexel texel =
+      view.quantised() ? legal_texel(range, view.image->format, at, profile) : legal_float(range);
+  texel_is(view, name, at, texel, range.value, stored, pixel, profile);
 }
 
 void Match::texel_is(const PlaneView& view, const char* name, int at, const LegalTexel& texel, double value,
@@ -220,16 +216,18 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
   v.width = width, v.height = height;
   for (RowTally& row : rows) {
     v.classes.insert(v.classes.end(), row.classes.begin(), row.classes.end());
+    for (const PixelClass c : row.classes) ++v.counts[size_t(c)];
+    if (row.classes.empty()) v.classes.resize(v.classes.size() + size_t(width), PixelClass::exact);
     v.covered += row.covered, v.ambiguous += row.ambiguous, v.stored_values += row.stored_values;
     v.stored_apart += row.stored_apart;
     v.predicted_other += row.predicted_other;
     v.worst_error = std::max(v.worst_error, row.worst_error);
+    v.row_errors.push_back(row.worst_error);
     v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());
     v.choices.insert(v.choices.end(), row.choices.begin(), row.choices.end());
     v.near_thresholds.insert(v.near_thresholds.end(), row.near_thresholds.begin(), row.near_thresholds.end());
     v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
   }
-  for (const PixelClass c : v.classes) ++v.counts[size_t(c)];
   keep_worst(v.worst);
   return v;
 }

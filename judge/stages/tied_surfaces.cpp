@@ -13,14 +13,15 @@ namespace {
 
 class TieFinder {
  public:
-  TieFinder(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+  TieFinder(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+            const JudgedRows& rows)
       : pipeline_(pipeline),
         projector_(scene, pipeline_, profile, capture.drawn_at),
         object_(plane_of(capture, pipeline, "id.object")),
         primitive_(plane_of(capture, pipeline, "id.primitive")),
         depth_(plane_of(capture, pipeline, "depth")),
         normal_(plane_of(capture, pipeline, "normal")),
-        possible_(possible_surfaces(projector_)) {}
+        possible_(possible_surfaces(projector_, rows)) {}
 
   std::vector<TiedSurface> at(int x, int y_top) const {
     const int y = pipeline_.height - 1 - y_top;
@@ -94,11 +95,13 @@ class TieFinder {
 
 }  // namespace
 
-TiedSurfaces::TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
+TiedSurfaces::TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                           const JudgedRows& judged)
     : width_(pipeline.width) {
-  const TieFinder finder(scene, pipeline, profile, capture);
+  const TieFinder finder(scene, pipeline, profile, capture, judged);
   std::vector<std::vector<std::vector<TiedSurface>>> rows(size_t(pipeline.height));
   parallel_for(pipeline.height, 0, [&](int y) {
+    if (!judged.has(y)) return rows[size_t(y)].resize(size_t(pipeline.width));
     for (int x = 0; x < pipeline.width; ++x) rows[size_t(y)].push_back(finder.at(x, y));
   });
   first_.push_back(0);

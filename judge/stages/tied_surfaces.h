@@ -7,6 +7,7 @@
 #include "oracle/capture.h"
 #include "judge/bounds/profile.h"
 #include "judge/bounds/shading.h"
+#include "judge/legal/judged_rows.h"
 
 namespace trueshade::oracle {
 
@@ -22,7 +23,9 @@ struct TiedSurface {
 /// sample.
 class TiedSurfaces {
  public:
-  TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+  /// Pixels of other rows than `rows` have none.
+  TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+               const JudgedRows& rows = {});
 
   std::span<const TiedSurface> at(int x, int y) const {
     const size_t pixel = size_t(y) * size_t(width_) + size_t(x);

@@ -37,7 +37,7 @@ struct TransparentLayers::Front {
 TransparentLayers::~TransparentLayers() = default;
 
 TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                                     const Capture& capture)
+                                     const Capture& capture, const JudgedRows& rows)
     : pipeline_(pipeline),
       profile_(profile),
       blend_(pipeline.transparency.blend),
@@ -47,14 +47,14 @@ TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipelin
       model_(pipeline.light_model),
       projector_(scene, forward_of(pipeline), profile, capture.drawn_at) {
   model_.alpha_from_albedo = true;
-  find_fronts(capture);
-  fragments_ = find_transparent(projector_, front_high_);
+  find_fronts(capture, rows);
+  fragments_ = find_transparent(projector_, front_high_, rows);
   if (pipeline.transparency.mode != TransparencyMode::after_lights) return;
   const auto axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
   lights_.emplace(scene, model_, axis, profile_.arithmetic, profile_.exact_planes, pipeline_.light_volumes);
 }
 
-void TransparentLayers::find_fronts(const Capture& capture) {
+void TransparentLayers::find_fronts(const Capture& capture, const JudgedRows& rows) {
   const auto pixels = size_t(pipeline_.width) * size_t(pipeline_.height);
   const GeometryState& state = pipeline_.geometry;
   const bool down = ordered_down(state.depth_func), up = ordered_up(state.depth_func);
@@ -72,7 +72,7 @@ void TransparentLayers::find_fronts(const Capture& capture) {
       }
     return;
   }
-  const PossibleSurfaces opaque = possible_surfaces(projector_);
+  const PossibleSurfaces opaque = possible_surfaces(projector_, rows);
   for (size_t pixel = 0; pixel < pixels; ++pixel)
     for (const PossibleSurface& c : opaque.at(pixel)) {
       front_low_[pixel] = std::min(front_low_[pixel], c.low);

@@ -56,7 +56,9 @@ struct CarriedTexel {
 /// either way where it may have that very depth.
 class TransparentLayers {
  public:
-  TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
+  /// Pixels of other rows than `rows` have none.
+  TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                    const JudgedRows& rows = {});
   ~TransparentLayers();
 
   /// Whether any fragment may be at the pixel; y from the top.
@@ -79,7 +81,7 @@ class TransparentLayers {
   struct Front;
   bool test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const;
   void shade(const SurfaceValues& values, TransparentLayer& layer) const;
-  void find_fronts(const Capture& capture);
+  void find_fronts(const Capture& capture, const JudgedRows& rows);
   void chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
              std::vector<LayeredTexel>& out) const;
 

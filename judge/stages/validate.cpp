@@ -147,7 +147,7 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
     v.evidence.push_back(evidence_of(stage.verdict, stage.judge, options.profile, v.least_chance(stages.size())));
     v.stages.push_back(std::move(stage.verdict));
   }
-  if (options.infer && v.stages.front().stage == "gbuffer") v.inferred = infer_profile(scene, pipeline, capture);
+  if (options.infer && v.stages.front().stage == "gbuffer") v.inferred = infer_profile(scene, pipeline, capture, v.stages);
   return v;
 }
 

@@ -12,7 +12,7 @@ namespace trueshade::oracle {
 
 struct ValidateOptions {
   Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
-  bool infer = false;          ///< also find the tightest profile: some fifteen judgements more
+  bool infer = false;          ///< also find the tightest profile: some fifteen judgements of some rows, and one or two more of all
   LightSteps steps{};          ///< of strategies that draw light by light: to judge each light by itself
   LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
   double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them

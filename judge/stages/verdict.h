@@ -51,7 +51,7 @@ struct SurfaceChoice {
 struct StageVerdict {
   std::string stage, profile;
   int width = 0, height = 0;
-  std::vector<PixelClass> classes;               ///< row 0 at the top
+  std::vector<PixelClass> classes;               ///< row 0 at the top; rows that were not judged are EXACT
   std::array<uint64_t, kPixelClasses> counts{};  ///< by class
   uint64_t covered = 0;                          ///< pixels where a surface is nominally seen
   uint64_t ambiguous = 0;                        ///< pixels with more than one legal surface or branch
@@ -64,6 +64,7 @@ struct StageVerdict {
                               ///< although the likely rule leaves one outcome
   StoreRule rule;                 ///< by which `choices` are choices
   double worst_error = 0;         ///< float planes: largest |given - value| / bound
+  std::vector<double> row_errors; ///< the same of each row
   std::vector<WorstPixel> worst;  ///< at most 32
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }

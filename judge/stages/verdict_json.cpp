@@ -55,7 +55,7 @@ std::string inference_json(const Inference& i) {
          ",\"plane_origin\":" + (i.plane_origin ? json_string(text(*i.plane_origin)) : "null") +
          ",\"half\":" + (i.half ? json_string(text(*i.half)) : "null") +
          ",\"unorm_reach\":" + (i.unorm_reach ? number(*i.unorm_reach) : "null") +
-         ",\"tried\":" + array(i.tried, tried) + "}";
+         ",\"sampled_rows\":" + std::to_string(i.sampled_rows) + ",\"tried\":" + array(i.tried, tried) + "}";
 }
 
 }  // namespace
