@@ -1,12 +1,15 @@
+#include <optional>
 #include <span>
 #include <string>
 
+#include "cli/activity.h"
 #include "cli/commands.h"
 #include "cli/notes.h"
 #include "cli/preparation.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
+#include "core/printable_text.h"
 #include "scenes/files/gltf/writing/glb_scene.h"
 
 namespace trueshade {
@@ -47,12 +50,19 @@ std::string number_of(size_t count, const char* one, const char* many) {
 void export_scene(const ExportOptions& options) {
   const bool to_output = options.output == "-";
   if (!to_output) check_writable(options.output);
+  std::optional<Activity> activity("reading the scene");
   const Scene scene = scene_to_write(options);
   require_memory(bytes_to_write(scene), scene.spec, "the file");
+  activity->now("making the GLB");
   const GlbFile file = glb_of_scene(scene, png_of_codes);
   if (!options.quiet) say_notes(file.notes);
-  if (to_output) return print_bytes(file.bytes);
+  if (to_output) {
+    activity.reset();
+    return print_bytes(file.bytes);
+  }
+  activity->now("writing " + printable(options.output, Lines::one));
   write_file(options.output, file.bytes);
+  activity.reset();
   if (options.quiet) return;
   say_written(options.output,
               number_of(scene.instances.size(), "object", "objects") + ", " +

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string>
 
+#include "cli/activity.h"
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/printable_text.h"
@@ -15,11 +16,15 @@ void print(std::string_view text) {
 }
 
 void print_bytes(std::span<const uint8_t> bytes) {
+  const auto paused = Activity::pause();
   if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0) return;
   throw Error(ErrorKind::io, "standard output", std::string("cannot write: ") + std::strerror(errno),
               "check where it is sent");
 }
 
-void say(std::string_view line) { std::fprintf(stderr, "%s\n", printable(line, Lines::one).c_str()); }
+void say(std::string_view line) {
+  const auto paused = Activity::pause();
+  std::fprintf(stderr, "%s\n", printable(line, Lines::one).c_str());
+}
 
 }  // namespace trueshade

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "cli/activity.h"
+
 namespace trueshade {
 namespace {
 
@@ -30,19 +32,14 @@ std::string progress_line(std::string_view what, std::string_view unit, int done
 }
 
 ProgressBar::ProgressBar(std::string_view what, std::string_view unit)
-    : what_(what), unit_(unit), begin_(Clock::now()), shown_(begin_), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(what),
+      unit_(unit),
+      begin_(Clock::now()),
+      shown_(begin_),
+      terminal_(isatty(STDERR_FILENO) != 0 && !Activity::any()) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
-}
-
-LoopProgress::LoopProgress(std::string_view what, std::string_view unit)
-    : what_(what), unit_(unit), watch_([this](int done, int count) { see(done, count); }) {}
-
-void LoopProgress::see(int done, int count) {
-  if (!bar_ || done < last_) bar_.emplace(what_, unit_);
-  last_ = done;
-  bar_->show(done, count);
 }
 
 void ProgressBar::show(int done, int total) {

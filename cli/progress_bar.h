@@ -1,15 +1,12 @@
 #pragma once
 #include <chrono>
-#include <optional>
 #include <string>
 #include <string_view>
-
-#include "core/threads/loop_watch.h"
 
 namespace trueshade {
 
 /// A line on standard error that says what is done, how fast and how long it will take. Only on a terminal, and only
-/// for work that has taken a second; wiped when the work ends.
+/// for work that has taken a second; wiped when the work ends. Silent inside of an Activity.
 class ProgressBar {
  public:
   ProgressBar(std::string_view what, std::string_view unit);  ///< as in "rendering", "tiles"
@@ -25,19 +22,6 @@ class ProgressBar {
   std::string what_, unit_;
   Clock::time_point begin_, shown_;
   bool terminal_, drawn_ = false;
-};
-
-/// For its lifetime shows how far each parallel_for() of this thread is.
-class LoopProgress {
- public:
-  LoopProgress(std::string_view what, std::string_view unit);
-
- private:
-  void see(int done, int count);
-  std::string what_, unit_;
-  std::optional<ProgressBar> bar_;  ///< of the loop at hand
-  int last_ = 0;                    ///< how many of its tasks were done when it was last seen
-  LoopWatch watch_;
 };
 
 /// The line for `done` of `total` after `seconds`, without control characters.

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "cli/activity.h"
 #include "cli/commands.h"
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
@@ -18,6 +19,7 @@
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
+#include "core/printable_text.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -85,6 +87,7 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
       const std::string page = report_page(result);
       write_file(path, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
     } else {
+      const Activity activity("writing " + printable(path, Lines::one));
       write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
     if (!options.quiet) say_written(path, about_file(path, result, asked_for), standard_output_of(options));
@@ -126,7 +129,10 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
   PreparedScene prepared(scene);
   std::string documents;
   std::set<std::string> said;
+  const int count = options.frames->last - options.frames->first + 1;
+  Activity activity("rendering frames", Activity::Counts::by_hand);
   for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
+    activity.show(frame - options.frames->first, count, "frames");
     const double time = double(frame) / scene.timeline.fps;
     set_time(scene, time);
     prepared.update();

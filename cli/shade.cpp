@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/activity.h"
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/capture_options.h"
@@ -12,6 +13,7 @@
 #include "cli/written_files.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
+#include "core/printable_text.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/transparency.h"
 #include "scenes/scene.h"
@@ -70,6 +72,7 @@ void shade(const ShadeOptions& options) {
   result.image_hash = image_hash(result.frame.color);
   if (!options.outputs.empty()) result.scene_hash = scene_hash(scene);
   for (const std::string& path : options.outputs) {
+    const Activity activity("writing " + printable(path, Lines::one));
     write_image(path, result.frame.color, {}, metadata_of(result), file_options(options, pipeline));
     if (!options.quiet)
       say_written(path,

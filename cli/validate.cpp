@@ -5,18 +5,19 @@
 #include <string>
 #include <utility>
 
+#include "cli/activity.h"
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/capture_options.h"
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
 #include "cli/preparation.h"
-#include "cli/progress_bar.h"
 #include "cli/shell_words.h"
 #include "cli/validation.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
+#include "core/printable_text.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
@@ -115,8 +116,10 @@ bool judge_opengl(const ValidationOptions& options) {
   for (const std::string& path : options.saved) check_writable(path);
   Validation v;
   v.lenient = options.lenient;
+  std::optional<Activity> activity("reading the capture");
   std::optional<CaptureFiles> files;
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
+  activity->now("reading the scene");
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   v.pipeline = pipeline_of(options, scene);
@@ -132,6 +135,7 @@ bool judge_opengl(const ValidationOptions& options) {
         "the post chain is not judged: drawn and judged is the target before it, and a captured picture "
         "must be that target");
   DriverFrame drawn;
+  activity->now(files ? "unpacking the planes" : "drawing");
   v.draw_ms = timed([&] {
     if (!files)
       drawn = draw_here(options, scene, v);
@@ -139,12 +143,17 @@ bool judge_opengl(const ValidationOptions& options) {
       fit_capture(options, *files, scene, v);
   });
   files.reset();
-  for (const std::string& path : options.saved) save(v.capture, path);
+  for (const std::string& path : options.saved) {
+    activity->now("writing " + printable(path, Lines::one));
+    save(v.capture, path);
+  }
+  const auto begins = [&](const char* part) { activity->now("judging " + std::string(part)); };
   v.judge_ms = timed([&] {
-    const LoopProgress progress("judging", "bands");
-    v.verdict = oracle::validate_capture(scene, v.pipeline, v.capture,
-                                         {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance});
+    v.verdict =
+        oracle::validate_capture(scene, v.pipeline, v.capture,
+                                 {v.profile, !options.quick, drawn.steps, drawn.objects, options.significance, begins});
   });
+  activity->now("finding what explains it");
   v.is_diagnosed = v.verdict.violations() > 0 || v.verdict.convicted() || !options.supposed.empty();
   if (v.is_diagnosed)
     v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, options.supposed);
@@ -154,8 +163,10 @@ bool judge_opengl(const ValidationOptions& options) {
     if (v.findings[i].together) v.findings[i].command = v.findings[i - 1].command;
     v.findings[i].command += " --suppose " + v.findings[i].name;
   }
+  activity->now("drawing it again");
   if (drawn.repeat_changes) v.repeat_changes = drawn.repeat_changes(v.capture);
   if (drawn.move_changes && !options.quick) v.move_changes = drawn.move_changes(v.capture);
+  activity->now("writing the report");
   if (options.report) {
     v.command = "trueshade" + options.command_line;
     v.reference = reference_of(scene, v);
@@ -164,7 +175,9 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string page = validation_page(v, scene);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }
-  print(options.json ? validation_json(v) : validation_text(v));
+  const std::string text = options.json ? validation_json(v) : validation_text(v);
+  activity.reset();
+  print(text);
   say_files(options, v);
   say_notes(v.scene_notes.lines);
   return passes(v);

@@ -92,7 +92,9 @@ std::string inference_part(const oracle::Verdict& v) {
   std::string html =
       "<h2>Tightest profile that explains it</h2>\n<p>" + escaped(tightest_line(*v.inferred)) +
       "</p>\n<details><summary>What was tried</summary><div class=scroll><table><thead><tr><th>knob<th>guess<th>pixels "
-      "against it<th>of the G-buffer<th>of the target</thead>\n";
+      "against it" +
+      (v.inferred->sampled_rows > 0 ? " in " + std::to_string(v.inferred->sampled_rows) + " rows" : std::string()) +
+      "<th>of the G-buffer<th>of the target</thead>\n";
   for (const oracle::Hypothesis& h : v.inferred->tried)
     html += "<tr><td>" + escaped(h.knob) + "<td>" + escaped(h.value) + "<td>" +
             grouped(std::to_string(h.violations())) + "<td>" + grouped(std::to_string(h.surfaces)) + "<td>" +

@@ -90,6 +90,8 @@ VulkanDevice::VulkanDevice(bool software) {
     if (properties.apiVersion < VK_API_VERSION_1_3) continue;
     physical_ = device;
     info_.subpixel_bits = int(properties.limits.subPixelPrecisionBits);
+    info_.largest_image = properties.limits.maxImageDimension2D;
+    info_.most_texels = properties.limits.maxTexelBufferElements;
     info_.line = std::string(properties.deviceName) + ", Vulkan " +
                  std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
                  std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + "." +
@@ -172,6 +174,13 @@ bool VulkanDevice::draws_into(VkFormat format, bool depth) const {
   return (properties.optimalTilingFeatures & needs) == needs;
 }
 
+void VulkanDevice::check_blends(VkFormat format, const std::string& picture) const {
+  VkFormatProperties properties{};
+  vk_.vkGetPhysicalDeviceFormatProperties(physical_, format, &properties);
+  if ((properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0)
+    throw no_device(info_.line + " does not blend into the format of " + picture);
+}
+
 VkDeviceMemory VulkanDevice::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted) {
   VkPhysicalDeviceMemoryProperties memory{};
   vk_.vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
@@ -189,6 +198,10 @@ VkDeviceMemory VulkanDevice::allocate(const VkMemoryRequirements& needs, VkMemor
 
 VulkanBuffer VulkanDevice::make_buffer(size_t size, VkBufferUsageFlags usage, std::span<const uint8_t> bytes,
                                        bool texels) {
+  constexpr size_t kTexelBytes = 4 * sizeof(float);
+  if (texels && size / kTexelBytes > info_.most_texels)
+    throw no_device(info_.line + " reads buffers of " + std::to_string(info_.most_texels) + " texels, and one has " +
+                    std::to_string(size / kTexelBytes));
   VulkanBuffer out;
   auto info = typed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = std::max<size_t>(size, 16), info.usage = usage;
@@ -213,6 +226,9 @@ VulkanBuffer VulkanDevice::make_buffer(size_t size, VkBufferUsageFlags usage, st
 
 VulkanImage VulkanDevice::make_image(VkFormat format, int width, int height, int levels, VkImageUsageFlags usage,
                                      VkImageAspectFlags aspect) {
+  if (uint32_t(std::max(width, height)) > info_.largest_image)
+    throw no_device(info_.line + " has images of " + std::to_string(info_.largest_image) +
+                    " pixels a side, and one is " + std::to_string(width) + 'x' + std::to_string(height));
   VulkanImage out;
   out.aspect = aspect;
   auto info = typed<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);

@@ -31,6 +31,8 @@ struct VulkanInfo {
   bool clip_control = false;   ///< z may run from -w to w (VK_EXT_depth_clip_control)
   bool last_provokes = false;  ///< flat attributes may follow the last vertex (VK_EXT_provoking_vertex)
   bool mirrors_once = false;   ///< samplers may mirror once
+  uint32_t largest_image = 0;  ///< pixels a side
+  uint32_t most_texels = 0;    ///< of a buffer that shaders read as texels
 };
 
 VkFormat vulkan_format(Format format);
@@ -48,6 +50,8 @@ class VulkanDevice {
   const VulkanFunctions& vk() const { return vk_; }
   VkDevice device() const { return device_; }
   bool draws_into(VkFormat format, bool depth) const;
+  /// Throws Error(no_gl_driver) where the device does not blend into the format.
+  void check_blends(VkFormat format, const std::string& picture) const;
 
   VulkanBuffer make_buffer(size_t size, VkBufferUsageFlags usage, std::span<const uint8_t> bytes, bool texels = false);
   VulkanImage make_picture(Format format, int width, int height);

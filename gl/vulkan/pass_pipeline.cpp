@@ -172,7 +172,7 @@ void set_raster(const VulkanInfo& info, const FrameList& list, const DrawState& 
   s.samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
 }
 
-void set_targets(const FrameList& list, const ListedPass& pass, PipelineState& s) {
+void set_targets(const VulkanDevice& device, const FrameList& list, const ListedPass& pass, PipelineState& s) {
   const DrawState& state = pass.state;
   const auto format = [&](const std::string& name) {
     const auto found = std::find_if(list.pictures.begin(), list.pictures.end(),
@@ -189,6 +189,7 @@ void set_targets(const FrameList& list, const ListedPass& pass, PipelineState& s
     s.attachments.push_back(attachment_of(state.only < 0 || state.only == int(i) ? state.blend : nothing));
     s.formats.push_back(format(pass.colors[i]));
     if (s.formats.back() == VK_FORMAT_R32_UINT) s.attachments.back().blendEnable = VK_FALSE;
+    if (s.attachments.back().blendEnable == VK_TRUE) device.check_blends(s.formats.back(), pass.colors[i]);
   }
   s.blend = typed<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   s.blend.attachmentCount = uint32_t(s.attachments.size()), s.blend.pAttachments = s.attachments.data();
@@ -226,7 +227,7 @@ PassPipeline make_pass_pipeline(VulkanDevice& device, const FrameList& list, con
   PipelineState s{};
   set_input(pass, s);
   set_raster(device.info(), list, pass.state, s);
-  set_targets(list, pass, s);
+  set_targets(device, list, pass, s);
   auto info = typed<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
   info.pNext = &s.targets;
   info.stageCount = 2, info.pStages = stages.data();

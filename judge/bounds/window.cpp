@@ -45,7 +45,8 @@ EdgeSpan edge_span_of_box(const WindowVertex& a, const WindowVertex& b, const Pa
     const EdgeSpan p = times({a.low[0] - x, a.high[0] - x}, {b.low[1] - y, b.high[1] - y});
     const EdgeSpan q = times({a.low[1] - y, a.high[1] - y}, {b.low[0] - x, b.high[0] - x});
     all.low = std::min(all.low, p.low - q.high), all.high = std::max(all.high, p.high - q.low);
-    size = std::max(size, std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
+    size =
+        std::max(size, std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
   }
   return {all.low - 0x1p-46 * size, all.high + 0x1p-46 * size};
 }

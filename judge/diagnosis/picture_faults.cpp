@@ -50,6 +50,7 @@ void clamp_to_one(Color& c, double, int, int) {
 }
 void cut_bits(Color& c, double bits, int, int) {
   each_of_rgb(c, [bits](double v) {
+    if (std::isnan(v)) return v;
     const int low = 8 - int(bits), code = int(std::nearbyint(std::clamp(v, 0.0, 1.0) * 255));
     return double((code >> low << low) | code >> int(bits)) / 255;
   });

@@ -11,9 +11,9 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr uint32_t kChunk = 8192;          // triangles a piece of work, of one instance
-constexpr uint32_t kBatch = 64 * kChunk;   // triangles looked at together: bounds the memory of those that are near
-constexpr int kBoxWidth = 16;              // pixels whose coverage is asked for together
+constexpr uint32_t kChunk = 8192;         // triangles a piece of work, of one instance
+constexpr uint32_t kBatch = 64 * kChunk;  // triangles looked at together: bounds the memory of those that are near
+constexpr int kBoxWidth = 16;             // pixels whose coverage is asked for together
 
 /// A possible surface of a pixel of a band, `pixel` counted from the band's first.
 struct Entry {
@@ -101,8 +101,8 @@ class Band {
 
   int first_row() const { return y0_; }
   int last_row() const { return y1_; }
-  void finish(PossibleSurfaces& map);                   ///< writes how many each pixel has behind map.first[pixel]
-  void write(PossibleSurfaces& map) const;              ///< once map.first is known
+  void finish(PossibleSurfaces& map);       ///< writes how many each pixel has behind map.first[pixel]
+  void write(PossibleSurfaces& map) const;  ///< once map.first is known
 
  private:
   void add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
@@ -148,8 +148,12 @@ void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleS
     largest = std::max(largest, std::fabs(v.z));
     for (size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], v.low[k]), high[k] = std::max(high[k], v.high[k]);
   }
-  const auto first = [](double v, int from, int to) { return int(std::clamp(std::ceil(v - 0.5), double(from), double(to))); };
-  const auto end_of = [](double v, int from, int to) { return int(std::clamp(std::floor(v - 0.5) + 1, double(from), double(to))); };
+  const auto first = [](double v, int from, int to) {
+    return int(std::clamp(std::ceil(v - 0.5), double(from), double(to)));
+  };
+  const auto end_of = [](double v, int from, int to) {
+    return int(std::clamp(std::floor(v - 0.5) + 1, double(from), double(to)));
+  };
   const int x0 = first(low[0], rect.x0, rect.x1), x1 = end_of(high[0], rect.x0, rect.x1);
   const int y0 = first(low[1], rect.y0, rect.y1), y1 = end_of(high[1], rect.y0, rect.y1);
   if (x0 >= x1 || y0 >= y1) return;
@@ -224,8 +228,7 @@ std::vector<Work> work_of(const Projector& projector, const Search& search) {
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     if (!search.wants(projector, i)) continue;
     const auto count = uint32_t(scene.meshes[scene.instances[i].mesh].triangle_count());
-    for (uint32_t t = 0; t < count; t += kChunk)
-      work.push_back({i, t, std::min(count, t + kChunk), order + t});
+    for (uint32_t t = 0; t < count; t += kChunk) work.push_back({i, t, std::min(count, t + kChunk), order + t});
     order += count;
   }
   return work;

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "judge/bounds/window.h"
 #include "judge/legal/judged_rows.h"
 #include "judge/legal/surface.h"
-#include "judge/bounds/window.h"
 
 namespace trueshade::oracle {
 

@@ -241,8 +241,6 @@ LegalTexel legal_texel(const Range& range, Format format, int channel, const Pro
   return legal_float(range);
 }
 
-LegalTexel legal_float(const Range& range) {
-  return {range.value, float_below(range.low), float_above(range.high)};
-}
+LegalTexel legal_float(const Range& range) { return {range.value, float_below(range.low), float_above(range.high)}; }
 
 }  // namespace trueshade::oracle

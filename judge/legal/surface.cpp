@@ -22,10 +22,7 @@ double fixed_point_codes(const GeometryState& state) {
 }  // namespace
 
 SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
-    : piece_(piece),
-      own_shape_(std::in_place, piece, profile, window_reach),
-      shape_(*own_shape_),
-      profile_(profile) {
+    : piece_(piece), own_shape_(std::in_place, piece, profile, window_reach), shape_(*own_shape_), profile_(profile) {
   find_samples(x, y);
 }
 
@@ -72,8 +69,7 @@ void SurfacePoint::find_samples(double x, double y) {
   points_ = 5;
   const double qx[] = {-shift[0], shift[0], -shift[0], shift[0]}, qy[] = {-shift[1], -shift[1], shift[1], shift[1]};
   for (size_t i = 0; i < 3; ++i)
-    for (size_t c = 0; c < 4; ++c)
-      lambda_[i][c + 1] = lambda_[i][0] + qx[c] * shape_.dx[i] + qy[c] * shape_.dy[i];
+    for (size_t c = 0; c < 4; ++c) lambda_[i][c + 1] = lambda_[i][0] + qx[c] * shape_.dx[i] + qy[c] * shape_.dy[i];
 }
 
 void SurfacePoint::no_plane(double x, double y) {
@@ -114,8 +110,8 @@ Range SurfacePoint::affine(const VertexAttribute& vertices) const {
   std::array<double, kSamples> at, carried;
   for (size_t k = 0; k < kSamples; ++k) {  // from differences, so that constants stay constant
     at[k] = value[0] + lambda_[0][k] * d0 + lambda_[1][k] * d1 + lambda_[2][k] * d2;
-    carried[k] = std::fabs(lambda_[0][k]) * error[0] + std::fabs(lambda_[1][k]) * error[1] +
-                 std::fabs(lambda_[2][k]) * error[2];
+    carried[k] =
+        std::fabs(lambda_[0][k]) * error[0] + std::fabs(lambda_[1][k]) * error[1] + std::fabs(lambda_[2][k]) * error[2];
   }
   Range r{at[0], at[0], at[0]};
   double inherited = 0;
@@ -214,8 +210,7 @@ SurfacePoint::Divisors SurfacePoint::divisors_of(bool smooth) const {
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                               Interpolation interpolation) const {
   VertexAttribute vertices{value, error, 0};
-  if (bounded_ && !profile_.exact_planes)
-    vertices.plane_error = plane_error_of(piece_, shape_, value, interpolation);
+  if (bounded_ && !profile_.exact_planes) vertices.plane_error = plane_error_of(piece_, shape_, value, interpolation);
   return attribute(vertices, interpolation);
 }
 
@@ -230,9 +225,8 @@ Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation int
   }
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnyValue;
-  return of_tiny(
-      value, error,
-      unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
+  return of_tiny(value, error,
+                 unsnapped_ ? unsnapped_->attribute(value, error, interpolation) : Range{value[0], value[0], value[0]});
 }
 
 template <size_t kSamples>

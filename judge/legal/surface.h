@@ -71,7 +71,9 @@ class SurfacePoint {
   Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
   template <size_t kSamples>
   Range affine(const VertexAttribute& vertices) const;
-  Range affine(const VertexAttribute& vertices) const { return points_ == 1 ? affine<1>(vertices) : affine<6>(vertices); }
+  Range affine(const VertexAttribute& vertices) const {
+    return points_ == 1 ? affine<1>(vertices) : affine<6>(vertices);
+  }
   template <size_t kSamples>
   Range quotient(const VertexAttribute& vertices, const Divisors& divisors) const;
 
@@ -82,9 +84,9 @@ class SurfacePoint {
   struct Divisors {
     bool above_zero = true;
     Samples value{}, least_value{};
-    std::array<Samples, 3> weight{};       ///< of a vertex: its barycentric times its 1 / w
-    std::array<Samples, 3> moves{};        ///< the same of sizes
-    std::array<Samples, 3> moves_by_u{};   ///< the barycentric's size times the error of 1 / w
+    std::array<Samples, 3> weight{};      ///< of a vertex: its barycentric times its 1 / w
+    std::array<Samples, 3> moves{};       ///< the same of sizes
+    std::array<Samples, 3> moves_by_u{};  ///< the barycentric's size times the error of 1 / w
     double least = HUGE_VAL, error = 0;
   };
   Divisors divisors_of(bool smooth) const;
@@ -99,7 +101,7 @@ class SurfacePoint {
   std::unique_ptr<SurfacePoint> unsnapped_;  ///< its planes
   size_t points_ = 1;                        ///< 1 where the vertices are points, 5 otherwise
   std::array<Samples, 3> lambda_{};          ///< barycentrics at each of the samples
-  mutable std::optional<Divisors> smooth_;  ///< once asked for
+  mutable std::optional<Divisors> smooth_;   ///< once asked for
 };
 
 /// Attributes of the vertices of a triangle as floats and how far a legal vertex shader may be off.

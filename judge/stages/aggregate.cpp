@@ -167,7 +167,8 @@ std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
   };
   parallel_for(5, 0, [&](int part) {
     if (part == 0) with_surfaces();
-    if (part == 1) region_of_stores = least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height);
+    if (part == 1)
+      region_of_stores = least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height);
     if (part == 2) stores = groups_of_stores(v);
     if (part == 3) clusters = store_clusters(v);
     if (part == 4) crossings = crossed(v);

@@ -176,8 +176,8 @@ void BlendingJudge::judge_last(int x, int y, const Image& last) {
   rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
 }
 
-StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture, const JudgedRows& rows) {
+StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                           const JudgedRows& rows) {
   BlendingJudge judge(scene, pipeline, resolved(profile, pipeline), capture, rows);
   judge.start(nullptr);
   for (size_t i = 0; i < scene.lights.size(); ++i) judge.light(int(i), nullptr);

@@ -13,7 +13,8 @@ constexpr int kLeastBands = 3, kTellingBands = 1, kSampledPixels = 1 << 16, kMos
 
 using Bands = std::vector<uint8_t>;  ///< of JudgedRows
 
-/// Adds to `bands` those in which a stage has a violation, `most` of them at most that were not there. Returns how many.
+/// Adds to `bands` those in which a stage has a violation, `most` of them at most that were not there. Returns how
+/// many.
 int add_violating(const StageVerdict& v, int most, Bands& bands) {
   int added = 0;
   for (int y = 0; y < v.height && added < most; ++y) {
@@ -60,8 +61,7 @@ bool stores_within(const Profile& loose, const Profile& tight) {
   return loose.unorm_reach >= tight.unorm_reach && loose.srgb_reach >= tight.srgb_reach &&
          (loose.half == HalfStore::either || loose.half == tight.half) &&
          (loose.blend == BlendRule::any_precision || loose.blend == tight.blend) &&
-         loose.fetch_error >= tight.fetch_error &&
-         (loose.sampling == Sampling{} || loose.sampling == tight.sampling);
+         loose.fetch_error >= tight.fetch_error && (loose.sampling == Sampling{} || loose.sampling == tight.sampling);
 }
 
 /// What a guess bears on. The target is judged by the capture's own surfaces, which no grid changes.
@@ -120,8 +120,8 @@ class Inquiry {
     return result_;
   }
 
-  /// Bands of the image in which a guess fails that holds on the sample; empty where all hold. Of the guesses those that
-  /// were tried last allow the least.
+  /// Bands of the image in which a guess fails that holds on the sample; empty where all hold. Of the guesses those
+  /// that were tried last allow the least.
   Bands refuted() {
     bool is_first = true;
     for (auto guess = held_.rbegin(); guess != held_.rend() && !rows_.all(); ++guess) {
@@ -154,8 +154,7 @@ class Inquiry {
   uint64_t against(const Profile& profile, Bears bears, const char* knob, const std::string& value) {
     const bool with_lights = bears == Bears::on_all_stages && lit_;
     const Knowledge::Judged& judged = judged_on_sample({profile, bears}, with_lights);
-    result_.tried.push_back(
-        {knob, value, judged.surfaces, with_lights ? std::optional(judged.lights) : std::nullopt});
+    result_.tried.push_back({knob, value, judged.surfaces, with_lights ? std::optional(judged.lights) : std::nullopt});
     const uint64_t violations = judged.surfaces + judged.lights;
     if (violations == 0) held_.push_back({profile, bears});
     return violations;

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "oracle/capture.h"
 #include "judge/bounds/profile.h"
 #include "judge/legal/judged_rows.h"
 #include "judge/stages/verdict.h"
+#include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
@@ -22,8 +22,8 @@ namespace trueshade::oracle {
 /// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
 /// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
 /// `rows`: the verdict counts these alone.
-StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture, const JudgedRows& rows = {});
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                           const JudgedRows& rows = {});
 
 /// The target against the lights summed over the capture's own planes, in double, with the error bound of
 /// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or

@@ -9,7 +9,7 @@ namespace trueshade::oracle {
 /// pixel may hold, carried through all lights as an interval. Two of them, where some light may or may not draw: of the
 /// nominal draws, and of all. No light is told apart, and what could cancel is not followed, so this is the weaker
 /// judge of the two; its rounding choices are not counted for the tests of the whole image.
-StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture, const JudgedRows& rows = {});
+StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                           const JudgedRows& rows = {});
 
 }  // namespace trueshade::oracle

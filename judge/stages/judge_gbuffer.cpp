@@ -337,8 +337,8 @@ void GBufferJudge::judge_pixel(int x, int y_top, TriangleForms& forms, RowTally&
 
 }  // namespace
 
-StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                           const Capture& capture, const JudgedRows& judged) {
+StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                           const JudgedRows& judged) {
   const Profile p = resolved(profile, pipeline);
   const GBufferJudge judge(scene, pipeline, p, capture, judged);
   std::vector<RowTally> rows(size_t(pipeline.height));

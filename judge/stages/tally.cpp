@@ -108,8 +108,7 @@ void Match::note(const char* name, int at, const LegalTexel& value, double store
 
 void Match::channel_is(const PlaneView& view, const char* name, int at, const Range& range, double stored,
                        uint32_t pixel, const Profile& profile) {
-  const LegalTexel texel =
-      view.quantised() ? legal_texel(range, view.image->format, at, profile) : legal_float(range);
+  const LegalTexel texel = view.quantised() ? legal_texel(range, view.image->format, at, profile) : legal_float(range);
   texel_is(view, name, at, texel, range.value, stored, pixel, profile);
 }
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "oracle/capture.h"
 #include "judge/bounds/profile.h"
 #include "judge/bounds/shading.h"
 #include "judge/legal/judged_rows.h"
+#include "oracle/capture.h"
 
 namespace trueshade::oracle {
 

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "oracle/capture.h"
+#include "judge/bounds/shading.h"
 #include "judge/legal/blend_range.h"
 #include "judge/legal/possible_surfaces.h"
-#include "judge/bounds/shading.h"
 #include "judge/legal/surface_values.h"
 #include "judge/stages/verdict.h"
+#include "oracle/capture.h"
 
 namespace trueshade::oracle {
 

@@ -25,11 +25,13 @@ class Validation {
 
   std::vector<Stage> stages() {
     const auto has = [&](std::string_view name) { return capture_.plane(name) != nullptr; };
+    begin("the surfaces");
     if (has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") ||
         has("id.material"))
       add([this](const Profile& p) { return judge_gbuffer(scene_, pipeline_, p, capture_); });
     const bool layers =
         draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights;
+    begin("the lights");
     if (capture_.color.width > 0) {
       if (layers && options_.objects)
         judge_layers();
@@ -40,6 +42,10 @@ class Validation {
   }
 
  private:
+  void begin(const char* part) const {
+    if (options_.begins) options_.begins(part);
+  }
+
   void add(std::function<StageVerdict(const Profile&)> judge) {
     StageVerdict verdict = judge(options_.profile);
     stages_.push_back({std::move(verdict), std::move(judge)});
@@ -143,11 +149,17 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
   Verdict v;
   v.scene = scene.spec, v.driver = capture.driver, v.profile = options.profile.name;
   v.significance = options.significance;
+  const auto begin = [&](const char* part) {
+    if (options.begins) options.begins(part);
+  };
+  begin("the rounding");
   for (Stage& stage : stages) {
     v.evidence.push_back(evidence_of(stage.verdict, stage.judge, options.profile, v.least_chance(stages.size())));
     v.stages.push_back(std::move(stage.verdict));
   }
-  if (options.infer && v.stages.front().stage == "gbuffer") v.inferred = infer_profile(scene, pipeline, capture, v.stages);
+  begin("what profile explains it");
+  if (options.infer && v.stages.front().stage == "gbuffer")
+    v.inferred = infer_profile(scene, pipeline, capture, v.stages);
   return v;
 }
 

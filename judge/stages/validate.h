@@ -1,5 +1,6 @@
 #pragma once
 // The entry point of `trueshade validate`: a capture in, everything there is to say about it out.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,11 @@ namespace trueshade::oracle {
 
 struct ValidateOptions {
   Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
-  bool infer = false;          ///< also find the tightest profile: some fifteen judgements of some rows, and one or two more of all
+  bool infer = false;          ///< also find the tightest profile: judgements of some rows, and one or two more of all
   LightSteps steps{};          ///< of strategies that draw light by light: to judge each light by itself
   LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
   double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them
+  std::function<void(const char* part)> begins{};  ///< called before each part, such as `the surfaces`
 };
 
 struct Verdict {

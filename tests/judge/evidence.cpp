@@ -2,6 +2,7 @@
 // not.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "judge/stages/validate.h"
@@ -32,7 +33,10 @@ Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capt
 
 bool fails(const Verdict& v) { return v.violations() > 0 || v.convicted(); }
 
-/// A way of rounding that implementations have.
+/// Ways of rounding that implementations have.
+constexpr const char* kHardware[] = {"nearest",         "within 0.6",          "not snapped",
+                                     "nearest, halves", "sums kept in floats", "llvmpipe's codes"};
+
 struct Hardware {
   const char* name;
   Liberties liberties;
@@ -46,22 +50,24 @@ Hardware hardware(uint32_t index, Pcg32& random) {
   l.reverse_lights = random.below(2) == 0;
   if (index == 1) l.reach = 0.6, l.conversion = random.next();
   if (index == 2) l.subpixel_bits = 0;
-  constexpr const char* names[] = {"nearest", "within 0.6", "not snapped"};
-  return {names[index], l};
+  l.nearest_halves = index == 3, l.sums_in_floats = index == 4, l.mesa_codes = index == 5;
+  return {kHardware[index], l};
 }
 
-int convicted_of(uint32_t class_index, int count, uint64_t first_seed) {
+int convicted_of(uint32_t class_index, int count, uint64_t first_seed, std::optional<Strategy> strategy = {}) {
   int alarms = 0;
   const char* name = "";
   for (int i = 0; i < count; ++i) {
     Pcg32 random(first_seed + uint64_t(i));
     const Scene scene = testing::random_scene(random);
     Pipeline pipeline = testing::random_pipeline(random);
-    pipeline.strategy = Strategy(uint32_t(i) % uint32_t(std::size(kStrategyNames)));
+    pipeline.strategy = strategy.value_or(Strategy(uint32_t(i) % uint32_t(std::size(kStrategyNames))));
     pipeline.target = kTargetFormats[random.below(uint32_t(std::size(kTargetFormats)))];
     if (is_forward(pipeline.strategy) && pipeline.transparency.mode == TransparencyMode::into_albedo)
       pipeline.transparency.mode = TransparencyMode::after_lights;
     const Hardware drawn_by = hardware(class_index, random);
+    // llvmpipe blends sRGB in floats that it decodes by a polynomial of its own: drawn by the driver alone.
+    if (drawn_by.liberties.mesa_codes && info(pipeline.target).srgb) pipeline.target = Format::rgb10_a2;
     name = drawn_by.name;
     const Capture capture = testing::loose_frame(scene, pipeline, drawn_by.liberties, first_seed + uint64_t(i));
     const Verdict v = judged(scene, pipeline, capture);
@@ -70,7 +76,8 @@ int convicted_of(uint32_t class_index, int count, uint64_t first_seed) {
     WARN(name << ", image " << first_seed + uint64_t(i) << ", " << name_of(pipeline.strategy) << " "
               << info(pipeline.target).name << ": " << v.violations() << " violations; " << v.evidence_line());
   }
-  std::printf("legal images of hardware that is %s: %d, convicted %d\n", name, count, alarms);
+  std::printf("legal images of hardware that is %s, %s: %d, convicted %d\n", name,
+              strategy ? std::string(name_of(*strategy)).c_str() : "every strategy", count, alarms);
   return alarms;
 }
 
@@ -175,11 +182,15 @@ void try_fault(const Fault& fault, int& tried, int& convicted, int& by_pixels) {
 }  // namespace
 
 TEST_CASE("Images of hardware that is known are not convicted") {
-  for (uint32_t c = 0; c < 3; ++c) CHECK(convicted_of(c, 60, 1) == 0);
+  for (uint32_t c = 0; c < std::size(kHardware); ++c) CHECK(convicted_of(c, 40, 1) == 0);
 }
 
-TEST_CASE("Of ten thousand images of each class of hardware at most one is convicted", "[long]") {
-  for (uint32_t c = 0; c < 3; ++c) CHECK(convicted_of(c, 10000, 1000) <= 1);
+// LEGAL_IMAGES=N in the environment judges N of each, for those who wait less or want to know more.
+TEST_CASE("Of ten thousand images of each strategy and class of hardware at most one is convicted", "[long]") {
+  const char* const asked = std::getenv("LEGAL_IMAGES");
+  const int count = asked != nullptr ? std::max(1, std::atoi(asked)) : 10000;
+  for (uint32_t c = 0; c < std::size(kHardware); ++c)
+    for (uint32_t s = 0; s < std::size(kStrategyNames); ++s) CHECK(convicted_of(c, count, 1000, Strategy(s)) <= 1);
 }
 
 TEST_CASE("Faults that leave pixels legal are convicted by the whole image") {

@@ -31,7 +31,7 @@ class Drawing {
         textures_(scene, liberties),
         projection_(oracle::projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)) {
     const int w = pipeline.width, h = pipeline.height;
-    capture_.color = Image(w, h, pipeline.target);
+    capture_.color = Image(w, h, liberties.sums_in_floats ? Format::rgba32f : pipeline.target);
     const bool stores = !is_forward(pipeline.strategy);
     const Format normal = stores ? pipeline.gbuffer.normal.format : Format::rgba32f,
                  albedo = stores ? Format::rgba8 : Format::rgba32f;
@@ -58,11 +58,22 @@ class Drawing {
       for (int x = 0; x < pipeline_.width; ++x)
         if (capture_.planes[4].image.value(x, y, 0) != 0) light(x, y);
     if (mode == TransparencyMode::after_lights) draw_instances(Pass::over);
+    if (free_.sums_in_floats) store_sums();
     return std::move(capture_);
   }
 
  private:
   enum class Pass : uint8_t { opaque, into_albedo, over };
+
+  /// A target that stood in floats, as its format holds it.
+  void store_sums() {
+    Image stored(pipeline_.width, pipeline_.height, pipeline_.target);
+    for (int y = 0; y < pipeline_.height; ++y)
+      for (int x = 0; x < pipeline_.width; ++x)
+        for (int k = 0; k < info(stored.format).channels; ++k)
+          store(stored, x, y, k, float(capture_.color.value(x, y, k)));
+    capture_.color = std::move(stored);
+  }
 
   void draw_instances(Pass pass) {
     for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
@@ -261,8 +272,15 @@ class Drawing {
     blend(pipeline_.transparency.blend, pass == Pass::over ? capture_.color : capture_.planes[3].image, x, y, source);
   }
 
-  void blend(const BlendState& state, Image& image, int x, int y, const float source[4]) {
+  /// What is kept of a source or a sum: of a fixed-point target that stands in floats a number from 0 to 1.
+  float kept(float v) const {
+    return free_.sums_in_floats && info(pipeline_.target).number_class == NumberClass::unorm ? std::clamp(v, 0.0f, 1.0f)
+                                                                                             : v;
+  }
+
+  void blend(const BlendState& state, Image& image, int x, int y, const float given[4]) {
     const FormatInfo layout = info(image.format);
+    const float source[4] = {kept(given[0]), kept(given[1]), kept(given[2]), kept(given[3])};
     const bool codes = layout.number_class == NumberClass::unorm;
     std::array<double, 4> stored{};
     for (int k = 0; k < layout.channels; ++k)
@@ -273,7 +291,7 @@ class Drawing {
       if (blends_in_codes(image.format, free_))
         image.set_code(x, y, k, uint32_t(std::lround(left[size_t(k)])));
       else
-        loose_store_blended(f_, free_, image, x, y, k, left[size_t(k)]);
+        loose_store_blended(f_, free_, image, x, y, k, double(kept(float(left[size_t(k)]))));
     }
   }
 
@@ -380,7 +398,14 @@ class Drawing {
   }
 
   void store_color(int x, int y, const std::array<float, 4>& color) {
-    for (int k = 0; k < info(capture_.color.format).channels; ++k) store(capture_.color, x, y, k, color[size_t(k)]);
+    for (int k = 0; k < info(capture_.color.format).channels; ++k)
+      store(capture_.color, x, y, k, kept(color[size_t(k)]));
+  }
+
+  void add_light(int x, int y, const float light[4]) {
+    if (free_.mesa_codes && info(capture_.color.format).number_class == NumberClass::unorm)
+      return add_mesa_codes(capture_.color, x, y, light);
+    blend(kAddLight, capture_.color, x, y, light);
   }
 
   void light(int x, int y) {
@@ -392,11 +417,11 @@ class Drawing {
     if (multipass || pipeline_.light_volumes.base) store_color(x, y, lit(s, 0, first));
     for (size_t i = first; i < lights; ++i) {
       if (!multipass) {
-        blend(kAddLight, capture_.color, x, y, lit(s, i, i + 1).data());
+        add_light(x, y, lit(s, i, i + 1).data());
         continue;
       }
       for (const LooseSurface& tied : tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)])
-        blend(kAddLight, capture_.color, x, y, lit(tied, i, i + 1).data());
+        add_light(x, y, lit(tied, i, i + 1).data());
     }
   }
 

@@ -24,12 +24,15 @@ struct Liberties {
                                ///< do not decrease
   uint32_t conversion = 0;     ///< which of these: thresholds between codes are made of this number
   bool reverse_lights = false;
-  int weight_bits = 0;        ///< of texture filters; 0: exact
-  bool decode_late = false;   ///< sRGB textures are filtered in 8 bits, then decoded
-  bool any_level = false;     ///< rho anywhere between OpenGL's limits, else the longer gradient
-  int depth_unit = 1;         ///< codes of fixed-point depth that a unit of polygon offset is
-  double slope_norm = 0;      ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
-  bool blends_codes = false;  ///< fixed-point targets are blended in their own codes
+  int weight_bits = 0;          ///< of texture filters; 0: exact
+  bool decode_late = false;     ///< sRGB textures are filtered in 8 bits, then decoded
+  bool any_level = false;       ///< rho anywhere between OpenGL's limits, else the longer gradient
+  int depth_unit = 1;           ///< codes of fixed-point depth that a unit of polygon offset is
+  double slope_norm = 0;        ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
+  bool blends_codes = false;    ///< fixed-point targets are blended in their own codes
+  bool nearest_halves = false;  ///< floats of 16, 11 and 10 bits are stored to nearest even, else toward zero
+  bool sums_in_floats = false;  ///< a target is kept in floats, clamped where it is fixed-point, and stored at the end
+  bool mesa_codes = false;      ///< sRGB codes of llvmpipe's table; ten bits out of sixteen; codes of light are added
 };
 
 /// Arithmetic that errs as GLSL 4.60, 4.7.1 allows.
@@ -68,6 +71,9 @@ void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], c
 /// they were blended.
 std::array<double, 4> loose_blend(LooseFloat& f, const BlendState& state, Format format, const Liberties& liberties,
                                   const float source[4], const std::array<double, 4>& stored);
+
+/// Adds light to codes that are no sRGB, as Liberties::mesa_codes has it.
+void add_mesa_codes(Image& image, int x, int y, const float source[4]);
 
 /// Whether a target is blended in its own codes, all of one width.
 bool blends_in_codes(Format format, const Liberties& liberties);

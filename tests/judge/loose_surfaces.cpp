@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
+#include "core/llvmpipe_srgb.h"
 #include "tests/judge/loose_renderer.h"
 
 namespace trueshade::testing {
@@ -58,8 +60,8 @@ uint32_t small_bits(LooseFloat& f, const Liberties& liberties, const FormatInfo&
   const int exponent = size == 0 ? -14 : std::max(std::ilogb(size), -14);
   const double units = std::ldexp(size, fraction - exponent);  // 2^fraction and up but for denormals
   const bool cuts = !liberties.any_neighbour || (f.random().next() & 1) != 0;
-  const uint32_t magnitude =
-      uint32_t(cuts ? std::floor(units) : std::ceil(units)) + uint32_t(exponent + 14) * (1u << fraction);
+  const double kept = liberties.nearest_halves ? std::nearbyint(units) : cuts ? std::floor(units) : std::ceil(units);
+  const uint32_t magnitude = uint32_t(kept) + uint32_t(exponent + 14) * (1u << fraction);
   return magnitude | (std::signbit(v) && bits == 16 ? 0x8000u : 0u);
 }
 
@@ -70,12 +72,44 @@ double encoded(const FormatInfo& layout, int channel, double v) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
+/// Ten bits are the upper ones of sixteen, and two of alpha the nearest (docs/arithmetic.md section 11).
+uint32_t narrow_code(uint32_t wide, int channel) {
+  return channel == 3 ? ((wide >> 2) * 3 + (1u << 13)) >> 14 : wide >> 6;
+}
+
+uint32_t code_of_16_bits(float v) { return uint32_t(std::nearbyint(double(std::clamp(v, 0.0f, 1.0f) * 65535.0f))); }
+
+/// The code that llvmpipe stores, of formats whose codes are its own.
+std::optional<uint32_t> mesa_code(const Image& image, int channel, float v) {
+  if (info(image.format).srgb_channel(channel)) {
+    const auto& start = kLlvmpipeSrgb.start;
+    const auto step = std::upper_bound(start.begin(), start.end(), std::clamp(v, 0.0f, 1.0f));
+    return kLlvmpipeSrgb.code[size_t(step - start.begin())];
+  }
+  if (image.format != Format::rgb10_a2) return std::nullopt;
+  return narrow_code(code_of_16_bits(v), channel);
+}
+
 }  // namespace
+
+void add_mesa_codes(Image& image, int x, int y, const float source[4]) {
+  const FormatInfo layout = info(image.format);
+  const bool wide = image.format == Format::rgb10_a2;
+  for (int k = 0; k < 4; ++k) {
+    const uint32_t stored = image.code(x, y, k), largest = wide ? 65535 : layout.largest_code(k);
+    const uint32_t before = !wide ? stored : k == 3 ? stored * 0x5555u : stored << 6 | stored >> 4;
+    const auto added = uint32_t(std::nearbyint(double(std::clamp(source[k], 0.0f, 1.0f) * float(largest))));
+    const uint32_t sum = std::min(before + added, largest);
+    image.set_code(x, y, k, wide ? narrow_code(sum, k) : sum);
+  }
+}
 
 void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, float v) {
   const FormatInfo layout = info(image.format);
   uint32_t bits = 0;
-  if (layout.number_class == NumberClass::unorm) {
+  if (const auto code = liberties.mesa_codes ? mesa_code(image, channel, v) : std::nullopt) {
+    bits = *code;
+  } else if (layout.number_class == NumberClass::unorm) {
     bits = uint32_t(
         loose_code(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
   } else if (layout.small_float()) {

@@ -335,6 +335,24 @@ TEST_CASE("export: extras of others are passed over") {
               .photometric);
 }
 
+TEST_CASE("export: lights that were changed for other programs, and not in extras.trueshade, are told of") {
+  const auto notes = [](std::string_view from, std::string_view to) {
+    return scene_from_gltf(glb_of_json(replaced(from, to)), "a.glb", {}, loaded_picture).notes;
+  };
+  CHECK(notes("\"version\":1,", "\"version\":1,").empty());
+  const std::vector<std::string> brighter = notes("\"intensity\":", "\"intensity\":9");
+  REQUIRE(brighter.size() == 1);
+  CHECK(brighter[0].find("of KHR_lights_punctual differ") != std::string::npos);
+}
+
+TEST_CASE("export: the lights of built-in scenes and of random ones are what extras.trueshade says") {
+  for (const char* spec : {"city", "cornell", "circle", "lecture", "red,lights=9"}) {
+    CAPTURE(spec);
+    CHECK(written_and_loaded(builtin_scene(spec)).notes.empty());
+  }
+  for (uint64_t seed = 0; seed < 20; ++seed) CHECK(written_and_loaded(RandomScene(seed).make()).notes.empty());
+}
+
 TEST_CASE("export: a scene file loads as the same scene") {
   const ScratchFolder folder;
   const std::string text = R"({"version": 1, "fps": 12, "camera": {"fov_axis": "x", "fov_deg": 50,

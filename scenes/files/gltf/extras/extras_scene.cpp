@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scenes/files/gltf/extras/punctual_lights.h"
 #include "scenes/files/gltf/meshes.h"
 #include "scenes/files/gltf/pictures.h"
 
@@ -35,6 +36,7 @@ class ExtrasSceneMaker {
     for (const uint32_t mirrored : extras_.mirrored) scene_.instances[mirrored].mirrored = true;
     check_timeline(scene_, document_.file + ": /extras/trueshade");
     add_reaches();
+    if (std::string note = note_of_lights(document_, scene_); !note.empty()) scene_.notes.push_back(std::move(note));
     return std::move(scene_);
   }
 

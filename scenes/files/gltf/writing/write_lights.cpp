@@ -3,6 +3,7 @@
 
 #include "scenes/camera.h"
 #include "scenes/files/gltf/extras/field_writer.h"
+#include "scenes/files/gltf/extras/punctual_lights.h"
 #include "scenes/files/gltf/writing/scene_writer.h"
 #include "scenes/hierarchy.h"
 #include "scenes/trig.h"
@@ -19,14 +20,6 @@ std::string placed(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z
   std::string text = "{\"matrix\":";
   append_json(text, std::span<const double>(values));
   return text + ',' + rest + '}';
-}
-
-/// Candela, or lux, that light a surface about as the scene's light does: for falloffs that end, equal at half the
-/// range to the line 1 - d / range, otherwise equal far away to 1 / (k2 d^2).
-double photometric_intensity(const Light& light, bool photometric) {
-  if (photometric || light.type == LightType::directional) return 1.0;
-  if (std::isfinite(light.range)) return double(light.range) * double(light.range) / 8.0;
-  return light.attenuation.z > 0.0f ? 1.0 / double(light.attenuation.z) : 1.0;
 }
 
 /// The value of KHR_lights_punctual's key `type`; ambient light has none.

@@ -1,0 +1,150 @@
+// Judging some rows says of them what judging all rows says; a profile that is inferred from some is that of all.
+#include "gl/driver/renderer.h"
+#include "judge/stages/validate.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/builtin/pcg32.h"
+#include "tests/catch.hpp"
+#include "tests/judge/captured.h"
+#include "tests/judge/drivers.h"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+using trueshade::testing::captured;
+
+namespace {
+
+/// 9 bands, the last of them of 8 rows.
+Pipeline pipeline_of(Strategy strategy) {
+  Pipeline p;
+  p.strategy = strategy;
+  p.width = 96, p.height = 136;
+  p.gbuffer.normal.format = Format::rgba16f;
+  return testing::with_surface_planes(p);
+}
+
+JudgedRows only(int band, int height) {
+  std::vector<uint8_t> bands(size_t(JudgedRows::bands_of(height)), 0);
+  bands[size_t(band)] = 1;
+  return JudgedRows(bands);
+}
+
+void check_same(const Inference& a, const Inference& b) {
+  INFO(text(a));
+  INFO(text(b));
+  CHECK(a.subpixel_bits == b.subpixel_bits);
+  CHECK(a.snap == b.snap);
+  CHECK(a.plane_origin == b.plane_origin);
+  CHECK(a.half == b.half);
+  CHECK(a.unorm_reach == b.unorm_reach);
+  CHECK(a.known_as == b.known_as);
+}
+
+void check_inference(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+  const Inference whole = infer_profile(scene, pipeline, capture, JudgedRows());
+  CHECK(whole.sampled_rows == 0);
+  for (const int band : {0, 4, 8}) {
+    const Inference sampled = infer_profile(scene, pipeline, capture, only(band, pipeline.height));
+    CAPTURE(band);
+    check_same(sampled, whole);
+  }
+}
+
+void check_driver(GlDriver which) {
+  const GlContext* context = testing::opened(which);
+  if (context == nullptr) return;
+  for (const char* name : {"circle", "cornell"})
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
+      const Scene scene = builtin_scene(name);
+      const Pipeline pipeline = pipeline_of(strategy);
+      CAPTURE(name, name_of(strategy));
+      check_inference(scene, pipeline, GlRenderer(*context, scene).draw(pipeline).capture);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Bands of rows, judged each by itself, have the classes of the whole image") {
+  const Scene scene = builtin_scene("city,lights=20,objects=120");
+  Profile unknown;
+  for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
+    const Pipeline pipeline = pipeline_of(strategy);
+    Capture capture = captured(scene, pipeline);
+    for (int x = 10; x < 40; ++x) capture.color.set_code(x, 70, 1, 255);
+    const auto judge = [&](const JudgedRows& rows) {
+      return std::array{judge_gbuffer(scene, pipeline, unknown, capture, rows),
+                        judge_lighting(scene, pipeline, unknown, capture, rows)};
+    };
+    const auto whole = judge({});
+    CHECK(whole[1].count(PixelClass::violation) > 0);
+    for (int band = 0; band < JudgedRows::bands_of(pipeline.height); ++band) {
+      const auto part = judge(only(band, pipeline.height));
+      const size_t first = size_t(band) * 16 * 96, last = std::min(first + 16 * 96, whole[0].classes.size());
+      for (size_t s = 0; s < 2; ++s) {
+        CAPTURE(name_of(strategy), band, s);
+        CHECK(std::equal(whole[s].classes.begin() + int64_t(first), whole[s].classes.begin() + int64_t(last),
+                         part[s].classes.begin() + int64_t(first)));
+        uint64_t counted = 0;
+        for (const uint64_t c : part[s].counts) counted += c;
+        CHECK(counted == last - first);
+      }
+    }
+  }
+}
+
+TEST_CASE("The profile inferred from one band of our own frames is that of the whole image") {
+  const Scene scene = builtin_scene("circle");
+  for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
+    const Pipeline pipeline = pipeline_of(strategy);
+    check_inference(scene, pipeline, captured(scene, pipeline));
+  }
+}
+
+TEST_CASE("The profile inferred from one band of what llvmpipe draws is that of the whole image") {
+  check_driver(GlDriver::llvmpipe);
+}
+
+TEST_CASE("The profile inferred from one band of what softpipe draws is that of the whole image") {
+  check_driver(GlDriver::softpipe);
+}
+
+TEST_CASE("A wrong pixel outside of the sample is known to every profile that is inferred") {
+  const Scene scene = builtin_scene("circle");
+  const Pipeline pipeline = pipeline_of(Strategy::deferred_loop);
+  Capture capture = captured(scene, pipeline);
+  capture.color.set_code(48, 68, 0, capture.color.code(48, 68, 0) ^ 0x40u);
+  const Inference found = infer_profile(scene, pipeline, capture, only(0, pipeline.height));
+  CHECK(found.known_as.empty());
+  CHECK(found.sampled_rows > 16);
+  check_same(found, infer_profile(scene, pipeline, capture, JudgedRows()));
+}
+
+TEST_CASE("What a box of samples is told of its coverage is true of each of its samples") {
+  Pcg32 random(7);
+  const auto number = [&](double low, double high) { return double(random.between(low, high)); };
+  int decided = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Piece piece;
+    const double span = i % 3 == 0 ? 4 : i % 3 == 1 ? 60 : 3000, reach = i % 2 == 0 ? 0.05 : 0;
+    for (WindowVertex& v : piece.v)
+      for (size_t k = 0; k < 2; ++k) {
+        v.exact[k] = std::nearbyint(number(-span, span) * 256) / 256;
+        v.low[k] = v.exact[k] - reach, v.high[k] = v.exact[k] + reach;
+      }
+    const auto &a = piece.v[0].exact, &b = piece.v[1].exact, &c = piece.v[2].exact;
+    piece.sign = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0 ? -1 : 1;
+    const double x0 = std::floor(number(-span, span)) + 0.5, y0 = std::floor(number(-span, span)) + 0.5;
+    const BoxCoverage box = coverage_of_box(piece, {x0, y0}, {x0 + 7, y0 + 7});
+    decided += box.none || box.edges == 0 ? 1 : 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const auto at = [&](unsigned edges) {
+          return coverage_at(piece, Profile{}, ClipOrigin::lower_left, x0 + x, y0 + y, edges);
+        };
+        const Coverage all = at(7), some = at(box.edges);
+        CHECK((!box.none || all.cover == Cover::no));
+        if (box.none) continue;
+        CHECK((some.cover == all.cover && some.uncertain_edges == all.uncertain_edges && some.nominal == all.nominal));
+      }
+  }
+  CHECK(decided > 500);
+}
