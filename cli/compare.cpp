@@ -2,6 +2,7 @@
 #include <system_error>
 
 #include "cli/accepting.h"
+#include "cli/activity.h"
 #include "cli/commands.h"
 #include "cli/compared_pictures.h"
 #include "cli/junit.h"
@@ -89,7 +90,7 @@ int compare_two_pictures(const CompareOptions& options) {
   }
   ComparedPictures pictures;
   {
-    const LoopProgress progress("comparing", "bands of rows");
+    const Activity activity("comparing");
     pictures = compared_pictures(options.reference, options.test, options);
   }
   for (const std::string& path : options.outputs) {

@@ -1,5 +1,6 @@
 // Judging some rows says of them what judging all rows says; a profile that is inferred from some is that of all.
 #include "gl/driver/renderer.h"
+#include "judge/bounds/window.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/builtin/pcg32.h"
