@@ -20,7 +20,12 @@ Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& bl
   };
   for (Range& s : source) clamp(s.value), clamp(s.low), clamp(s.high);
   Texel t = blended_texel(blend, Format::rgba32f, likely_, source, sum);
-  for (LegalTexel& c : t) clamp(c.nominal), clamp(c.low), clamp(c.high);
+  const bool has_sign = color_.image->format != Format::r11g11b10f;
+  const auto keep = [&](double& v) {
+    clamp(v);
+    if (!has_sign) v = std::max(v, 0.0);
+  };
+  for (LegalTexel& c : t) keep(c.nominal), keep(c.low), keep(c.high);
   return t;
 }
 
@@ -32,8 +37,8 @@ void BlendingJudge::see_thresholds(const PixelState& p, const DrawnFragment& f, 
     ConversionsInDoubt& doubt = channels[k];
     if (!added) doubt.count = 0;
     const uint32_t before = added ? uint32_t(p.likely[k].nominal) : 0;
-    const std::optional<NearThreshold> s = near_threshold(f.output.nominal[k], color_.layout.largest_code(i),
-                                                          profile_.likely.code_reach, before, i);
+    const std::optional<NearThreshold> s =
+        near_threshold(f.output.nominal[k], color_.layout.largest_code(i), profile_.likely.code_reach, before, i);
     if (!s) continue;
     if (doubt.count < ConversionsInDoubt::kMost) doubt.draws[doubt.count] = *s;
     doubt.count = std::min(doubt.count + 1, ConversionsInDoubt::kMost + 1);

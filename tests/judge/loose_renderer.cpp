@@ -272,15 +272,19 @@ class Drawing {
     blend(pipeline_.transparency.blend, pass == Pass::over ? capture_.color : capture_.planes[3].image, x, y, source);
   }
 
-  /// What is kept of a source or a sum: of a fixed-point target that stands in floats a number from 0 to 1.
+  /// What is kept of a source or a sum that stands in floats for a target of fixed-point numbers, or of floats without
+  /// a sign: what the target has.
   float kept(float v) const {
-    return free_.sums_in_floats && info(pipeline_.target).number_class == NumberClass::unorm ? std::clamp(v, 0.0f, 1.0f)
-                                                                                             : v;
+    if (!free_.sums_in_floats) return v;
+    if (info(pipeline_.target).number_class == NumberClass::unorm) return std::clamp(v, 0.0f, 1.0f);
+    return pipeline_.target == Format::r11g11b10f ? std::max(v, 0.0f) : v;
   }
 
   void blend(const BlendState& state, Image& image, int x, int y, const float given[4]) {
     const FormatInfo layout = info(image.format);
-    const float source[4] = {kept(given[0]), kept(given[1]), kept(given[2]), kept(given[3])};
+    const bool is_fixed = info(pipeline_.target).number_class == NumberClass::unorm;
+    float source[4];
+    for (int k = 0; k < 4; ++k) source[k] = is_fixed ? kept(given[k]) : given[k];
     const bool codes = layout.number_class == NumberClass::unorm;
     std::array<double, 4> stored{};
     for (int k = 0; k < layout.channels; ++k)
