@@ -70,6 +70,11 @@ void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const Pl
 /// What the likely rule leaves after a fragment's nominal draws.
 void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) {
   const bool in_floats = profile_.likely.sums_in_floats;
+  if (in_floats && color_.unorm() && !blend.enabled)
+    for (int k = 0; k < color_.channels; ++k) {
+      const Range& s = f.output.nominal[size_t(k)];
+      p.is_clamped = p.is_clamped || s.low < 0 || s.high > 1;
+    }
   for (int i = 0; i < f.nominal; ++i) {
     if (sees_thresholds_) see_thresholds(p, f, blend.enabled);
     p.likely = in_floats ? kept_in_floats(f, blend, p.likely)
@@ -85,7 +90,7 @@ void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const Bl
 /// The choice between what the likely rule leaves after all draws and what was stored. Sums of equal sources are one.
 void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const {
   m.choices.clear();
-  if (!view.quantised() || p.split || (layers_ && layers_->any(x, y))) return;
+  if (!view.quantised() || p.split || p.is_clamped || (layers_ && layers_->any(x, y))) return;
   for (int k = 0; k < view.channels; ++k) {
     LegalTexel t = p.likely[size_t(k)];
     if (profile_.likely.sums_in_floats) {

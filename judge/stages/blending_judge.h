@@ -27,7 +27,8 @@ struct PixelState {
   std::array<float, 4> value{}, chance{}, drift{};  ///< sums over the draws: sources, chances of other roundings, with
                                                     ///< their signs
   bool split = false;                               ///< whether the two may differ
-  bool open = false;                                ///< a fragment that may be absent could have left anything
+  bool is_clamped = false;  ///< a sum kept in floats began beyond 0 and 1, which some keep until they blend (softpipe)
+  bool open = false;        ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
 };
@@ -134,7 +135,7 @@ class BlendingJudge {
   const BlendState blend_;
   const AddedCodes codes_;
   const bool sees_thresholds_;  ///< conversions to codes are looked at: each light's is added to the target's
-  const bool keeps_dark_;  ///< a fragment that adds nothing leaves the texel as it is
+  const bool keeps_dark_;       ///< a fragment that adds nothing leaves the texel as it is
   std::unique_ptr<TiedSurfaces> tied_;
   std::optional<TransparentLayers> layers_;
   std::vector<uint8_t> covered_;
