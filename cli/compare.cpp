@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/compared_pictures.h"
 #include "cli/junit.h"
+#include "cli/notes.h"
 #include "cli/option_values.h"
 #include "cli/picture_rows.h"
 #include "cli/progress_bar.h"
@@ -68,6 +69,7 @@ FolderComparison as_row(const CompareOptions& options, const ComparedPictures& p
               : pictures.comparison.outcome == compare::Outcome::mismatched ? RowState::mismatched
                                                                             : RowState::different;
   row.reason = verdict_line(pictures);
+  if (row.state != RowState::same) row.details = comparison_text(pictures);
   row.is_accepted = accepted;
   return {options.reference, options.test, {row}, 0};
 }
@@ -96,14 +98,19 @@ int compare_two_pictures(const CompareOptions& options) {
   for (const std::string& path : options.outputs) {
     if (is_page(path))
       write_text(path, comparison_page(pictures, "trueshade" + options.command_line));
-    else
+    else if (why_no_differences(pictures, path).empty())
       write_differences(pictures, path);
   }
   const bool is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
   if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures, is_accepted)));
   print(options.json ? comparison_json(pictures) : comparison_text(pictures));
-  for (const std::string& path : options.outputs)
-    say_written(path, is_page(path) ? "HTML report" : "differences, " + kind_of_file(path), answers(options));
+  for (const std::string& path : options.outputs) {
+    const std::string why = is_page(path) ? "" : why_no_differences(pictures, path);
+    if (why.empty())
+      say_written(path, is_page(path) ? "HTML report" : "differences, " + kind_of_file(path), answers(options));
+    else
+      say_notes({path + " is not written: " + why});
+  }
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
   return passes(pictures) || is_accepted ? 0 : 1;
 }
@@ -112,6 +119,9 @@ int compare_two_folders(CompareOptions options) {
   if (options.outputs.size() > 1) throw usage("-o", "one folder takes all maps", "name one");
   for (const std::string& folder : options.outputs) {
     std::error_code unknown;
+    if (has_ending(folder, ".png") || has_ending(folder, ".exr") || is_page(folder))
+      throw usage("-o", "'" + folder + "' is named like a file, and of folders maps are written into a folder",
+                  "name a folder, or compare two pictures for a file");
     if (fs::exists(folder, unknown) && !is_folder(folder))
       throw usage("-o", "'" + folder + "' is no folder, and of folders maps are written into one", "name a folder");
     options.rules.wants_flip = true;

@@ -50,8 +50,10 @@ std::string about_picture(const PictureFile& picture);
 /// as it was given.
 std::string comparison_page(const ComparedPictures& pictures, const std::string& command);
 
+/// Why there is nothing that write_differences() could write to a file of that name; empty if there is something.
+std::string why_no_differences(const ComparedPictures& pictures, const std::string& path);
+
 /// Writes a picture of the differences: .png the FLIP map, .exr the absolute difference of each channel that both have.
-/// Error(bad_input) where there is none.
 void write_differences(const ComparedPictures& pictures, const std::string& path);
 
 }  // namespace trueshade

@@ -4,7 +4,6 @@
 
 #include "cli/compared_pictures.h"
 #include "compare/error_colors.h"
-#include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 
@@ -45,18 +44,17 @@ void write_difference_exr(const ComparedPictures& pictures, const std::string& p
 
 }  // namespace
 
-void write_differences(const ComparedPictures& pictures, const std::string& path) {
+std::string why_no_differences(const ComparedPictures& pictures, const std::string& path) {
   const compare::Comparison& c = pictures.comparison;
-  if (has_ending(path, ".png")) {
-    if (!c.flip) throw Error(ErrorKind::bad_input, path, "there is no FLIP map: " + c.no_flip, "write a .exr instead");
-    const ChannelFile& part = pictures.reference.parts.front();
-    write_image(path, compare::error_picture(c.flip->map, part.width, part.height), {},
-                {{"trueshade:difference", "FLIP"}}, {PictureValues::display_codes});
-    return;
-  }
-  if (c.pairing.parts.empty())
-    throw Error(ErrorKind::bad_input, path, "no channels of the pictures fit together", "compare pictures of one size");
-  write_difference_exr(pictures, path);
+  if (has_ending(path, ".png")) return c.flip ? "" : c.no_flip;
+  return c.pairing.parts.empty() ? "no channels of the pictures fit together" : "";
+}
+
+void write_differences(const ComparedPictures& pictures, const std::string& path) {
+  if (!has_ending(path, ".png")) return write_difference_exr(pictures, path);
+  const ChannelFile& part = pictures.reference.parts.front();
+  write_image(path, compare::error_picture(pictures.comparison.flip->map, part.width, part.height), {},
+              {{"trueshade:difference", "FLIP"}}, {PictureValues::display_codes});
 }
 
 }  // namespace trueshade

@@ -8,6 +8,8 @@
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/preparation.h"
+#include "cli/shell_words.h"
+#include "cli/shell_words.h"
 #include "core/error.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
@@ -56,8 +58,8 @@ class SceneJudge {
     if (v_.is_diagnosed)
       v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
     for (oracle::Finding& finding : v_.findings)
-      finding.command = "trueshade validate " + scene_.spec + " --gbuffer PLANES.exr --image " + pictures_.test.path +
-                        " --suppose " + finding.name;
+      finding.command = "trueshade validate " + for_shell(scene_.spec) + " --gbuffer PLANES.exr --image " +
+                        for_shell(pictures_.test.path) + " --suppose " + finding.name;
     return std::move(v_);
   }
 

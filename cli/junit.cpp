@@ -17,21 +17,27 @@ std::string attribute(const char* name, std::string_view value) {
   return std::string(" ") + name + "=\"" + xml_text(value) + '"';
 }
 
+/// What a reader of the report sees beneath the message.
+std::string body(const PictureRow& row) {
+  std::string text = row.details.empty() ? row.reason : row.details;
+  if (!row.not_accepted.empty()) text += "; not accepted: " + row.not_accepted;
+  return xml_text(text, Lines::several);
+}
+
 std::string testcase(const FolderComparison& folders, const PictureRow& row) {
   std::string xml = "    <testcase" + attribute("classname", folders.reference) + attribute("name", row.name) +
                     attribute("time", seconds_text(row.seconds));
   if (passes(row)) return xml + "/>\n";
   const std::string element = row.state == RowState::unreadable ? "error" : "failure";
   return xml + ">\n      <" + element + attribute("type", name_of(row.state)) + attribute("message", row.reason) + ">" +
-         xml_text(row.not_accepted.empty() ? row.reason : row.reason + "; not accepted: " + row.not_accepted) + "</" +
-         element + ">\n    </testcase>\n";
+         body(row) + "</" + element + ">\n    </testcase>\n";
 }
 
 }  // namespace
 
-std::string xml_text(std::string_view text) {
+std::string xml_text(std::string_view text, Lines lines) {
   std::string xml;
-  for (const char c : printable(text, Lines::one)) {
+  for (const char c : printable(text, lines)) {
     if (c == '&')
       xml += "&amp;";
     else if (c == '<')

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "cli/picture_rows.h"
+#include "core/printable_text.h"
 
 namespace trueshade {
 
@@ -10,6 +11,6 @@ namespace trueshade {
 std::string junit_xml(const FolderComparison& folders);
 
 /// Text as content or attribute of XML.
-std::string xml_text(std::string_view text);
+std::string xml_text(std::string_view text, Lines lines = Lines::one);
 
 }  // namespace trueshade

@@ -30,16 +30,22 @@ bool has_picture_ending(const fs::path& path) {
 std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over) {
   std::set<std::string> names;
   std::error_code failed;
-  fs::recursive_directory_iterator entry(folder, failed);
+  std::set<fs::path> visited;  // links may lead back
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, failed);
   for (const fs::recursive_directory_iterator end; !failed && entry != end; entry.increment(failed)) {
     std::error_code unknown;
-    if (entry->is_directory(unknown)) continue;
+    if (entry->is_directory(unknown)) {
+      if (!visited.insert(fs::canonical(entry->path(), unknown)).second) entry.disable_recursion_pending();
+      continue;
+    }
     if (has_picture_ending(entry->path()))
       names.insert(entry->path().lexically_relative(folder).generic_string());
     else
       ++passed_over;
   }
-  if (failed) throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(), "check the rights");
+  if (failed)
+    throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(),
+                failed == std::errc::no_such_file_or_directory ? "check the name" : "check the rights");
   return names;
 }
 
@@ -117,6 +123,7 @@ class FolderComparer {
     const compare::Comparison& c = pictures.comparison;
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
+    if (!passes(row)) row.details = comparison_text(pictures);
     row.unequal_pixels = c.differences.unequal_pixels, row.pixels = c.differences.pixels;
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);

@@ -16,7 +16,8 @@ enum class RowState : uint8_t { same, within, different, mismatched, missing, ex
 struct PictureRow {
   std::string name;  ///< relative to both folders
   RowState state = RowState::same;
-  std::string reason;  ///< verdict_line(), or why there is none
+  std::string reason;   ///< verdict_line(), or why there is none
+  std::string details;  ///< comparison_text() of pictures that do not pass: first and worst pixel, what it looks like
   uint64_t unequal_pixels = 0, pixels = 0;
   double largest = 0.0;  ///< difference in any channel
   std::optional<double> flip_mean;

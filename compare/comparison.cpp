@@ -53,6 +53,21 @@ bool holds_floats(const ChannelFile& part) {
                      [](const Channel& channel) { return is_color(channel) && channel.kind == ChannelKind::floating; });
 }
 
+/// Pixels whose red, green or blue is not finite in one picture, and another value in the other: nobody can say how
+/// they look, so each counts as the largest error.
+void count_not_finite(const Pairing& pairing, FlipResult& result) {
+  bool any = false;
+  for (const ChannelPair& pair : pairing.parts.empty() ? std::vector<ChannelPair>{} : pairing.parts.front().channels) {
+    if (!is_color(*pair.reference) || pair.reference->words.size() != result.map.size()) continue;
+    for (size_t i = 0; i < result.map.size(); ++i) {
+      const double a = pair.reference->value(i), b = pair.test->value(i);
+      const bool same = a == b || (std::isnan(a) && std::isnan(b));
+      if (!same && !(std::isfinite(a) && std::isfinite(b))) result.map[i] = 1.0f, any = true;
+    }
+  }
+  if (any) measure(result);
+}
+
 void measure_flip(const PictureFile& reference, const PictureFile& test, const CompareRules& rules, Comparison& c) {
   const ChannelFile &r = reference.parts.front(), &t = test.parts.front();
   if (r.width != t.width || r.height != t.height) {
@@ -75,7 +90,7 @@ void measure_flip(const PictureFile& reference, const PictureFile& test, const C
   if (result.map.empty())
     c.no_flip = "the reference is black, so there is no exposure to see it at";
   else
-    c.flip = std::move(result);
+    count_not_finite(c.pairing, result), c.flip = std::move(result);
 }
 
 double measured(const Criterion& criterion, const Comparison& c) {
@@ -141,12 +156,17 @@ double delta_of(const CompareRules& rules) {
   return 0.0;
 }
 
-void add_notes(const PictureFile& picture, const char* which, Comparison& c) {
+/// Floats of 64 bits are read as 32; what that loses is told, and is a failure where equality is asked for.
+void add_rounded(const PictureFile& picture, const char* which, const CompareRules& rules, Comparison& c) {
   for (const ChannelFile& part : picture.parts)
     for (const Channel& channel : part.channels)
       if (channel.is_rounded) {
-        c.notes.push_back(std::string("the ") + which +
-                          " has floats of 64 bits, which were rounded to 32 before they were compared");
+        const std::string rounded =
+            std::string("the ") + which + " has floats of 64 bits that no float of 32 bits holds";
+        if (rules.criteria.empty() || rules.allow_not_finite)
+          c.failures.push_back(rounded + ", so that equality cannot be told: convert them, or give a criterion");
+        else
+          c.notes.push_back(rounded + "; they were rounded to 32 before they were compared");
         return;
       }
 }
@@ -195,8 +215,6 @@ Comparison compared(const PictureFile& reference, const PictureFile& test, const
   Comparison c;
   c.pairing = paired(reference, test);
   choose_decoding(reference, test, rules, c);
-  add_notes(reference, "reference", c);
-  add_notes(test, "test", c);
   c.differences = differences(c.pairing, c.decoding, delta_of(rules), rules.threads);
   const Differences& d = c.differences;
   if (d.first) c.first = values_at(c, *d.first);
@@ -206,6 +224,8 @@ Comparison compared(const PictureFile& reference, const PictureFile& test, const
                                                           [](const Criterion& row) { return is_flip(row.measure); });
   if (wants_flip) measure_flip(reference, test, rules, c);
   c.failures = c.pairing.mismatches;
+  add_rounded(reference, "reference", rules, c);
+  add_rounded(test, "test", rules, c);
   check_finite(rules, c);
   judge(rules, c);
   c.outcome = !c.pairing.mismatches.empty() ? Outcome::mismatched

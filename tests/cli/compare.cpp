@@ -250,6 +250,38 @@ TEST_CASE("maps of differences: FLIP's as PNG, the absolute difference of each c
   CHECK(difference.value(0, 0, 1) == 0.0);
 }
 
+TEST_CASE("sizes that differ are a verdict although a map was asked for, and the map's absence is said") {
+  ScratchFolder folder;
+  write_floats(folder.path("ref.exr"), even_plane(60, 40, 3, 0.25), kRgb);
+  write_floats(folder.path("test.exr"), even_plane(30, 40, 3, 0.25), kRgb);
+  for (const char* map : {"map.png", "map.exr"}) {
+    const Outcome outcome = run_compare(folder, {"ref.exr", "test.exr", "-o", map, "--junit", "j.xml"});
+    CHECK(outcome.exit_code == 1);
+    CHECK(outcome.err.find("is not written: ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path(map)));
+    CHECK(content_of(folder.path("j.xml")).find("<failure") != std::string::npos);
+  }
+}
+
+TEST_CASE("folders behind links are compared too, links that lead back end, and maps need a folder") {
+  ScratchFolder folder;
+  namespace fs = std::filesystem;
+  for (const char* name : {"ref", "test", "far/ref", "far/test"}) fs::create_directories(folder.path(name));
+  write_floats(folder.path("far/ref/a.exr"), even_plane(8, 8, 3, 0.25), kRgb);
+  write_floats(folder.path("far/test/a.exr"), even_plane(8, 8, 3, 0.5), kRgb);
+  for (const char* side : {"ref", "test"}) {
+    fs::create_directory_symlink(folder.path(std::string("far/") + side), folder.path(std::string(side) + "/link"));
+    fs::create_directory_symlink(folder.path(side), folder.path(std::string(side) + "/round"));
+  }
+  const Outcome outcome = run_compare(folder, {"ref", "test", "--no-judge", "--junit", "j.xml"});
+  CHECK(outcome.exit_code == 1);
+  says(outcome, "link/a.exr");
+  // The report shows what a reader needs: the pixel and both values.
+  CHECK(content_of(folder.path("j.xml")).find("first pixel at 0,0") != std::string::npos);
+  check_refused(run_compare(folder, {"ref", "test", "-o", "page.html"}), 2, "is named like a file");
+  CHECK_FALSE(fs::exists(folder.path("page.html")));
+}
+
 TEST_CASE("bad input to compare is one line, and leaves nothing behind") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane&) {});

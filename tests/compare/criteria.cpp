@@ -108,6 +108,34 @@ TEST_CASE("a sRGB picture and one of linear light are compared as light, by the 
   CHECK(compared(codes, linear, as_stored).outcome == Outcome::different);
 }
 
+TEST_CASE("floats of 64 bits that were rounded are never called equal, and pass by a criterion alone") {
+  PictureFile reference = made_picture(2, 1, {float_channel("R", {0.5f, 0.25f})}), test = reference;
+  test.parts.front().channels.front().is_rounded = true;
+  CompareRules rules;
+  CHECK(compared(reference, test, rules).outcome == Outcome::different);
+  rules.criteria = {{Measure::largest_difference, 1e-6, 0.0}};
+  CHECK(compared(reference, test, rules).passes());
+  rules.allow_not_finite = true;
+  CHECK_FALSE(compared(reference, test, rules).passes());
+}
+
+TEST_CASE("a pixel that is not finite on one side is FLIP's largest error there, not none") {
+  std::vector<float> black(64 * 64, 0.25f), hole = black;
+  hole[64 * 20 + 20] = std::numeric_limits<float>::quiet_NaN();
+  const auto picture = [](const std::vector<float>& v) {
+    return made_picture(64, 64, {float_channel("R", v), float_channel("G", v), float_channel("B", v)});
+  };
+  CompareRules rules;
+  rules.criteria = {{Measure::flip_mean, 1e-5, 0.0}};
+  rules.allow_not_finite = true;
+  const Comparison result = compared(picture(black), picture(hole), rules);
+  REQUIRE(result.flip.has_value());
+  CHECK(result.flip->map[64 * 20 + 20] == 1.0f);
+  CHECK(result.flip->largest == 1.0);
+  CHECK_FALSE(result.criteria.front().holds);
+  CHECK(compared(picture(hole), picture(hole), rules).criteria.front().holds);
+}
+
 TEST_CASE("FLIP that cannot be measured is a failure, never a pass") {
   const PictureFile depth = made_picture(1, 1, {float_channel("Z", {1.0f}), float_channel("W", {1.0f})});
   CompareRules rules;

@@ -90,6 +90,7 @@ Pixel Result::pixel(int x, int y) const {
   // Codes of 8 bits and halves as numbers; floats keep their bits, a NaN's too.
   const auto read = [&](size_t aov, int k) {
     const Image& image = frame.aovs[aov].image;
+    if (k >= info(image.format).channels) return 1.0f;  // an alpha that the format lacks
     if (image.format == Format::rgba8) return float(image.texel(x, y)[k]) / 255.0f;
     if (info(image.format).bytes_per_channel != 4) return float(image.value(x, y, k));
     float stored;
