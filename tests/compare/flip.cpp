@@ -71,7 +71,7 @@ TEST_CASE("equal pictures have no error anywhere, and unequal ones have one with
   CHECK(result.least >= 0.0);
 }
 
-TEST_CASE("FLIP of screens does not mind which picture is the reference; HDR-FLIP does, for its exposures") {
+TEST_CASE("FLIP of screens does not mind which picture is the reference, HDR-FLIP does for its exposures") {
   const LinearPicture a = noise(3), b = noise(4);
   CHECK(flip(a, b, {}).map == flip(b, a, {}).map);
   const LinearPicture bright = noise(5, 40, 30, 90.0f);
