@@ -167,7 +167,7 @@ TEST_CASE("one picture is the same in every format that holds its values") {
   }
 }
 
-TEST_CASE("a PNG and an EXR of one target are the same; a float target's PNG is decoded, and that is said") {
+TEST_CASE("a PNG and an EXR of one target are the same, a float target's PNG is decoded, and that is said") {
   const ScratchFolder folder;
   REQUIRE(run_command({"render", "builtin:cornell", "--size", "48x32", "-o", "codes.png", "-o", "codes.exr"},
                       folder.path(""))
@@ -348,7 +348,7 @@ void write_folders(const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("folders are compared by relative names: one table, the worst first; missing and extra pictures fail") {
+TEST_CASE("folders are compared by relative names: one table, the worst first, missing and extra pictures fail") {
   const ScratchFolder folder;
   write_folders(folder);
   const Outcome outcome = run_compare(folder, {"ref", "test"});
