@@ -372,7 +372,7 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
   CHECK(json.at("pictures").at(0).at("name") == "b/differs.exr");
 }
 
-TEST_CASE("--accept makes test pictures references, byte by byte, and then the folders pass but for what is missing") {
+TEST_CASE("compare --accept makes test pictures references, byte by byte, and then the folders pass but for what is missing") {
   const ScratchFolder folder;
   write_folders(folder);
   const Outcome outcome = run_compare(folder, {"ref", "test", "--accept"});
@@ -385,7 +385,7 @@ TEST_CASE("--accept makes test pictures references, byte by byte, and then the f
   CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
 }
 
-TEST_CASE("--accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {
+TEST_CASE("compare --accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane& plane) { plane.at(2, 3, 1) = kNan; });
   const std::string before = content_of(folder.path("ref.exr"));
@@ -406,7 +406,7 @@ TEST_CASE("--accept takes no picture that is not finite or damaged, replaces a d
   CHECK(content_of(folder.path("r/y.exr")) == before);
 }
 
-TEST_CASE("--junit writes a testcase a picture, and names that XML has to escape are escaped") {
+TEST_CASE("compare --junit writes a testcase a picture, and names that XML has to escape are escaped") {
   const ScratchFolder folder;
   write_folders(folder);
   std::filesystem::rename(folder.path("test/extra.exr"), folder.path("test/<a> & \"b\".exr"));
