@@ -63,6 +63,15 @@ RowState state_of(compare::Outcome outcome) {
   return RowState::same;  // unreachable: every enumerator returns above
 }
 
+/// `: R 12/255 against 14/255` of the channels that differ.
+std::string values_text(const compare::PixelValues& pixel) {
+  std::string text;
+  for (const auto& value : pixel.values)
+    if (!value.equal)
+      text += (text.empty() ? ": " : ", ") + value.channel + ' ' + value.reference + " against " + value.test;
+  return text;
+}
+
 class FolderComparer {
  public:
   explicit FolderComparer(const CompareOptions& options) : options_(options) {}
@@ -124,6 +133,9 @@ class FolderComparer {
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
     if (!passes(row)) row.details = comparison_text(pictures);
+    if (!passes(row) && c.worst)
+      row.reason +=
+          "; worst at " + std::to_string(c.worst->x) + ',' + std::to_string(c.worst->y) + values_text(*c.worst);
     row.unequal_pixels = c.differences.unequal_pixels, row.pixels = c.differences.pixels;
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);

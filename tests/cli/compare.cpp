@@ -276,6 +276,7 @@ TEST_CASE("folders behind links are compared too, links that lead back end, and 
   const Outcome outcome = run_compare(folder, {"ref", "test", "--no-judge", "--junit", "j.xml"});
   CHECK(outcome.exit_code == 1);
   says(outcome, "link/a.exr");
+  says(outcome, "worst at 0,0: R 0.25 against 0.5, G 0.25 against 0.5");
   // The report shows what a reader needs: the pixel and both values.
   CHECK(content_of(folder.path("j.xml")).find("first pixel at 0,0") != std::string::npos);
   check_refused(run_compare(folder, {"ref", "test", "-o", "page.html"}), 2, "is named like a file");
