@@ -1,0 +1,133 @@
+// Comparing: pictures from files or arrays, by criteria.
+#include <bit>
+#include <cmath>
+
+#include "compare/comparison.h"
+#include "core/expansion.h"
+#include "core/half.h"
+#include "core/image_files/picture_file.h"
+#include "python/binding/bindings.h"
+
+namespace trueshade::python {
+namespace {
+
+using compare::Criterion;
+using compare::Measure;
+
+/// The channels of an image as a file of them would be read: R, G, B, A, or Y of one channel.
+PictureFile picture_of(const Image& image, const std::string& name) {
+  const FormatInfo layout = info(image.format);
+  PictureFile picture;
+  picture.path = name, picture.kind = "array";
+  const bool codes = layout.number_class == NumberClass::unorm;
+  picture.color_space = codes ? ColorSpace::srgb : ColorSpace::linear;
+  picture.color_source = codes ? "codes are taken for sRGB" : "floats are taken for linear light";
+  ChannelFile& part = picture.parts.emplace_back();
+  part.path = name, part.width = image.width, part.height = image.height;
+  for (int c = 0; c < layout.channels; ++c) {
+    Channel& channel = part.channels.emplace_back();
+    channel.name = layout.channels == 1 ? "Y" : std::string(1, "RGBA"[c]);
+    channel.kind = codes                                         ? ChannelKind::unorm
+                   : layout.number_class == NumberClass::integer ? ChannelKind::integer
+                                                                 : ChannelKind::floating;
+    channel.bits = layout.bits[size_t(c)];
+    channel.words.reserve(size_t(image.width) * size_t(image.height));
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const uint32_t code = image.code(x, y, c);
+        const bool half = channel.kind == ChannelKind::floating && channel.bits == 16;
+        channel.words.push_back(half ? std::bit_cast<uint32_t>(float_from_half(uint16_t(code))) : code);
+      }
+  }
+  return picture;
+}
+
+PictureFile picture_from(const py::object& source, const std::string& name) {
+  if (py::isinstance<py::array>(source)) return picture_of(image_of(source.cast<py::array>(), name), name);
+  const std::string path = py::str(py::module_::import("os").attr("fspath")(source));
+  const py::gil_scoped_release release;
+  return read_any_picture(path, kMostExpansion);
+}
+
+py::dict values_of(const compare::PixelValues& pixel) {
+  py::dict out, values;
+  out["x"] = pixel.x, out["y"] = pixel.y;
+  if (!pixel.part.empty()) out["part"] = pixel.part;
+  for (const auto& value : pixel.values) values[py::str(value.channel)] = py::make_tuple(value.reference, value.test);
+  out["values"] = values;
+  return out;
+}
+
+py::dict dict_of(const compare::Comparison& c) {
+  constexpr const char* kOutcomes[] = {"same", "within", "different", "mismatched"};
+  py::dict out;
+  out["pass"] = c.passes();
+  out["outcome"] = kOutcomes[size_t(c.outcome)];
+  out["failures"] = c.failures, out["notes"] = c.notes, out["colors"] = c.colors;
+  out["unequal_pixels"] = c.differences.unequal_pixels;
+  out["not_finite_pixels"] = c.differences.not_finite_pixels;
+  py::list channels, criteria;
+  for (const auto& channel : c.differences.channels) {
+    py::dict row;
+    row["name"] = channel.name, row["unequal"] = channel.unequal, row["mean"] = channel.mean();
+    row["rms"] = channel.rms(), row["largest"] = channel.largest, row["largest_ulp"] = channel.largest_ulp;
+    row["psnr"] = channel.psnr();
+    channels.append(row);
+  }
+  for (const compare::Judged& judged : c.criteria) {
+    py::dict row;
+    row["name"] = std::string(compare::name_of(judged.criterion.measure)), row["measured"] = judged.measured;
+    row["bound"] = judged.criterion.bound, row["holds"] = judged.holds;
+    criteria.append(row);
+  }
+  out["channels"] = channels, out["criteria"] = criteria;
+  if (c.flip) out["flip_mean"] = c.flip->mean, out["flip_weighted_median"] = c.flip->weighted_median;
+  if (c.first) out["first"] = values_of(*c.first);
+  if (c.worst) out["worst"] = values_of(*c.worst);
+  if (c.first_not_finite) out["first_not_finite"] = values_of(*c.first_not_finite);
+  return out;
+}
+
+py::dict compare_pictures(const py::object& reference, const py::object& test,
+                          const std::optional<double>& max_difference, const std::optional<double>& max_ulp,
+                          const std::optional<double>& pixels, const std::optional<double>& delta,
+                          const std::optional<double>& psnr, const std::optional<double>& flip, bool allow_nonfinite) {
+  compare::CompareRules rules;
+  rules.allow_not_finite = allow_nonfinite;
+  const auto ask = [&](Measure measure, const std::optional<double>& bound, double delta_of = 0.0) {
+    if (!bound) return;
+    if (!(*bound >= 0.0)) throw bad_argument("compare", "a bound is below 0 or NaN", "0 or more");
+    rules.criteria.push_back({measure, *bound, delta_of});
+  };
+  if (pixels.has_value() != delta.has_value())
+    throw bad_argument("pixels", "pixels and delta go together", "give both, or neither");
+  ask(Measure::largest_difference, max_difference);
+  ask(Measure::largest_ulp, max_ulp);
+  ask(Measure::pixels_beyond, pixels, delta.value_or(0.0));
+  ask(Measure::psnr, psnr);
+  ask(Measure::flip_mean, flip);
+  const PictureFile a = picture_from(reference, "reference"), b = picture_from(test, "test");
+  compare::Comparison result;
+  {
+    const py::gil_scoped_release release;
+    result = compare::compared(a, b, rules);
+  }
+  return dict_of(result);
+}
+
+}  // namespace
+
+void add_compare(py::module_& module) {
+  using namespace py::literals;
+  module.def("compare", &compare_pictures, "reference"_a, "test"_a, py::kw_only(), "max_difference"_a = py::none(),
+             "max_ulp"_a = py::none(), "pixels"_a = py::none(), "delta"_a = py::none(), "psnr"_a = py::none(),
+             "flip"_a = py::none(), "allow_nonfinite"_a = false);
+  module.def(
+      "write_image",
+      [](const std::string& path, const py::array& image, const std::string& format) {
+        write_image(path, image_of(image, "image", format), {}, {});
+      },
+      "path"_a, "image"_a, "format"_a = "");
+}
+
+}  // namespace trueshade::python

@@ -1,0 +1,41 @@
+"""Ctrl-C ends a long frame, and other threads run while one is drawn."""
+
+import os
+import signal
+import threading
+import time
+
+import pytest
+import trueshade
+
+
+def test_ctrl_c_ends_a_frame():
+    scene = trueshade.load_scene("builtin:city")
+    pipeline = trueshade.Pipeline(size=(12000, 12000))
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        trueshade.render(scene, pipeline)
+    assert time.monotonic() - start < 10
+    assert trueshade.render(scene, trueshade.Pipeline(size=(16, 16))).color.shape == (16, 16, 4)
+
+
+def test_other_threads_run_while_a_frame_is_drawn():
+    scene = trueshade.load_scene("builtin:city")
+    counted = []
+    stop = threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    start = time.monotonic()
+    trueshade.render(scene, trueshade.Pipeline(size=(3000, 3000)))
+    end = time.monotonic()
+    stop.set()
+    thread.join()
+    during = [t for t in counted if start < t < end]
+    assert len(during) > (end - start) * 20
