@@ -80,11 +80,6 @@ void add_light(const LightModel& model, const LightRow& row, const LitPixel& pix
   to.add("term", at.term, at.fate == LightFate::adds ? "what the light adds: R, G, B" : "what it would add: R, G, B");
 }
 
-float brightness(const LightAtPixel& at) {
-  const float sum = std::fabs(at.term[0]) + std::fabs(at.term[1]) + std::fabs(at.term[2]);
-  return sum == sum ? sum : HUGE_VALF;
-}
-
 /// The lights that are parts: all, or those that add most, in the order of their indices.
 std::vector<size_t> listed(const LightTotal& total, Detail detail) {
   std::vector<size_t> out;
@@ -92,7 +87,7 @@ std::vector<size_t> listed(const LightTotal& total, Detail detail) {
     if (detail == Detail::all || total.lights[i].fate == LightFate::adds) out.push_back(i);
   if (detail == Detail::all || out.size() <= kMostListed) return out;
   std::stable_sort(out.begin(), out.end(),
-                   [&](size_t a, size_t b) { return brightness(total.lights[a]) > brightness(total.lights[b]); });
+                   [&](size_t a, size_t b) { return strength(total.lights[a]) > strength(total.lights[b]); });
   out.resize(kMostListed);
   std::sort(out.begin(), out.end());
   return out;

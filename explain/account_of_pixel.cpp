@@ -39,11 +39,6 @@ std::string frame_title(const ExplainedFrame& frame, const PixelHistory& history
          ": pixel " + std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
 }
 
-float strength(const LightAtPixel& at) {
-  const float sum = std::fabs(at.term[0]) + std::fabs(at.term[1]) + std::fabs(at.term[2]);
-  return sum == sum ? sum : HUGE_VALF;
-}
-
 /// What most people ask: what is seen, and which lights make it bright.
 void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Account& to) {
   std::vector<std::string> through;

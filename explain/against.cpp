@@ -90,14 +90,11 @@ class Search {
   /// The lights that add most to the visible surface.
   std::vector<size_t> strongest() const {
     const std::vector<LightAtPixel>& lights = history_.lit.visible.lights;
-    const auto brightness = [&](size_t i) {
-      const float sum = std::fabs(lights[i].term[0]) + std::fabs(lights[i].term[1]) + std::fabs(lights[i].term[2]);
-      return sum == sum ? sum : HUGE_VALF;
-    };
     std::vector<size_t> out;
     for (size_t i = 0; i < lights.size(); ++i)
       if (lights[i].fate == LightFate::adds) out.push_back(i);
-    std::stable_sort(out.begin(), out.end(), [&](size_t a, size_t b) { return brightness(a) > brightness(b); });
+    std::stable_sort(out.begin(), out.end(),
+                     [&](size_t a, size_t b) { return strength(lights[a]) > strength(lights[b]); });
     out.resize(std::min(out.size(), kMostLights));
     return out;
   }

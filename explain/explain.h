@@ -44,12 +44,13 @@ PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory&
 /// A stored pixel as its format has it: codes, or floats.
 std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored);
 
-/// The same in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
-/// pixel. Of very many triangles, lights and draws those that matter most are parts, and the others are counted.
+/// How much of a history its account holds.
 enum class Detail : uint8_t {
   usual,  ///< the 64 lights that add most, the 64 covering triangles drawn last; draws that change something
   all     ///< every covering triangle, every light and every draw
 };
+/// A history in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
+/// pixel. What `detail` leaves out is counted.
 Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Detail detail = Detail::usual);
 
 }  // namespace trueshade

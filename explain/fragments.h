@@ -8,7 +8,7 @@
 
 namespace trueshade {
 
-/// A pixel by the place of its sample: column and row of OpenGL's window, y up.
+/// Column and row of a pixel in OpenGL's window: x to the right, y up, both from 0.
 struct WindowPixel {
   int x, y;
 };
@@ -69,8 +69,8 @@ struct PixelTriangles {
   std::vector<PixelFragment> culled;  ///< those that would cover it if they were not culled, the first eight
 };
 
-/// Asks every triangle of the scene's opaque instances, or of its transparent ones (all are opaque where the frame
-/// draws none apart). Time grows with the number of triangles.
+/// What became of each triangle of the opaque instances, or of the transparent ones, at a pixel. Where the frame draws
+/// transparent surfaces like the others, all instances are opaque. Time grows with the number of triangles.
 enum class Surfaces : uint8_t { opaque, transparent };
 PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which);
 

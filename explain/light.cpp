@@ -214,6 +214,11 @@ LightAtPixel light_at(const LightModel& model, const LightRow& light, const LitP
   return at;
 }
 
+float strength(const LightAtPixel& light) {
+  const float sum = std::fabs(light.term[0]) + std::fabs(light.term[1]) + std::fabs(light.term[2]);
+  return sum == sum ? sum : HUGE_VALF;
+}
+
 std::array<float, 4> received(const LightModel& model, const LitPixel& pixel, const std::array<float, 3>& sum) {
   std::array<float, 4> out{sum[0], sum[1], sum[2], pixel.alpha};
   for (size_t k = 0; k < 3; ++k) {

@@ -44,6 +44,9 @@ struct LightAtPixel {
 };
 LightAtPixel light_at(const LightModel& model, const LightRow& light, const LitPixel& pixel);
 
+/// How much a light adds, for an order of lights: |R| + |G| + |B| of its term, infinite where that is no number.
+float strength(const LightAtPixel& light);
+
 /// A sum of terms, or one term that is drawn by itself, as the target receives it: albedo and clamp applied.
 std::array<float, 4> received(const LightModel& model, const LitPixel& pixel, const std::array<float, 3>& sum);
 
