@@ -7,8 +7,7 @@ source=$1 compiler=$2 launcher=${3:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/source"
-(cd "$source" && tar -cf - CMakeLists.txt CMakePresets.json cmake core scenes raster shading oracle judge gl bench compare explain cli tests/golden tests/general_path) |
-  tar -xf - -C "$work/source"
+tar -C "$source" -cf - --exclude=./build --exclude=./.git . | tar -xf - -C "$work/source"
 cd "$work/source"
 
 mapfile -t folders < <(find raster shading -type d \( -name fast -o -name bounded \))
