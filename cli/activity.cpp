@@ -1,10 +1,10 @@
 #include "cli/activity.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cstdio>
 #include <system_error>
+
+#include "cli/terminal.h"
 
 namespace trueshade {
 namespace {
@@ -28,7 +28,7 @@ void wipe() {
 
 Activity::Activity(std::string what, Counts counts)
     : outermost_(!alive.exchange(true)),
-      terminal_(isatty(STDERR_FILENO) != 0),
+      terminal_(terminal_takes_escapes() && !is_quiet()),
       what_(std::move(what)),
       part_begin_(Clock::now()),
       loop_begin_(part_begin_) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cli/options.h"
@@ -21,7 +22,11 @@ void bench(const BenchOptions& options);
 void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
 int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
+void print_version(const VersionOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
+
+/// Names of the faults that `validate` looks for; none in a program that has no judge.
+std::vector<std::string> fault_names();
 
 /// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full
 /// disk.
@@ -29,6 +34,8 @@ void print(std::string_view text);
 
 /// The same of a file's bytes, as they are.
 void print_bytes(std::span<const uint8_t> bytes);
+/// Of a report all, or where --quiet is given the line that begins with `verdict`.
+std::string shown_report(const std::string& text);
 /// Writes a line to standard error, as printable() has it.
 void say(std::string_view line);
 

@@ -103,7 +103,7 @@ int compare_two_pictures(const CompareOptions& options) {
   }
   const bool is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
   if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures, is_accepted)));
-  print(options.json ? comparison_json(pictures) : comparison_text(pictures));
+  print(options.json ? comparison_json(pictures) : shown_report(comparison_text(pictures)));
   for (const std::string& path : options.outputs) {
     const std::string why = is_page(path) ? "" : why_no_differences(pictures, path);
     if (why.empty())
@@ -133,7 +133,7 @@ int compare_two_folders(CompareOptions options) {
     folders = compared_folders(options, [&bar](int done, int count) { bar.show(done, count); });
   }
   if (options.junit) write_text(*options.junit, junit_xml(folders));
-  print(options.json ? rows_json(folders) : rows_text(folders));
+  print(options.json ? rows_json(folders) : shown_report(rows_text(folders)));
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
   return folders.exit_code();
 }

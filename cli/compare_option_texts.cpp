@@ -87,8 +87,7 @@ void set_flip(const CompareTexts& texts, compare::CompareRules& rules) {
   if (texts.mapper) {
     const auto& names = compare::kToneMapperNames;
     const auto found = std::find(names.begin(), names.end(), *texts.mapper);
-    if (found == names.end())
-      throw usage("--tone-mapper", "there is no '" + *texts.mapper + "'", "one of: " + joined(names));
+    if (found == names.end()) throw unknown_name("--tone-mapper", "there is no", *texts.mapper, names);
     rules.flip.tone_mapper = compare::ToneMapper(found - names.begin());
   }
   if (texts.exposures) rules.flip.exposures = exposures_from_text(*texts.exposures);
@@ -101,7 +100,7 @@ CompareOptions finished(CompareOptions options, const CompareTexts& texts) {
   set_flip(texts, options.rules);
   if (texts.color_space) {
     if (*texts.color_space != "srgb" && *texts.color_space != "linear")
-      throw usage("--color-space", "there is no '" + *texts.color_space + "'", "one of: srgb linear");
+      throw unknown_name("--color-space", "there is no", *texts.color_space, kColorSpaceNames);
     options.rules.color_space = *texts.color_space == "srgb" ? ColorSpace::srgb : ColorSpace::linear;
   }
   if (texts.threads) options.rules.threads = integer_in("--threads", *texts.threads, 0, 1024);

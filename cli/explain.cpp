@@ -230,7 +230,7 @@ void explain(const ExplainOptions& options) {
     print(account_text(account) + "\nstored  " + words_of(stored.values) + "  " + stored.meaning + '\n');
   Notes notes = notes_of(scene, pipeline);
   if (other_view) notes.lines.emplace_back("the pipeline has a view; what is explained is the lit picture");
-  if (!options.quiet) say_notes(notes.lines);
+  say_notes(notes.lines);
 }
 
 }  // namespace trueshade

@@ -55,7 +55,7 @@ void export_scene(const ExportOptions& options) {
   require_memory(bytes_to_write(scene), scene.spec, "the file");
   activity->now("making the GLB");
   const GlbFile file = glb_of_scene(scene, png_of_codes);
-  if (!options.quiet) say_notes(file.notes);
+  say_notes(file.notes);
   if (to_output) {
     activity.reset();
     return print_bytes(file.bytes);

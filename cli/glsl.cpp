@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/preparation.h"
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "gl/emit/state_list.h"
@@ -73,7 +74,7 @@ void write_glsl(const GlslFilesOptions& asked) {
     write_file(asked.folder + "/state.bin", frame->bytes);
     written += asked.folder + "/state.bin\n";
   }
-  print(written);
+  if (!is_quiet()) print(written);
 }
 
 }  // namespace trueshade

@@ -9,6 +9,7 @@
 #include "cli/json_text.h"
 #include "cli/preparation.h"
 #include "cli/resolved_scene.h"
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
@@ -107,7 +108,7 @@ void write_resolved(const Scene& scene, const Pipeline& pipeline, double time, c
     if (made) std::filesystem::remove(folder, error);
     throw;
   }
-  print(json_file + '\n' + array_file + '\n');
+  if (!is_quiet()) print(json_file + '\n' + array_file + '\n');
 }
 
 void resolve(const InfoOptions& options) {

@@ -14,6 +14,7 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/memory_cap.h"
 #include "core/printable_text.h"
@@ -105,9 +106,11 @@ void install_handlers() {
 /// Called before the initializers of the libraries, which may run out of memory as well.
 __attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = install_handlers;
 
-void cap_memory(const Command& command) {
+void set_up(const Command& command) {
   std::visit(
       [](const auto& options) {
+        if constexpr (requires { options.quiet; })
+          if (options.quiet) be_quiet();
         if constexpr (requires { options.limits; }) set_memory_cap(options.limits.memory);
       },
       command);
@@ -122,7 +125,7 @@ int main(int count, char** arguments) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const trueshade::Command command = trueshade::command_from_arguments(count, arguments);
-    trueshade::cap_memory(command);
+    trueshade::set_up(command);
     return trueshade::execute(command);
   } catch (...) {
     return trueshade::exit_code_of(std::current_exception());

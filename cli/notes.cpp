@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/terminal.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/view_image.h"
 
@@ -136,6 +137,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
 }
 
 void say_notes(const std::vector<std::string>& lines) {
+  if (is_quiet()) return;
   for (const std::string& line : lines) say("trueshade: note: " + line);
 }
 

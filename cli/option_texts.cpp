@@ -84,10 +84,10 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 
 InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
   const std::pair<const char*, bool> given[] = {
-      {"--preset", options.preset.has_value()},  {"--pipeline", options.pipeline_file.has_value()},
-      {"--size", texts.size.has_value()},        {"--target", texts.target.has_value()},
+      {"--preset", options.preset.has_value()},   {"--pipeline", options.pipeline_file.has_value()},
+      {"--size", texts.size.has_value()},         {"--target", texts.target.has_value()},
       {"--strategy", texts.strategy.has_value()}, {"--profile", texts.profile.has_value()},
-      {"--time", texts.time.has_value()},        {"-o", texts.folder.has_value()}};
+      {"--time", texts.time.has_value()},         {"-o", texts.folder.has_value()}};
   for (const auto& [name, is_given] : given)
     if (is_given && !options.resolved)
       throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
@@ -117,7 +117,7 @@ GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
   if (texts.api) {
     const auto found = std::find(std::begin(oracle::kShaderApiNames), std::end(oracle::kShaderApiNames), *texts.api);
     if (found == std::end(oracle::kShaderApiNames))
-      throw usage("--api", "there is no '" + *texts.api + "'", "one of: " + joined(oracle::kShaderApiNames));
+      throw unknown_name("--api", "there is no", *texts.api, oracle::kShaderApiNames);
     options.api = oracle::ShaderApi(found - std::begin(oracle::kShaderApiNames));
   }
   return options;
@@ -133,7 +133,6 @@ ExportOptions finished(ExportOptions options, const std::optional<std::string>& 
 }
 
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
-  constexpr std::string_view kDrivers[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);
@@ -141,14 +140,15 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
   check_preset(options.preset);
-  if (options.driver && std::find(std::begin(kDrivers), std::end(kDrivers), *options.driver) == std::end(kDrivers))
-    throw usage("--driver", "there is no driver '" + *options.driver + "'", "one of: " + joined(kDrivers));
+  if (options.driver &&
+      std::find(std::begin(kDriverNames), std::end(kDriverNames), *options.driver) == std::end(kDriverNames))
+    throw unknown_name("--driver", "there is no driver", *options.driver, kDriverNames);
   check_capture(options.capture);
   if (options.driver && options.capture.given())
     throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
   constexpr auto& kProfiles = oracle::kDriverProfileNames;
   if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
-    throw usage("--profile", "there is no profile '" + *options.held_to + "'", "one of: " + joined(kProfiles));
+    throw unknown_name("--profile", "there is no profile", *options.held_to, kProfiles);
   if (!options.capture.given() && !options.capture.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");
   for (const std::string& path : options.saved)

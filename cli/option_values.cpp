@@ -94,13 +94,13 @@ FrameRange frames_from_text(const std::string& text) {
 
 NumericProfile profile_from_text(const std::string& text) {
   const std::optional<NumericProfile> profile = profile_from_name(text);
-  if (!profile) throw usage("--profile", "there is no profile '" + text + "'", "one of: " + joined(kProfileNames));
+  if (!profile) throw unknown_name("--profile", "there is no profile", text, kProfileNames);
   return *profile;
 }
 
 ImageView view_from_text(const std::string& option, const std::string& text) {
   const std::optional<ImageView> view = view_from_name(text);
-  if (!view) throw usage(option, "there is no view '" + text + "'", "one of: " + joined(kViewNames));
+  if (!view) throw unknown_name(option, "there is no view", text, kViewNames);
   return *view;
 }
 
@@ -113,14 +113,13 @@ std::vector<std::string_view> target_names() {
 Format target_from_text(const std::string& option, const std::string& text) {
   const std::optional<Format> format = format_from_name(text);
   if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
-    throw usage(option, "there is no target '" + text + "'", "one of: " + joined(target_names()));
+    throw unknown_name(option, "there is no target", text, target_names());
   return *format;
 }
 
 Strategy strategy_from_text(const std::string& option, const std::string& text) {
   const auto name = std::find(std::begin(kStrategyNames), std::end(kStrategyNames), text);
-  if (name == std::end(kStrategyNames))
-    throw usage(option, "there is no strategy '" + text + "'", "one of: " + joined(kStrategyNames));
+  if (name == std::end(kStrategyNames)) throw unknown_name(option, "there is no strategy", text, kStrategyNames);
   return Strategy(name - std::begin(kStrategyNames));
 }
 
@@ -132,7 +131,8 @@ std::vector<std::string> aovs_from_text(const std::string& option, const std::st
     const size_t end = std::min(list.find(',', begin), list.size());
     const std::string name = list.substr(begin, end - begin);
     if (!is_aov_name(name))
-      throw usage(option, "there is no plane '" + name + "'", "any of, with commas: " + plane_names());
+      throw usage(option, "there is no plane '" + name + "'",
+                  did_you_mean(name, aov_names()) + "any of, with commas: " + plane_names());
     if (std::find(names.begin(), names.end(), name) != names.end())
       throw usage(option, "plane '" + name + "' is named twice", "name it once");
     names.push_back(name);
@@ -193,7 +193,13 @@ Variant variant_from_text(const std::string& text) {
 PngEncoding encoding_from_text(const std::string& text) {
   if (text == "srgb") return PngEncoding::srgb;
   if (text == "raw") return PngEncoding::raw;
-  throw usage("--encode", "there is no encoding '" + text + "'", "one of: srgb raw");
+  throw unknown_name("--encode", "there is no encoding", text, kEncodingNames);
+}
+
+std::vector<std::string_view> preset_names() {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
 }
 
 void check_scene(const std::string& scene) {
@@ -202,13 +208,15 @@ void check_scene(const std::string& scene) {
 
 void check_preset(const std::optional<std::string>& preset) {
   if (preset && !preset_pipeline(*preset))
-    throw usage("--preset", "there is no preset '" + *preset + "'", "`trueshade list` names them");
+    throw usage("--preset", "there is no preset '" + *preset + "'",
+                did_you_mean(*preset, preset_names()) + "`trueshade list` names them");
 }
 
 void check_simd(const std::string& option, const std::string& name) {
   const std::vector<std::string_view> simd = simd_targets();
   if (name != "best" && std::find(simd.begin(), simd.end(), name) == simd.end())
-    throw usage(option, "this machine has no '" + name + "'", "one of: best " + joined(simd));
+    throw usage(option, "this machine has no '" + name + "'",
+                did_you_mean(name, simd) + "one of: best " + joined(simd));
 }
 
 }  // namespace trueshade

@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "core/error.h"
+#include "core/likeliest_name.h"
 
 namespace trueshade {
 
@@ -39,14 +40,16 @@ struct Variant {
 /// Of strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE...
 Variant variant_from_text(const std::string& text);
 
+// Names that values may have, for completions and suggestions.
+inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
+inline constexpr std::string_view kEncodingNames[] = {"srgb", "raw"}, kColorSpaceNames[] = {"srgb", "linear"};
+inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse4", "scalar"};
+inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
+std::vector<std::string_view> preset_names();
+
 void check_scene(const std::string& scene);
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& option, const std::string& name);
-
-Error usage(const std::string& where, const std::string& reason, const std::string& remedy);
-
-std::vector<std::string_view> target_names();
-std::string plane_names();
 
 /// Names as a message lists them.
 template <typename Names>
@@ -55,6 +58,17 @@ std::string joined(const Names& names) {
   for (const auto& name : names) text += (text.empty() ? "" : " ") + std::string(name);
   return text;
 }
+
+Error usage(const std::string& where, const std::string& reason, const std::string& remedy);
+
+/// `what` as in "there is no preset"; the remedy names the known name that was probably meant, and all.
+template <typename Names>
+Error unknown_name(const std::string& option, const std::string& what, const std::string& name, const Names& known) {
+  return usage(option, what + " '" + name + "'", did_you_mean(name, known) + "one of: " + joined(known));
+}
+
+std::vector<std::string_view> target_names();
+std::string plane_names();
 
 /// A pixel by column and row, from the top left.
 struct PixelPlace {

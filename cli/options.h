@@ -21,8 +21,13 @@ struct FrameRange {
   int first, last;
 };
 
+/// What every command has.
+struct CommonOptions {
+  bool quiet = false;  ///< neither notes nor progress nor the names of files written
+};
+
 /// What every command that reads files has.
-struct LimitedOptions {
+struct LimitedOptions : CommonOptions {
   Limits limits;
 };
 
@@ -58,7 +63,6 @@ struct RenderOptions : PipelineOptions {
   std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
-  bool quiet = false;  ///< neither notes nor the names of files written
 };
 
 /// `trueshade shade`: of RenderOptions without frames, planes, views and statistics. `scene` has the lights.
@@ -71,10 +75,10 @@ Execution execution_of(const RenderOptions& options);
 
 /// `trueshade info`
 struct InfoOptions : PipelineOptions {  // which `resolved` alone reads
-  std::string file;       ///< a scene or an image
-  bool resolved = false;  ///< every number of the scene, as the renderer has it
-  double time = 0.0;      ///< seconds of the scene's timeline
-  std::string folder;     ///< for the files of `resolved`; made if it is not there; empty: standard output
+  std::string file;                     ///< a scene or an image
+  bool resolved = false;                ///< every number of the scene, as the renderer has it
+  double time = 0.0;                    ///< seconds of the scene's timeline
+  std::string folder;  ///< for the files of `resolved`; made if it is not there; empty: standard output
 };
 
 /// `trueshade export`
@@ -82,11 +86,10 @@ struct ExportOptions : LimitedOptions {
   std::string scene;           ///< a file or builtin:NAME
   std::string output;          ///< .glb, or - for standard output
   std::optional<double> time;  ///< seconds; nothing: the scene with all that moves
-  bool quiet = false;          ///< neither notes nor the name of the file written
 };
 
 /// `trueshade list`
-struct ListOptions {
+struct ListOptions : CommonOptions {
   bool json = false;
 };
 
@@ -131,29 +134,33 @@ struct ExplainOptions : PipelineOptions {
   std::optional<std::string> against;  ///< a picture whose value is to be found out
   bool all = false;                    ///< every triangle, light and draw, also those that change nothing
   bool json = false;
-  bool quiet = false;                  ///< no notes
 };
 
 /// `trueshade compare`: two pictures, or two folders of them.
 struct CompareOptions : LimitedOptions {
   std::string reference, test;
   compare::CompareRules rules;
-  bool judges = true;                 ///< by the reference's scene, where it carries one and no criterion is given
-  std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders one folder
-  std::optional<std::string> junit;   ///< .xml
-  bool accept = false;                ///< copy test pictures that do not pass over their references
-  std::string command_line;           ///< as it was given, for a shell
+  bool judges = true;                ///< by the reference's scene, where it carries one and no criterion is given
+  std::vector<std::string> outputs;  ///< .png, .exr or .html; of folders one folder
+  std::optional<std::string> junit;  ///< .xml
+  bool accept = false;               ///< copy test pictures that do not pass over their references
+  std::string command_line;          ///< as it was given, for a shell
   bool json = false;
 };
 
-/// `--help` and `--version`: what to print.
+/// `trueshade --version`
+struct VersionOptions {
+  bool json = false;
+};
+
+/// `--help`: what to print.
 struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions,
-                             PrintText>;
+using Command =
+    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
+                 BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, VersionOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

@@ -25,6 +25,8 @@ Scene scene_of_options(const std::string& spec, const Limits& limits) {
   return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
 }
 
+std::vector<std::string> fault_names() { return {}; }
+
 int execute(const Command& command) {
   const auto* options = std::get_if<RenderOptions>(&command);
   if (options == nullptr) throw left_out("it has the command render alone");

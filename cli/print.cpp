@@ -5,6 +5,7 @@
 
 #include "cli/activity.h"
 #include "cli/commands.h"
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/printable_text.h"
 
@@ -20,6 +21,12 @@ void print_bytes(std::span<const uint8_t> bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0) return;
   throw Error(ErrorKind::io, "standard output", std::string("cannot write: ") + std::strerror(errno),
               "check where it is sent");
+}
+
+std::string shown_report(const std::string& text) {
+  if (!is_quiet()) return text;
+  const size_t verdict = text.starts_with("verdict ") ? 0 : text.find("\nverdict ") + 1;
+  return text.substr(verdict, text.find('\n', verdict) + 1 - verdict);
 }
 
 void say(std::string_view line) {

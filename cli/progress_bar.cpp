@@ -1,10 +1,9 @@
 #include "cli/progress_bar.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 
 #include "cli/activity.h"
+#include "cli/terminal.h"
 
 namespace trueshade {
 namespace {
@@ -36,7 +35,7 @@ ProgressBar::ProgressBar(std::string_view what, std::string_view unit)
       unit_(unit),
       begin_(Clock::now()),
       shown_(begin_),
-      terminal_(isatty(STDERR_FILENO) != 0 && !Activity::any()) {}
+      terminal_(terminal_takes_escapes() && !is_quiet() && !Activity::any()) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);

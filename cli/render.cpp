@@ -90,7 +90,7 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
       const Activity activity("writing " + printable(path, Lines::one));
       write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
-    if (!options.quiet) say_written(path, about_file(path, result, asked_for), standard_output_of(options));
+    say_written(path, about_file(path, result, asked_for), standard_output_of(options));
   }
 }
 
@@ -141,7 +141,7 @@ void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& p
     RenderedFrame result = frame_at(options, scene, pipeline, time);
     const std::string document = render_one(options, paths, prepared, result);
     for (const std::string& line : result.notes.lines)
-      if (said.insert(line).second && !options.quiet) say_notes({line});
+      if (said.insert(line).second) say_notes({line});
     if (options.json) documents += (documents.empty() ? "" : ",") + document.substr(0, document.size() - 1);
   }
   if (options.json) print("{\"frames\":[" + documents + "]}\n");
@@ -161,7 +161,7 @@ void render(const RenderOptions& options) {
   set_time(scene, options.time);
   RenderedFrame result = frame_at(options, scene, pipeline, options.time);
   const std::string document = render_one(options, options.outputs, PreparedScene(scene), result);
-  if (!options.quiet) say_notes(result.notes.lines);
+  say_notes(result.notes.lines);
   print(document);
 }
 

@@ -74,14 +74,13 @@ void shade(const ShadeOptions& options) {
   for (const std::string& path : options.outputs) {
     const Activity activity("writing " + printable(path, Lines::one));
     write_image(path, result.frame.color, {}, metadata_of(result), file_options(options, pipeline));
-    if (!options.quiet)
-      say_written(path,
-                  std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) + ' ' +
-                      std::string(info(pipeline.target).name) + ", " + kind_of_file(path),
-                  options.hash ? StandardOutput::answer : StandardOutput::files);
+    say_written(path,
+                std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) + ' ' +
+                    std::string(info(pipeline.target).name) + ", " + kind_of_file(path),
+                options.hash ? StandardOutput::answer : StandardOutput::files);
   }
   if (options.hash) print(hash_line(result));
-  if (!options.quiet) say_notes(planes.notes);
+  say_notes(planes.notes);
 }
 
 }  // namespace trueshade

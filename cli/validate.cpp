@@ -175,7 +175,7 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string page = validation_page(v, scene);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }
-  const std::string text = options.json ? validation_json(v) : validation_text(v);
+  const std::string text = options.json ? validation_json(v) : shown_report(validation_text(v));
   activity.reset();
   print(text);
   say_files(options, v);

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/terminal.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
@@ -36,10 +37,12 @@ bool is_standard_output(const struct stat& file) {
 }  // namespace
 
 void say_written(const std::string& path, const std::string& about, StandardOutput standard_output) {
+  if (is_quiet()) return;
   struct stat file {};
   const bool known = stat(path.c_str(), &file) == 0;
   const std::string line = "wrote " + path + " (" + about + (known ? size_text(file) : "") + ")";
-  if (standard_output == StandardOutput::files && !(known && is_standard_output(file))) return print(printable(line, Lines::one) + '\n');
+  if (standard_output == StandardOutput::files && !(known && is_standard_output(file)))
+    return print(printable(line, Lines::one) + '\n');
   say(line);
 }
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fails on an #include that tests/include_arrows.txt does not allow, and on arrows that make a circle. Also holds libraries
-# to their places: OpenImageIO in core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, CLI11 in
-# cli/options.cpp. Usage: include_arrows.sh SOURCE_FOLDER
+# to their places: OpenImageIO in core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver.
+# Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 status=0
@@ -43,7 +43,6 @@ only_in() {
 only_in 'OpenImageIO/' 'core/image_files/[a-z_]*.cpp'
 only_in 'embree' 'oracle/ray_scene.h'
 only_in 'epoxy/' 'gl/driver/[a-z_]*\.(h|cpp)'
-only_in 'CLI/' 'cli/options.cpp'
 
 # The oracle, the judge and the OpenGL twin judge our arithmetic, so they must not use it.
 found=$(sources oracle judge gl | xargs grep -nE '^ *# *include "(core/(half|small_float|srgb|srgb_codes|fp_env)|core/simd/([a-z_]*-inl|front_order)|scenes/trig)' || true)

@@ -65,6 +65,13 @@ void choose(SimdTarget chosen) {
 
 SimdTarget simd_target() { return target_in_use(); }
 
+std::vector<std::string_view> built_simd_targets() {
+  std::vector<std::string_view> names;
+  for (const Target& target : kTargets)
+    if (built(target.is)) names.push_back(target.name);
+  return names;
+}
+
 std::vector<std::string_view> simd_targets() {
   std::vector<std::string_view> names;
   for (const Target& target : runnable()) names.push_back(target.name);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/likeliest_name.h"
+#include "judge/diagnosis/finding.h"
 
 namespace trueshade::oracle {
 
@@ -43,7 +45,11 @@ Error refused(const std::string& name, const std::string& reason, const std::str
   return {ErrorKind::usage, "--suppose", "'" + name + "' " + reason, remedy};
 }
 Error no_fault(const std::string& name) {
-  return refused(name, "is no fault that is known", "`trueshade list` names them; a parameter follows `=`");
+  std::vector<std::string> known;
+  for (const KnownFault& fault : known_faults()) known.push_back(fault.name);
+  return refused(
+      name, "is no fault that is known",
+      did_you_mean(name.substr(0, name.find('=')), known) + "`trueshade list` names them; a parameter follows `=`");
 }
 
 template <class Fault>

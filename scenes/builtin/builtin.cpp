@@ -1,10 +1,12 @@
 #include "scenes/builtin/builtin.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/likeliest_name.h"
 #include "scenes/builtin/builtin_scenes.h"
 
 namespace trueshade {
@@ -80,7 +82,9 @@ class SpecReader {
     const std::string_view name = piece();
     for (const Row& row : kRows)
       if (row.info.name == name) return row;
-    fail("no built-in scene has this name", "one of " + joined_names());
+    std::vector<std::string_view> names;
+    for (const Row& row : kRows) names.push_back(row.info.name);
+    fail("no built-in scene has this name", did_you_mean(name, names) + "one of " + joined_names());
   }
 
   builtin::Parameters parameters(const Row& row, const SceneLimits& limits) {
@@ -111,10 +115,15 @@ class SpecReader {
         p.constant_radius = value == "constant";
         has_radius = true;
       } else {
+        std::vector<std::string_view> keys{"lights", "seed"};
+        if (row.most_objects > 0) keys.emplace_back("objects");
+        if (row.has_glass) keys.emplace_back("glass");
+        keys.emplace_back("radius");
+        std::string all;
+        for (const std::string_view name : keys) all += ' ' + std::string(name);
+        const bool is_known = std::find(keys.begin(), keys.end(), key) != keys.end();
         fail("the key '" + key + "' is unknown here or given twice",
-             row.most_objects > 0 ? "keys are lights seed objects radius"
-             : row.has_glass      ? "keys are lights seed glass radius"
-                                  : "keys are lights seed radius");
+             (is_known ? std::string() : did_you_mean(key, keys)) + "keys are" + all);
       }
     }
     return p;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/likeliest_name.h"
+
 namespace trueshade::json {
 std::string number_text(double value) {
   char buffer[32];
@@ -112,7 +114,9 @@ size_t Node::choice(std::span<const std::string_view> names) const {
   }
   std::string all;
   for (const std::string_view name : names) all += (all.empty() ? "" : " ") + std::string(name);
-  fail("found " + shown(*value_), names.size() == 1 ? all : "one of " + all);
+  const auto* text = std::get_if<std::unique_ptr<std::string>>(&value_->is);
+  fail("found " + shown(*value_),
+       (text != nullptr ? did_you_mean(**text, names) : std::string()) + (names.size() == 1 ? all : "one of " + all));
 }
 
 const Members& Node::members() const {
@@ -125,7 +129,7 @@ void Node::check_keys(const ObjectKeys& allowed) const {
     if (std::find(allowed.keys.begin(), allowed.keys.end(), key) != allowed.keys.end()) continue;
     std::string all;
     for (const std::string_view name : allowed.keys) all += (all.empty() ? "" : " ") + std::string(name);
-    Node(value, *this, key).fail("this key is unknown", "keys here are " + all);
+    Node(value, *this, key).fail("this key is unknown", did_you_mean(key, allowed.keys) + "keys here are " + all);
   }
 }
 

@@ -204,7 +204,7 @@ std::string refusal(const std::string& spec, ErrorKind kind = ErrorKind::bad_inp
 
 TEST_CASE("bad specs are refused with what would be right") {
   CHECK_STARTS_WITH(refusal(""), "builtin:: no built-in scene has this name");
-  CHECK_STARTS_WITH(refusal("City"), "builtin:City: no built-in scene has this name (one of city rabbits");
+  CHECK_STARTS_WITH(refusal("City"), "builtin:City: no built-in scene has this name (did you mean city? one of city rabbits");
   CHECK_STARTS_WITH(refusal("city,"), "builtin:city,: '' has no value");
   CHECK_STARTS_WITH(refusal("city,lights"), "builtin:city,lights: 'lights' has no value");
   for (const char* bad : {"city,lights=", "city,lights=-1", "city,lights=1.5", "city,lights= 1",

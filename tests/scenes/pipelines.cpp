@@ -145,7 +145,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"geometry": {"viewport": {"w": 3}}})", "p.json: /geometry/viewport/w: this key is unknown"},
       {R"({"geometry": {"viewport": {"width": -1}}})", "p.json: /geometry/viewport/width: found -1"},
       {R"({"geometry": {"depth_near": 1.25}})", "p.json: /geometry/depth_near: found 1.25 (a number from 0 to 1)"},
-      {R"({"geometry": {"depth_func": "LESS"}})", "p.json: /geometry/depth_func: found \"LESS\" (one of never less"},
+      {R"({"geometry": {"depth_func": "LESS"}})", "p.json: /geometry/depth_func: found \"LESS\" (did you mean less? one of never less"},
       {R"({"geometry": {"depth_format": "r32ui"}})",
        "p.json: /geometry/depth_format: found \"r32ui\" (one of d32f d24 d16)"},
       {R"({"geometry": {"polygon_offset_units": 2e18}})", "p.json: /geometry/polygon_offset_units: found 2e+18"},

@@ -115,7 +115,7 @@ TEST_CASE("bad scenes are refused at their pointer") {
   const std::pair<std::string, std::string> cases[] = {
       {"{}", "s.json: 'version' is missing"},
       {R"({"version": 2})", "s.json: /version: found 2"},
-      {R"({"version": 1, "light": []})", "s.json: /light: this key is unknown (keys here are version camera"},
+      {R"({"version": 1, "light": []})", "s.json: /light: this key is unknown (did you mean lights? keys here are version camera"},
       {with("clear", "[1, 1]"), "s.json: /clear: found an array of 2 (an array of 3 to 4)"},
       {with("clear", "[1, 1, 1, 2]"), "s.json: /clear/3: found 2 (a number from 0 to 1)"},
       {with("camera", "{}"), "s.json: /camera: 'eye' is missing"},

@@ -1,0 +1,30 @@
+#include "cli/command_tables.h"
+
+namespace trueshade {
+
+CommandTables::CommandTables() {
+  tables_.push_back(render_table(render_, render_texts_));
+  tables_.push_back(info_table(info_, info_texts_));
+  tables_.push_back(list_table(list_));
+  tables_.push_back(glsl_table(glsl_, glsl_texts_));
+  tables_.push_back(export_table(export_, export_time_));
+  tables_.push_back(validate_table(validation_, validation_texts_));
+  tables_.push_back(shade_table(shade_, shade_texts_));
+  tables_.push_back(explain_table(explain_, explain_texts_));
+  tables_.push_back(bench_table(bench_, bench_texts_));
+  tables_.push_back(compare_table(compare_, compare_texts_));
+}
+
+std::vector<std::string> CommandTables::names() const {
+  std::vector<std::string> all;
+  for (const CommandTable& table : tables_) all.push_back(table.name);
+  return all;
+}
+
+const CommandTable* CommandTables::named(const std::string& name) const {
+  for (const CommandTable& table : tables_)
+    if (table.name == name) return &table;
+  return nullptr;
+}
+
+}  // namespace trueshade

@@ -1,0 +1,66 @@
+#include "cli/option_table.h"
+
+#include <algorithm>
+
+namespace trueshade {
+
+std::vector<std::string> OptionRow::spellings() const {
+  std::vector<std::string> spelled;
+  for (size_t begin = 0; begin <= names.size();) {
+    const size_t end = std::min(names.find(',', begin), names.size());
+    spelled.push_back(names.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return spelled;
+}
+
+OptionRow& CommandTable::add(OptionRow row) {
+  if (row.group.empty()) row.group = row.is_argument() ? "Arguments" : open_group;
+  return rows.emplace_back(std::move(row));
+}
+
+std::vector<std::string> CommandTable::groups() const {
+  std::vector<std::string> headings;
+  for (const OptionRow& row : rows)
+    if (!row.is_argument() && std::find(headings.begin(), headings.end(), row.group) == headings.end())
+      headings.push_back(row.group);
+  return headings;
+}
+
+std::vector<std::string> CommandTable::option_spellings() const {
+  std::vector<std::string> all{"-h", "--help"};
+  for (const OptionRow& row : rows)
+    if (!row.is_argument())
+      for (std::string& name : row.spellings()) all.push_back(std::move(name));
+  return all;
+}
+
+OptionRow& add_values(CommandTable& table, const char* names, const char* value_name, std::vector<std::string>& texts,
+                      std::string help) {
+  OptionRow row{.names = names, .value_name = value_name, .help = std::move(help), .is_repeated = true};
+  row.take = [&texts](const std::vector<std::string>& given) { texts = given; };
+  return table.add(std::move(row));
+}
+
+OptionRow& add_switch(CommandTable& table, const char* names, bool& on, std::string help) {
+  OptionRow row{.names = names, .value_name = "", .help = std::move(help)};
+  row.take = [&on](const std::vector<std::string>&) { on = true; };
+  return table.add(std::move(row));
+}
+
+void add_limits(CommandTable& table, Limits& limits) {
+  for (const LimitOption& limit : limit_options()) {
+    const char* value_name = limit.unit == LimitOption::Unit::bytes ? "SIZE" : "COUNT";
+    OptionRow row{.names = limit.name, .value_name = value_name, .help = help_of(limit), .group = "Limits"};
+    row.take = [&limits, &limit](const std::vector<std::string>& given) {
+      limits.*limit.limit = limit_from_text(limit, given.back());
+    };
+    table.add(std::move(row));
+  }
+}
+
+void add_quiet(CommandTable& table, CommonOptions& options, std::string help) {
+  add_switch(table, "-q,--quiet", options.quiet, std::move(help)).group = "Output";
+}
+
+}  // namespace trueshade

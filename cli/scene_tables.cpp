@@ -1,0 +1,82 @@
+// The tables of commands that tell of scenes and write them for others: info, list, glsl, export.
+#include "cli/command_tables.h"
+#include "cli/option_values.h"
+
+namespace trueshade {
+namespace {
+
+const char* const kOnlyAnswerHelp = "Say no progress; what is printed is the answer";
+
+}  // namespace
+
+CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
+  CommandTable table{"info", "Say what is in a scene or an image"};
+  add_value(table, "FILE", "SCENE", options.file, "Scene (as for render), or image (.png, .exr)").is_required = true;
+  table.open_group = "Output";
+  add_switch(table, "--resolved", options.resolved,
+             "Print every number of a scene as the renderer has it, as JSON (docs/resolved.md)");
+  add_value(table, "-o,--output", "FOLDER", texts.folder,
+            "Folder for resolved.json and resolved.bin; made if it is not there");
+  add_quiet(table, options, "Say neither progress nor which files were written");
+  add_size(table, texts.size);
+  add_time(table, texts.time);
+  add_layers(table, options);
+  add_strategy(table, texts.strategy);
+  add_target(table, texts.target);
+  add_profile(table, texts.profile);
+  add_limits(table, options.limits);
+  table.examples = {{"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
+                    {"trueshade info builtin:city --resolved -o numbers", "Every number of a scene, as files."}};
+  table.see_also = {"render", "list"};
+  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  return table;
+}
+
+CommandTable list_table(ListOptions& options) {
+  CommandTable table{"list", "List scenes, presets, formats, planes and SIMD targets"};
+  table.open_group = "Output";
+  add_switch(table, "--json", options.json, "As one JSON document");
+  add_quiet(table, options, kOnlyAnswerHelp);
+  table.see_also = {"info"};
+  table.finished = [&options]() -> Command { return options; };
+  return table;
+}
+
+CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts) {
+  CommandTable table{"glsl", "Write a pipeline, or a whole frame, as shaders and state for a GPU"};
+  add_value(table, "SCENE", "SCENE", options.scene, kSceneHelp);
+  table.open_group = "Output";
+  add_value(table, "-o,--output", "FOLDER", options.folder, "Folder for the files; made if it is not there")
+      .is_required = true;
+  add_choice(table, "--api", "NAME", texts.api, "Whose GLSL and state, without it gl:", oracle::kShaderApiNames);
+  add_switch(table, "--maps", options.maps,
+             "Without a scene: materials with colour, specular and normal maps and alpha masks");
+  add_quiet(table, options, "Say neither progress nor which files were written");
+  add_size(table, texts.size);
+  add_time(table, texts.time);
+  add_layers(table, options);
+  add_strategy(table, texts.strategy);
+  add_limits(table, options.limits);
+  table.examples = {{"trueshade glsl --preset redsdk -o shaders", "A preset's shaders, with the state around them."}};
+  table.see_also = {"validate"};
+  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  return table;
+}
+
+CommandTable export_table(ExportOptions& options, std::optional<std::string>& time) {
+  CommandTable table{"export", "Write a scene as a GLB file, for other programs and for this one"};
+  add_value(table, "SCENE", "SCENE", options.scene, kSceneHelp).is_required = true;
+  table.open_group = "Output";
+  add_value(table, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output").is_required =
+      true;
+  add_quiet(table, options, "Say neither notes nor progress nor which file was written");
+  add_value(table, "--time", "SECONDS", time, "Write the scene as it stands at this time, without what moves").group =
+      kCameraGroup;
+  add_limits(table, options.limits);
+  table.examples = {{"trueshade export builtin:city -o city.glb", "A scene for other programs."}};
+  table.see_also = {"render", "info"};
+  table.finished = [&options, &time]() -> Command { return finished(std::move(options), time); };
+  return table;
+}
+
+}  // namespace trueshade
