@@ -34,16 +34,19 @@ Scene shown(Scene scene) {
 
 std::string name_without_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }  // npos + 1 is 0
 
-}  // namespace
+enum class References : uint8_t { followed, refused };  ///< of a scene file to another one: one step, no chains
 
-Scene load_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode) {
-  const FpScope fp;
+Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode,
+                   References references) {
   constexpr std::string_view kBuiltin = "builtin:";
   if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
   if (has_ending(spec, ".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes, "--max-json");
-    scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode);
+    SceneLoader load;
+    if (references == References::followed)
+      load = [&](const std::string& other) { return loaded_scene(other, limits, decode, References::refused); };
+    scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode, load);
   } else if (is_gltf_name(spec)) {
     scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);
   } else if (is_geometry_name(spec)) {
@@ -63,6 +66,13 @@ Scene load_scene(const std::string& spec, const SceneLimits& limits, const Image
   scene.spec = name_without_folder(spec);
   validate(scene, limits);
   return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode) {
+  const FpScope fp;
+  return loaded_scene(spec, limits, decode, References::followed);
 }
 
 }  // namespace trueshade

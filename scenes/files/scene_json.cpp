@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "scenes/files/light_json.h"
 #include "scenes/files/object_json.h"
+#include "scenes/files/reference_json.h"
 #include "scenes/files/steps_json.h"
 #include "scenes/pipeline/pipeline_json.h"
 #include "scenes/pipeline/presets.h"
@@ -12,8 +13,9 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",    "textures", "materials",
-                                          "objects", "lights", "pipeline", "fps",      "$schema"};
+constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",        "textures", "materials",
+                                          "objects", "lights", "scene",        "pipeline", "fps",
+                                          "$schema", "time",   "light_changes"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "fov_deg",       "fov_axis", "near",
                                             "far", "clip_from_world", "steps", "interpolation", "repeat"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
@@ -75,19 +77,21 @@ std::span<const json::ObjectKeys> scene_object_keys() {
     std::vector<json::ObjectKeys> keys(std::begin(kSceneJsonKeys), std::end(kSceneJsonKeys));
     for (const json::ObjectKeys& object : object_json_keys()) keys.push_back(object);
     for (const json::ObjectKeys& light : light_json_keys()) keys.push_back(light);
+    for (const json::ObjectKeys& change : reference_json_keys()) keys.push_back(change);
     return keys;
   }();
   return all;
 }
 
 Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits,
-                      const ImageDecoder& decode) {
+                      const ImageDecoder& decode, const SceneLoader& load) {
   const json::Value value = json::parse(text, path);
   const json::Node root(value, path);
   root.check_keys(kSceneJsonKeys[kScene]);
   if (const auto schema = root.find("$schema")) schema->string();  // for editors
   root.member("version").integer(1, 1);
-  Scene scene;
+  const auto reference = reference_from_json(root, path, limits);
+  Scene scene = reference ? scene_of_reference(*reference, root, load) : Scene();
   scene.spec = path;
   if (const auto pipeline = root.find("pipeline")) {
     pipeline_from_node(*pipeline,
@@ -96,16 +100,23 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   }
   if (const auto fps = root.find("fps")) scene.timeline.fps = fps->number(0.001, 1e6);
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
-  if (const auto lights = root.find("lights")) read_lights(*lights, scene, path, limits, decode);
-  ObjectReader objects(scene, path, limits, decode);
-  if (const auto textures = root.find("textures")) objects.read_textures(*textures);
-  if (const auto materials = root.find("materials")) objects.read_materials(*materials);
-  if (const auto list = root.find("objects")) objects.read_objects(*list);
-  objects.bake_texture_coordinates();
+  if (!reference) {
+    if (const auto lights = root.find("lights")) read_lights(*lights, scene, path, limits, decode);
+    ObjectReader objects(scene, path, limits, decode);
+    if (const auto textures = root.find("textures")) objects.read_textures(*textures);
+    if (const auto materials = root.find("materials")) objects.read_materials(*materials);
+    if (const auto list = root.find("objects")) objects.read_objects(*list);
+    objects.bake_texture_coordinates();
+  }
   const auto camera = root.find("camera");
-  if (camera) read_camera(*camera, scene);
+  if (camera) {
+    scene.camera = Camera();
+    scene.timeline.camera.clear();
+    scene.timeline.node_camera.reset();
+    read_camera(*camera, scene);
+  }
   set_time(scene, 0.0);
-  if (!camera) scene.camera = camera_seeing(bounds_of(scene));
+  if (!camera && !reference) scene.camera = camera_seeing(bounds_of(scene));
   return scene;
 }
 

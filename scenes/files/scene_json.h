@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "scenes/files/reference_json.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
 
@@ -12,9 +13,9 @@ namespace trueshade {
 std::span<const json::ObjectKeys> scene_object_keys();
 
 /// Scene of a JSON text (scenes/schemas/scene.schema.json). Geometry and image files are read from the folder of
-/// `path`, geometry once each, images by `decode`. Not validated. Error(bad_input) with JSON pointer, line or byte;
-/// Error(limit), Error(io) for the geometry files.
+/// `path`, geometry once each, images by `decode`; a scene that the text refers to by `load`, without which it is
+/// refused. Not validated. Error(bad_input) with JSON pointer, line or byte; Error(limit), Error(io) for the files.
 Scene scene_from_json(std::string_view text, const std::string& path, const SceneLimits& limits,
-                      const ImageDecoder& decode = {});
+                      const ImageDecoder& decode = {}, const SceneLoader& load = {});
 
 }  // namespace trueshade

@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <mutex>
+#include <set>
 
 #include "core/error.h"
 #include "core/memory_cap.h"
@@ -88,6 +90,23 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon > 0 && uri[colon] == ':';
 }
 
+/// What FilesRead notes. One for the process, because the files of a scene are read on any thread.
+struct Notebook {
+  std::mutex mutex;
+  bool open = false;
+  std::set<std::string> paths;
+};
+
+Notebook& notebook() {
+  static Notebook only;
+  return only;
+}
+
+void note(const std::string& path) {
+  const std::lock_guard lock(notebook().mutex);
+  if (notebook().open) notebook().paths.insert(path);
+}
+
 bool climbs_out(std::string_view path) {
   int depth = 0;
   for (size_t start = 0; start <= path.size();) {
@@ -105,7 +124,24 @@ bool climbs_out(std::string_view path) {
 
 }  // namespace
 
+FilesRead::FilesRead() {
+  const std::lock_guard lock(notebook().mutex);
+  notebook().open = true;
+  notebook().paths.clear();
+}
+
+FilesRead::~FilesRead() {
+  const std::lock_guard lock(notebook().mutex);
+  notebook().open = false;
+}
+
+std::vector<std::string> FilesRead::paths() const {
+  const std::lock_guard lock(notebook().mutex);
+  return {notebook().paths.begin(), notebook().paths.end()};
+}
+
 Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view option) {
+  note(path);
   const Descriptor file(open(path.c_str(), kOpenFlags));
   if (file.get() < 0) throw Error(ErrorKind::io, path, std::strerror(errno), "a file that exists and can be read");
   return content(file.get(), limit, path, option);
@@ -147,6 +183,7 @@ SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_
 SceneFolder::~SceneFolder() { close(folder_); }
 
 int SceneFolder::open_beneath(const std::string& relative, bool portable) const {
+  note(name_ + "/" + relative);
   if (!portable) {
     open_how how{};
     how.flags = uint64_t(kOpenFlags);

@@ -43,6 +43,16 @@ class SceneFolder {
   int folder_ = -1;
 };
 
+/// For its lifetime notes the paths that read_user_file() and SceneFolder open, or fail to, on any thread. One at a time.
+class FilesRead {
+ public:
+  FilesRead();
+  ~FilesRead();
+  FilesRead(const FilesRead&) = delete;
+  FilesRead& operator=(const FilesRead&) = delete;
+  std::vector<std::string> paths() const;  ///< sorted, each once
+};
+
 /// Content of a .gz file, all its members. Error(bad_input) for a broken stream; Error(limit) over limits.file_bytes, over
 /// limits.expansion, over the memory cap.
 Bytes gunzipped(std::span<const uint8_t> compressed, const SceneLimits& limits, std::string_view where);

@@ -1,0 +1,89 @@
+#include "scenes/files/reference_json.h"
+
+#include "core/error.h"
+#include "scenes/files/content/scene_files.h"
+
+namespace trueshade {
+namespace {
+
+constexpr std::string_view kChangeKeys[] = {"light", "on", "color", "intensity", "position"};
+constexpr json::ObjectKeys kChange = {"light_change", kChangeKeys};
+constexpr std::string_view kBuiltin = "builtin:";
+
+LightChange change_from_json(const json::Node& node) {
+  node.check_keys(kChange);
+  LightChange change;
+  change.light = uint32_t(node.member("light").integer(0, UINT32_MAX));
+  if (const auto on = node.find("on")) change.on = on->boolean();
+  if (const auto color = node.find("color")) change.color = color->vec3(0.0, json::kLargest);
+  if (const auto intensity = node.find("intensity")) change.intensity = intensity->number(0.0, json::kLargest);
+  if (const auto position = node.find("position")) change.position = position->vec3(-json::kLargest, json::kLargest);
+  return change;
+}
+
+/// A file's path from here: it lies in the folder of the file that names it, or below.
+std::string referred_path(const json::Node& node, const std::string& path, const SceneLimits& limits) {
+  const std::string& text = node.string();
+  if (text.starts_with(kBuiltin)) return text;
+  const std::string where = path + ": " + node.pointer();
+  const std::string relative = relative_path_from_uri(text, where);
+  SceneFolder(path).check(relative, limits.file_bytes, where);
+  return path.substr(0, path.rfind('/') + 1) + relative;  // npos + 1 is 0
+}
+
+}  // namespace
+
+std::vector<json::ObjectKeys> reference_json_keys() { return {kChange}; }
+
+std::optional<SceneReference> reference_from_json(const json::Node& root, const std::string& path,
+                                                  const SceneLimits& limits) {
+  const auto scene = root.find("scene");
+  if (!scene) {
+    for (const char* key : {"light_changes", "time"})
+      if (const auto alone = root.find(key)) alone->fail("it stands without \"scene\"", "name the scene that it is of");
+    return std::nullopt;
+  }
+  for (const char* key : {"textures", "materials", "objects", "lights"})
+    if (const auto own = root.find(key))
+      own->fail("it stands beside \"scene\", which has its own", "leave one of them out");
+  SceneReference reference;
+  reference.scene = referred_path(*scene, path, limits);
+  if (const auto time = root.find("time")) reference.time = time->number(-kLatestTime, kLatestTime);
+  const auto changes = root.find("light_changes");
+  if (!changes) return reference;
+  const size_t count = changes->array(0, size_t(limits.lights)).size();
+  for (size_t i = 0; i < count; ++i) reference.changes.push_back(change_from_json(changes->element(i)));
+  return reference;
+}
+
+Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load) {
+  if (!load)
+    root.member("scene").fail("the scene that refers to it is referred to itself", "name the last scene itself");
+  Scene scene = load(reference.scene);
+  for (size_t i = 0; i < reference.changes.size(); ++i) {
+    if (reference.changes[i].light >= scene.lights.size())
+      root.member("light_changes")
+          .element(i)
+          .member("light")
+          .fail("there is no such light", "the scene has " + std::to_string(scene.lights.size()) + ", from 0");
+    change_light(scene, reference.changes[i]);
+  }
+  if (reference.time) {
+    set_time(scene, *reference.time);
+    const double fps = scene.timeline.fps;
+    scene.timeline = Timeline();
+    scene.timeline.fps = fps;
+  }
+  return scene;
+}
+
+std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path) {
+  try {
+    const json::Value value = json::parse(text, path);
+    return reference_from_json(json::Node(value, path), path, {});
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace trueshade
