@@ -21,6 +21,7 @@
 #include "core/image_files/image_io.h"
 #include "core/image_pixel.h"
 #include "explain/against.h"
+#include "explain/finished_pixel.h"
 #include "judge/stages/legal_pixel.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/presets.h"
@@ -71,12 +72,6 @@ void check_explanation(const Question& q, const PixelHistory& history) {
   if (stored_difference(q.frame.target, stored_in(q.reference.color, q.x, q.y), history.stored) != 0.0)
     throw std::logic_error("the explanation of pixel " + std::to_string(q.options.x) + ',' +
                            std::to_string(q.options.y) + " does not end in the rendered value");
-}
-
-std::string words_of(const std::vector<AccountValue>& values) {
-  std::string text;
-  for (const AccountValue& value : values) text += (text.empty() ? "" : ", ") + value_text(value);
-  return text;
 }
 
 /// The asked pixel of another picture, in a format.
@@ -183,24 +178,6 @@ Account against_account(const Question& q, const PixelHistory& history) {
   return out;
 }
 
-/// Where a post chain follows, what is explained is the target, and the picture's value comes last.
-void add_finished_pixel(const Question& q, Account& account) {
-  if (!q.pipeline.post.active()) return;
-  const int n = q.pipeline.post.samples;
-  const std::string which =
-      n > 1 ? "the upper left of the pixel's " + std::to_string(n) + 'x' + std::to_string(n) + " samples, " : "";
-  Quantity& target = account.quantities.back();
-  target.name = "target";
-  target.meaning = which + target.meaning + ", before the post chain";
-  const Image picture = render_frame(q.scene, q.pipeline).color;
-  const std::string format(info(picture.format).name);
-  account.quantities.push_back({"stored",
-                                format + ", after the post chain (docs/post.md)",
-                                values_in_format(picture.format, stored_in(picture, q.options.x, q.options.y)),
-                                true,
-                                {}});
-}
-
 }  // namespace
 
 void explain(const ExplainOptions& options) {
@@ -222,12 +199,11 @@ void explain(const ExplainOptions& options) {
   check_explanation(question, history);
   Account account = account_of(question.frame, history, options.all ? Detail::all : Detail::usual);
   if (options.against) account.parts.push_back(against_account(question, history));
-  add_finished_pixel(question, account);
-  const Quantity stored = account.quantities.back();
+  add_finished_pixel(scene, pipeline, options.x, options.y, account);
   if (options.json)
     print(account_json(account) + '\n');
-  else  // the stored pixel is among the first lines, where people look for it, and the last, where programs do
-    print(account_text(account) + "\nstored  " + words_of(stored.values) + "  " + stored.meaning + '\n');
+  else
+    print(explanation_text(account));
   Notes notes = notes_of(scene, pipeline);
   if (other_view) notes.lines.emplace_back("the pipeline has a view; what is explained is the lit picture");
   say_notes(notes.lines);
