@@ -11,6 +11,7 @@ CommandTables::CommandTables() {
   tables_.push_back(validate_table(validation_, validation_texts_));
   tables_.push_back(shade_table(shade_, shade_texts_));
   tables_.push_back(explain_table(explain_, explain_texts_));
+  tables_.push_back(view_table(view_, view_texts_));
   tables_.push_back(bench_table(bench_, bench_texts_));
   tables_.push_back(compare_table(compare_, compare_texts_));
 }

@@ -13,6 +13,7 @@ CommandTable export_table(ExportOptions& options, std::optional<std::string>& ti
 CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts);
 CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts);
 CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts);
+CommandTable view_table(ViewOptions& options, ViewTexts& texts);
 CommandTable bench_table(BenchOptions& options, BenchTexts& texts);
 CommandTable compare_table(CompareOptions& options, CompareTexts& texts);
 
@@ -43,6 +44,8 @@ class CommandTables {
   ShadeTexts shade_texts_;
   ExplainOptions explain_;
   ExplainTexts explain_texts_;
+  ViewOptions view_;
+  ViewTexts view_texts_;
   BenchOptions bench_;
   BenchTexts bench_texts_;
   CompareOptions compare_;

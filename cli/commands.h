@@ -9,7 +9,7 @@
 namespace trueshade {
 
 /// Carries a command out, and returns the exit code. The program `trueshade` has every command (every_command.cpp),
-/// `trueshade-picture` only `render` (picture_command.cpp); each has its own scene_of_options().
+/// `trueshade-picture` only `render` (picture_command.cpp), `trueshade-view` only `view` (view/window/program.cpp).
 int execute(const Command& command);
 
 // The subcommands. Each writes its files, then its answer to standard output, and throws Error where it cannot.
@@ -21,6 +21,7 @@ void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
 void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
+void view(const ViewOptions& options);  ///< becomes another program, or throws
 int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
 void print_version(const VersionOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained

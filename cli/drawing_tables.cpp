@@ -1,4 +1,4 @@
-// The tables of commands that draw: render, shade, explain.
+// The tables of commands that draw: render, shade, explain, view.
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
 #include "scenes/pipeline/presets.h"
@@ -162,6 +162,32 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
   table.details = "The last line is the stored pixel, as render stores it.";
   table.examples = {{"trueshade explain scene.json --pixel 160,120", "Everything behind one pixel's value."}};
   table.see_also = {"render", "validate"};
+  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  return table;
+}
+
+CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
+  CommandTable table{"view", "Show a scene in a window, to fly through and to change"};
+  add_value(table, "SCENE", "SCENE", options.scene, kSceneHelp).is_required = true;
+  table.open_group = "Window";
+  add_value(table, "--script", "FILE", options.script,
+            "Do in the window what the lines of this file say, then go on as by hand (docs/view.md)");
+  add_value(table, "--ui-scale", "PERCENT", texts.scale,
+            "Size of texts and panels, 50 to 400; without it by the display's dots an inch");
+  add_quiet(table, options, "Say neither notes nor progress");
+  add_size(table, texts.size);
+  add_time(table, texts.time);
+  add_layers(table, options);
+  add_strategy(table, texts.strategy);
+  add_target(table, texts.target);
+  add_profile(table, texts.profile);
+  add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames).group = "Pipeline";
+  add_value(table, "--threads", "COUNT", texts.threads, kThreadsHelp).group = "Execution";
+  add_limits(table, options.limits);
+  table.details = "With --size the picture keeps its size, otherwise it is as large as the window. F1 in the window names all keys.";
+  table.examples = {{"trueshade view builtin:city", "A city at night, to fly through."},
+                    {"trueshade view builtin:city --size 800x600 --script flight.txt", "A flight that a file tells."}};
+  table.see_also = {"render", "explain"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
   return table;
 }

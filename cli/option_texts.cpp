@@ -210,4 +210,18 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   return options;
 }
 
+ViewOptions finished(ViewOptions options, const ViewTexts& texts) {
+  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  if (texts.target) options.target = target_from_text("--target", *texts.target);
+  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
+  if (texts.profile) options.profile = profile_from_text(*texts.profile);
+  if (texts.view) options.view = view_from_text("--view", *texts.view);
+  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
+  if (texts.scale) options.scale = integer_in("--ui-scale", *texts.scale, 50, 400) / 100.0;
+  check_preset(options.preset);
+  check_scene(options.scene);
+  return options;
+}
+
 }  // namespace trueshade

@@ -44,6 +44,11 @@ struct BenchTexts {
   std::optional<std::string> size, strategy, threads, against;
 };
 
+/// Of view.
+struct ViewTexts {
+  std::optional<std::string> size, time, target, strategy, profile, view, threads, scale;
+};
+
 /// Of compare.
 struct CompareTexts {
   std::optional<std::string> difference, ulp, pixels, delta, psnr, flip, flip_median, ppd, mapper, exposures, color_space,
@@ -64,6 +69,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);
 ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts);
 BenchOptions finished(BenchOptions options, const BenchTexts& texts);
+ViewOptions finished(ViewOptions options, const ViewTexts& texts);
 CompareOptions finished(CompareOptions options, const CompareTexts& texts);
 
 }  // namespace trueshade

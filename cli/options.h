@@ -136,6 +136,14 @@ struct ExplainOptions : PipelineOptions {
   bool json = false;
 };
 
+/// `trueshade view`: a scene in a window.
+struct ViewOptions : PipelineOptions {  // with `size` the picture keeps it, whatever the size of the window
+  double time = 0.0;                    ///< seconds of the scene's timeline
+  std::optional<std::string> script;    ///< what is done in the window, a line each
+  double scale = 0.0;                   ///< of texts and panels; 0: as the display's dots an inch ask for
+  Execution execution;
+};
+
 /// `trueshade compare`: two pictures, or two folders of them.
 struct CompareOptions : LimitedOptions {
   std::string reference, test;
@@ -160,7 +168,7 @@ struct PrintText {
 
 using Command =
     std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
-                 BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, VersionOptions, PrintText>;
+                 BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, ViewOptions, VersionOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

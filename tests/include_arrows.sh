@@ -22,7 +22,7 @@ done <tests/include_arrows.txt
 while read -r folder included where; do
   [[ -v arrows[$folder] ]] || { fail "$folder has no row in tests/include_arrows.txt" "$where"; continue; }
   [[ ${arrows[$folder]} == *" $included "* ]] || fail "$folder may not include from $included" "$where"
-done < <(sources core scenes raster shading oracle judge gl bench compare explain cli | xargs grep -nE '^ *# *include "' |
+done < <(sources core scenes raster shading oracle judge gl bench compare explain cli view | xargs grep -nE '^ *# *include "' |
   sed -nE 's|^(([^:]*)/[^/:]*:[0-9]+): *# *include "(([^"]*)/)?[^/"]*".*|\2 \4 \1|p')
 
 # unit FOLDER: the folder; of a `fast` or `bounded` folder that the folder above calls, the folder above.
@@ -37,7 +37,7 @@ done | tsort 2>&1 >/dev/null) || fail 'these folders include each other' "$circl
 # only_in PATTERN FILES: a library's headers are included by these files only.
 only_in() {
   local found
-  found=$(sources core scenes raster shading oracle judge gl compare explain cli | xargs grep -nE "^ *# *include [<\"]$1" | grep -vE "^($2):" || true)
+  found=$(sources core scenes raster shading oracle judge gl compare explain cli view | xargs grep -nE "^ *# *include [<\"]$1" | grep -vE "^($2):" || true)
   [[ -z $found ]] || fail "$1 belongs in $2 only" "$found"
 }
 only_in 'OpenImageIO/' 'core/image_files/[a-z_]*.cpp'

@@ -1,0 +1,90 @@
+#include "view/display_codes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/fp_env.h"
+#include "core/image_rows.h"
+#include "core/srgb_codes.h"
+#include "core/threads/parallel_for.h"
+
+namespace trueshade::viewer {
+namespace {
+
+constexpr int kMostTableBits = 16;
+
+uint8_t code_of(float value, bool is_linear) {
+  if (is_linear) return srgb8_code_of(value);
+  return uint8_t(std::nearbyint(255.0f * (value > 0.0f ? std::min(value, 1.0f) : 0.0f)));  // NaN is 0
+}
+
+uint32_t word_of(const uint8_t rgb[3]) { return uint32_t(rgb[0]) << 16 | uint32_t(rgb[1]) << 8 | rgb[2]; }
+
+/// Of four bytes R, G, B, A a pixel, on a little-endian machine.
+void swap_bytes(const uint8_t* texels, int count, uint32_t* out) {
+  for (int x = 0; x < count; ++x) {
+    uint32_t bits;
+    std::memcpy(&bits, texels + 4 * size_t(x), 4);
+    out[x] = (bits & 0xffu) << 16 | (bits & 0xff00u) | (bits >> 16 & 0xffu);
+  }
+}
+
+bool is_tabulated(const FormatInfo& layout) {
+  return std::all_of(layout.bits.begin(), layout.bits.begin() + 3, [](int bits) { return bits <= kMostTableBits; });
+}
+
+/// Whether R, G and B have as many bits each; r11g11b10f has not.
+bool has_one_table(const FormatInfo& layout) {
+  return is_tabulated(layout) && layout.bits[0] == layout.bits[1] && layout.bits[0] == layout.bits[2];
+}
+
+bool holds_linear_light(const FormatInfo& layout, PictureValues values) {
+  return layout.number_class != NumberClass::unorm && values == PictureValues::of_target;
+}
+
+}  // namespace
+
+void DisplayCodes::make_table(Format format, PictureValues values) {
+  if (!of_code_.empty() && format == format_ && values == values_) return;
+  const FpScope fp;
+  const FormatInfo layout = info(format);
+  format_ = format, values_ = values;
+  of_code_.resize(size_t(1) << layout.bits[0]);
+  const uint32_t largest = uint32_t(of_code_.size() - 1);
+  for (uint32_t code = 0; code < of_code_.size(); ++code) {
+    if (layout.number_class == NumberClass::unorm)
+      of_code_[code] = uint8_t((code * 255 + largest / 2) / largest);
+    else
+      of_code_[code] = code_of(float(value_of_code(layout, 0, code)), holds_linear_light(layout, values));
+  }
+}
+
+void DisplayCodes::convert(const Image& image, PictureValues values, std::vector<uint32_t>& out) {
+  const FormatInfo layout = info(image.format);
+  const bool as_bytes = layout.bytes_per_channel == 1 && layout.channels == 4, by_table = has_one_table(layout);
+  const bool linear = holds_linear_light(layout, values);
+  if (!as_bytes && by_table) make_table(image.format, values);
+  out.resize(size_t(image.width) * size_t(image.height));
+  const int bands = (image.height + kRowsOfBand - 1) / kRowsOfBand;
+  parallel_for(bands, as_bytes ? 1 : 0, [&](int band) {
+    const FpScope fp;
+    std::vector<float> row(by_table ? 0 : 3 * size_t(image.width));
+    for (int y = band * kRowsOfBand; y < std::min(image.height, (band + 1) * kRowsOfBand); ++y) {
+      uint32_t* const words = out.data() + size_t(y) * size_t(image.width);
+      if (as_bytes) {
+        swap_bytes(image.texel(0, y), image.width, words);
+        continue;
+      }
+      if (!by_table) read_row(image, y, 3, row.data());
+      for (int x = 0; x < image.width; ++x) {
+        uint8_t rgb[3];
+        for (int c = 0; c < 3; ++c)
+          rgb[c] = by_table ? of_code_[image.code(layout, x, y, c)] : code_of(row[3 * size_t(x) + size_t(c)], linear);
+        words[x] = word_of(rgb);
+      }
+    }
+  });
+}
+
+}  // namespace trueshade::viewer

@@ -1,0 +1,46 @@
+#include "view/saved_files.h"
+
+#include <filesystem>
+
+#include "cli/frame_text.h"
+#include "core/image_files/image_io.h"
+#include "view/saved_scene.h"
+
+namespace trueshade::viewer {
+namespace {
+
+constexpr size_t kShortHash = 12;  // digits in names
+
+std::string named(const std::string& name, const std::string& hash, const char* ending) {
+  return name + '-' + hash.substr(0, kShortHash) + ending;
+}
+
+}  // namespace
+
+std::string write_picture(const std::string& path, const std::string& name, const EditedScene& scene,
+                          const DrawnPicture& picture) {
+  RenderedFrame rendered{scene.scene(), picture.pipeline, {}, picture.state.time, picture.frame, {}, {}, {}};
+  rendered.image_hash = image_hash(picture.frame.color);
+  rendered.scene_hash = scene_hash(scene.scene());
+  ImageFileOptions options;
+  if (picture.pipeline.view != ImageView::lit || picture.pipeline.post.encode == PostChain::Encode::srgb)
+    options.values = PictureValues::display_codes;
+  const std::string file = path.empty() ? named(name, rendered.image_hash, ".png") : path;
+  write_image(file, picture.frame.color, {}, metadata_of(rendered), options);
+  return "wrote " + file + "  sha256:" + rendered.image_hash;
+}
+
+std::string write_scene(const std::string& path, const SceneFacts& facts, const DrawnPicture& picture) {
+  const std::string hash = image_hash(picture.frame.color);
+  std::string file = path;
+  if (file.empty()) {
+    const std::string& scene = facts.reference ? facts.reference->scene : facts.spec;
+    file = named(facts.name, hash, ".json");
+    if (!scene.starts_with("builtin:")) file = (std::filesystem::path(scene).parent_path() / file).string();
+  }
+  const std::string text = saved_scene(facts, picture, file);
+  write_file(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  return "wrote " + file + "  draws sha256:" + hash;
+}
+
+}  // namespace trueshade::viewer

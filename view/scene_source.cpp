@@ -1,0 +1,84 @@
+#include "view/scene_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/file_ending.h"
+#include "scenes/files/content/scene_files.h"
+#include "scenes/scene_defaults.h"
+
+namespace trueshade::viewer {
+namespace {
+
+constexpr double kLongest = 60.0;  // seconds
+
+/// `city` of builtin:city,seed=3 and of models/city.gltf.
+std::string name_of_spec(const std::string& spec) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (spec.starts_with(kBuiltin)) return spec.substr(kBuiltin.size(), spec.find(',') - kBuiltin.size());
+  const std::string file = spec.substr(spec.rfind('/') + 1);  // npos + 1 is 0
+  return file.substr(0, file.find('.', 1));
+}
+
+/// What a scene file says of another scene, with the text of its own camera.
+void read_reference(const SceneSource& source, SceneFacts& facts) {
+  if (!has_ending(source.spec, ".json")) return;
+  const Bytes bytes = read_user_file(source.spec, SceneLimits().json_bytes);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  facts.reference = reference_of_text(text, source.spec);
+  if (!facts.reference) return;
+  const json::Value value = json::parse(text, source.spec);
+  if (const auto camera = json::Node(value, source.spec).find("camera"))
+    facts.camera_text = json::text_of(camera->value());
+}
+
+void see(const std::optional<Track>& track, double& last) {
+  if (track) last = std::max(last, track->repeats ? track->end : track->times.back());
+}
+
+}  // namespace
+
+double last_time_of(const Timeline& timeline) {
+  double last = 0.0;
+  for (const LightMotion& motion : timeline.lights) see(motion.track, last);
+  for (const CameraMotion& motion : timeline.camera) see(motion.track, last);
+  for (const MaterialMotion& motion : timeline.materials) see(motion.color, last);
+  const auto see_object = [&last](const ObjectMotion& motion) {
+    see(motion.position, last), see(motion.rotation, last), see(motion.scale, last);
+  };
+  for (const ObjectMotion& motion : timeline.motions) see_object(motion);
+  for (const NodeMotion& node : timeline.node_motions) see_object(node.motion);
+  for (const PosedMesh& posed : timeline.posed)
+    if (posed.motion && !posed.motion->times.empty()) last = std::max(last, posed.motion->times.back());
+  for (const Orbit& orbit : timeline.orbits) last = std::max(last, double(orbit.period));
+  return std::min(last, kLongest);
+}
+
+OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& files) {
+  OpenedScene opened;
+  SceneFacts& facts = opened.facts;
+  const FilesRead read;
+  struct Keep {  // also where loading throws
+    const FilesRead& read;
+    std::vector<std::string>& files;
+    ~Keep() { files = read.paths(); }
+  } const keep{read, files};
+  Scene scene = source.load();
+  facts.spec = source.spec;
+  facts.name = name_of_spec(source.spec);
+  facts.pipeline = source.pipeline(scene);
+  read_reference(source, facts);
+  facts.files = read.paths();
+  facts.lights = scene.lights;
+  facts.clear = scene.clear;
+  facts.fps = scene.timeline.fps;
+  facts.last_time = last_time_of(scene.timeline);
+  facts.moves = !scene.timeline.empty() && facts.last_time > 0.0;
+  const Bounds bounds = bounds_of(scene);
+  facts.reach = bounds.radius > 0.0 ? bounds.radius : 1.0;
+  facts.triangles = scene.triangle_count();
+  opened.scene = std::make_unique<EditedScene>(std::move(scene));
+  return opened;
+}
+
+}  // namespace trueshade::viewer

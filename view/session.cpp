@@ -1,0 +1,306 @@
+#include "view/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "scenes/pipeline/presets.h"
+#include "view/saved_files.h"
+
+namespace trueshade::viewer {
+namespace {
+
+constexpr double kNoticeSeconds = 4.0, kProblemSeconds = 12.0;
+constexpr double kLookSeconds = 0.25;  // between two looks at the files of the scene
+
+template <typename Enum, size_t n>
+Enum next_of(Enum value, const std::string_view (&)[n]) {
+  return Enum((size_t(value) + 1) % n);
+}
+
+}  // namespace
+
+Session::Session(SceneSource source, OpenedScene opened, const Execution& execution, std::function<void()> news)
+    : source_(std::move(source)),
+      facts_(std::move(opened.facts)),
+      base_pipeline_(facts_.pipeline),
+      maker_(std::move(opened.scene), execution, std::move(news)) {
+  state_.pipeline = facts_.pipeline;
+  watch_.watch(facts_.files);
+  changed();
+}
+
+void Session::changed() {
+  ++state_.revision;
+  maker_.ask(state_);
+}
+
+void Session::tell(std::string text, bool problem) {
+  if (problem) problems_.push_back(text);
+  notice_ = {std::move(text), problem, clock_ + (problem ? kProblemSeconds : kNoticeSeconds)};
+}
+
+void Session::set_preset(std::string_view name) {
+  Pipeline pipeline = *preset_pipeline(name);
+  pipeline.width = state_.pipeline.width, pipeline.height = state_.pipeline.height;
+  pipeline.view = state_.pipeline.view;
+  set_pipeline(pipeline);
+}
+
+void Session::set_pipeline(const Pipeline& pipeline) {
+  validate(pipeline);
+  state_.pipeline = pipeline;
+  changed();
+}
+
+void Session::set_exposure(double stops) {
+  state_.exposure = std::clamp(stops, -kMostStops, kMostStops);
+  changed();
+}
+
+void Session::set_size(int width, int height) {
+  if (width == state_.pipeline.width && height == state_.pipeline.height) return;
+  for (Pipeline* pipeline : {&state_.pipeline, &base_pipeline_}) pipeline->width = width, pipeline->height = height;
+  changed();
+}
+
+void Session::set_time(double seconds) {
+  state_.time = std::clamp(seconds, -kLatestTime, kLatestTime);
+  changed();
+}
+
+void Session::set_camera(const Camera& camera) {
+  controls_.emplace(camera, facts_.reach);
+  state_.camera = controls_->camera();
+  changed();
+}
+
+void Session::change_light(const LightChange& change) {
+  if (change.light >= facts_.lights.size())
+    throw Error(ErrorKind::bad_input, "light", "there is no light " + std::to_string(change.light),
+                "there are " + std::to_string(facts_.lights.size()) + ", from 0");
+  std::erase_if(state_.changes, [&](const LightChange& known) { return known.light == change.light; });
+  if (change != LightChange{change.light}) state_.changes.push_back(change);
+  changed();
+}
+
+void Session::reset_light(uint32_t light) { change_light({light}); }
+
+void Session::reset_lights() {
+  state_.changes.clear();
+  changed();
+}
+
+const LightChange* Session::change_of(uint32_t light) const {
+  const auto found = std::find_if(state_.changes.begin(), state_.changes.end(),
+                                  [light](const LightChange& change) { return change.light == light; });
+  return found == state_.changes.end() ? nullptr : &*found;
+}
+
+/// From where the picture that is shown was seen; before the first picture, from where none is.
+const CameraControls& Session::controls() const {
+  const std::shared_ptr<const DrawnPicture> picture = maker_.newest();
+  if (!controls_ || !state_.camera) controls_.emplace(picture ? picture->camera : Camera(), facts_.reach);
+  return *controls_;
+}
+
+CameraControls& Session::take_camera() {
+  controls();
+  return *controls_;
+}
+
+void Session::change_speed(double steps) {
+  CameraControls& own = take_camera();
+  own.change_speed(steps);
+  state_.camera = own.camera();
+  changed();
+}
+
+void Session::set_field_of_view(double radians) {
+  CameraControls& own = take_camera();
+  own.set_field_of_view(radians);
+  state_.camera = own.camera();
+  changed();
+}
+
+void Session::go_home() {
+  state_.camera.reset();
+  controls_.reset();
+  changed();
+}
+
+void Session::act(Action action) {
+  const auto toggle = [this](Panel panel) {
+    desk_.panel = desk_.panel == panel && !desk_.hidden ? Panel::none : panel;
+    desk_.hidden = false;
+  };
+  Pipeline pipeline = state_.pipeline;
+  switch (action) {
+    case Action::home:
+      return go_home();
+    case Action::look_at_pixel: {
+      if (!card_ || !card_->has_surface) return tell("click a surface first, then F looks at it");
+      CameraControls& own = take_camera();
+      own.set_pivot(glm::dvec3(card_->position));
+      state_.camera = own.camera();
+      return changed();
+    }
+    case Action::play:
+      if (!facts_.moves) return tell("nothing moves in this scene");
+      return play(!plays_);
+    case Action::step_back:
+      return set_time(state_.time - 1.0 / facts_.fps);
+    case Action::step_ahead:
+      return set_time(state_.time + 1.0 / facts_.fps);
+    case Action::next_view:
+      pipeline.view = next_of(pipeline.view, kViewNames);
+      return set_pipeline(pipeline);
+    case Action::lit_view:
+      pipeline.view = ImageView::lit;
+      return set_pipeline(pipeline);
+    case Action::next_preset: {
+      const auto all = presets();
+      const auto now = std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == pipeline.preset; });
+      return set_preset(now == all.end() || now + 1 == all.end() ? all.front().name : (now + 1)->name);
+    }
+    case Action::brighter:
+      return set_exposure(state_.exposure + 0.5);
+    case Action::darker:
+      return set_exposure(state_.exposure - 0.5);
+    case Action::help:
+      desk_.help = !desk_.help;
+      return;
+    case Action::picture_panel:
+      return toggle(Panel::picture);
+    case Action::lights_panel:
+      return toggle(Panel::lights);
+    case Action::pixel_panel:
+      return toggle(Panel::pixel);
+    case Action::statistics_panel:
+      return toggle(Panel::statistics);
+    case Action::hide_panels:
+      desk_.hidden = !desk_.hidden;
+      return;
+    case Action::save_picture:
+      return save_picture();
+    case Action::save_scene:
+      return save_scene();
+    case Action::reload:
+      return reload();
+    case Action::full_screen:
+      desk_.full_screen = !desk_.full_screen;
+      return;
+    case Action::close:
+      if (desk_.help)
+        desk_.help = false;
+      else
+        desk_.panel = Panel::none;
+      return;
+    case Action::quit:
+      desk_.ends = true;
+      return;
+    default:  // held keys: CameraInput
+      return;
+  }
+}
+
+bool Session::moves() const { return plays_ || (controls_ && state_.camera && controls_->flies()); }
+
+void Session::pass(const CameraInput& input, double seconds) {
+  clock_ += seconds;
+  bool moved = false;
+  if (plays_ && facts_.moves) {
+    state_.time += seconds;
+    if (state_.time > facts_.last_time) state_.time = 0.0;
+    moved = true;
+  }
+  if (!input.rests() || (controls_ && state_.camera && controls_->flies())) {
+    CameraControls& own = take_camera();
+    own.step(input, seconds);
+    state_.camera = own.camera();
+    moved = true;
+  }
+  if (moved) changed();
+  receive();
+  watch_files();
+  if (notice_ && notice_->until < clock_) notice_.reset();
+}
+
+void Session::receive() {
+  for (const FrameMaker::Mail& mail : maker_.take_mail()) mail();
+  if (std::optional<std::string> problem = maker_.take_problem()) {
+    asks_card_ = false;
+    if (!files_of_load_->empty()) watch_.watch(*files_of_load_);
+    tell(*problem, true);
+  }
+}
+
+void Session::watch_files() {
+  if (clock_ < next_look_) return;
+  next_look_ = clock_ + kLookSeconds;
+  if (watch_.changed(SourceWatch::Clock::now())) reload();
+}
+
+void Session::reload() {
+  watch_.watch(watch_.paths());  // what changes from here on calls for another time
+  const auto files = files_of_load_;
+  maker_.replace([this, files, source = source_] {
+    OpenedScene opened = opened_scene(source, *files);
+    auto facts = std::make_shared<SceneFacts>(std::move(opened.facts));
+    maker_.post([this, facts] { take_over(std::move(*facts)); });
+    return std::move(opened.scene);
+  });
+}
+
+void Session::take_over(SceneFacts facts) {
+  Pipeline base = facts.pipeline;
+  base.width = base_pipeline_.width, base.height = base_pipeline_.height;
+  if (state_.pipeline == base_pipeline_) state_.pipeline = base;  // the user has not changed it
+  base_pipeline_ = base;
+  std::erase_if(state_.changes, [&](const LightChange& change) { return change.light >= facts.lights.size(); });
+  if (desk_.selected_light && *desk_.selected_light >= facts.lights.size()) desk_.selected_light.reset();
+  facts_ = std::move(facts);
+  plays_ = plays_ && facts_.moves;
+  card_.reset();
+  watch_.watch(facts_.files);
+  files_of_load_->clear();
+  changed();
+  tell("loaded " + facts_.spec + " anew");
+}
+
+void Session::click(int x, int y) {
+  asks_card_ = true;
+  maker_.send([this, x, y](EditedScene& scene, const DrawnPicture& picture) {
+    auto card = std::make_shared<PixelCard>(pixel_card(scene, picture, x, y));
+    maker_.post([this, card] {
+      card_ = std::move(*card);
+      asks_card_ = false;
+    });
+  });
+}
+
+std::string Session::written(const std::function<std::string()>& write) {
+  try {
+    return write();
+  } catch (const Error& error) {
+    maker_.post([this, error] { failed_save_ = error; });
+    throw;
+  }
+}
+
+void Session::save_picture(const std::string& path) {
+  maker_.send([this, path, name = facts_.name](EditedScene& scene, const DrawnPicture& picture) {
+    std::string told = written([&] { return write_picture(path, name, scene, picture); });
+    maker_.post([this, told = std::move(told)] { tell(told); });
+  });
+}
+
+void Session::save_scene(const std::string& path) {
+  maker_.send([this, path, facts = facts_](EditedScene&, const DrawnPicture& picture) {
+    std::string told = written([&] { return write_scene(path, facts, picture); });
+    maker_.post([this, told = std::move(told)] { tell(told); });
+  });
+}
+
+}  // namespace trueshade::viewer

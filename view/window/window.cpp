@@ -1,0 +1,258 @@
+#include "view/window/window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/image_files/image_io.h"
+#include "core/printable_text.h"
+#include "view/window/panels.h"
+
+namespace trueshade::viewer {
+namespace {
+
+constexpr uint32_t kBackground = 0x0c0d0f;
+constexpr int kLeastSide = 64;
+
+double ms_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+  return std::chrono::duration<double, std::milli>(b - a).count();
+}
+
+Error no_display(const std::string& reason) {
+  return {ErrorKind::io, "display", "a window cannot be opened: " + reason,
+          "run it in a desktop, or under xvfb-run; trueshade render needs no display"};
+}
+
+/// The picture in its place, nearest pixels where it is not shown one to one.
+void compose(const DrawnPicture& picture, const PicturePlace& place, const Canvas& canvas) {
+  const int width = picture.frame.color.width, height = picture.frame.color.height;
+  const int x0 = std::max(place.x, 0), x1 = std::min(place.x + place.width, canvas.width);
+  for (int y = 0; y < canvas.height; ++y) {
+    uint32_t* const row = canvas.row(y);
+    if (y < place.y || y >= place.y + place.height) {
+      std::fill(row, row + canvas.width, kBackground);
+      continue;
+    }
+    const uint32_t* const words =
+        picture.words.data() + size_t(std::clamp(place.line(y), 0, height - 1)) * size_t(width);
+    std::fill(row, row + x0, kBackground);
+    std::fill(row + x1, row + canvas.width, kBackground);
+    if (place.scale == 1.0)
+      std::memcpy(row + x0, words + (x0 - place.x), size_t(x1 - x0) * sizeof *words);
+    else
+      for (int x = x0; x < x1; ++x) row[x] = words[std::clamp(place.column(x), 0, width - 1)];
+  }
+}
+
+}  // namespace
+
+Display::Display() {
+  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+  SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+  if (SDL_Init(SDL_INIT_VIDEO) != 0) throw no_display(SDL_GetError());
+  wake_event_ = SDL_RegisterEvents(1);
+}
+
+Display::~Display() { SDL_Quit(); }
+
+void Display::wake() const {
+  SDL_Event event{};
+  event.type = wake_event_;
+  SDL_PushEvent(&event);
+}
+
+double Display::text_scale() const {
+  float dots = 96.0f;
+  if (SDL_GetDisplayDPI(0, nullptr, &dots, nullptr) != 0) return 1.0;
+  return std::clamp(std::round(double(dots) / 96.0 * 4.0) / 4.0, 1.0, 3.0);
+}
+
+Window::Window(const Display& display, Session& session, const Look& look)
+    : display_(display), session_(session), fixed_picture_(look.fixed_picture), scale_(look.scale) {
+  const std::string title = session.facts().name + " - trueshade";
+  window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, look.width, look.height,
+                             SDL_WINDOW_RESIZABLE);
+  if (window_ == nullptr || SDL_GetWindowSurface(window_) == nullptr) throw no_display(SDL_GetError());
+  SDL_SetWindowMinimumSize(window_, kLeastSide, kLeastSide);
+  SDL_DisplayMode mode{};
+  if (SDL_GetWindowDisplayMode(window_, &mode) == 0 && mode.refresh_rate >= 50)
+    shortest_ = std::chrono::duration<double>(1.0 / mode.refresh_rate - 0.0005);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  fonts_ = set_style(scale_);
+  ImGui::GetIO().Fonts->Build();
+  input_.emplace(window_, WindowInput::Handlers{[this](Action action) { session_.act(action); },
+                                                [this](int x, int y) { click(x, y); },
+                                                [this](double steps) { session_.change_speed(steps); }});
+  SDL_StopTextInput();
+  fit_picture();
+  last_pass_ = last_new_picture_ = Clock::now();
+}
+
+Window::~Window() {
+  ImGui::DestroyContext();
+  SDL_DestroyWindow(window_);
+}
+
+void Window::fit_picture() {
+  if (fixed_picture_) return;
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  session_.set_size(std::max(width, kLeastSide), std::max(height, kLeastSide));
+}
+
+void Window::set_size(int width, int height) {
+  SDL_SetWindowSize(window_, width, height);
+  SDL_PumpEvents();
+  fit_picture();
+}
+
+void Window::click(int x, int y) {
+  if (!shown_) return;
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  const Image& image = shown_->frame.color;
+  const PicturePlace place(image.width, image.height, width, height);
+  const int column = place.column(x), line = place.line(y);
+  if (column < 0 || line < 0 || column >= image.width || line >= image.height) return;
+  session_.desk().panel = Panel::pixel;
+  session_.click(column, line);
+}
+
+void Window::take(const SDL_Event& event) {
+  if (event.type == display_.wake_event()) return;  // who is woken looks for what is new
+  frames_to_show_ = kSettlingFrames;
+  if (event.type == SDL_QUIT) session_.desk().ends = true;
+  if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) fit_picture();
+  input_->take(event);
+}
+
+void Window::take_events(std::chrono::milliseconds longest) {
+  SDL_Event event;
+  if (SDL_WaitEventTimeout(&event, int(std::max<int64_t>(longest.count(), 1))) == 0) return;
+  do {
+    try {
+      take(event);
+    } catch (const Error& error) {
+      session_.tell(error.what(), true);
+    }
+  } while (SDL_PollEvent(&event) != 0);
+}
+
+void Window::pass_time() {
+  const Clock::time_point now = Clock::now();
+  const bool was_moving = std::exchange(was_moving_, session_.moves() || input_->holds());
+  const double longest = was_moving ? 0.1 : 1.0 / 60.0;  // a first step is not as long as the rest before it
+  const double passed = std::chrono::duration<double>(now - last_pass_).count();
+  last_pass_ = now;
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  CameraInput input = input_->camera_input(session_.field_of_view() / std::max(height, 1));
+  const CameraInput also = std::exchange(scripted, {});
+  input.turn += also.turn, input.orbit += also.orbit, input.nearer += also.nearer;
+  session_.pass(input, input.rests() && !session_.moves() ? passed : std::min(passed, longest));
+  for (const std::string& problem : session_.take_problems())
+    std::fprintf(stderr, "trueshade: note: %s\n", printable(problem, Lines::one).c_str());
+}
+
+bool Window::is_due() const {
+  return shown_ != session_.picture() || frames_to_show_ > 0 || shown_hash_ != session_.hash() || session_.notice();
+}
+
+bool Window::step(std::chrono::milliseconds longest) {
+  const bool moving = session_.moves() || input_->holds() || !session_.state().camera;
+  const bool fresh = shown_ != session_.picture();
+  const auto patience = frames_to_show_ > 0 || fresh ? std::chrono::milliseconds(1)
+                        : moving                     ? std::chrono::milliseconds(16)
+                                                     : std::chrono::milliseconds(session_.notice() ? 50 : 200);
+  const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(last_show_ + shortest_ - Clock::now());
+  if (rest.count() > 0) SDL_Delay(uint32_t(rest.count()));
+  take_events(std::min(patience, longest));
+  pass_time();
+  if (std::exchange(full_screen_, session_.desk().full_screen) != session_.desk().full_screen)
+    SDL_SetWindowFullscreen(window_, session_.desk().full_screen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  if (is_due()) show();
+  return !session_.desk().ends;
+}
+
+void Window::draw_panels(const Canvas& canvas) {
+  const Image& image = shown_->frame.color;
+  const Clock::time_point now = Clock::now();
+  input_->begin_ui_frame(canvas.width, canvas.height, std::chrono::duration<double>(now - last_show_).count());
+  ImGui::NewFrame();
+  const PanelContext context{session_,
+                             fonts_,
+                             times_,
+                             *shown_,
+                             PicturePlace(image.width, image.height, canvas.width, canvas.height),
+                             float(scale_),
+                             float(canvas.width),
+                             float(canvas.height)};
+  try {
+    if (!session_.desk().hidden) {
+      draw_marks(context);
+      draw_status(context);
+      draw_bar(context);
+      draw_panel(context);
+    }
+    draw_notice(context);
+    draw_help(context);
+  } catch (const Error& error) {
+    session_.tell(error.what(), true);
+  }
+  ImGui::Render();
+  draw_ui(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts, canvas);
+}
+
+void Window::show() {
+  const std::shared_ptr<const DrawnPicture> picture = session_.picture();
+  if (!picture) return;
+  const bool is_new = picture != shown_;
+  shown_ = picture;
+  shown_hash_ = session_.hash();
+  frames_to_show_ = is_new ? std::max(frames_to_show_, 1) : frames_to_show_;
+  frames_to_show_ = std::max(frames_to_show_ - 1, 0);
+  SDL_Surface* const surface = SDL_GetWindowSurface(window_);
+  if (surface == nullptr || surface->format->BytesPerPixel != 4) throw no_display("its pixels are not of 32 bits");
+  const Clock::time_point begin = Clock::now();
+  const Canvas canvas{static_cast<uint32_t*>(surface->pixels), surface->w, surface->h, surface->pitch / 4};
+  compose(*picture, PicturePlace(picture->frame.color.width, picture->frame.color.height, canvas.width, canvas.height),
+          canvas);
+  const Clock::time_point composed = Clock::now();
+  draw_panels(canvas);
+  const Clock::time_point drawn = Clock::now();
+  SDL_UpdateWindowSurface(window_);
+  const Clock::time_point end = last_show_ = Clock::now();
+  if (!is_new) return;
+  PictureTimes times;
+  times[Part::interval] = ms_between(last_new_picture_, end);
+  times[Part::draw] = picture->draw_ms, times[Part::convert] = picture->convert_ms;
+  times[Part::compose] = ms_between(begin, composed);
+  times[Part::panels] = ms_between(composed, drawn);
+  times[Part::present] = ms_between(drawn, end);
+  times.core_ms = picture->frame.stats.core_ms;
+  last_new_picture_ = end;
+  times_.add(times);
+}
+
+void Window::save_screenshot(const std::string& path) {
+  const SDL_Surface* const surface = SDL_GetWindowSurface(window_);
+  Image image(surface->w, surface->h, Format::rgba8);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const uint32_t word = static_cast<const uint32_t*>(surface->pixels)[y * (surface->pitch / 4) + x];
+      const uint8_t rgba[4] = {uint8_t(word >> 16), uint8_t(word >> 8), uint8_t(word), 255};
+      std::memcpy(image.texel(x, y), rgba, 4);
+    }
+  write_image(path, image, {}, {});
+}
+
+}  // namespace trueshade::viewer
