@@ -34,23 +34,6 @@ Real srgb_value(unsigned code) {
 long long modulo(long long i, long long n) { return ((i % n) + n) % n; }
 long long mirror(long long i) { return i >= 0 ? i : -(1 + i); }
 
-/// Table 8.20; -1 or `n`: the border.
-long long wrap(Wrap how, long long i, long long n) {
-  switch (how) {
-    case Wrap::repeat:
-      return modulo(i, n);
-    case Wrap::mirrored_repeat:
-      return (n - 1) - mirror(modulo(i, 2 * n) - n);
-    case Wrap::clamp_to_edge:
-      return std::clamp(i, 0LL, n - 1);
-    case Wrap::clamp_to_border:
-      return std::clamp(i, -1LL, n);
-    case Wrap::mirror_clamp_to_edge:
-      return std::clamp(mirror(i), 0LL, n - 1);
-  }
-  return 0;
-}
-
 /// Real numbers up to 1e18 * 16384 times; indices beyond 2^60 are all far outside, and even.
 Real held(Real coordinate) {
   constexpr Real kFar = 0x1p44L;
@@ -81,9 +64,26 @@ TexelValue at_level(const Texture& texture, const Sampler& sampler, size_t level
 
 }  // namespace
 
+long long wrapped_index(Wrap how, long long i, int side) {
+  const long long n = side;
+  switch (how) {
+    case Wrap::repeat:
+      return modulo(i, n);
+    case Wrap::mirrored_repeat:
+      return (n - 1) - mirror(modulo(i, 2 * n) - n);
+    case Wrap::clamp_to_edge:
+      return std::clamp(i, 0LL, n - 1);
+    case Wrap::clamp_to_border:
+      return std::clamp(i, -1LL, n);
+    case Wrap::mirror_clamp_to_edge:
+      return std::clamp(mirror(i), 0LL, n - 1);
+  }
+  return 0;
+}
+
 TexelValue wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j) {
   const TextureLevel& l = texture.levels[level];
-  const long long x = wrap(sampler.wrap[0], i, l.width), y = wrap(sampler.wrap[1], j, l.height);
+  const long long x = wrapped_index(sampler.wrap[0], i, l.width), y = wrapped_index(sampler.wrap[1], j, l.height);
   if (x < 0 || y < 0 || x >= l.width || y >= l.height)
     return {sampler.border.x, sampler.border.y, sampler.border.z, sampler.border.w};
   const size_t at = size_t(y) * size_t(l.width) + size_t(x);

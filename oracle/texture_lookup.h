@@ -9,6 +9,9 @@ namespace trueshade::oracle {
 
 using TexelValue = std::array<long double, 4>;
 
+/// An index of texels wrapped (table 8.20); -1 or `side`: the border.
+long long wrapped_index(Wrap how, long long index, int side);
+
 /// A texel by its index before wrapping: the float nearest to what is stored, or the border colour.
 TexelValue wrapped_texel(const Texture& texture, const Sampler& sampler, size_t level, long long i, long long j);
 

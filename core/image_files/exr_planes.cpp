@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/error.h"
@@ -47,12 +48,11 @@ class ExrFile {
   void read(int first, int end, std::vector<uint8_t>& rows) {
     rows.resize(size_t(end - first) * size_t(spec_.width) * spec_.pixel_bytes(true));
     const int left = spec_.x, top = spec_.y;
-    const bool done =
-        spec_.tile_width == 0
-            ? file_->read_scanlines(part_, 0, top + first, top + end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN,
-                                    rows.data())
-            : file_->read_tiles(part_, 0, left, left + spec_.width, top + first, top + end, 0, 1, 0, spec_.nchannels,
-                                OIIO::TypeDesc::UNKNOWN, rows.data());
+    const bool done = spec_.tile_width == 0
+                          ? file_->read_scanlines(part_, 0, top + first, top + end, 0, 0, spec_.nchannels,
+                                                  OIIO::TypeDesc::UNKNOWN, rows.data())
+                          : file_->read_tiles(part_, 0, left, left + spec_.width, top + first, top + end, 0, 1, 0,
+                                              spec_.nchannels, OIIO::TypeDesc::UNKNOWN, rows.data());
     if (!done) throw failure();
   }
 
@@ -192,13 +192,23 @@ Channel exr_channel_of(const std::string& path, const OIIO::ImageSpec& spec, int
   return channel;
 }
 
-/// Appends rows of one channel, which lies `offset` bytes into a pixel.
-void append_words(const std::vector<uint8_t>& rows, size_t pixel_bytes, size_t offset, Channel& channel) {
-  for (size_t at = offset; at < rows.size(); at += pixel_bytes) {
-    uint32_t word = 0;
-    std::memcpy(&word, rows.data() + at, channel.bits == 16 ? 2 : 4);
-    channel.words.push_back(channel.bits == 16 ? std::bit_cast<uint32_t>(float_from_half(uint16_t(word))) : word);
-  }
+/// Appends rows to every channel. Pixels are taken some at a time, so that they are at hand for all channels.
+///   offsets: of each channel, bytes into a pixel
+void append_words(const std::vector<uint8_t>& rows, size_t pixel_bytes, std::span<const size_t> offsets,
+                  std::vector<Channel>& channels) {
+  constexpr size_t kAtOnce = 512;
+  const size_t pixels = rows.size() / pixel_bytes, before = channels.empty() ? 0 : channels[0].words.size();
+  for (Channel& channel : channels) channel.words.resize(before + pixels);
+  for (size_t first = 0; first < pixels; first += kAtOnce)
+    for (size_t c = 0; c < channels.size(); ++c) {
+      const bool is_half = channels[c].bits == 16;
+      const uint8_t* value = rows.data() + first * pixel_bytes + offsets[c];
+      uint32_t* word = channels[c].words.data() + before + first;
+      for (size_t left = std::min(kAtOnce, pixels - first); left > 0; --left, value += pixel_bytes, ++word) {
+        std::memcpy(word, value, is_half ? 2 : 4);
+        if (is_half) *word = std::bit_cast<uint32_t>(float_from_half(uint16_t(*word)));
+      }
+    }
 }
 
 ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
@@ -211,12 +221,13 @@ ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
     file.frame_width = spec.full_width, file.frame_height = spec.full_height, file.left = spec.x - spec.full_x,
     file.top = spec.y - spec.full_y;
   for (int c = 0; c < spec.nchannels; ++c) file.channels.push_back(exr_channel_of(path, spec, c));
+  std::vector<size_t> offsets;
+  for (int c = 0; c < spec.nchannels; ++c) offsets.push_back(spec.pixel_bytes(0, c, true));
   std::vector<uint8_t> rows;
   const int at_once = spec.tile_width == 0 ? kRowsAtOnce : spec.tile_height;
   for (int first = 0; first < spec.height; first += at_once) {
     exr.read(first, std::min(first + at_once, spec.height), rows);
-    for (int c = 0; c < spec.nchannels; ++c)
-      append_words(rows, spec.pixel_bytes(true), spec.pixel_bytes(0, c, true), file.channels[size_t(c)]);
+    append_words(rows, spec.pixel_bytes(true), offsets, file.channels);
   }
   return file;
 }

@@ -1,8 +1,10 @@
 #pragma once
 // Hulls of whole levels of a scene's textures, each found once.
 #include <array>
+#include <bitset>
 #include <compare>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -35,9 +37,29 @@ class LevelHulls {
     hulls_.emplace(of, hull);
   }
 
+  /// Of a level of 8-bit texels the codes that occur in each channel: looked for once, whatever they are read as.
+  using Codes = std::array<std::bitset<256>, 4>;
+  std::shared_ptr<const Codes> codes_of(const Texture& texture, size_t level) {
+    const std::pair key{&texture, level};
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = codes_.find(key); found != codes_.end()) return found->second;
+    }
+    std::array<std::array<uint8_t, 256>, 4> seen{};
+    const std::vector<uint8_t>& bytes = texture.levels[level].bytes;
+    for (size_t k = 0; k + 4 <= bytes.size(); k += 4)
+      for (size_t c = 0; c < 4; ++c) seen[c][bytes[k + c]] = 1;
+    auto codes = std::make_shared<Codes>();
+    for (size_t c = 0; c < 4; ++c)
+      for (size_t code = 0; code < 256; ++code) (*codes)[c][code] = seen[c][code] != 0;
+    const std::lock_guard lock(mutex_);
+    return codes_.emplace(key, std::move(codes)).first->second;
+  }
+
  private:
   mutable std::mutex mutex_;
   std::map<LevelReading, Hull> hulls_;
+  std::map<std::pair<const Texture*, size_t>, std::shared_ptr<const Codes>> codes_;
 };
 
 }  // namespace trueshade::oracle

@@ -3,6 +3,7 @@
 // section 9).
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "judge/bounds/level_hulls.h"
@@ -67,7 +68,9 @@ bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, doub
 class Projector {
  public:
   /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
-  Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {});
+  /// hulls: of the scene's textures, as another projector of the scene knows them; null: none are known.
+  Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {},
+            std::shared_ptr<LevelHulls> hulls = nullptr);
 
   /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh
   /// have none.
@@ -86,7 +89,7 @@ class Projector {
   const Profile& profile() const { return profile_; }
   const Pipeline& pipeline() const { return pipeline_; }
   const Scene& scene() const { return scene_; }
-  LevelHulls& level_hulls() const { return level_hulls_; }  ///< of the scene's textures
+  const std::shared_ptr<LevelHulls>& level_hulls() const { return level_hulls_; }  ///< of the scene's textures
   int width() const { return pipeline_.width; }
   int height() const { return pipeline_.height; }
 
@@ -122,7 +125,7 @@ class Projector {
   Pair window_reach_{};
   Matrix4 clip_from_world_;
   std::vector<InstanceMatrix> matrices_;
-  mutable LevelHulls level_hulls_;
+  std::shared_ptr<LevelHulls> level_hulls_;
   double z_scale_, z_offset_;
 };
 

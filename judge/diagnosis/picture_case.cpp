@@ -244,7 +244,7 @@ bool PictureCase::looks_dithered(const PictureSupposition& supposed) const {
     return Added{given(x, y, channel) - value, f * (1 - f)};
   };
   double weight = 0, beyond = 0, squares = 0, chances = 0, sum = 0, alike = 0, pairs = 0;
-  for (const SampledPixel& p : few_)
+  for (const SampledPixel& p : sample_)  // a quarter of them is too few to tell noise from what looks like it
     for (int k = 0; k < std::min(3, channels()); ++k) {
       const std::optional<Added> here = added(p.x, p.y, k);
       if (!here) continue;

@@ -36,7 +36,7 @@ std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const 
   }
   const Texture& texture = projector.scene().textures[size_t(slot.texture)];
   return texel_range(texture, slot.sampler, texture_sample(piece, uv, how, at[0], at[1], x, y), projector.profile(),
-                     &projector.level_hulls());
+                     projector.level_hulls().get());
 }
 
 Range product(const Range& a, const Range& b, const Profile& profile) {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/threads/parallel_for.h"
-#include "judge/legal/map_range.h"
+#include "judge/legal/possible_sample.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -42,47 +42,6 @@ struct Search {
   }
 };
 
-void key_range(const GeometryState& state, const Range& z, double order, PossibleSurface& c) {
-  switch (state.depth_func) {
-    case DepthFunc::less:
-    case DepthFunc::lequal:
-      c.low = z.low, c.middle = z.value, c.high = z.high;
-      return;
-    case DepthFunc::greater:
-    case DepthFunc::gequal:
-      c.low = -z.high, c.middle = -z.value, c.high = -z.low;
-      return;
-    case DepthFunc::always:
-      c.low = c.middle = c.high = -order;
-      return;
-    case DepthFunc::equal:
-    case DepthFunc::notequal:
-    case DepthFunc::never:
-      c.low = c.middle = c.high = 0;
-      return;
-  }
-}
-
-/// Whether near and far, which float arithmetic places with an error, may cut here after all.
-bool near_a_limit(const GeometryState& state, const Range& z) {
-  if (state.depth_clamp) return false;
-  const double near = double(state.depth_near), far = double(state.depth_far);
-  return z.low <= std::min(near, far) || z.high >= std::max(near, far);
-}
-
-/// What the alpha test leaves of a possible surface; false: nothing.
-bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values,
-                double x, double y, PossibleSurface& c) {
-  const Material& material = p.scene().materials[p.scene().instances[c.instance].material];
-  if (!material.masked()) return true;
-  const AlphaVerdict verdict = alpha_verdict(p, material, piece, point, values, x, y);
-  if (!verdict.may_keep) return false;
-  if (!verdict.may_drop) return true;
-  c.certain = false, c.masked = true, c.chance_other = 0.5f;
-  c.nominal = c.nominal && verdict.nominal_keeps;
-  return true;
-}
-
 /// Whole rows of the image, which one thread fills. Rows count from the bottom.
 class Band {
  public:
@@ -107,8 +66,6 @@ class Band {
  private:
   void add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
                  const PixelRect& rect);
-  void add_sample(const Piece& piece, const PieceShape& shape, const TriangleValues* values, const Coverage& cover,
-                  double largest, PossibleSurface c, double order, int x, int y);
   void keep(Entry entry);
   void drop_hidden() {
     std::erase_if(entries_, [&](const Entry& e) { return e.surface.low > bound_[e.pixel]; });
@@ -143,11 +100,9 @@ void Band::add(uint32_t instance, const NearTriangle& near, double order) {
 
 void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
                      const PixelRect& rect) {
-  double largest = 0, low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (const WindowVertex& v : piece.v) {
-    largest = std::max(largest, std::fabs(v.z));
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const WindowVertex& v : piece.v)
     for (size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], v.low[k]), high[k] = std::max(high[k], v.high[k]);
-  }
   const auto first = [](double v, int from, int to) {
     return int(std::clamp(std::ceil(v - 0.5), double(from), double(to)));
   };
@@ -170,39 +125,17 @@ void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleS
         cover.cover = Cover::certain;
         if (box.edges != 0)
           cover = coverage_at(piece, projector_.profile(), state_.clip_origin, column + 0.5, row + 0.5, box.edges);
-        if (cover.cover != Cover::no) add_sample(piece, shape, values, cover, largest, base, order, column, row);
+        if (cover.cover == Cover::no) continue;
+        const std::optional<PossibleSurface> c =
+            possible_sample(projector_, piece, shape, values, cover, base, order, column + 0.5, row + 0.5);
+        if (c) keep({uint32_t(row - y0_) * uint32_t(projector_.width()) + uint32_t(column), *c});
       }
   }
 }
 
-void Band::add_sample(const Piece& piece, const PieceShape& shape, const TriangleValues* values, const Coverage& cover,
-                      double largest, PossibleSurface c, double order, int x, int y) {
-  const Profile& profile = projector_.profile();
-  const bool offset = state_.polygon_offset_factor != 0 || state_.polygon_offset_units != 0;
-  const SurfacePoint point(piece, shape, profile, x + 0.5, y + 0.5);
-  const Range z = stored_depth(point, state_, profile, largest);
-  c.certain = cover.cover == Cover::certain && point.bounded();
-  c.chance_other = float(cover.chance_other);
-  c.nominal = cover.nominal;
-  if (!profile.exact_planes && near_a_limit(state_, offset ? point.depth() : z))
-    c.certain = false, c.cut = true, c.chance_other = 0.5f;
-  if (values != nullptr && !test_alpha(projector_, piece, point, *values, x + 0.5, y + 0.5, c)) return;
-  key_range(state_, z, order, c);
-  keep({uint32_t(y - y0_) * uint32_t(projector_.width()) + uint32_t(x), c});
-}
-
 void Band::keep(Entry e) {
   double& limit = bound_[e.pixel];
-  if (!(e.surface.low <= limit)) return;
-  if (!search_.transparent) {
-    const bool equal_passes = state_.depth_func == DepthFunc::lequal || state_.depth_func == DepthFunc::gequal;
-    const bool ordered = state_.depth_func != DepthFunc::equal && state_.depth_func != DepthFunc::notequal &&
-                         state_.depth_func != DepthFunc::never;
-    if (e.surface.low == clear_ && !equal_passes) return;
-    if (e.surface.high > clear_ || (e.surface.high == clear_ && !equal_passes)) e.surface.certain = false;
-    e.surface.certain = e.surface.certain && ordered;
-    if (e.surface.certain) limit = std::min(limit, e.surface.high);
-  }
+  if (!(search_.transparent ? e.surface.low <= limit : is_kept(state_, clear_, e.surface, limit))) return;
   entries_.push_back(e);
   if (entries_.size() < most_) return;
   drop_hidden();

@@ -23,15 +23,16 @@ double fixed_point_codes(const GeometryState& state) {
 
 SurfacePoint::SurfacePoint(const Piece& piece, const Profile& profile, const Pair& window_reach, double x, double y)
     : piece_(piece), own_shape_(std::in_place, piece, profile, window_reach), shape_(*own_shape_), profile_(profile) {
-  find_samples(x, y);
+  find_samples(x, y, Within::box);
 }
 
-SurfacePoint::SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y)
+SurfacePoint::SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y,
+                           Within within)
     : piece_(piece), shape_(shape), profile_(profile) {
-  find_samples(x, y);
+  find_samples(x, y, within);
 }
 
-void SurfacePoint::find_samples(double x, double y) {
+void SurfacePoint::find_samples(double x, double y, Within within) {
   const auto& v = piece_.v;
   std::array<double, 3> edge{};
   for (size_t i = 0; i < 3; ++i) {
@@ -63,6 +64,7 @@ void SurfacePoint::find_samples(double x, double y) {
     no_plane(x, y);
     return;
   }
+  if (within == Within::middle) return;
   double shift[2] = {0, 0};
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 2; ++k) shift[k] += (std::fabs(edge[i]) + change[i]) / smallest_area * v[i].plane_reach[k];
@@ -185,11 +187,11 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   return {m.value * factor + r.value * units, low(m, factor) + low(r, units), high(m, factor) + high(r, units)};
 }
 
-SurfacePoint::Divisors SurfacePoint::divisors_of(bool smooth) const {
-  Divisors out;
+void SurfacePoint::find_divisors(bool smooth, Divisors& out) const {
+  const size_t samples = points_ == 1 ? 1 : out.value.size();
   for (size_t i = 0; i < 3; ++i) {
     const double u = smooth ? piece_.v[i].u : 1, off = smooth ? piece_.v[i].u_error : 0;
-    for (size_t k = 0; k < out.value.size(); ++k) {
+    for (size_t k = 0; k < samples; ++k) {
       out.weight[i][k] = lambda_[i][k] * u;
       out.moves[i][k] = std::fabs(lambda_[i][k]) * u;
       out.moves_by_u[i][k] = std::fabs(lambda_[i][k]) * off;
@@ -204,7 +206,6 @@ SurfacePoint::Divisors SurfacePoint::divisors_of(bool smooth) const {
   }
   out.value[5] = out.value[0], out.least_value[5] = out.least_value[0];
   out.error = smooth ? shape_.u_error : 0;
-  return out;
 }
 
 Range SurfacePoint::attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
@@ -219,9 +220,11 @@ Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation int
   const bool smooth = interpolation == Interpolation::smooth;
   if (bounded_) {
     if (!smooth && !profile_.exact_planes) return affine(vertices);
-    if (smooth && !smooth_) smooth_ = divisors_of(true);
+    if (smooth && !smooth_) find_divisors(true, smooth_.emplace());
     if (smooth) return points_ == 1 ? quotient<1>(vertices, *smooth_) : quotient<6>(vertices, *smooth_);
-    return quotient<1>(vertices, divisors_of(false));  // of exact planes, whose vertices are points
+    Divisors divisors;
+    find_divisors(false, divisors);
+    return quotient<1>(vertices, divisors);  // of exact planes, whose vertices are points
   }
   const double low = std::min({value[0], value[1], value[2]}), high = std::max({value[0], value[1], value[2]});
   if (!bounded()) return profile_.exact_planes ? Range{value[0], low, high} : kAnyValue;

@@ -37,11 +37,16 @@ namespace trueshade::oracle {
 /// added where the profile has those.
 class SurfacePoint {
  public:
+  /// Where planes are looked at: over the whole box that legal vertices allow, or at its middle alone, which costs less
+  /// and gives a part of each range.
+  enum class Within : uint8_t { box, middle };
+
   /// reach: the X and Y above, Projector::window_reach().
   SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
   /// The same with the piece's shape at hand, as for many samples of it.
-  SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y);
+  SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y,
+               Within within = Within::box);
   SurfacePoint(const SurfacePoint&) = delete;
   SurfacePoint& operator=(const SurfacePoint&) = delete;
 
@@ -66,7 +71,7 @@ class SurfacePoint {
  private:
   enum class Tiny : uint8_t { anything, hull, hull_and_plane };
   struct Divisors;
-  void find_samples(double x, double y);
+  void find_samples(double x, double y, Within within);
   void no_plane(double x, double y);
   Range of_tiny(const std::array<double, 3>& value, const std::array<double, 3>& error, const Range& plane) const;
   template <size_t kSamples>
@@ -89,7 +94,7 @@ class SurfacePoint {
     std::array<Samples, 3> moves_by_u{};  ///< the barycentric's size times the error of 1 / w
     double least = HUGE_VAL, error = 0;
   };
-  Divisors divisors_of(bool smooth) const;
+  void find_divisors(bool smooth, Divisors& out) const;
 
   const Piece& piece_;
   const std::optional<PieceShape> own_shape_;  ///< where none was at hand

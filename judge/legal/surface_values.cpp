@@ -10,14 +10,14 @@ SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& 
                     possible, x, y) {}
 
 SurfaceValues::SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form,
-                             const PossibleSurface& possible, double x, double y)
+                             const PossibleSurface& possible, double x, double y, SurfacePoint::Within within)
     : projector_(projector),
       model_(projector.pipeline().light_model),
       material_(&projector.scene().materials[projector.scene().instances[possible.instance].material]),
       form_(std::move(form)),
       piece_index_(possible.piece),
       piece_(&form_->pieces()[piece_index_]),
-      point_(*piece_, form_->shape(piece_index_), projector.profile(), x, y) {
+      point_(*piece_, form_->shape(piece_index_), projector.profile(), x, y, within) {
   const auto texel = [&](const TextureSlot& slot) {
     return map_texel(projector, slot, *piece_, point_, form_->values(), x, y);
   };

@@ -18,7 +18,7 @@ class SurfaceValues {
 
   /// The same of a triangle whose form is known.
   SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form, const PossibleSurface& possible,
-                double x, double y);
+                double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box);
 
   bool bounded() const { return point_.bounded(); }
   // Which channels come from a lookup: the albedo's, the specular colour's, the shininess, the emission's, the share of

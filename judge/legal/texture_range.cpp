@@ -3,191 +3,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/legal/level_range.h"
+
 namespace trueshade::oracle {
 
 namespace {
 
-using Ranges = std::array<Range, 4>;
-
-constexpr long long kFewTexels = 8;  // of a side: beyond, a box is sampled as the whole level
-
-Ranges nothing() {
-  return {{{0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}, {0, HUGE_VAL, -HUGE_VAL}}};
-}
-
-long double srgb_encoded(long double x) {
-  return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
-}
-long double srgb_decoded(long double s) {
-  if (s <= 0.04045L) return std::max(0.0L, s) / 12.92L;
-  return std::pow((std::min(s, 1.0L) + 0.055L) / 1.055L, 2.4L);
-}
-/// Mesa 22.3, gallium/auxiliary/gallivm/lp_bld_format_srgb.c: a line, and a polynomial from code 16 on.
-long double mesa_decoded(long double s) {
-  if (s * 255 <= 15) return s / 12.6L;
-  return 0.0023L + s * (0.0030L + s * (0.6935L + s * 0.3012L));
-}
-
-/// Codes -1 to 256 decoded: texels are looked up 100 times a sample.
-struct SrgbTable {
-  std::array<long double, 258> value, mesa;
-  SrgbTable() {
-    for (int k = -1; k <= 256; ++k) {
-      value[size_t(k + 1)] = srgb_decoded(k / 255.0L);
-      mesa[size_t(k + 1)] = mesa_decoded(std::clamp(k / 255.0L, 0.0L, 1.0L));
-    }
-  }
-  /// The code whose value rounds to the float; -1 for what is no texel, as a border.
-  int code_of(long double texel) const {
-    const auto at = std::lower_bound(value.begin() + 1, value.end() - 1, texel,
-                                     [](long double a, long double b) { return float(a) < float(b); });
-    return at != value.end() - 1 && float(*at) == float(texel) ? int(at - value.begin()) - 1 : -1;
-  }
-};
-
-const SrgbTable& srgb_table() {
-  static const SrgbTable table;
-  return table;
-}
-
-/// A level of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.
-struct TexelSource {
-  const Texture& texture;
-  const Sampler& sampler;
-  const Sampling& rules;
-  LevelHulls* hulls;
-  bool encoded = false;
-  double codes = 0;
-
-  LevelReading reading(size_t level) const {
-    const bool border = sampler.wrap[0] == Wrap::clamp_to_border || sampler.wrap[1] == Wrap::clamp_to_border;
-    const glm::vec4& b = sampler.border;
-    const std::array<float, 4> color = border ? std::array{b.r, b.g, b.b, b.a} : std::array<float, 4>{};
-    return {&texture, level, encoded, border, codes, color};
-  }
-
-  TexelValue at(size_t level, long long i, long long j) const {
-    TexelValue t = wrapped_texel(texture, sampler, level, i, j);
-    if (texture.format != TextureFormat::srgb8_a8) return t;
-    const SrgbTable& table = srgb_table();
-    const auto& decoded = rules.mesa_decode ? table.mesa : table.value;
-    for (size_t c = 0; c < 3; ++c) {
-      const int code = table.code_of(t[c]);
-      if (encoded) {
-        t[c] = code >= 0 ? code / 255.0L : srgb_encoded(t[c]);
-      } else if (code >= 0) {
-        const auto k = size_t(code + 1);
-        t[c] = decoded[k] + (codes < 0 ? decoded[k - 1] - decoded[k] : decoded[k + 1] - decoded[k]) * std::fabs(codes);
-      }
-    }
-    return t;
-  }
-};
-
-void include(Ranges& r, const TexelValue& texel) {
-  for (size_t c = 0; c < 4; ++c)
-    r[c].low = std::min(r[c].low, double(texel[c])), r[c].high = std::max(r[c].high, double(texel[c]));
-}
-
-void include(Ranges& r, const Ranges& other) {
-  for (size_t c = 0; c < 4; ++c)
-    r[c].low = std::min(r[c].low, other[c].low), r[c].high = std::max(r[c].high, other[c].high);
-}
-
-Ranges mixed(const Ranges& a, const Ranges& b, double weight) {
-  Ranges out;
+/// a and b mixed by a weight.
+TexelHull mixed(const TexelHull& a, const TexelHull& b, double weight) {
+  TexelHull out;
   for (size_t c = 0; c < 4; ++c)
     out[c] = {0, (1 - weight) * a[c].low + weight * b[c].low, (1 - weight) * a[c].high + weight * b[c].high};
   return out;
 }
 
-/// All texels of a level, and the border if it may be read.
-Ranges whole_level(const TexelSource& texels, size_t level) {
-  Ranges r = nothing();
-  if (texels.hulls != nullptr)
-    if (const auto kept = texels.hulls->find(texels.reading(level))) {
-      for (size_t c = 0; c < 4; ++c) r[c] = {0, (*kept)[c][0], (*kept)[c][1]};
-      return r;
-    }
-  const TextureLevel& l = texels.texture.levels[level];
-  for (long long j = -1; j <= l.height; ++j)
-    for (long long i = -1; i <= l.width; ++i) include(r, texels.at(level, i, j));
-  if (texels.hulls == nullptr) return r;
-  LevelHulls::Hull hull;
-  for (size_t c = 0; c < 4; ++c) hull[c] = {r[c].low, r[c].high};
-  texels.hulls->keep(texels.reading(level), hull);
-  return r;
-}
-
-struct Interval {
-  long double low, high;
-};
-
-/// A coordinate's interval in texels of a level.
-Interval texels_of(const Range& coordinate, int side, double off) {
-  const long double low = (long double)coordinate.low * side, high = (long double)coordinate.high * side;
-  return {low - off, high + off};
-}
-
-Ranges level_range(const TexelSource& texels, size_t level, Filter filter, const TextureSample& at,
-                   const Profile& profile) {
-  const TextureLevel& l = texels.texture.levels[level];
-  const bool narrow = texels.texture.format == TextureFormat::rgba8 || texels.encoded;
-  const double weight = narrow ? texels.rules.weight_error : texels.rules.wide_weight_error;
-  const auto off = [&](const Range& coordinate, int side) {  // weights, and the float product
-    if (profile.exact_planes) return 0.0;
-    const double size = std::max(std::fabs(coordinate.low), std::fabs(coordinate.high)) * side;
-    return (filter == Filter::linear ? weight : 0.0) + 3 * 0x1p-23 * (size + 1);
-  };
-  const Interval x = texels_of(at.u, l.width, off(at.u, l.width)), y = texels_of(at.v, l.height, off(at.v, l.height));
-  const long double shift = filter == Filter::linear ? 0.5L : 0;
-  if (!(x.high - x.low < kFewTexels) || !(y.high - y.low < kFewTexels) || std::fabs(x.low) > 0x1p40L ||
-      std::fabs(y.low) > 0x1p40L)
-    return whole_level(texels, level);
-  const auto i0 = (long long)(std::floor(x.low - shift)), i1 = (long long)(std::floor(x.high - shift));
-  const auto j0 = (long long)(std::floor(y.low - shift)), j1 = (long long)(std::floor(y.high - shift));
-  Ranges r = nothing();
-  for (long long j = j0; j <= j1; ++j)
-    for (long long i = i0; i <= i1; ++i) {
-      if (filter == Filter::nearest) {
-        include(r, texels.at(level, i, j));
-        continue;
-      }
-      // Bilinear in a cell: the extremes are at the corners of what the box has of it.
-      const TexelValue t00 = texels.at(level, i, j), t10 = texels.at(level, i + 1, j);
-      const TexelValue t01 = texels.at(level, i, j + 1), t11 = texels.at(level, i + 1, j + 1);
-      const long double a[2] = {std::clamp<long double>(x.low - shift - i, 0, 1),
-                                std::clamp<long double>(x.high - shift - i, 0, 1)};
-      const long double b[2] = {std::clamp<long double>(y.low - shift - j, 0, 1),
-                                std::clamp<long double>(y.high - shift - j, 0, 1)};
-      for (const long double wa : a)
-        for (const long double wb : b) {
-          TexelValue value;
-          for (size_t c = 0; c < 4; ++c)
-            value[c] = (1 - wb) * ((1 - wa) * t00[c] + wa * t10[c]) + wb * ((1 - wa) * t01[c] + wa * t11[c]);
-          include(r, value);
-        }
-    }
-  return r;
-}
-
 /// Minified at a level of detail in [low, high].
-Ranges minified(const TexelSource& texels, double low, double high, const TextureSample& at, const Profile& profile) {
+TexelHull minified(const TexelSource& texels, double low, double high, const TextureSample& at,
+                   const Profile& profile) {
   const Sampler& s = texels.sampler;
   const int last = int(texels.texture.levels.size()) - 1;
-  const auto level = [&](int k) { return level_range(texels, size_t(k), s.min_filter, at, profile); };
+  const auto level = [&](int k) {
+    return level_range(texels, size_t(k), s.min_filter, at.u, at.v, profile.exact_planes);
+  };
   if (s.mip_filter == MipFilter::none) return level(0);
   low = std::clamp<double>(low, 0, last), high = std::clamp<double>(high, 0, last);
-  Ranges r = nothing();
+  TexelHull r = no_texel();
   if (s.mip_filter == MipFilter::nearest) {
     for (int k = int(std::ceil(low + 0.5)) - 1; k <= int(std::floor(high + 0.5)); ++k)
       if (k >= 0 && k <= last) include(r, level(k));
     return r;
   }
+  TexelHull here = level(int(low));
   for (int k = int(low); k <= int(high); ++k) {
-    const Ranges here = level(k), next = level(std::min(k + 1, last));
+    const TexelHull next = k < last ? level(k + 1) : here;
     for (const double end : {std::max(low, double(k)), std::min(high, double(k + 1))})
       include(r, mixed(here, next, std::clamp(end - k, 0.0, 1.0)));
+    here = next;
   }
   return r;
 }
@@ -251,6 +102,10 @@ TextureSample texture_sample(const Piece& piece, const std::array<std::array<dou
 
 namespace {
 
+struct Interval {
+  long double low, high;
+};
+
 /// Levels of detail that a lookup may have, biased and clamped.
 Interval lod_range(const Texture& texture, const Sampler& s, const TextureSample& at, const Sampling& rules) {
   LodRange lod;
@@ -268,16 +123,16 @@ Interval lod_range(const Texture& texture, const Sampler& s, const TextureSample
 }
 
 /// What the sampler's filters make of the texels, in real arithmetic, and how many linear steps at most that took.
-Ranges filtered_range(const TexelSource& texels, const Interval& lod, const TextureSample& at, const Profile& profile,
-                      int& steps) {
+TexelHull filtered_range(const TexelSource& texels, const Interval& lod, const TextureSample& at,
+                         const Profile& profile, int& steps) {
   const Sampler& s = texels.sampler;
   // OpenGL lets the two filters meet at 0.5 where the one is linear and the other nearest with levels (8.15).
   const bool half =
       s.mag_filter == Filter::linear && s.min_filter == Filter::nearest && s.mip_filter != MipFilter::none;
-  Ranges r = nothing();
+  TexelHull r = no_texel();
   steps = 0;
   if (lod.low <= (half ? 0.5L : 0.0L)) {
-    include(r, level_range(texels, 0, s.mag_filter, at, profile));
+    include(r, level_range(texels, 0, s.mag_filter, at.u, at.v, profile.exact_planes));
     steps = s.mag_filter == Filter::linear ? 2 : 0;
   }
   if (lod.high > 0) {
@@ -295,7 +150,7 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
   const Interval lod = lod_range(texture, s, at, rules);
   const bool srgb = texture.format == TextureFormat::srgb8_a8;
   int steps = 0;
-  Ranges r;
+  TexelHull r;
   if (!srgb || (rules.srgb_codes == 0 && !rules.mesa_decode)) {
     r = filtered_range({texture, s, rules, hulls}, lod, at, profile, steps);
   } else {
@@ -305,7 +160,7 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
   }
   const double off = rules.lerp_codes * steps / 255;
   if (srgb && rules.decodes_late) {
-    Ranges late = filtered_range({texture, s, rules, hulls, true}, lod, at, profile, steps);
+    TexelHull late = filtered_range({texture, s, rules, hulls, true}, lod, at, profile, steps);
     for (size_t c = 0; c < 4; ++c) {
       const double more = off + (c < 3 ? rules.srgb_codes / 255 : 0);
       late[c] = {0, late[c].low - more, late[c].high + more};

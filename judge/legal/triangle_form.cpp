@@ -32,7 +32,7 @@ const TangentFrame& TriangleForm::tangents() const {
   return *tangents_;
 }
 
-std::shared_ptr<const TriangleForm> TriangleForms::of(uint32_t instance, uint32_t triangle) {
+const std::shared_ptr<const TriangleForm>& TriangleForms::of(uint32_t instance, uint32_t triangle) {
   Slot& slot = slots_[(size_t(instance) * 37 + triangle) % kSlots];
   if (!slot.form || slot.instance != instance || slot.triangle != triangle)
     slot = {instance, triangle, std::make_shared<const TriangleForm>(projector_, instance, triangle)};

@@ -47,7 +47,8 @@ class TriangleForm {
 class TriangleForms {
  public:
   explicit TriangleForms(const Projector& projector) : projector_(projector), slots_(kSlots) {}
-  std::shared_ptr<const TriangleForm> of(uint32_t instance, uint32_t triangle);
+  /// Valid until the next call; its copies are longer.
+  const std::shared_ptr<const TriangleForm>& of(uint32_t instance, uint32_t triangle);
 
  private:
   static constexpr size_t kSlots = 256;  ///< a tile of 16 x 16 pixels sees fewer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "judge/legal/allows.h"
 #include "judge/stages/tally.h"
 
 namespace trueshade::oracle {
@@ -45,25 +46,6 @@ std::vector<Bands> portions_of(size_t bands) {
   return portions;
 }
 
-/// Whether a box that one rule of snapping allows lies in that of the other.
-bool grid_within(const Profile& loose, const Profile& tight) {
-  if (loose.subpixel_bits == tight.subpixel_bits && loose.snap == tight.snap) return true;
-  return loose.snap == SnapRule::unstated && loose.subpixel_bits <= tight.subpixel_bits &&
-         tight.snap != SnapRule::toward_zero;
-}
-
-bool arithmetic_within(const Arithmetic& loose, const Arithmetic& tight) {
-  return loose.roundoff >= tight.roundoff && loose.divide >= tight.divide && loose.inverse_sqrt >= tight.inverse_sqrt &&
-         loose.square_root >= tight.square_root && (!loose.exact_pow || tight.exact_pow);
-}
-
-bool stores_within(const Profile& loose, const Profile& tight) {
-  return loose.unorm_reach >= tight.unorm_reach && loose.srgb_reach >= tight.srgb_reach &&
-         (loose.half == HalfStore::either || loose.half == tight.half) &&
-         (loose.blend == BlendRule::any_precision || loose.blend == tight.blend) &&
-         loose.fetch_error >= tight.fetch_error && (loose.sampling == Sampling{} || loose.sampling == tight.sampling);
-}
-
 /// What a guess bears on. The target is judged by the capture's own surfaces, which no grid changes.
 enum class Bears : uint8_t { on_surfaces, on_all_stages };
 
@@ -92,8 +74,8 @@ struct Knowledge {
 class Inquiry {
  public:
   Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& rows,
-          Knowledge& known)
-      : scene_(scene), pipeline_(pipeline), capture_(capture), rows_(rows), known_(known) {
+          const JudgedBefore* before, Knowledge& known)
+      : scene_(scene), pipeline_(pipeline), capture_(capture), rows_(rows), before_(before), known_(known) {
     const auto look = [&](const Image& image) {
       if (image.width == 0) return;
       const FormatInfo f = info(image.format);
@@ -144,9 +126,11 @@ class Inquiry {
  private:
   Bands failing_in(const Guess& guess, const JudgedRows& rows) const {
     Bands bands(size_t(JudgedRows::bands_of(pipeline_.height)), 0);
-    int failing = add_violating(judge_gbuffer(scene_, pipeline_, guess.profile, capture_, rows), kLeastBands, bands);
+    int failing = add_violating(gbuffer_violations(scene_, pipeline_, guess.profile, capture_, rows, before_),
+                                kLeastBands, bands);
     if (guess.bears == Bears::on_all_stages && lit_)
-      failing += add_violating(judge_lighting(scene_, pipeline_, guess.profile, capture_, rows), kLeastBands, bands);
+      failing += add_violating(lighting_violations(scene_, pipeline_, guess.profile, capture_, rows, before_),
+                               kLeastBands, bands);
     return failing > 0 ? bands : Bands{};
   }
 
@@ -172,8 +156,9 @@ class Inquiry {
     for (size_t i = 0; i < count; ++i) known->bands[i] |= more[i];
     const JudgedRows rows(std::move(more));
     const auto violations = [](const StageVerdict& v) { return v.count(PixelClass::violation); };
-    known->surfaces += violations(judge_gbuffer(scene_, pipeline_, guess.profile, capture_, rows));
-    if (with_lights) known->lights += violations(judge_lighting(scene_, pipeline_, guess.profile, capture_, rows));
+    known->surfaces += violations(gbuffer_violations(scene_, pipeline_, guess.profile, capture_, rows, before_));
+    if (with_lights)
+      known->lights += violations(lighting_violations(scene_, pipeline_, guess.profile, capture_, rows, before_));
     return *known;
   }
 
@@ -252,6 +237,7 @@ class Inquiry {
   const Pipeline& pipeline_;
   const Capture& capture_;
   const JudgedRows& rows_;
+  const JudgedBefore* before_;
   Knowledge& known_;
   std::vector<Guess> held_;  ///< guesses that explain the sample, in the order in which they were tried
   bool unorm_ = false, half_ = false, lit_ = false;
@@ -260,15 +246,6 @@ class Inquiry {
 };
 
 }  // namespace
-
-bool allows_all_of(const Profile& loose, const Profile& tight) {
-  return grid_within(loose, tight) && (loose.fill == FillRule::unstated || loose.fill == tight.fill) &&
-         (loose.plane_origin == PlaneOrigin::either || loose.plane_origin == tight.plane_origin) &&
-         (!loose.exact_vertices || tight.exact_vertices) && (!loose.exact_planes || tight.exact_planes) &&
-         (loose.clips_to_view || !tight.clips_to_view) && loose.least_depth_unit <= tight.least_depth_unit &&
-         loose.most_depth_unit >= tight.most_depth_unit && (!loose.max_norm_slope || tight.max_norm_slope) &&
-         stores_within(loose, tight) && arithmetic_within(loose.arithmetic, tight.arithmetic);
-}
 
 JudgedRows sampled_rows(int width, int height) {
   const int bands = JudgedRows::bands_of(height);
@@ -280,23 +257,23 @@ JudgedRows sampled_rows(int width, int height) {
 }
 
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
-                        std::span<const StageVerdict> judged) {
+                        std::span<const StageVerdict> judged, const JudgedBefore* before) {
   JudgedRows sample = sampled_rows(pipeline.width, pipeline.height);
-  if (sample.all()) return infer_profile(scene, pipeline, capture, sample);
+  if (sample.all()) return infer_profile(scene, pipeline, capture, sample, before);
   Bands bands = sample.bands();
   for (const StageVerdict& stage : judged) {
     add_violating(stage, kLeastBands, bands);
     add_telling(stage, kTellingBands, bands);
   }
-  return infer_profile(scene, pipeline, capture, JudgedRows(std::move(bands)));
+  return infer_profile(scene, pipeline, capture, JudgedRows(std::move(bands)), before);
 }
 
-Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
-                        const JudgedRows& sample) {
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample,
+                        const JudgedBefore* before) {
   JudgedRows rows = sample;
   Knowledge known;
   for (int begin = 0;; ++begin) {
-    Inquiry inquiry(scene, pipeline, capture, rows, known);
+    Inquiry inquiry(scene, pipeline, capture, rows, before, known);
     Inference result = inquiry.run();
     const Bands refuted = inquiry.refuted();
     if (refuted.empty()) return result;

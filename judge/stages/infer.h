@@ -41,12 +41,11 @@ JudgedRows sampled_rows(int width, int height);
 /// unless a profile that allows less was found to hold there; where that fails, the rows that it fails in join the
 /// sample, and all begins again. So the answer is that of the whole image; only the counts of `tried` are of a sample.
 /// judged: the stages of the image under the profile that it is held to; some bands in which they fail join the sample.
+/// before: what that judgement found, for speed alone; may be null.
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
-                        std::span<const StageVerdict> judged = {});
-Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample);
-
-/// Whether every value that `tight` allows is one that `loose` allows, as far as their knobs tell.
-bool allows_all_of(const Profile& loose, const Profile& tight);
+                        std::span<const StageVerdict> judged = {}, const JudgedBefore* before = nullptr);
+Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample,
+                        const JudgedBefore* before = nullptr);
 
 /// One line: `8 bits, nearest; planes snapped; half toward zero; unorm within 0.5`.
 std::string text(const Inference& inference);

@@ -1,17 +1,25 @@
 #pragma once
 // Judges what a renderer drew, stage by stage, so that no stage is blamed for the one before it (docs/gl_rules.md
 // section 6, "amplification": an 8-bit normal one code off moves a lit pixel by 11).
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "judge/bounds/profile.h"
 #include "judge/legal/judged_rows.h"
+#include "judge/legal/possible_surfaces.h"
 #include "judge/stages/verdict.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
+
+/// What a judgement of surfaces found on its way.
+struct FoundSurfaces {
+  PossibleSurfaces surfaces;                  ///< `first` is empty where none were looked for
+  std::shared_ptr<LevelHulls> level_hulls{};  ///< of the scene's textures, whatever the profile
+};
 
 /// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has,
 /// and specular and emission where the light model reads them) against the surfaces each pixel may show. A pixel must
@@ -22,8 +30,9 @@ namespace trueshade::oracle {
 /// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
 /// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
 /// `rows`: the verdict counts these alone.
+/// `found`: where it is not null, what was found in these rows is left there.
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
-                           const JudgedRows& rows = {});
+                           const JudgedRows& rows = {}, FoundSurfaces* found = nullptr);
 
 /// The target against the lights summed over the capture's own planes, in double, with the error bound of
 /// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or
@@ -35,6 +44,22 @@ StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const P
 /// `rows` as for judge_gbuffer().
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const JudgedRows& rows = {});
+
+/// What a capture was found to be by one profile: profiles that allow less are asked faster beside it.
+struct JudgedBefore {
+  Profile profile;
+  FoundSurfaces found;
+  const StageVerdict* lighting = nullptr;  ///< judge_lighting() of all rows, where that was asked
+};
+
+/// The violations alone of judge_gbuffer(): every other pixel is EXACT, and nothing is known of the whole image.
+/// `before`: may be null; is passed over where its profile does not allow all that `profile` allows.
+StageVerdict gbuffer_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
+
+/// The same of judge_lighting().
+StageVerdict lighting_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                 const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
 
 /// Strategies that blend, light by light: the target after each light against what the driver's *own* target before it
 /// may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment (light_cover.h); EDGE

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/threads/parallel_for.h"
+#include "judge/legal/allows.h"
 #include "judge/stages/captured_surface.h"
 #include "judge/stages/judge.h"
 #include "judge/stages/judge_blending.h"
@@ -19,11 +20,13 @@ constexpr size_t kMostBranches = 8;  // 256 sums; beyond that the hull of all of
 
 class LightingJudge {
  public:
+  /// settled: the verdict by a profile that allows more, where its EXACT pixels are no violations of this one; or null.
   LightingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
-                const JudgedRows& rows)
+                const JudgedRows& rows, const StageVerdict* settled = nullptr)
       : scene_(scene),
         pipeline_(pipeline),
         profile_(profile),
+        settled_(settled),
         surface_(scene, pipeline, profile, capture),
         color_(target_of(capture, pipeline)),
         count_(plane_of(capture, pipeline, "light.count")),
@@ -38,6 +41,11 @@ class LightingJudge {
   void judge_rows(int y, int end, std::vector<RowTally>& rows) const {
     Tile tile;
     for (int x = 0; x < pipeline_.width; x += kTile) {
+      if (is_settled(x, y, end)) {
+        for (int row = y; row < end; ++row)
+          rows[size_t(row)].classes.resize(size_t(std::min(x + kTile, pipeline_.width)), PixelClass::exact);
+        continue;
+      }
       look_at(x, y, std::min(x + kTile, pipeline_.width), end, tile);
       for (int row = y; row < end; ++row)
         for (int column = x; column < tile.x1; ++column) judge_pixel(column, row, tile, rows[size_t(row)]);
@@ -55,6 +63,15 @@ class LightingJudge {
     const ShadedSurface& at(int x, int y) const { return surfaces[size_t((y - y0) * (x1 - x0) + x - x0)]; }
   };
 
+  /// Of a tile, rows y to end.
+  bool is_settled(int x, int y, int end) const {
+    for (int row = y; row < end && settled_ != nullptr; ++row) {
+      const auto first = settled_->classes.begin() + int64_t(pixel_at(x, row));
+      const auto is_exact = [](PixelClass c) { return c == PixelClass::exact; };
+      if (!std::all_of(first, first + std::min(kTile, pipeline_.width - x), is_exact)) return false;
+    }
+    return settled_ != nullptr;
+  }
   void look_at(int x0, int y0, int x1, int y1, Tile& tile) const;
   uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
   bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
@@ -66,6 +83,7 @@ class LightingJudge {
   const Scene& scene_;
   const Pipeline pipeline_;
   const Profile profile_;
+  const StageVerdict* const settled_;
   const CapturedSurface surface_;
   const PlaneView color_, count_;
   const bool sees_thresholds_ = converts_as_seen(color_, profile_);
@@ -214,19 +232,47 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
   row.take(x, y, PixelClass::violation, nominal, "");
 }
 
-}  // namespace
-
-StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                            const Capture& capture, const JudgedRows& judged) {
-  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture, judged);
-  const Profile p = resolved(profile, pipeline);
-  const LightingJudge judge(scene, pipeline, p, capture, judged);
+StageVerdict verdict_by(const LightingJudge& judge, const Pipeline& pipeline, const Profile& profile,
+                        const JudgedRows& judged) {
   std::vector<RowTally> rows(size_t(pipeline.height));
   constexpr int kRows = JudgedRows::kBand;
   parallel_for(JudgedRows::bands_of(pipeline.height), 0, [&](int i) {
     if (judged.has_band(i)) judge.judge_rows(i * kRows, std::min((i + 1) * kRows, pipeline.height), rows);
   });
-  return verdict_of("lighting", p, pipeline.width, pipeline.height, rows);
+  return verdict_of("lighting", profile, pipeline.width, pipeline.height, rows);
+}
+
+/// Whether a pixel that is EXACT by `wide` is no violation by `narrow`, which allows less. Its stores are the nominal
+/// ones of values that do not depend on the profile; so they are legal wherever the same store of the same value is.
+/// Both profiles are resolved. Floats of 32 bits have no such stores: a range of theirs may become narrower.
+bool keeps_exact_pixels(const Profile& wide, const Profile& narrow, const Capture& capture, const Pipeline& pipeline) {
+  const PlaneView color = target_of(capture, pipeline);
+  const HalfStore nominal = wide.half == HalfStore::either ? wide.likely.half : wide.half;
+  const bool is_half_alike = !color.layout.small_float() || narrow.half == HalfStore::either || narrow.half == nominal;
+  const bool is_any_mesa =
+      narrow.blend == BlendRule::mesa_codes || wide.blend == BlendRule::mesa_codes || wide.likely.mesa_codes;
+  return color.quantised() && is_half_alike && !is_any_mesa && capture.plane("light.count") == nullptr;
+}
+
+}  // namespace
+
+StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                            const Capture& capture, const JudgedRows& rows) {
+  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture, rows);
+  const Profile p = resolved(profile, pipeline);
+  return verdict_by(LightingJudge(scene, pipeline, p, capture, rows), pipeline, p, rows);
+}
+
+StageVerdict lighting_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                 const Capture& capture, const JudgedRows& rows, const JudgedBefore* before) {
+  if (blends_lights(pipeline.strategy)) return judge_blended(scene, pipeline, profile, capture, rows);
+  const Profile p = resolved(profile, pipeline);
+  const StageVerdict* settled = nullptr;
+  if (before != nullptr && before->lighting != nullptr && !draws_transparent(scene, pipeline) &&
+      allows_all_of(before->profile, profile) &&
+      keeps_exact_pixels(resolved(before->profile, pipeline), p, capture, pipeline))
+    settled = before->lighting;
+  return verdict_by(LightingJudge(scene, pipeline, p, capture, rows, settled), pipeline, p, rows);
 }
 
 }  // namespace trueshade::oracle

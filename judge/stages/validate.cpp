@@ -28,7 +28,7 @@ class Validation {
     begin("the surfaces");
     if (has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") ||
         has("id.material"))
-      add([this](const Profile& p) { return judge_gbuffer(scene_, pipeline_, p, capture_); });
+      add_surfaces();
     const bool layers =
         draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights;
     begin("the lights");
@@ -41,6 +41,9 @@ class Validation {
     return std::move(stages_);
   }
 
+  /// What the judgement of the surfaces found, where a profile is to be inferred.
+  JudgedBefore before() { return {options_.profile, std::move(surfaces_), nullptr}; }
+
  private:
   void begin(const char* part) const {
     if (options_.begins) options_.begins(part);
@@ -49,6 +52,13 @@ class Validation {
   void add(std::function<StageVerdict(const Profile&)> judge) {
     StageVerdict verdict = judge(options_.profile);
     stages_.push_back({std::move(verdict), std::move(judge)});
+  }
+
+  void add_surfaces() {
+    StageVerdict verdict =
+        judge_gbuffer(scene_, pipeline_, options_.profile, capture_, {}, options_.infer ? &surfaces_ : nullptr);
+    stages_.push_back(
+        {std::move(verdict), [this](const Profile& p) { return judge_gbuffer(scene_, pipeline_, p, capture_); }});
   }
 
   void judge_target(const Scene& scene, const Capture& capture) {
@@ -98,6 +108,7 @@ class Validation {
   Capture lit_;   ///< before what is transparent
   Scene opaque_;  ///< without it
   std::vector<Stage> stages_;
+  FoundSurfaces surfaces_;
 };
 
 }  // namespace
@@ -158,8 +169,12 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
     v.stages.push_back(std::move(stage.verdict));
   }
   begin("what profile explains it");
-  if (options.infer && v.stages.front().stage == "gbuffer")
-    v.inferred = infer_profile(scene, pipeline, capture, v.stages);
+  if (options.infer && v.stages.front().stage == "gbuffer") {
+    JudgedBefore before = validation.before();
+    const bool is_lit = v.stages.size() == 2 && v.stages[1].stage == "lighting";
+    if (is_lit) before.lighting = &v.stages[1];
+    v.inferred = infer_profile(scene, pipeline, capture, v.stages, &before);
+  }
   return v;
 }
 

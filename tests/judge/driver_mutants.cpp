@@ -50,6 +50,13 @@ class Driver {
   KeptPrograms programs_;
 };
 
+void try_maps(testing::Tries tries) {
+  const GlContext* context = testing::opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  Driver driver(*context);
+  testing::try_surface_mutants(profiles_of(*context), driver.renderer(), tries);
+}
+
 void try_glass(testing::Tries tries) {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
@@ -81,12 +88,15 @@ TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too", "[s
   testing::try_mutants(profiles_of(*context), driver.renderer(), 1, kSame, kInside, testing::Tries::all);
 }
 TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too", "[slow]") {
-  const GlContext* context = testing::opened(GlDriver::llvmpipe);
-  if (context == nullptr) return;
-  Driver driver(*context);
-  testing::try_surface_mutants(profiles_of(*context), driver.renderer());
+  try_maps(testing::Tries::third);
 }
-TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too",
-          "[slow]") { try_glass(testing::Tries::half); }
+
+TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected on every picture", "[long]") {
+  try_maps(testing::Tries::all);
+}
+
+TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too", "[slow]") {
+  try_glass(testing::Tries::half);
+}
 
 TEST_CASE("llvmpipe's own wrong glass is rejected on every picture", "[long]") { try_glass(testing::Tries::all); }

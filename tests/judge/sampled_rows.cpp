@@ -92,6 +92,101 @@ TEST_CASE("Bands of rows, judged each by itself, have the classes of the whole i
   }
 }
 
+namespace {
+
+/// Profiles as inference guesses them, and the named ones.
+std::vector<Profile> guesses() {
+  std::vector<Profile> all;
+  for (const char* name : {"ideal", "mesa-llvmpipe-22.3", "d3d-class", "vulkan"}) all.push_back(*profile_named(name));
+  Profile loose;
+  loose.subpixel_bits = 8;
+  all.push_back(loose);
+  for (const SnapRule rule : {SnapRule::nearest, SnapRule::toward_zero, SnapRule::nearest_0_6}) {
+    all.push_back(loose);
+    all.back().snap = rule;
+  }
+  for (const PlaneOrigin origin : {PlaneOrigin::snapped, PlaneOrigin::unsnapped}) {
+    all.push_back(loose);
+    all.back().plane_origin = origin;
+  }
+  for (const HalfStore half : {HalfStore::toward_zero, HalfStore::nearest}) {
+    all.push_back(loose);
+    all.back().half = half;
+  }
+  all.push_back(loose);
+  all.back().unorm_reach = 0.5;
+  return all;
+}
+
+std::vector<bool> violations_in(const StageVerdict& v) {
+  std::vector<bool> found;
+  for (const PixelClass c : v.classes) found.push_back(c == PixelClass::violation);
+  return found;
+}
+
+/// A capture with a code of every 37th pixel changed, planes in turn.
+Capture with_faults(Capture capture) {
+  const auto change = [](Image& image, uint32_t by) {
+    for (int i = int(by); i < image.width * image.height; i += 37) {
+      const int x = i % image.width, y = i / image.width, k = i % info(image.format).channels;
+      image.set_code(x, y, k, image.code(x, y, k) ^ by);
+    }
+  };
+  change(capture.color, 1);
+  for (size_t i = 0; i < capture.planes.size(); ++i) change(capture.planes[i].image, 2 + uint32_t(i));
+  return capture;
+}
+
+/// Of the guesses every other one. Counts how many pixels are violations of some guess and none of the base.
+int check_guesses(const Scene& scene, const Pipeline& pipeline, const Capture& capture, size_t turn) {
+  JudgedBefore before;
+  const StageVerdict base = judge_gbuffer(scene, pipeline, before.profile, capture, {}, &before.found);
+  const StageVerdict lit = judge_lighting(scene, pipeline, before.profile, capture);
+  before.lighting = &lit;
+  int refused = 0;
+  const std::vector<Profile> all = guesses();
+  for (size_t g = turn % 2; g < all.size(); g += 2) {
+    const Profile& guess = all[g];
+    CAPTURE(guess.name, text(guess.snap), text(guess.plane_origin), text(guess.half));
+    const std::vector<bool> surfaces = violations_in(judge_gbuffer(scene, pipeline, guess, capture));
+    const std::vector<bool> lights = violations_in(judge_lighting(scene, pipeline, guess, capture));
+    for (const JudgedBefore* known : {static_cast<const JudgedBefore*>(nullptr), &std::as_const(before)}) {
+      CAPTURE(known != nullptr);
+      CHECK(violations_in(gbuffer_violations(scene, pipeline, guess, capture, {}, known)) == surfaces);
+      CHECK(violations_in(lighting_violations(scene, pipeline, guess, capture, {}, known)) == lights);
+    }
+    for (size_t i = 0; i < surfaces.size(); ++i)
+      refused += (surfaces[i] && base.classes[i] != PixelClass::violation) ||
+                 (lights[i] && lit.classes[i] != PixelClass::violation);
+  }
+  return refused;
+}
+
+}  // namespace
+
+TEST_CASE("Violations asked beside a looser judgement are those of a judgement of its own", "[slow]") {
+  constexpr Format kTargets[] = {Format::rgba8, Format::rgba16f, Format::srgb8_a8, Format::rgba32f};
+  int refused = 0;
+  size_t turn = 0;
+  for (const char* name : {"city,lights=20,objects=120", "circle", "lecture,lights=4"})
+    for (const bool turned : {false, true}) {
+      const Scene scene = builtin_scene(name);
+      Pipeline pipeline = pipeline_of(Strategy::deferred_loop);
+      pipeline.width = 40, pipeline.height = 24;
+      pipeline.target = kTargets[turn++ % 4];
+      if (turned) {  // other ways of testing depth
+        pipeline.geometry.depth_func = DepthFunc::lequal;
+        pipeline.geometry.polygon_offset_factor = 1, pipeline.geometry.polygon_offset_units = 2;
+        pipeline.gbuffer.half_round = HalfRound::nearest;
+      }
+      CAPTURE(name, info(pipeline.target).name, turned);
+      const Capture capture = captured(scene, pipeline);
+      refused += check_guesses(scene, pipeline, capture, turn);
+      refused += check_guesses(scene, pipeline, with_faults(capture), turn / 2);
+    }
+  CHECK(refused > 100);
+}
+
 TEST_CASE("The profile inferred from one band of our own frames is that of the whole image") {
   const Scene scene = builtin_scene("circle");
   for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {

@@ -76,7 +76,7 @@ std::vector<Pipeline> pipelines() {
   for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_loop})
     for (int i = 0; i < 3; ++i) {
       Pipeline p = presets().front().pipeline;
-      p.width = 160, p.height = 120;
+      p.width = 96, p.height = 72;
       p.strategy = strategy;
       GeometryState& g = p.geometry;
       g.cull_face = i == 2 ? CullFace::front_and_back : CullFace::back;
@@ -93,7 +93,7 @@ uint64_t violations(const Scene& scene, const Pipeline& pipeline, const Capture&
   if (profile.name == "unknown") profile.subpixel_bits = bits;
   const Verdict v = validate_capture(scene, pipeline, capture, {profile, false});
   INFO(name << ": " << verdict_json(v));
-  CHECK(v.stages[0].covered > 1500);
+  CHECK(v.stages[0].covered > 500);
   return v.violations();
 }
 
@@ -146,16 +146,11 @@ TEST_CASE("Both sides and every set of texture coordinates in our own frames are
       wrong.change(other, drawn);
       const Capture capture = captured(other, drawn);
       INFO(wrong.name);
-      if (capture.color.texels == right.color.texels) continue;  // front_and_back leaves few faces
-      CHECK(violations(scene, pipeline, capture, "unknown", 8) > 20);
-    }
-    if (pipeline.geometry.cull_face != CullFace::back) continue;
-    for (const Wrong& wrong : kWrong) {
-      Scene other = scene;
-      Pipeline drawn = pipeline;
-      wrong.change(other, drawn);
-      INFO(wrong.name);
-      CHECK(captured(other, drawn).color.texels != right.color.texels);
+      if (capture.color.texels == right.color.texels) {
+        CHECK(pipeline.geometry.cull_face == CullFace::front_and_back);  // which leaves few faces
+        continue;
+      }
+      CHECK(violations(scene, pipeline, capture, "unknown", 8) > 7);
     }
   }
 }
@@ -178,7 +173,7 @@ TEST_CASE("What llvmpipe makes of both sides, mirrored instances and further tex
       wrong.change(other, drawn);
       const Capture wrong_capture = GlRenderer(*context, other).draw(drawn).capture;
       INFO(wrong.name);
-      CHECK(violations(scene, pipeline, wrong_capture, "unknown", context->info().subpixel_bits) > 20);
+      CHECK(violations(scene, pipeline, wrong_capture, "unknown", context->info().subpixel_bits) > 7);
     }
   }
 }

@@ -1,6 +1,7 @@
 // Vulkan as a second judge of the same scenes: what lavapipe draws is explained under Vulkan's rules, whatever state
 // the pipeline asks for, and what it should not draw is found.
 #include "core/error.h"
+#include "gl/vulkan/device.h"
 #include "gl/vulkan/vulkan_renderer.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
@@ -116,4 +117,37 @@ TEST_CASE("A frame of lavapipe's under another light is in no legal set") {
   for (Light& light : brighter.lights) light.color *= 1.1f;
   const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
   CHECK(judged(scene, pipeline, drawn_by_vulkan(brighter, pipeline, true).capture).violations() > 100);
+}
+
+TEST_CASE("What a Vulkan device cannot hold, draw into or blend is refused in one line that says the limit") {
+  if (!has_lavapipe()) return;
+  VulkanDevice device(true);
+  const VulkanInfo& info = device.info();
+  REQUIRE(info.largest_image >= 4096);  // Vulkan 1.3, table 53: the least that maxImageDimension2D may be
+  REQUIRE(info.most_texels >= 65536);   // and maxTexelBufferElements
+  const int beyond = int(info.largest_image) + 1;
+  const auto check_refused = [&](const auto& call, const std::string& reason) {
+    CAPTURE(reason);
+    try {
+      call();
+      FAIL_CHECK("nothing was refused");
+    } catch (const Error& error) {
+      const std::string line = error.what();
+      CAPTURE(line);
+      CHECK(error.kind() == ErrorKind::no_gl_driver);
+      CHECK(line.find('\n') == std::string::npos);
+      CHECK(line.find(info.line + reason) != std::string::npos);
+    }
+  };
+  const std::string images = " has images of " + std::to_string(info.largest_image) + " pixels a side, and one is ";
+  check_refused([&] { device.make_picture(Format::rgba8, beyond, 1); }, images + std::to_string(beyond) + "x1");
+  check_refused([&] { device.make_picture(Format::d32f, 1, beyond); }, images + "1x" + std::to_string(beyond));
+  const std::string texels = " reads buffers of " + std::to_string(info.most_texels) + " texels, and one has " +
+                             std::to_string(uint64_t(info.most_texels) + 1);
+  check_refused([&] { device.make_buffer((size_t(info.most_texels) + 1) * 16, 0, {}, true); }, texels);
+  check_refused([&] { device.check_blends(VK_FORMAT_R32_UINT, "id.object"); },
+                " does not blend into the format of id.object");
+  Pipeline wide;  // the same where a frame is drawn
+  wide.width = beyond, wide.height = 1;
+  check_refused([&] { drawn_by_vulkan(builtin_scene("cornell"), wide, true); }, images);
 }

@@ -25,6 +25,31 @@ struct Score {
   int unjust = 0;  ///< convicted although a right renderer may draw the picture
 };
 
+void add_try(const Ground& ground, const Plant& plant, int variant, std::map<std::string_view, Score>& all) {
+  const PlantedTry t = planted_try(ground, plant, variant);
+  if (t.changed < 100) return;
+  Score& s = all[plant.name];
+  const bool beyond = t.beyond >= 100;
+  s.beyond += beyond, s.beyond_convicted += beyond && t.convicted, s.unjust += t.convicted && t.beyond == 0;
+  ++s.tries, s.convicted += t.convicted, s.first += t.first, s.named += t.named, s.blamed += t.blamed;
+  UNSCOPED_INFO(plant.name << ", " << ground.scene << ", " << ground.preset << ", " << name_of(ground.strategy) << ", "
+                           << info(ground.target).name << ": " << t.found);
+}
+
+/// Each fault of those chosen on one ground, on the next where it changes too little; grounds and variants in turn.
+std::map<std::string_view, Score> one_try_each(std::span<const Plant* const> chosen) {
+  std::map<std::string_view, Score> all;
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    const Plant& plant = *chosen[i];
+    const std::vector<Ground> on = grounds(plant.presets[i % plant.presets.size()], 1);
+    for (size_t next = 0; next < on.size() && all.count(plant.name) == 0; ++next) {
+      const Ground& ground = on[(5 * i + next) % on.size()];
+      if (!plant.loops_only || !blends_lights(ground.strategy)) add_try(ground, plant, int(i) % plant.variants, all);
+    }
+  }
+  return all;
+}
+
 /// Each fault of those chosen on one ground in `step`, variants in turn.
 std::map<std::string_view, Score> scores(std::span<const Plant* const> chosen, int views, int step) {
   std::map<std::string_view, Score> all;
@@ -34,14 +59,7 @@ std::map<std::string_view, Score> scores(std::span<const Plant* const> chosen, i
       for (const Ground& ground : grounds(preset, views)) {
         if (plant->loops_only && blends_lights(ground.strategy)) continue;
         if (at++ % step != 0) continue;
-        const PlantedTry t = planted_try(ground, *plant, at / step % plant->variants);
-        if (t.changed < 100) continue;
-        Score& s = all[plant->name];
-        const bool beyond = t.beyond >= 100;
-        s.beyond += beyond, s.beyond_convicted += beyond && t.convicted, s.unjust += t.convicted && t.beyond == 0;
-        ++s.tries, s.convicted += t.convicted, s.first += t.first, s.named += t.named, s.blamed += t.blamed;
-        UNSCOPED_INFO(plant->name << ", " << ground.scene << ", " << ground.preset << ", " << name_of(ground.strategy)
-                                  << ", " << info(ground.target).name << ": " << t.found);
+        add_try(ground, *plant, at / step % plant->variants, all);
       }
   return all;
 }
@@ -67,12 +85,12 @@ Score sum(const std::map<std::string_view, Score>& scores) {
 
 }  // namespace
 
-TEST_CASE("Ten faults planted in three scenes are convicted and named first, by the plane that is wrong") {
+TEST_CASE("Ten faults planted in three scenes are convicted and named first, by the plane that is wrong", "[slow]") {
   const std::vector<const Plant*> ten =
       plants_named({"picture upside down", "picture one pixel to the side", "channels as BGRA", "sRGB once too often",
                     "intensity a little off", "range a little off", "half vector without the viewer's sign",
                     "a light missing", "normals in view space in the G-buffer", "front faces culled"});
-  const std::map<std::string_view, Score> found = scores(ten, 1, 7);
+  const std::map<std::string_view, Score> found = one_try_each(ten);
   CHECK(found.size() == ten.size());
   const Score all = sum(found);
   CHECK(all.beyond_convicted == all.beyond);

@@ -263,6 +263,17 @@ TEST_CASE("Dithered pictures and stale tiles are named, with a pixel that shows 
     }
 }
 
+TEST_CASE("Dithering is named where a first look at few pixels does not show that it is random") {
+  for (const Plant& plant : plants()) {
+    if (plant.name != "dithering") continue;
+    const PlantedTry t =
+        planted_try({"circle,lights=24", "many-lights", Strategy::deferred_loop, Format::rgba8, 1}, plant, 0);
+    CAPTURE(t.found);
+    CHECK(t.changed > 4000);
+    CHECK(t.first);
+  }
+}
+
 TEST_CASE("sRGB twice too often is named") {
   for (const Plant& plant : plants()) {
     if (plant.name != "sRGB twice too often") continue;

@@ -1,0 +1,40 @@
+#pragma once
+// What a filter may make of one level of a texture, over a box of texture coordinates.
+#include "judge/bounds/level_hulls.h"
+#include "judge/legal/store.h"
+#include "oracle/texture_lookup.h"
+
+namespace trueshade::oracle {
+
+using TexelHull = std::array<Range, 4>;  ///< of R, G, B, A; `value` is not set
+
+TexelHull no_texel();
+void include(TexelHull& hull, const TexelHull& other);
+
+/// sRGB as real numbers.
+long double srgb_encoded(long double x);
+long double srgb_decoded(long double s);
+
+/// The levels of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.
+struct TexelSource {
+  const Texture& texture;
+  const Sampler& sampler;
+  const Sampling& rules;
+  LevelHulls* hulls;
+  bool encoded = false;
+  double codes = 0;
+
+  LevelReading reading(size_t level) const;
+  /// By indices before wrapping.
+  TexelValue at(size_t level, long long i, long long j) const;
+  /// By indices as wrapped_index() has them.
+  TexelValue at_wrapped(size_t level, long long x, long long y) const;
+};
+
+/// The hull of what the filter may give where the coordinates lie in u and v, the weights as far off as the rules let
+/// them be. Boxes of many texels are taken for the whole level.
+///   exact: coordinates and weights are exact
+TexelHull level_range(const TexelSource& texels, size_t level, Filter filter, const Range& u, const Range& v,
+                      bool exact);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,125 @@
+#pragma once
+// The judge of one capture's surfaces under one profile: what judge_gbuffer() and gbuffer_violations() share.
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "judge/legal/possible_sample.h"
+#include "judge/legal/surface_values.h"
+#include "judge/stages/judge.h"
+#include "judge/stages/tally.h"
+#include "judge/stages/transparent_layers.h"
+
+namespace trueshade::oracle {
+
+/// A plane whose values are interpolated.
+struct AttributePlane {
+  const char* name;
+  PlaneView view;
+  size_t first;    ///< index in VertexValues
+  int count;       ///< channels interpolated; those after them are constants
+  double rest[2];  ///< channels 2 and 3 where they are not interpolated
+  Interpolation interpolation;
+};
+
+/// What is asked of each pixel.
+enum class Asked : uint8_t { classes, violations };
+
+/// The texel of the last range that was asked for: colours are constant over many pixels.
+class LastTexel {
+ public:
+  const LegalTexel& of(const Range& range, const PlaneView& view, int channel, const Profile& profile) {
+    const bool is_same =
+        is_known_ && range.value == range_.value && range.low == range_.low && range.high == range_.high;
+    if (!is_same) texel_ = legal_texel(range, view.image->format, channel, profile);
+    is_known_ = true, range_ = range;
+    return texel_;
+  }
+
+ private:
+  bool is_known_ = false;
+  Range range_;
+  LegalTexel texel_;
+};
+
+/// What one thread keeps from pixel to pixel.
+struct GBufferMemory {
+  explicit GBufferMemory(const Projector& projector) : forms(projector), narrowed(projector, forms) {}
+  TriangleForms forms;
+  std::array<LastTexel, 4> constants;  ///< of the albedo
+  NarrowedSurfaces narrowed;
+  std::vector<const PossibleSurface*> legal;
+};
+
+class GBufferJudge {
+ public:
+  /// wider: possible surfaces by a profile that allows all of this one; null: they are looked for here.
+  /// hulls: of the scene's textures; null where none are known.
+  GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+               const JudgedRows& rows, Asked asked, const PossibleSurfaces* wider, std::shared_ptr<LevelHulls> hulls);
+
+  /// Rows of a band, tile by tile: pixels that are near each other show the same triangles.
+  void judge_band(int y, int end, std::vector<RowTally>& rows) const;
+
+  FoundSurfaces take_found() { return {std::move(possible_), projector_.level_hulls()}; }
+
+ private:
+  static constexpr int kTile = 16;
+  size_t pixel_of(int x, int y_top) const {
+    return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
+  }
+
+  /// Whether a depth key is sure to pass the test against the clear value.
+  bool passes_clear(double key) const {
+    const GeometryState& g = pipeline_.geometry;
+    const bool equal_passes = g.depth_func == DepthFunc::lequal || g.depth_func == DepthFunc::gequal;
+    const double clear = clear_key(g);
+    return key < clear || (equal_passes && key == clear);
+  }
+
+  bool is_clear(int x, int y) const;
+  /// Whether an albedo without a surface is what transparent surfaces may have left on the clear value.
+  bool is_layered(const PlaneView& view, int x, int y) const;
+  /// The albedo of a surface under transparent ones.
+  void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Match& m) const;
+  /// The values that a plane may hold where what was packed is in `packed`.
+  static Range widened(const Range& packed, const PlaneView& view, int x, int y_top) {
+    const double error = view.packing_error(x, y_top);
+    return {packed.value, packed.low - error, packed.high + error};
+  }
+
+  /// What a plane may hold of a normal's component.
+  Range held_normal(const AttributePlane& plane, const SurfaceValues& surface, int k, int x, int y_top) const;
+  /// How the pixel fares against one surface, and whether that is `bounded` there.
+  Match match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
+              SurfacePoint::Within within = SurfacePoint::Within::box) const;
+  /// An integer of the range.
+  void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Match& m) const;
+
+  /// Possible surfaces that may be seen, the nominal one first.
+  void find_legal(std::span<const PossibleSurface> all, std::vector<const PossibleSurface*>& legal,
+                  const PossibleSurface*& nominal, bool& certain) const;
+  void judge_pixel(std::span<const PossibleSurface> all, int x, int y_top, GBufferMemory& memory, RowTally& row) const;
+  void find_violation(int x, int y_top, GBufferMemory& memory, RowTally& row) const;
+  std::optional<PossibleSurface> nominally_seen(std::span<const PossibleSurface> all, double x, double y,
+                                                TriangleForms& forms) const;
+  bool is_surely_legal(std::span<const PossibleSurface> all, int x, int y_top, GBufferMemory& memory) const;
+  PixelClass class_of(const Match& m, bool bounded, const PossibleSurface* seen, const PossibleSurface* nominal) const;
+
+  Projector projector_;
+  const Pipeline pipeline_;
+  const Profile profile_;
+  const Asked asked_;
+  const PossibleSurfaces* const wider_;
+  PlaneView depth_, object_, material_, specular_, emission_;
+  std::vector<AttributePlane> planes_;
+  PossibleSurfaces possible_;
+  std::optional<TransparentLayers> layers_;  ///< blended into the albedo
+};
+
+/// The verdict on these rows.
+StageVerdict verdict_by(const GBufferJudge& judge, const Pipeline& pipeline, const Profile& profile,
+                        const JudgedRows& judged);
+
+}  // namespace trueshade::oracle
