@@ -11,7 +11,6 @@ trueshade_slow(40
   "judge:What llvmpipe draws is explained under every preset and strategy, by its profile and by any GPU's"
   "judge:Wrong renderers are rejected wherever they leave the legal sets")
 trueshade_slow(20
-  "judge:Both sides and every set of texture coordinates in our own frames are explained, wrong ones are not"
   "cli:what OpenGL draws here is explained, pixel by pixel"
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
   "judge:Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU"
@@ -50,6 +49,7 @@ trueshade_slow(4
   "gl:Planes of ten bits and of halves on llvmpipe are legal, and so is the light upon them"
   "gl:Shaders written by trueshade glsl, read back, draw the same bytes as the judge's own"
   "gl:Supersampling and the edge filter on llvmpipe are ours, bit for bit"
+  "judge:Both sides and every set of texture coordinates in our own frames are explained, wrong ones are not"
   "judge:Both blenders we know are in the legal sets, and each is the whole of its own profile's"
   "judge:Halves truncated after each of 256 lights are legal where they should be nearest, and not what chance makes"
   "judge:Our depths of another offset are violations under every profile"
@@ -82,8 +82,6 @@ set_tests_properties(
   "shading:every built-in scene has one hash over pairs of all ways to draw it"
   PROPERTIES COST 32)
 set_tests_properties(
-  "judge:llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too"
-  "judge:Wrong maps, ten-bit normals and extents are rejected, right ones explained"
   "judge:llvmpipe's own wrong frames are rejected, under its profile too"
   "gl:llvmpipe draws every preset in every strategy as we do, within two codes of a target that rounds light by light"
   "judge:Maps, ten-bit normals, mixed extents and glass by llvmpipe are explained under every preset and strategy"
@@ -91,6 +89,10 @@ set_tests_properties(
   "raster:A million pairs of triangles hit no pixel twice along their edge and miss none"
   PROPERTIES COST 20)
 set_tests_properties(
+  "judge:llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too"
+  "judge:Wrong maps, ten-bit normals and extents are rejected, right ones explained"
+  "diagnosis:Ten faults planted in three scenes are convicted and named first, by the plane that is wrong"
+  "judge:Violations asked beside a looser judgement are those of a judgement of its own"
   "judge:Wrong ways of drawing transparent surfaces are rejected, right ones explained"
   "judge:Row 62: llvmpipe and softpipe differ on a crowded scene, and each pixel of both is explained"
   "gl:Frames of constant colours are llvmpipe's bit for bit, every target format and strategy, glass and all"
