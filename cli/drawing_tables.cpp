@@ -69,6 +69,9 @@ void add_render_output(CommandTable& table, RenderOptions& options, RenderTexts&
              "Codes of a PNG. srgb: values taken as linear light and sRGB-encoded; raw: values as they are, "
              "tagged gAMA 1.0; without it fixed-point targets as they are, floats sRGB-encoded",
              kEncodingNames);
+  add_switch(table, "--cube-cross", texts.cube_cross, "Write a cube map as one picture of 4 x 3 faces");
+  add_switch(table, "--raw-video", options.raw_video,
+             "With -o -: the codes of all frames, one after the other, for ffmpeg to read from a pipe");
   add_switch(table, "--hash", options.hash, "Print the hash of the image's stored bytes");
   add_switch(table, "--stats", options.stats, "Print counts and times");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
@@ -95,6 +98,10 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_time(table, texts.time);
   add_value(table, "--frames", "FIRST-LAST", texts.frames,
             "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending")
+      .group = kCameraGroup;
+  add_value(table, "--cube-map", "X,Y,Z", texts.cube_map,
+            "Draw the six faces of a cube map of this place in the world, or of the camera's (eye): names get .px .nx "
+            ".py .ny .pz .nz before the ending")
       .group = kCameraGroup;
   add_layers(table, options);
   add_target(table, texts.target);

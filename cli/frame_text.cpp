@@ -46,6 +46,7 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:pipeline", pipeline_json(result.pipeline)},
                        {"trueshade:scene", result.scene.spec},
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
+  if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
   if (!result.scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(result.time));
   metadata.emplace_back("trueshade:version", kVersion);
   if (result.frame.view_scale > 0)
@@ -129,6 +130,7 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
   json.put_raw("execution", execution_json(result.execution, result.frame.stats.tile).text())
       .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
+  if (!result.cube_map.empty()) json.put("cube_map", result.cube_map);
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
   json.put_raw("ignored", ignored_json(result.notes)).put_raw("notes", lines_json(result.notes));
   return json.text() + '\n';

@@ -23,6 +23,7 @@ struct RenderedFrame {
   Notes notes{};
   std::string command{};          ///< as it was given, for a report
   std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
+  std::string cube_map{};         ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.

@@ -119,6 +119,7 @@ class SceneJudge {
 
 JudgedPicture judged_by_scene(const ComparedPictures& pictures, const CompareOptions& options) {
   if (metadata_value(pictures.reference, "trueshade:scene") == nullptr) return {};
+  if (metadata_value(pictures.reference, "trueshade:cubeMap") != nullptr) return {};  // not what the scene's camera sees
   try {
     return {SceneJudge(pictures, options).judge(), ""};
   } catch (const Error& error) {

@@ -26,7 +26,29 @@ void check_frame_names(const std::vector<std::string>& outputs, FrameRange frame
                 "give each -o a name of its own, with %04d or #### once");
 }
 
+/// Raw video has standard output for itself.
+void check_raw_video(const RenderOptions& options) {
+  if (options.outputs != std::vector<std::string>{"-"})
+    throw usage("--raw-video", "the codes of all frames are written to standard output", "give -o - and no other -o");
+  if (options.hash || options.stats || options.json)
+    throw usage("--raw-video", "standard output is the video", "leave out --hash, --stats and --json");
+  if (!options.aovs.empty()) throw usage("--aov", "planes go into an EXR only", "leave out --aov or --raw-video");
+  if (options.cube_map && !options.cube_map->cross)
+    throw usage("--raw-video", "the faces of a cube map are six pictures", "add --cube-cross, which makes them one");
+}
+
+void check_cube_map(const RenderOptions& options) {
+  for (const std::string& path : options.outputs)
+    if (has_ending(path, ".html"))
+      throw usage("--cube-map", "a report shows the camera's picture", "end the names after -o in .png or .exr");
+  if (options.cube_map->cross && (options.stats || options.json))
+    throw usage("--cube-cross", "statistics are those of one picture drawn",
+                "leave out --cube-cross, or --stats and --json");
+}
+
 void check_outputs(const RenderOptions& options) {
+  if (options.cube_map) check_cube_map(options);
+  if (options.raw_video) return check_raw_video(options);
   check_named_once("-o", options.outputs);
   bool exr = false, png = false;
   for (const std::string& path : options.outputs) {
@@ -68,6 +90,9 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.view) options.view = view_from_text("--view", *texts.view);
   if (texts.encode) options.encode = encoding_from_text(*texts.encode);
   if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
+  if (texts.cube_cross && !texts.cube_map)
+    throw usage("--cube-cross", "there is no cube map", "add --cube-map X,Y,Z or --cube-map eye");
+  if (texts.cube_map) options.cube_map = {cube_eye_from_text(*texts.cube_map), texts.cube_cross};
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
   options.execution.light_culling = !texts.no_light_culling;

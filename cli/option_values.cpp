@@ -65,6 +65,23 @@ PixelPlace place_from_text(const std::string& option, const std::string& text) {
   return {int(*x), int(*y)};
 }
 
+std::optional<glm::vec3> cube_eye_from_text(const std::string& text) {
+  if (text == "eye") return std::nullopt;
+  constexpr float kFarthest = 1e9f;
+  glm::vec3 eye{0.0f};
+  const char *at = text.data(), *const end = at + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool begins = axis == 0 || (at != end && *at++ == ',');
+    const auto [after, error] = std::from_chars(at, end, eye[axis]);
+    if (!begins || error != std::errc() || !(eye[axis] >= -kFarthest && eye[axis] <= kFarthest))
+      throw usage("--cube-map", "'" + text + "' is no place within 1e9 of the origin",
+                  "give X,Y,Z in the world, like 0,1.5,-2, or eye for the camera's");
+    at = after;
+  }
+  if (at != end) throw usage("--cube-map", "'" + text + "' has more than three numbers", "give X,Y,Z, or eye");
+  return eye;
+}
+
 double time_from_text(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

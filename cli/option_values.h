@@ -47,6 +47,9 @@ inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
 std::vector<std::string_view> preset_names();
 
+/// `1.5,0,-2`, a place in the world; nothing of `eye`.
+std::optional<glm::vec3> cube_eye_from_text(const std::string& text);
+
 void check_scene(const std::string& scene);
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& option, const std::string& name);

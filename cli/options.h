@@ -1,4 +1,5 @@
 #pragma once
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -53,11 +54,19 @@ struct PipelineOptions : LimitedOptions {
   std::string command_line;  ///< as it was given, for a shell: all after `trueshade`, with a space before each word
 };
 
+/// A cube map instead of the camera's picture.
+struct CubeMapOptions {
+  std::optional<glm::vec3> eye;  ///< world; nothing: the camera's
+  bool cross = false;            ///< one picture of six faces, not a file for each
+};
+
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
-  std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name()
+  std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name(); - for raw video
   double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
+  std::optional<CubeMapOptions> cube_map;
+  bool raw_video = false;             ///< the codes of every picture on standard output, one after the other
   std::optional<PngEncoding> encode;  ///< of .png outputs; nothing: as the target's values are
   std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()

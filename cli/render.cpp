@@ -6,13 +6,16 @@
 
 #include "cli/activity.h"
 #include "cli/commands.h"
+#include "cli/cube_pictures.h"
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
+#include "cli/json_text.h"
 #include "cli/notes.h"
 #include "cli/picture_encoding.h"
 #include "cli/picture_notes.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
+#include "cli/raw_video.h"
 #include "cli/report.h"
 #include "cli/shell_words.h"
 #include "cli/written_files.h"
@@ -106,63 +109,150 @@ RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const P
   return result;
 }
 
-/// Draws the frame, writes its files and prints what was asked for but JSON, which comes back.
-std::string render_one(const RenderOptions& options, const std::vector<std::string>& paths,
-                       const PreparedScene& prepared, RenderedFrame& result) {
-  draw(options, prepared, result);
+/// Writes the files of a frame that is drawn, and prints what was asked for but JSON, which comes back.
+std::string hand_out(const RenderOptions& options, const std::vector<std::string>& paths, RenderedFrame& result) {
   const bool to_png =
       std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
-  for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame, to_png))
-    result.notes.lines.push_back(std::move(note));
+  if (result.cube_map.empty())  // a face may well show nothing
+    for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame, to_png))
+      result.notes.lines.push_back(std::move(note));
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);
-  write_outputs(options, paths, result);
+  if (options.raw_video) {
+    result.notes.lines.push_back(raw_video_note(options, result));
+    write_raw_video(options, result);
+  } else {
+    write_outputs(options, paths, result);
+  }
   if (options.json) return json_of(result, paths);
   if (options.hash) print(hash_line(result));
   if (options.stats) print(stats_text(result));
   return {};
 }
 
-/// Frame after frame from one scene whose meshes are loaded and clustered once. A note is said once, with the first
-/// frame that calls for it.
-void render_frames(const RenderOptions& options, Scene& scene, const Pipeline& pipeline) {
-  PreparedScene prepared(scene);
-  std::string documents;
-  std::set<std::string> said;
+/// As files and JSON name the place and the part of a cube map: `0,1.5,-2 px`.
+std::string cube_map_text(glm::vec3 eye, std::string_view part) {
+  std::string text;
+  for (const float value : {eye.x, eye.y, eye.z}) text += (text.empty() ? "" : ",") + json_number(value);
+  return text + ' ' + std::string(part);
+}
+
+/// The pictures that a run makes, one after the other, from one scene whose meshes are loaded and clustered once.
+class Pictures {
+ public:
+  Pictures(const RenderOptions& options, Scene& scene, const Pipeline& pipeline)
+      : options_(options), scene_(scene), pipeline_(pipeline) {}
+
+  /// Makes the picture, or the cube map, of one time.
+  void at_time(double time, const std::vector<std::string>& paths) {
+    set_time(scene_, time);
+    if (prepared_)
+      prepared_->update();
+    else
+      prepared_.emplace(scene_);
+    if (options_.cube_map) return cube_map(time, paths);
+    RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+    draw(options_, *prepared_, result);
+    finish(paths, result);
+  }
+
+  /// JSON documents with commas between; empty without --json.
+  const std::string& documents() const { return documents_; }
+
+ private:
+  void cube_map(double time, const std::vector<std::string>& paths) {
+    const Camera camera = scene_.camera;
+    const glm::vec3 eye = options_.cube_map->eye.value_or(camera.eye);
+    Frame cross;
+    for (size_t i = 0; i < std::size(kCubeFaceNames); ++i) {
+      const CubeFace face = CubeFace(i);
+      scene_.camera = cube_face_camera(camera, eye, face);
+      RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+      result.cube_map = cube_map_text(eye, kCubeFaceNames[i]);
+      result.explain_command.clear();  // no option of explain places the camera
+      draw(options_, *prepared_, result);
+      reverse_rows(result.frame);
+      std::vector<std::string> names;
+      for (const std::string& path : paths) names.push_back(face_name(path, face));
+      if (options_.cube_map->cross)
+        put_into_cross(result.frame, face, cross);
+      else
+        finish(names, result);
+    }
+    scene_.camera = camera;
+    if (!options_.cube_map->cross) return;
+    RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+    result.cube_map = cube_map_text(eye, "cross");
+    result.frame = std::move(cross);
+    finish(paths, result);
+  }
+
+  /// A note is said once, with the first picture that calls for it.
+  void finish(const std::vector<std::string>& paths, RenderedFrame& result) {
+    const std::string document = hand_out(options_, paths, result);
+    for (const std::string& line : result.notes.lines)
+      if (said_.insert(line).second) say_notes({line});
+    if (options_.json) documents_ += (documents_.empty() ? "" : ",") + document.substr(0, document.size() - 1);
+  }
+
+  const RenderOptions& options_;
+  Scene& scene_;
+  const Pipeline& pipeline_;
+  std::optional<PreparedScene> prepared_;  // from the first picture on
+  std::string documents_;
+  std::set<std::string> said_;
+};
+
+void render_frames(const RenderOptions& options, double fps, Pictures& pictures) {
   const int count = options.frames->last - options.frames->first + 1;
   Activity activity("rendering frames", Activity::Counts::by_hand);
   for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
     activity.show(frame - options.frames->first, count, "frames");
-    const double time = double(frame) / scene.timeline.fps;
-    set_time(scene, time);
-    prepared.update();
     std::vector<std::string> paths;
-    for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
-    RenderedFrame result = frame_at(options, scene, pipeline, time);
-    const std::string document = render_one(options, paths, prepared, result);
-    for (const std::string& line : result.notes.lines)
-      if (said.insert(line).second) say_notes({line});
-    if (options.json) documents += (documents.empty() ? "" : ",") + document.substr(0, document.size() - 1);
+    if (!options.raw_video)
+      for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
+    pictures.at_time(double(frame) / fps, paths);
   }
-  if (options.json) print("{\"frames\":[" + documents + "]}\n");
+}
+
+/// What is needed besides one frame, in bytes.
+uint64_t memory_besides_frame(const RenderOptions& options, const Pipeline& pipeline) {
+  constexpr uint64_t kFacesOfCross = 12;
+  const bool cross = options.cube_map && options.cube_map->cross;
+  const uint64_t of_files = file_memory(pipeline, options.outputs, options.aovs);
+  return cross ? kFacesOfCross * (of_files + picture_memory(pipeline, options.aovs)) : of_files;
+}
+
+void check_cube_map(const RenderOptions& options, const Pipeline& pipeline) {
+  if (options.cube_map && pipeline.width != pipeline.height)
+    throw Error(ErrorKind::usage, "--cube-map",
+                "the faces of a cube are square, and " + std::to_string(pipeline.width) + 'x' +
+                    std::to_string(pipeline.height) + " is not",
+                "add --size NxN");
 }
 
 }  // namespace
 
 void render(const RenderOptions& options) {
   check_pipeline(options);
-  for (const std::string& path : options.outputs) check_writable(path);
+  if (options.raw_video)
+    check_video_is_taken();
+  else
+    for (const std::string& path : options.outputs) check_writable(path);
   Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
+  check_cube_map(options, pipeline);
   fit_lights_of_ours(scene, pipeline.light_model);
   check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
-               file_memory(pipeline, options.outputs, options.aovs));
-  if (options.frames) return render_frames(options, scene, pipeline);
-  set_time(scene, options.time);
-  RenderedFrame result = frame_at(options, scene, pipeline, options.time);
-  const std::string document = render_one(options, options.outputs, PreparedScene(scene), result);
-  say_notes(result.notes.lines);
-  print(document);
+               memory_besides_frame(options, pipeline));
+  Pictures pictures(options, scene, pipeline);
+  if (options.frames)
+    render_frames(options, scene.timeline.fps, pictures);
+  else
+    pictures.at_time(options.time, options.raw_video ? std::vector<std::string>() : options.outputs);
+  if (!options.json) return;
+  const char* const list = options.frames ? "frames" : options.cube_map ? "faces" : nullptr;
+  print(list ? "{\"" + std::string(list) + "\":[" + pictures.documents() + "]}\n" : pictures.documents() + '\n');
 }
 
 }  // namespace trueshade
