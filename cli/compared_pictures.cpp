@@ -30,8 +30,4 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
   return pictures;
 }
 
-bool passes(const ComparedPictures& pictures) {
-  return pictures.judged.validation ? passes(*pictures.judged.validation) : pictures.comparison.passes();
-}
-
 }  // namespace trueshade

@@ -179,6 +179,10 @@ std::string about_picture(const PictureFile& picture) {
   return channels <= kMostChannelsShown ? line : line + ", " + std::to_string(channels) + " channels in all";
 }
 
+bool passes(const ComparedPictures& pictures) {
+  return pictures.judged.validation ? passes(*pictures.judged.validation) : pictures.comparison.passes();
+}
+
 std::string verdict_line(const ComparedPictures& pictures) {
   const Comparison& c = pictures.comparison;
   const compare::Differences& d = c.differences;

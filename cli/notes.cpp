@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "cli/commands.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/view_image.h"
@@ -139,24 +138,6 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
 void say_notes(const std::vector<std::string>& lines) {
   if (is_quiet()) return;
   for (const std::string& line : lines) say("trueshade: note: " + line);
-}
-
-std::string ignored_json(const Notes& notes) {
-  JsonArray ignored;
-  for (const IgnoredField& field : notes.ignored)
-    ignored.add_raw(JsonObject()
-                        .put("of", field.of)
-                        .put("field", field.field)
-                        .put("count", field.count)
-                        .put("reason", field.reason)
-                        .text());
-  return ignored.text();
-}
-
-std::string lines_json(const Notes& notes) {
-  JsonArray lines;
-  for (const std::string& line : notes.lines) lines.add_raw(json_string(line));
-  return lines.text();
 }
 
 }  // namespace trueshade

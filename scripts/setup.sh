@@ -80,11 +80,11 @@ configure() {
   quietly "cmake" cmake -S "$root" --preset "$1" "${launcher[@]}" "${settings[@]/#/-D}"
 }
 
-# build PRESET [TARGET]: builds what has changed, all of it or one target.
+# build PRESET [TARGET...]: builds what has changed, all of it or these targets.
 build() {
   local folder=$root/build/$1
   local -a target=()
-  (($# > 1)) && target=(--target "$2")
+  (($# > 1)) && target=(--target "${@:2}")
   # Said after two seconds, so that a start with nothing to build says nothing. (A dry run of ninja cannot tell: CMake's
   # check of globbed folders counts as work.)
   { sleep 2 >/dev/null && say "building build/$1 on $(nproc) cores, which takes minutes the first time"; } &

@@ -1,6 +1,7 @@
 // The reading of EXR and JPEG files for programs that load OpenImageIO only when they need it. The module is looked for
-// beside the program, then where `cmake --install` puts it.
+// beside the program or the shared library that this code is linked into, then where `cmake --install` puts it.
 #include <dlfcn.h>
+#include <link.h>
 #include <sys/mman.h>
 
 #include <filesystem>
@@ -15,8 +16,16 @@
 namespace trueshade {
 namespace {
 
-std::filesystem::path program_folder() {
+/// The folder of what holds this code: of a shared library, as Python loads one, or else of the program.
+std::filesystem::path own_folder() {
   std::error_code error;
+  Dl_info symbol;
+  void* loaded = nullptr;
+  const auto here = reinterpret_cast<void*>(&own_folder);
+  if (dladdr1(here, &symbol, &loaded, RTLD_DL_LINKMAP) != 0 && loaded != nullptr) {
+    const std::string name = static_cast<const link_map*>(loaded)->l_name;  // empty for the program itself
+    if (!name.empty()) return std::filesystem::canonical(name, error).parent_path();
+  }
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
@@ -59,7 +68,7 @@ const ImageIoTable& loaded_table() {
     throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   std::string reason = "it is not there";
   for (const char* folder : {".", "../lib/trueshade", "../" TRUESHADE_LIBDIR "/trueshade"}) {
-    const std::filesystem::path path = program_folder() / folder / kImageIoModule;
+    const std::filesystem::path path = own_folder() / folder / kImageIoModule;
     std::error_code absent;
     if (!std::filesystem::exists(path, absent)) continue;
     void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

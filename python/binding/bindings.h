@@ -1,7 +1,5 @@
 #pragma once
 #include "python/binding/arrays.h"
-#include "scenes/pipeline/pipeline.h"
-#include "scenes/scene.h"
 
 namespace trueshade::python {
 
@@ -12,11 +10,18 @@ void add_pipeline(py::module_& module);
 void add_frame(py::module_& module);
 void add_judge(py::module_& module);
 void add_compare(py::module_& module);
+void add_files(py::module_& module);
 
-/// The pipeline of a call: the one given, or what the scene starts from.
-Pipeline pipeline_for(const Scene& scene, const py::object& pipeline);
+/// What python/trueshade/__init__.pyi says of a name, such as `Scene.add_mesh`, with its signature before it as
+/// Python's `inspect` reads it. Made at build time by python/make_docs.py, so that it is written once. Error for a name
+/// without.
+const char* doc_of(std::string_view name);
 
-/// A dict of JSON text.
+/// A dict of JSON text, and the text of an object that JSON has.
 py::object from_json(const std::string& text);
+std::string to_json(const py::handle& value);
+
+/// The path of a str, bytes or os.PathLike, as the file system has it.
+std::string path_of(const py::handle& path);
 
 }  // namespace trueshade::python

@@ -2,7 +2,7 @@
 #include <bit>
 #include <cmath>
 
-#include "compare/comparison.h"
+#include "cli/compared_pictures.h"
 #include "core/expansion.h"
 #include "core/half.h"
 #include "core/image_files/picture_file.h"
@@ -42,11 +42,31 @@ PictureFile picture_of(const Image& image, const std::string& name) {
   return picture;
 }
 
-PictureFile picture_from(const py::object& source, const std::string& name) {
-  if (py::isinstance<py::array>(source)) return picture_of(image_of(source.cast<py::array>(), name), name);
-  const std::string path = py::str(py::module_::import("os").attr("fspath")(source));
+struct Source {
+  PictureFile picture;
+  bool is_array;
+  int channels;  ///< of an array
+};
+
+Source picture_from(const py::object& source, const std::string& name) {
+  if (py::isinstance<py::array>(source)) {
+    const py::array array = array_from(source, name);
+    return {picture_of(image_of(array, name, {}, ImageUse::picture), name), true, channels_of(array)};
+  }
+  const std::string path = path_of(source);
   const py::gil_scoped_release release;
-  return read_any_picture(path, kMostExpansion);
+  return {read_any_picture(path, kMostExpansion), false, 0};
+}
+
+/// Takes from an array's picture what the array does not have and the other picture neither: alpha, or colours of a
+/// grey one.
+void fit_channels(Source& array, const PictureFile& other) {
+  if (!array.is_array || array.channels == 4 || other.parts.empty()) return;
+  std::vector<Channel>& channels = array.picture.parts.front().channels;
+  const size_t there = other.parts.front().channels.size();
+  if (channels.size() != 4 || there == 4 || (there != 3 && there != 1)) return;
+  channels.resize(there);
+  if (there == 1) channels.front().name = other.parts.front().channels.front().name;
 }
 
 py::dict values_of(const compare::PixelValues& pixel) {
@@ -88,10 +108,20 @@ py::dict dict_of(const compare::Comparison& c) {
   return out;
 }
 
+std::string quoted(const std::string& word) { return py::str(py::module_::import("shlex").attr("quote")(word)); }
+
+/// The command that makes the same page of the same files; empty where there are none.
+std::string command_of(const ComparedPictures& pictures, const std::string& page) {
+  if (pictures.reference.kind == "array" || pictures.test.kind == "array") return {};
+  return "trueshade compare " + quoted(pictures.reference.path) + ' ' + quoted(pictures.test.path) + " -o " +
+         quoted(page);
+}
+
 py::dict compare_pictures(const py::object& reference, const py::object& test,
                           const std::optional<double>& max_difference, const std::optional<double>& max_ulp,
                           const std::optional<double>& pixels, const std::optional<double>& delta,
-                          const std::optional<double>& psnr, const std::optional<double>& flip, bool allow_nonfinite) {
+                          const std::optional<double>& psnr, const std::optional<double>& flip, bool allow_nonfinite,
+                          const py::object& page) {
   compare::CompareRules rules;
   rules.allow_not_finite = allow_nonfinite;
   const auto ask = [&](Measure measure, const std::optional<double>& bound, double delta_of = 0.0) {
@@ -106,28 +136,33 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
   ask(Measure::pixels_beyond, pixels, delta.value_or(0.0));
   ask(Measure::psnr, psnr);
   ask(Measure::flip_mean, flip);
-  const PictureFile a = picture_from(reference, "reference"), b = picture_from(test, "test");
-  compare::Comparison result;
+  Source a = picture_from(reference, "reference"), b = picture_from(test, "test");
+  fit_channels(a, b.picture), fit_channels(b, a.picture);
+  const std::string page_path = page.is_none() ? std::string() : path_of(page);
+  if (!page_path.empty()) check_writable(page_path);
+  ComparedPictures pictures;
+  pictures.reference = std::move(a.picture), pictures.test = std::move(b.picture);
+  const std::string command = command_of(pictures, page_path);
   {
     const py::gil_scoped_release release;
-    result = compare::compared(a, b, rules);
+    pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
+    if (!page_path.empty()) {
+      const std::string html = comparison_page(pictures, command);
+      write_file(page_path, {reinterpret_cast<const uint8_t*>(html.data()), html.size()});
+    }
   }
-  return dict_of(result);
+  py::dict out = dict_of(pictures.comparison);
+  out["verdict"] = verdict_line(pictures);
+  return out;
 }
 
 }  // namespace
 
 void add_compare(py::module_& module) {
   using namespace py::literals;
-  module.def("compare", &compare_pictures, "reference"_a, "test"_a, py::kw_only(), "max_difference"_a = py::none(),
-             "max_ulp"_a = py::none(), "pixels"_a = py::none(), "delta"_a = py::none(), "psnr"_a = py::none(),
-             "flip"_a = py::none(), "allow_nonfinite"_a = false);
-  module.def(
-      "write_image",
-      [](const std::string& path, const py::array& image, const std::string& format) {
-        write_image(path, image_of(image, "image", format), {}, {});
-      },
-      "path"_a, "image"_a, "format"_a = "");
+  module.def("compare", &compare_pictures, doc_of("compare"), "reference"_a, "test"_a, py::kw_only(),
+             "max_difference"_a = py::none(), "max_ulp"_a = py::none(), "pixels"_a = py::none(), "delta"_a = py::none(),
+             "psnr"_a = py::none(), "flip"_a = py::none(), "allow_nonfinite"_a = false, "page"_a = py::none());
 }
 
 }  // namespace trueshade::python

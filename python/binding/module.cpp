@@ -1,18 +1,26 @@
 // The extension module: its parts, and what errors are in Python.
 #include <new>
 
+#include "cli/version.h"
 #include "python/binding/bindings.h"
 
 namespace trueshade::python {
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
+std::string to_json(const py::handle& value) {
+  try {
+    return py::str(py::module_::import("json").attr("dumps")(value));
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+    throw bad_argument("values", "it is nothing that JSON has", "pass a dict of numbers, strings, lists and dicts");
+  }
+}
+
 void add_errors(py::module_& module) {
   static py::object error_type = py::reinterpret_steal<py::object>(
-      PyErr_NewExceptionWithDoc("trueshade.Error",
-                                "What is wrong with an input, in one line: WHERE: REASON (REMEDY). `exit_code` is the "
-                                "one that the command ends with for the same fault.",
-                                PyExc_ValueError, nullptr));
+      PyErr_NewExceptionWithDoc("trueshade.Error", doc_of("Error"), PyExc_ValueError, nullptr));
+  error_type.attr("exit_code") = int(ErrorKind::bad_input);  // of each error its own
   module.attr("Error") = error_type;
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
@@ -33,10 +41,17 @@ void add_errors(py::module_& module) {
 PYBIND11_MODULE(_trueshade, module) {
   using namespace trueshade::python;
   module.doc() = "Bindings of Trueshade; import `trueshade` instead.";
+  py::options options;
+  options.disable_function_signatures();  // doc_of() begins with them, as `inspect` reads them
+  const py::object name = module.attr("__name__");
+  module.attr("__name__") = "trueshade";  // what classes and functions say they are from
   add_errors(module);
   add_scene(module);
   add_pipeline(module);
   add_frame(module);
   add_judge(module);
   add_compare(module);
+  add_files(module);
+  module.attr("__name__") = name;
+  module.attr("__version__") = trueshade::kVersion;
 }

@@ -1,12 +1,16 @@
-"""Trueshade: a CPU renderer whose images have the same bits on every machine.
+"""Trueshade: a CPU renderer whose images have the same bits on every machine, and a judge of the images of GPUs.
 
     import trueshade
     scene = trueshade.load_scene("builtin:city")
     frame = trueshade.render(scene, trueshade.Pipeline(size=(320, 240)), planes=["depth", "normal"])
     frame.color            # numpy array (240, 320, 4) of uint8, rows from the top
     frame.hash             # what `trueshade render --hash` prints
+    frame.save("city.png")
 
-What each function takes and gives stands in `__init__.pyi`, and in `help(trueshade.render)`.
+`help(trueshade.render)` and the like say what each function takes and gives. Arrays of pixels are (height, width,
+channels) with rows from the top of the picture. Colours are linear light, positions and normals are in world space,
+which is right-handed, lengths are the scene's own units, and angles end in `_deg`. What is wrong with an argument is a
+`trueshade.Error` of one line.
 """
 
 from ._trueshade import (
@@ -14,11 +18,13 @@ from ._trueshade import (
     Frame,
     Pipeline,
     Scene,
+    __version__,
     compare,
     explain,
     image_hash,
     load_scene,
     presets,
+    read_planes,
     render,
     shade,
     strategies,
@@ -31,11 +37,13 @@ __all__ = [
     "Frame",
     "Pipeline",
     "Scene",
+    "__version__",
     "compare",
     "explain",
     "image_hash",
     "load_scene",
     "presets",
+    "read_planes",
     "render",
     "shade",
     "strategies",

@@ -2,6 +2,7 @@
 # Runs what a page of the guides shows, in the page's order, in a scratch folder. The blocks of a page, by language:
 #   sh      commands, a line each (a backslash at a line's end goes on); `# exit 3` states another exit code than 0
 #   text    after sh: lines that the commands before print, in this order; `...` stands for any text
+#   sh python   commands that need the Python module, which tests/docs/python_page.py runs in ./check python: left out
 #   json    a scene or a pipeline, which is drawn; ply, csv, cpp, python, bash: a file. Each is written under the name in `backticks`
 #           that the line before the block gives last; a json without a name gets one, a cpp is left out.
 # The cpp blocks of pages with a cmake block are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is

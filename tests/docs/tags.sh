@@ -1,6 +1,6 @@
 #!/bin/bash
-# Fails on a fenced block of a guide that no test looks at. README.md and docs/*.md hold the languages that tests/docs/page.sh
-# and tests/consumer/run.sh run, and `console` and `yaml` for what no test can run: each of those blocks has a row in
+# Fails on a fenced block of a guide that no test looks at. README.md and docs/*.md hold the languages that tests/docs/page.sh,
+# tests/docs/python_page.py and tests/consumer/run.sh run, and `console` and `yaml` for what no test can run: each of those blocks has a row in
 # tests/docs/not_run.txt, with the reason. Every other Markdown file holds `text` alone. Usage: tags.sh SOURCE_FOLDER
 set -euo pipefail
 shopt -s extglob
@@ -33,7 +33,7 @@ while IFS= read -r page; do
     language=${line#'```'}
     case $page:$language in
       *:text) ;;
-      README.md:@(sh|json|ply|csv|bash|python|cmake|cpp) | docs/+([^/]).md:@(sh|json|ply|csv|bash|python|cmake|cpp)) ;;
+      README.md:@(sh|json|ply|csv|bash|python|cmake|cpp) | docs/+([^/]).md:@(sh|sh python|json|ply|csv|bash|python|cmake|cpp)) ;;
       README.md:@(console|yaml) | docs/+([^/]).md:@(console|yaml)) console=yes ;;
       *) fail "$page:$number: blocks of this page may not have the language '$language'"; language=other ;;
     esac

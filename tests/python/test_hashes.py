@@ -51,9 +51,10 @@ def test_a_scene_of_its_own_pipeline_and_time_is_drawn_as_the_command_draws_it(c
     path = command.folder / "s.json"
     path.write_text(json.dumps(scene))
     frame = trueshade.render(
-        trueshade.load_scene(str(path), 1.25),
+        trueshade.load_scene(path, 1.25),
         trueshade.Pipeline(size=SIZE, scene=trueshade.load_scene(str(path))),
     )
+    assert trueshade.render(trueshade.load_scene(path, 1.25), trueshade.Pipeline(size=SIZE)).hash == frame.hash
     assert frame.format == "rgba16f"
     assert frame.hash == hash_of(command("render", path, "--size", "64x48", "--time", "1.25", "--hash"))
 
@@ -103,3 +104,49 @@ def test_explain_ends_in_the_pixel():
     for _ in range(20):
         x, y = int(random.integers(64)), int(random.integers(48))
         assert trueshade.explain(scene, x, y, pipeline)["values"]["stored"] == frame.color[y, x].tolist()
+
+
+def test_a_file_of_a_frame_is_the_commands_byte_by_byte(command):
+    path = command.folder / "s.json"
+    path.write_text(json.dumps({
+        "version": 1,
+        "camera": {"eye": [0, 1, 4], "target": [0, 0, 0], "fov_deg": 50, "near": 0.1, "far": 50},
+        "objects": [{"mesh": "cube", "color": [0.8, 0.5, 0.3]}],
+        "lights": [{"type": "ring", "count": 5, "center": [0, 1, 0], "radius": 2, "range": 6, "turn_s": 3}],
+    }))  # fmt: skip
+    frame = trueshade.render(
+        trueshade.load_scene(path, 0.5), trueshade.Pipeline(size=SIZE, target="rgba16f"), planes=["normal", "id.object"]
+    )
+    for ending, more in (("png", []), ("exr", ["--aov", "normal,id.object"])):
+        command("render", path, "--size", "64x48", "--target", "rgba16f", "--time", "0.5", "-o", "theirs." + ending, *more)
+        frame.save(command.folder / ("ours." + ending))
+        ours, theirs = ((command.folder / f"{name}.{ending}").read_bytes() for name in ("ours", "theirs"))
+        assert ours == theirs, ending
+
+
+def test_a_model_with_lights_of_ours_is_drawn_as_the_command_draws_it(command):
+    path = command.folder / "pyramid.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "-1 0 -1\n1 0 -1\n1 0 1\n0 1 0\n3 0 1 2\n3 1 3 2\n"
+    )
+    scene = trueshade.load_scene(path)
+    for preset in ("many-lights", "punctual", "many-lights"):
+        frame = trueshade.render(scene, trueshade.Pipeline(preset, size=SIZE))
+        told = command("render", path, "--preset", preset, "--size", "64x48", "--hash")
+        assert frame.hash == hash_of(told), preset
+        stored = trueshade.explain(scene, 30, 30, trueshade.Pipeline(preset, size=SIZE))["values"]["stored"]
+        assert np.array_equal(np.array(stored, np.float32), frame.color[30, 30].astype(np.float32))
+
+
+def test_a_changed_scene_is_drawn_anew():
+    """What was prepared for the frame before is not kept beyond a change."""
+    scene = trueshade.load_scene("builtin:cornell")
+    pipeline = trueshade.Pipeline(size=SIZE)
+    first, version = trueshade.render(scene, pipeline).hash, scene.hash
+    scene.add_light("point", position=(0, 0.5, 0), color=(9, 0, 0), range=2)
+    assert trueshade.render(scene, pipeline).hash != first and scene.hash != version
+    fresh = trueshade.load_scene("builtin:cornell")
+    fresh.add_light("point", position=(0, 0.5, 0), color=(9, 0, 0), range=2)
+    assert trueshade.render(fresh, pipeline).hash == trueshade.render(scene, pipeline).hash

@@ -39,3 +39,40 @@ def test_other_threads_run_while_a_frame_is_drawn():
     thread.join()
     during = [t for t in counted if start < t < end]
     assert len(during) > (end - start) * 20
+
+
+def test_a_scene_that_is_drawn_is_not_changed_meanwhile():
+    scene = trueshade.load_scene("builtin:city")
+    refused = []
+    started = threading.Event()
+
+    def draw():
+        started.set()
+        trueshade.render(scene, trueshade.Pipeline(size=(4000, 4000)))
+
+    thread = threading.Thread(target=draw)
+    thread.start()
+    started.wait()
+    while thread.is_alive():
+        try:
+            scene.set_time(0.0)
+        except trueshade.Error as error:
+            refused.append(str(error))
+        time.sleep(0.001)
+    thread.join()
+    assert refused and "another thread draws it" in refused[0]
+    scene.set_clear((0, 0, 0, 1))
+
+
+def test_two_threads_draw_one_scene():
+    scene = trueshade.load_scene("builtin:city")
+    hashes = []
+    threads = [
+        threading.Thread(target=lambda: hashes.append(trueshade.render(scene, trueshade.Pipeline(size=(200, 150))).hash))
+        for _ in range(6)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(hashes) == 6 and len(set(hashes)) == 1

@@ -19,7 +19,6 @@ def test_picture(assert_image_matches):
 
 
 def suite(pytester, change):
-    pytester.makeconftest('pytest_plugins = ["trueshade.pytest_plugin"]')
     pytester.makepyfile(test_suite=SUITE.replace("CHANGE", str(change)))
 
 
@@ -27,7 +26,7 @@ def test_a_golden_image_is_accepted_held_and_missed(pytester):
     suite(pytester, 0)
     missing = pytester.runpytest_subprocess("-p", "no:cacheprovider")
     missing.assert_outcomes(failed=1)
-    missing.stdout.fnmatch_lines(["*is not there; pytest --accept-images writes it*"])
+    missing.stdout.fnmatch_lines(["*is not there; look at failed/cornell.png, and pytest --accept-images accepts it*"])
     pytester.runpytest_subprocess("-p", "no:cacheprovider", "--accept-images").assert_outcomes(passed=1)
     golden = pytester.path / "golden" / "cornell.png"
     assert golden.exists()
@@ -40,8 +39,62 @@ def test_a_golden_image_is_accepted_held_and_missed(pytester):
     failed.stdout.fnmatch_lines(["*first pixel 7,5 (golden / drawn)*"])
     assert golden.read_bytes() == before
     assert (pytester.path / "failed" / "cornell.png").exists()
+    page = (pytester.path / "failed" / "cornell.png.html").read_text()
+    assert "golden/cornell.png" in page and "trueshade compare" in page
     pytester.runpytest_subprocess("-p", "no:cacheprovider", "--accept-images").assert_outcomes(passed=1)
     assert golden.read_bytes() != before
+    assert not (pytester.path / "failed").exists()
+
+
+def test_a_test_that_passes_keeps_what_another_of_the_same_image_has_left(pytester):
+    trueshade.write_image(pytester.path / "a.png", np.zeros((2, 2, 4), np.uint8))
+    (pytester.path / "golden").mkdir()
+    (pytester.path / "a.png").rename(pytester.path / "golden" / "a.png")
+    pytester.makepyfile(
+        test_suite="""
+        import numpy as np
+        def test_exact(assert_image_matches):
+            assert_image_matches(np.ones((2, 2, 4), np.uint8), "a.png")
+        def test_lenient(assert_image_matches):
+            assert_image_matches(np.ones((2, 2, 4), np.uint8), "a.png", max_difference=0.1)
+        """
+    )
+    pytester.runpytest_subprocess("-p", "no:cacheprovider").assert_outcomes(failed=1, passed=1)
+    assert (pytester.path / "failed" / "a.png.html").exists()
+
+
+def test_the_plugin_is_found_once_however_it_is_named(pytester):
+    suite(pytester, 0)
+    for arguments in ([], ["-p", "trueshade.pytest_plugin"]):
+        pytester.runpytest_subprocess("-p", "no:cacheprovider", "--accept-images", *arguments).assert_outcomes(passed=1)
+    pytester.makeconftest('pytest_plugins = ["trueshade.pytest_plugin"]')
+    pytester.runpytest_subprocess("-p", "no:cacheprovider").assert_outcomes(passed=1)
+
+
+def test_golden_images_elsewhere_are_never_written_by_a_failure(pytester):
+    """A path that leaves the folder `golden` names the golden image, and not where a failure is left."""
+    golden = pytester.path / "shared" / "a.exr"
+    golden.parent.mkdir()
+    trueshade.write_image(golden, np.zeros((2, 2, 4), np.float32))
+    before = golden.read_bytes()
+    pytester.makepyfile(
+        test_suite=f"""
+        import numpy as np
+        def test_one(assert_image_matches):
+            assert_image_matches(np.ones((2, 2, 4), np.float32), {str(golden)!r})
+        def test_two(assert_image_matches):
+            assert_image_matches(np.full((2, 2, 4), np.nan, np.float32), {str(golden)!r})
+        def test_three(assert_image_matches):
+            assert_image_matches(np.ones((2, 3, 4), np.float32), "../shared/a.exr")
+        def test_four(assert_image_matches):
+            assert_image_matches(np.zeros((2, 2, 4), np.float32), "a.jpg")
+        """
+    )
+    done = pytester.runpytest_subprocess("-p", "no:cacheprovider")
+    done.assert_outcomes(failed=4)
+    done.stdout.fnmatch_lines(["*16 values are not finite, the first at pixel 0,0*"])
+    assert golden.read_bytes() == before
+    assert (pytester.path / "failed" / "a.exr.html").exists()
 
 
 def picture():

@@ -1,0 +1,65 @@
+#include "python/binding/python_scene.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "scenes/pipeline/fit_lights.h"
+
+namespace trueshade::python {
+
+PythonScene::PythonScene(Scene scene) : scene_(std::move(scene)) {}
+
+Scene& PythonScene::changeable() {
+  forget();
+  prepared_ = nullptr;
+  return scene_;
+}
+
+void PythonScene::set_time(double time) {
+  forget();
+  trueshade::set_time(scene_, time);
+  time_ = time;
+}
+
+void PythonScene::forget() {
+  if (readers_ > 0)
+    throw Error(ErrorKind::bad_input, "scene", "another thread draws it at this moment",
+                "change it before or after, or give each thread a scene of its own");
+  ++version_;
+  hash_.clear();
+}
+
+std::string PythonScene::hash() {
+  const std::lock_guard lock(mutex_);
+  if (hash_.empty()) hash_ = "sha256:" + scene_hash(scene_);
+  return hash_;
+}
+
+std::shared_ptr<const PreparedScene> PythonScene::prepared(const LightModel& model) {
+  if (scene_.lights_of_ours) {  // whose lights depend on the model: a scene of its own
+    struct Owned {
+      FittedScene scene;
+      PreparedScene prepared;
+      Owned(const Scene& of, const LightModel& with) : scene(of, with), prepared(scene.values()) {}
+    };
+    const auto owned = std::make_shared<Owned>(scene_, model);
+    return {owned, &owned->prepared};
+  }
+  const std::lock_guard lock(mutex_);
+  if (prepared_ == nullptr) {
+    validate(scene_);
+    prepared_ = std::make_shared<PreparedScene>(scene_);
+  } else if (prepared_version_ != version_) {
+    prepared_->update();
+  }
+  prepared_version_ = version_;
+  return prepared_;
+}
+
+FittedScene::FittedScene(const Scene& scene, const LightModel& model) : scene_(scene) {
+  if (!scene.lights_of_ours) return;
+  copy_ = scene;
+  fit_lights_of_ours(*copy_, model);
+}
+
+}  // namespace trueshade::python
