@@ -14,11 +14,13 @@ namespace {
 using compare::Criterion;
 using compare::Measure;
 
+constexpr std::string_view kArray = "numpy.ndarray";  ///< the kind of a picture that is no file
+
 /// The channels of an image as a file of them would be read: R, G, B, A, or Y of one channel.
 PictureFile picture_of(const Image& image, const std::string& name) {
   const FormatInfo layout = info(image.format);
   PictureFile picture;
-  picture.path = name, picture.kind = "array";
+  picture.path = name, picture.kind = kArray;
   const bool codes = layout.number_class == NumberClass::unorm;
   picture.color_space = codes ? ColorSpace::srgb : ColorSpace::linear;
   picture.color_source = codes ? "codes are taken for sRGB" : "floats are taken for linear light";
@@ -51,7 +53,7 @@ struct Source {
 Source picture_from(const py::object& source, const std::string& name) {
   if (py::isinstance<py::array>(source)) {
     const py::array array = array_from(source, name);
-    return {picture_of(image_of(array, name, {}, ImageUse::picture), name), true, channels_of(array)};
+    return {picture_of(image_of(array, name, {}, ImageUse::picture), "array"), true, channels_of(array)};
   }
   const std::string path = path_of(source);
   const py::gil_scoped_release release;
@@ -112,7 +114,7 @@ std::string quoted(const std::string& word) { return py::str(py::module_::import
 
 /// The command that makes the same page of the same files; empty where there are none.
 std::string command_of(const ComparedPictures& pictures, const std::string& page) {
-  if (pictures.reference.kind == "array" || pictures.test.kind == "array") return {};
+  if (pictures.reference.kind == kArray || pictures.test.kind == kArray) return {};
   return "trueshade compare " + quoted(pictures.reference.path) + ' ' + quoted(pictures.test.path) + " -o " +
          quoted(page);
 }
