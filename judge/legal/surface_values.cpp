@@ -18,7 +18,8 @@ SurfaceValues::SurfaceValues(const Projector& projector, std::shared_ptr<const T
       piece_index_(possible.piece),
       piece_(&form_->pieces()[piece_index_]),
       point_(*piece_, form_->shape(piece_index_), projector.profile(), x, y, within) {
-  const auto texel = [&](const TextureSlot& slot) {
+  const auto texel = [&](const TextureSlot& slot) -> std::optional<std::array<Range, 4>> {
+    if (!slot.used()) return std::nullopt;
     return map_texel(projector, slot, *piece_, point_, form_->values(), x, y);
   };
   texel_ = texel(material_->color_map);

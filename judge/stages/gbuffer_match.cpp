@@ -134,7 +134,7 @@ Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMem
                       surface.glossy());
       if (layered) continue;
       const Range held = k < 3 ? surface.albedo(base) : base;
-      if (surface.textured() || within == SurfacePoint::Within::box || !p.view.quantised())
+      if (surface.textured() || !p.view.quantised())
         judge_channel(p.view, p.name, k, held, stored, surface.textured());
       else
         m.texel_is(p.view, p.name, k, constants[size_t(k)].of(held, p.view, k, profile_), held.value, stored, pixel,
