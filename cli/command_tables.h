@@ -16,6 +16,8 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts);
 CommandTable view_table(ViewOptions& options, ViewTexts& texts);
 CommandTable bench_table(BenchOptions& options, BenchTexts& texts);
 CommandTable compare_table(CompareOptions& options, CompareTexts& texts);
+CommandTable man_table(ManOptions& options);
+CommandTable completion_table(CompletionOptions& options);
 
 /// Every command's table, in the order of help, and what their rows fill.
 class CommandTables {
@@ -50,6 +52,8 @@ class CommandTables {
   BenchTexts bench_texts_;
   CompareOptions compare_;
   CompareTexts compare_texts_;
+  ManOptions man_;
+  CompletionOptions completion_;
   std::vector<CommandTable> tables_;
 };
 

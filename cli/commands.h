@@ -23,6 +23,8 @@ void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
 void view(const ViewOptions& options);  ///< becomes another program, or throws
 int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
+void write_man_pages(const ManOptions& options);
+void print_completion(const CompletionOptions& options);
 void print_version(const VersionOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
 
@@ -37,7 +39,8 @@ void print(std::string_view text);
 void print_bytes(std::span<const uint8_t> bytes);
 /// Of a report all, or where --quiet is given the line that begins with `verdict`.
 std::string shown_report(const std::string& text);
+enum class SaidAs : uint8_t { text, note };  ///< a note begins with `trueshade: note: `, coloured on a terminal
 /// Writes a line to standard error, as printable() has it.
-void say(std::string_view line);
+void say(std::string_view line, SaidAs as = SaidAs::text);
 
 }  // namespace trueshade

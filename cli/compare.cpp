@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
+#include "core/standard_input.h"
 
 namespace trueshade {
 namespace {
@@ -28,6 +29,10 @@ bool is_folder(const std::string& path) {
 /// A picture compared with itself passes whatever it holds, so who asks for that has mistyped a name.
 void check_names(const CompareOptions& options) {
   std::error_code unknown;
+  if (options.reference == kStandardInputName && options.test == kStandardInputName)
+    throw usage("TEST", "standard input is the reference already", "name a file for one of the two");
+  if (options.accept && (options.reference == kStandardInputName || options.test == kStandardInputName))
+    throw usage("--accept", "standard input is no file that could be copied or replaced", "name two files");
   if (fs::equivalent(options.reference, options.test, unknown))
     throw usage("TEST", "it is the same as the reference, " + options.reference, "name two different ones");
   const bool folder = is_folder(options.reference);

@@ -7,7 +7,8 @@
 namespace trueshade {
 
 const char* const kSceneHelp =
-    "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz) or builtin:NAME[,KEY=VALUE...]";
+    "Scene file (.json, .gltf, .glb, .obj, .obj.gz, .ply, .ply.gz), builtin:NAME[,KEY=VALUE...], or - for JSON, glTF, "
+    "GLB or PLY from standard input";
 const char* const kThreadsHelp = "Threads, 0 for one a core; never changes a pixel";
 
 void add_layers(CommandTable& table, PipelineOptions& options) {
@@ -60,8 +61,10 @@ const char* const kQuietHelp = "Say neither notes nor progress nor which files w
 
 void add_render_output(CommandTable& table, RenderOptions& options, RenderTexts& texts) {
   table.open_group = "Output";
-  add_values(table, "-o,--output", "FILE", options.outputs,
-             "File to write: .png, .exr, or .html for a report; may be repeated");
+  add_values(
+      table, "-o,--output", "FILE", options.outputs,
+      "File to write: .png, .exr, or .html for a report; - is a PNG on standard output, -.exr an EXR, -.html a report; "
+      "may be repeated");
   OptionRow& planes =
       add_choice(table, "--aov", "PLANES", texts.aov, "Planes for the EXR, with commas: " + plane_names(), aov_names());
   planes.is_list = true;
@@ -127,7 +130,8 @@ CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts) {
             "Scene file or builtin:NAME, whose lights, camera and clear colour are taken")
       .is_required = true;
   table.open_group = "Output";
-  add_values(table, "-o,--output", "FILE", options.outputs, "File to write: .png or .exr; may be repeated");
+  add_values(table, "-o,--output", "FILE", options.outputs,
+             "File to write: .png or .exr; - is a PNG on standard output, -.exr an EXR; may be repeated");
   add_switch(table, "--hash", options.hash, "Print the hash of the image's stored bytes");
   add_quiet(table, options, kQuietHelp);
   add_time(table, texts.time);

@@ -5,6 +5,7 @@
 #include "cli/activity.h"
 #include "cli/commands.h"
 #include "cli/notes.h"
+#include "cli/picture_output.h"
 #include "cli/preparation.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
@@ -49,7 +50,10 @@ std::string number_of(size_t count, const char* one, const char* many) {
 
 void export_scene(const ExportOptions& options) {
   const bool to_output = options.output == "-";
-  if (!to_output) check_writable(options.output);
+  if (to_output)
+    check_output(options.output);
+  else
+    check_writable(options.output);
   std::optional<Activity> activity("reading the scene");
   const Scene scene = scene_to_write(options);
   require_memory(bytes_to_write(scene), scene.spec, "the file");

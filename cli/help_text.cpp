@@ -64,7 +64,7 @@ const std::vector<std::pair<int, std::string_view>>& exit_codes() {
 
 const std::vector<std::pair<std::string_view, std::string_view>>& environment() {
   static const std::vector<std::pair<std::string_view, std::string_view>> kVariables = {
-      {"NO_COLOR", "Where it is set and not empty, nothing is coloured"},
+      {"NO_COLOR", "Where it is set and not empty, the words error and note are not coloured on a terminal either"},
       {"TERM", "On a terminal called dumb nothing is coloured, and no progress is drawn"},
       {"__EGL_VENDOR_LIBRARY_DIRS, LIBGL_DRIVERS_PATH, VK_ICD_FILENAMES",
        "Read by the libraries of OpenGL and Vulkan: which drivers validate and bench can open"}};
@@ -93,7 +93,7 @@ std::string help_of_program(const CommandTables& tables) {
 }
 
 std::string help_of_command(const CommandTable& table) {
-  std::string text = table.about + "\nUsage: " + usage_line(table) + '\n';
+  std::string text = wrapped(table.about, 0, 0) + "\nUsage: " + usage_line(table) + '\n';
   std::string arguments;
   for (const OptionRow& row : table.rows)
     if (row.is_argument()) arguments += help_row(row.names, row.help);

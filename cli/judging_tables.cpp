@@ -88,9 +88,10 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
 CommandTable compare_table(CompareOptions& options, CompareTexts& texts) {
   CommandTable table{"compare", "Compare two pictures, or two folders of pictures"};
   add_value(table, "REFERENCE", "FILE", options.reference,
-            "Picture that is right, or a folder of them: .exr, .png, .hdr, .tif, .dds, .npy, .jpg")
+            "Picture that is right, or a folder of them: .exr, .png, .hdr, .tif, .dds, .npy, .jpg; or - for one from "
+            "standard input")
       .is_required = true;
-  add_value(table, "TEST", "FILE", options.test, "Picture that is in question, or a folder").is_required = true;
+  add_value(table, "TEST", "FILE", options.test, "Picture that is in question, or a folder, or -").is_required = true;
   table.open_group = "Output";
   add_values(table, "-o,--output", "FILE", options.outputs,
              "Differences to write: .png as FLIP's map, .exr as numbers, .html as a page to look into; of folders a "

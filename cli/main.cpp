@@ -44,7 +44,13 @@ int say_error(std::string_view message, int exit_code) {
     std::copy_n(text.data(), room, line + size);
     size += room;
   };
-  append("trueshade: error: ");
+  const auto append_word = [&](std::string_view escape, std::string_view word) {
+    if (terminal_takes_colors()) append(escape);
+    append(word);
+  };
+  append_word("\x1b[1m", "trueshade: ");
+  append_word("\x1b[31m", "error: ");
+  append_word("\x1b[0m", "");
   while (!message.empty()) {
     const FirstCharacter first = first_character(message);
     append(first.is_shown ? message.substr(0, first.bytes) : "?");

@@ -137,7 +137,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
 
 void say_notes(const std::vector<std::string>& lines) {
   if (is_quiet()) return;
-  for (const std::string& line : lines) say("trueshade: note: " + line);
+  for (const std::string& line : lines) say(line, SaidAs::note);
 }
 
 }  // namespace trueshade

@@ -6,6 +6,7 @@
 
 #include "cli/frame_name.h"
 #include "cli/option_values.h"
+#include "cli/picture_output.h"
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "judge/bounds/profile_names.h"
@@ -18,7 +19,8 @@ namespace {
 void check_frame_names(const std::vector<std::string>& outputs, FrameRange frames) {
   std::vector<std::string> names;
   for (int frame = frames.first; frame <= frames.last; ++frame)
-    for (const std::string& path : outputs) names.push_back(frame_name(path, frame));
+    for (const std::string& path : outputs)
+      if (!is_standard_output(path)) names.push_back(frame_name(path, frame));
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end())
@@ -41,14 +43,22 @@ void check_cube_map(const RenderOptions& options) {
   for (const std::string& path : options.outputs)
     if (has_ending(path, ".html"))
       throw usage("--cube-map", "a report shows the camera's picture", "end the names after -o in .png or .exr");
+    else if (is_standard_output(path) && !options.cube_map->cross)
+      throw usage("--cube-map", "standard output takes one picture, and there are six", "add --cube-cross");
   if (options.cube_map->cross && (options.stats || options.json))
     throw usage("--cube-cross", "statistics are those of one picture drawn",
                 "leave out --cube-cross, or --stats and --json");
 }
 
+/// The option that prints an answer, if there is one.
+std::string printing_option(const RenderOptions& options) {
+  return options.json ? "--json" : options.hash ? "--hash" : options.stats ? "--stats" : "";
+}
+
 void check_outputs(const RenderOptions& options) {
   if (options.cube_map) check_cube_map(options);
   if (options.raw_video) return check_raw_video(options);
+  check_standard_output(options.outputs, printing_option(options));
   check_named_once("-o", options.outputs);
   bool exr = false, png = false;
   for (const std::string& path : options.outputs) {
@@ -80,6 +90,8 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
 }
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
+  if (!options.raw_video)
+    for (std::string& path : options.outputs) path = output_with_ending(path);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
   if (texts.time) options.time = time_from_text(*texts.time);
@@ -188,6 +200,8 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
 }
 
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
+  for (std::string& path : options.outputs) path = output_with_ending(path);
+  check_standard_output(options.outputs, printing_option(options));
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.target) options.target = target_from_text("--target", *texts.target);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);

@@ -44,6 +44,7 @@ Variant variant_from_text(const std::string& text);
 inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
 inline constexpr std::string_view kEncodingNames[] = {"srgb", "raw"}, kColorSpaceNames[] = {"srgb", "linear"};
 inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse4", "scalar"};
+inline constexpr std::string_view kShellNames[] = {"bash", "zsh", "fish"};
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
 std::vector<std::string_view> preset_names();
 

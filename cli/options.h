@@ -170,14 +170,24 @@ struct VersionOptions {
   bool json = false;
 };
 
+/// `trueshade man`
+struct ManOptions : CommonOptions {
+  std::string folder;  ///< made if it is not there
+};
+
+/// `trueshade completion`
+struct CompletionOptions : CommonOptions {
+  std::string shell;  ///< one of kShellNames
+};
+
 /// `--help`: what to print.
 struct PrintText {
   std::string text;
 };
 
-using Command =
-    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
-                 BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, ViewOptions, VersionOptions, PrintText>;
+using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
+                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions,
+                             ViewOptions, VersionOptions, ManOptions, CompletionOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

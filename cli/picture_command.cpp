@@ -2,6 +2,7 @@
 #include <string_view>
 #include <variant>
 
+#include "cli/activity.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/preparation.h"
@@ -21,6 +22,7 @@ Error left_out(const std::string& what) {
 Scene scene_of_options(const std::string& spec, const Limits& limits) {
   constexpr std::string_view kBuiltin = "builtin:";
   if (!spec.starts_with(kBuiltin)) throw left_out("it draws built-in scenes alone");
+  const Activity activity("making the scene");
   const FpScope fp;
   return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
 }

@@ -7,6 +7,7 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
+#include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/pipeline/presets.h"
@@ -20,6 +21,8 @@ namespace {
 constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20;
 
 std::string text_of(const std::string& file) {
+  if (file == kStandardInputName)  // it is read twice, and another option may read a scene from there
+    throw Error(ErrorKind::usage, "--pipeline", "a pipeline does not come from standard input", "name a file");
   const Bytes bytes = read_user_file(file, kMaxPipelineBytes, "");
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

@@ -29,9 +29,10 @@ std::string shown_report(const std::string& text) {
   return text.substr(verdict, text.find('\n', verdict) + 1 - verdict);
 }
 
-void say(std::string_view line) {
+void say(std::string_view line, SaidAs as) {
   const auto paused = Activity::pause();
-  std::fprintf(stderr, "%s\n", printable(line, Lines::one).c_str());
+  const char* const note = terminal_takes_colors() ? "\x1b[1mtrueshade: \x1b[36mnote:\x1b[0m " : "trueshade: note: ";
+  std::fprintf(stderr, "%s%s\n", as == SaidAs::note ? note : "", printable(line, Lines::one).c_str());
 }
 
 }  // namespace trueshade

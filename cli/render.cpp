@@ -13,6 +13,7 @@
 #include "cli/notes.h"
 #include "cli/picture_encoding.h"
 #include "cli/picture_notes.h"
+#include "cli/picture_output.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/raw_video.h"
@@ -87,11 +88,10 @@ void write_outputs(const RenderOptions& options, const std::vector<std::string>&
   const Metadata metadata = metadata_of(result);
   for (const std::string& path : paths) {
     if (is_report(path)) {
-      const std::string page = report_page(result);
-      write_file(path, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
+      write_page(path, report_page(result));
     } else {
       const Activity activity("writing " + printable(path, Lines::one));
-      write_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
+      write_picture(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
     }
     say_written(path, about_file(path, result, asked_for), standard_output_of(options));
   }
@@ -210,7 +210,8 @@ void render_frames(const RenderOptions& options, double fps, Pictures& pictures)
     activity.show(frame - options.frames->first, count, "frames");
     std::vector<std::string> paths;
     if (!options.raw_video)
-      for (const std::string& path : options.outputs) paths.push_back(frame_name(path, frame));
+      for (const std::string& path : options.outputs)
+        paths.push_back(is_standard_output(path) ? path : frame_name(path, frame));
     pictures.at_time(double(frame) / fps, paths);
   }
 }
@@ -238,7 +239,7 @@ void render(const RenderOptions& options) {
   if (options.raw_video)
     check_video_is_taken();
   else
-    for (const std::string& path : options.outputs) check_writable(path);
+    for (const std::string& path : options.outputs) check_output(path);
   Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
   check_cube_map(options, pipeline);

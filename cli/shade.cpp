@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/frame_text.h"
 #include "cli/picture_encoding.h"
+#include "cli/picture_output.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/written_files.h"
@@ -53,7 +54,7 @@ CapturedPlanes planes_to_light(const ShadeOptions& options, const CaptureFiles& 
 
 void shade(const ShadeOptions& options) {
   check_pipeline(options);
-  for (const std::string& path : options.outputs) check_writable(path);
+  for (const std::string& path : options.outputs) check_output(path);
   CaptureFiles files = capture_files_of(options.capture, options.limits);
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
@@ -73,7 +74,7 @@ void shade(const ShadeOptions& options) {
   if (!options.outputs.empty()) result.scene_hash = scene_hash(scene);
   for (const std::string& path : options.outputs) {
     const Activity activity("writing " + printable(path, Lines::one));
-    write_image(path, result.frame.color, {}, metadata_of(result), file_options(options, pipeline));
+    write_picture(path, result.frame.color, {}, metadata_of(result), file_options(options, pipeline));
     say_written(path,
                 std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) + ' ' +
                     std::string(info(pipeline.target).name) + ", " + kind_of_file(path),

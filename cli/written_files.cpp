@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/picture_output.h"
 #include "cli/terminal.h"
 #include "core/printable_text.h"
 
@@ -29,7 +30,7 @@ std::string size_text(const struct stat& file) {
   return text;
 }
 
-bool is_standard_output(const struct stat& file) {
+bool is_same_as_output(const struct stat& file) {
   struct stat output {};
   return fstat(STDOUT_FILENO, &output) == 0 && output.st_dev == file.st_dev && output.st_ino == file.st_ino;
 }
@@ -40,8 +41,10 @@ void say_written(const std::string& path, const std::string& about, StandardOutp
   if (is_quiet()) return;
   struct stat file {};
   const bool known = stat(path.c_str(), &file) == 0;
-  const std::string line = "wrote " + path + " (" + about + (known ? size_text(file) : "") + ")";
-  if (standard_output == StandardOutput::files && !(known && is_standard_output(file)))
+  const bool is_output = is_standard_output(path);
+  const std::string line =
+      "wrote " + (is_output ? "standard output" : path) + " (" + about + (known ? size_text(file) : "") + ")";
+  if (standard_output == StandardOutput::files && !is_output && !(known && is_same_as_output(file)))
     return print(printable(line, Lines::one) + '\n');
   say(line);
 }

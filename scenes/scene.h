@@ -117,11 +117,11 @@ void set_time(Scene& scene, double time);
 /// validate() of what set_time() moves. Throws Error(bad_input) with the time.
 void validate_moving(const Scene& scene, double time);
 
-/// Reads `builtin:NAME[,key=value...]`, a scene file (.json), a glTF file (.gltf, .glb) or a geometry file (.obj, .ply,
-/// and these with .gz), endings in small letters or capitals, and validates it. A glTF file without a camera or without
-/// lights gets them as a geometry file does. A geometry file alone has smooth normals if it has none, is grey where it
-/// has no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an image file
-/// is refused. Errors: bad_input with file and place; limit; io for a file that cannot be read.
+/// Reads `builtin:NAME[,key=value...]`, a scene file (.json), glTF (.gltf, .glb), geometry (.obj, .ply, and these with
+/// .gz), endings in small letters or capitals, or `-`: standard input without OBJ and .gz; and validates it. glTF without
+/// a camera or lights gets them as geometry does. Geometry alone has smooth normals if it has none, is grey where it has
+/// no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an image file is
+/// refused. Errors: bad_input with file and place; limit; io for a file that cannot be read.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {});
 
 /// SHA-256 over the loaded values (not over file bytes): meshes, materials, textures (decoded texels), instances,

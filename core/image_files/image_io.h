@@ -45,6 +45,11 @@ struct ImageFileOptions {
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
                  const Metadata& metadata, const ImageFileOptions& options = {});
 
+/// The bytes that write_image() would write to a file of this name, in pieces.
+std::vector<std::vector<uint8_t>> encoded_image(const std::string& name, const Image& color,
+                                                std::span<const NamedImage> aovs, const Metadata& metadata,
+                                                const ImageFileOptions& options = {});
+
 /// The bytes write_image would write to a .png.
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, const ImageFileOptions& options = {});
 

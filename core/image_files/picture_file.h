@@ -22,7 +22,8 @@ struct PictureFile {
 };
 
 /// Reads a picture of any kind that core/image_files has a reader for: EXR (scan lines or tiles, the first level; parts
-/// of several sizes; any data window), PNG, TIFF, DDS, .npy, Radiance HDR, JPEG. The first bytes tell the kind.
+/// of several sizes; any data window), PNG, TIFF, DDS, .npy, Radiance HDR, JPEG. The first bytes tell the kind. `-` is
+/// standard input.
 /// Errors as read_channel_file() has them.
 PictureFile read_any_picture(const std::string& path, uint64_t most_expansion);
 

@@ -24,6 +24,7 @@
 #include "core/image_files/size_limits.h"
 #include "core/memory_cap.h"
 #include "core/picture_kind.h"
+#include "core/standard_input.h"
 
 namespace trueshade {
 namespace {
@@ -31,6 +32,7 @@ namespace {
 constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
 
 std::vector<uint8_t> read_bytes(const std::string& path) {
+  if (path == kStandardInputName) return read_standard_input(kMaxFileBytes, "");
   const auto fail = [&path](const char* step) -> Error {
     return {ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(errno), "check the name"};
   };
@@ -225,8 +227,8 @@ void find_color_space(PictureFile& picture) {
   const auto tag = std::find_if(picture.metadata.begin(), picture.metadata.end(),
                                 [](const auto& entry) { return entry.first == "oiio:ColorSpace"; });
   if (tag != picture.metadata.end()) {
-    picture.color_space = tag->second.starts_with("Lin") || tag->second.starts_with("lin") ? ColorSpace::linear
-                                                                                            : ColorSpace::srgb;
+    picture.color_space =
+        tag->second.starts_with("Lin") || tag->second.starts_with("lin") ? ColorSpace::linear : ColorSpace::srgb;
     picture.color_source = "it says " + tag->second;
   } else if (std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return c.is_code(); })) {
     picture.color_space = ColorSpace::srgb;

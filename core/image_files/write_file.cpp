@@ -135,7 +135,9 @@ class Temporary {
  public:
   explicit Temporary(const std::string& path) : path_(path) {
     remove_abandoned(folder_of(path));
-    descriptor_ = open(folder_of(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    // Its name is given through /proc, which a bare chroot may lack.
+    if (access("/proc/self/fd", X_OK) == 0)
+      descriptor_ = open(folder_of(path).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
       name_ = temporary_name(path, attempt);
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);

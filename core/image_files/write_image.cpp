@@ -7,16 +7,18 @@
 
 namespace trueshade {
 
+std::vector<std::vector<uint8_t>> encoded_image(const std::string& name, const Image& color,
+                                                std::span<const NamedImage> aovs, const Metadata& metadata,
+                                                const ImageFileOptions& options) {
+  const FpScope ieee;
+  if (has_ending(name, ".png")) return png_file(name, color, metadata, options);
+  if (has_ending(name, ".exr")) return exr_file(name, color, aovs, metadata, options);
+  throw Error(ErrorKind::usage, name, "no image format has this ending", "end the name in .png or .exr");
+}
+
 void write_image(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
                  const Metadata& metadata, const ImageFileOptions& options) {
-  const FpScope ieee;
-  std::vector<std::vector<uint8_t>> pieces;
-  if (has_ending(path, ".png"))
-    pieces = png_file(path, color, metadata, options);
-  else if (has_ending(path, ".exr"))
-    pieces = exr_file(path, color, aovs, metadata, options);
-  else
-    throw Error(ErrorKind::usage, path, "no image format has this ending", "end the name in .png or .exr");
+  const std::vector<std::vector<uint8_t>> pieces = encoded_image(path, color, aovs, metadata, options);
   write_file(path, FilePieces(pieces.begin(), pieces.end()));
 }
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/fp_env.h"
+#include "core/standard_input.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/files/gltf_scene.h"
 #include "scenes/files/load_geometry.h"
@@ -32,6 +33,25 @@ Scene shown(Scene scene) {
   return scene;
 }
 
+/// A scene without a name, and so without an ending: its first bytes tell the format. Other files that it names lie in
+/// the folder of the process.
+Scene scene_of_standard_input(const SceneLimits& limits, const ImageDecoder& decode, const SceneLoader& load) {
+  const std::string where(kStandardInput);
+  const Bytes bytes = read_standard_input(limits.file_bytes, "--max-file");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("glTF")) return scene_from_gltf(bytes, where, limits, decode);
+  if (text.starts_with("ply")) return shown(scene_of(mesh_from_file(bytes, where, limits, MissingNormals::smooth)));
+  if (!text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with('{'))
+    throw Error(ErrorKind::bad_input, where, "its first bytes are neither of JSON nor of glTF, GLB or PLY",
+                "send one of these, or name a file");
+  if (text.size() > limits.json_bytes)
+    throw Error(ErrorKind::limit, where, std::to_string(text.size()) + " bytes are over the limit",
+                within_limit(limits.json_bytes, "bytes", "--max-json"));
+  const json::Value root = json::parse(text, where);
+  return json::Node(root, where).find("asset") ? scene_from_gltf(bytes, where, limits, decode)
+                                               : scene_from_json(text, where, limits, decode, load);
+}
+
 std::string name_without_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }  // npos + 1 is 0
 
 enum class References : uint8_t { followed, refused };  ///< of a scene file to another one: one step, no chains
@@ -41,11 +61,13 @@ Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const Ima
   constexpr std::string_view kBuiltin = "builtin:";
   if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
-  if (has_ending(spec, ".json")) {
+  SceneLoader load;
+  if (references == References::followed)
+    load = [&](const std::string& other) { return loaded_scene(other, limits, decode, References::refused); };
+  if (spec == kStandardInputName && references == References::followed) {
+    scene = scene_of_standard_input(limits, decode, load);
+  } else if (has_ending(spec, ".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes, "--max-json");
-    SceneLoader load;
-    if (references == References::followed)
-      load = [&](const std::string& other) { return loaded_scene(other, limits, decode, References::refused); };
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode, load);
   } else if (is_gltf_name(spec)) {
     scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);

@@ -1,0 +1,49 @@
+#include "cli/picture_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "cli/commands.h"
+#include "cli/option_values.h"
+
+namespace trueshade {
+namespace {
+
+std::span<const uint8_t> bytes_of_page(const std::string& page) {
+  return {reinterpret_cast<const uint8_t*>(page.data()), page.size()};
+}
+
+}  // namespace
+
+bool is_standard_output(const std::string& path) {
+  return path == "-" || path == "-.png" || path == "-.exr" || path == "-.html";
+}
+
+std::string output_with_ending(const std::string& path) { return path == "-" ? "-.png" : path; }
+
+void check_standard_output(const std::vector<std::string>& outputs, const std::string& prints) {
+  const auto count = std::count_if(outputs.begin(), outputs.end(), is_standard_output);
+  if (count > 1) throw usage("-o", "standard output takes one file", "name files for the others");
+  if (count == 1 && !prints.empty())
+    throw usage(prints, "standard output takes the file, and nothing else", "leave it out, or name a file for -o");
+}
+
+void check_output(const std::string& path) {
+  if (!is_standard_output(path)) return check_writable(path);
+  if (isatty(STDOUT_FILENO) != 0)
+    throw usage("-o", "standard output is a terminal", "send it into a file or a program, or name a file");
+}
+
+void write_picture(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
+                   const Metadata& metadata, const ImageFileOptions& options) {
+  if (!is_standard_output(path)) return write_image(path, color, aovs, metadata, options);
+  for (const std::vector<uint8_t>& piece : encoded_image(path, color, aovs, metadata, options)) print_bytes(piece);
+}
+
+void write_page(const std::string& path, const std::string& page) {
+  if (is_standard_output(path)) return print_bytes(bytes_of_page(page));
+  write_file(path, bytes_of_page(page));
+}
+
+}  // namespace trueshade
