@@ -4,24 +4,26 @@ include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trueshade)
 set_target_properties(trueshade_flags PROPERTIES EXPORT_NAME flags)
 
-install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade)
-install(TARGETS trueshade_image_files trueshade_image_io EXPORT trueshade_image_io)
-install(TARGETS trueshade)
-install(TARGETS trueshade_image_io_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade)
+install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade
+        COMPONENT dev)
+install(TARGETS trueshade_image_files trueshade_image_io EXPORT trueshade_image_io COMPONENT dev)
+install(TARGETS trueshade COMPONENT command)
+install(TARGETS trueshade_image_io_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade COMPONENT image_io)
 foreach(header
   core/blend_state.h core/error.h core/expansion.h core/format.h core/memory_cap.h core/threads/parallel_for.h core/half.h core/image.h core/image_files/image_io.h core/numeric_profile.h core/sha256.h
   scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/mesh.h scenes/pipeline/pipeline.h
   scenes/placement.h scenes/pipeline/post_chain.h scenes/pipeline/presets.h scenes/texture.h scenes/timeline.h scenes/pipeline/transparency.h
   scenes/scene.h scenes/scene_limits.h core/simd/simd_target.h shading/frame.h)
   get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder})
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder} COMPONENT dev)
 endforeach()
 
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_SOURCE_DIR}/scenes/schemas/pipeline.schema.json
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade)
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
 
-install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir})
-install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir})
+install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir} COMPONENT dev)
+install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir} COMPONENT dev)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/trueshadeConfig.cmake ${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake
-        DESTINATION ${config_dir})
+        DESTINATION ${config_dir} COMPONENT dev)
+include(cmake/packages.cmake)

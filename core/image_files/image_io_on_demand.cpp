@@ -80,7 +80,7 @@ const ImageIoTable& loaded_table() {
       throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   }
   throw Error(ErrorKind::io, kImageIoModule, "cannot be loaded: " + reason,
-              "install Trueshade whole, with OpenImageIO");
+              "it reads EXR and JPEG: install the package trueshade-image-io, or build with OpenImageIO");
 }
 
 const ImageIoTable& table() {
