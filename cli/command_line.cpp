@@ -2,7 +2,6 @@
 // `--name=VALUE`, `-o VALUE` and `-oVALUE`, and `-qo VALUE` are the same as in other programs, and all behind `--` are
 // arguments.
 #include <algorithm>
-#include <set>
 #include <span>
 
 #include "cli/command_tables.h"
@@ -18,7 +17,6 @@ namespace {
 /// What was given of a row.
 struct GivenRow {
   const OptionRow* row;
-  std::string spelled;
   std::vector<std::string> values;
 };
 
@@ -117,7 +115,7 @@ class CommandReader {
       if (!row.is_switch()) given.values.push_back(value);
       return;
     }
-    given_.push_back({&row, name, row.is_switch() ? std::vector<std::string>{} : std::vector{value}});
+    given_.push_back({&row, row.is_switch() ? std::vector<std::string>{} : std::vector{value}});
   }
 
   void give_arguments() {
@@ -126,7 +124,7 @@ class CommandReader {
       if (!row.is_argument() || taken == arguments_.size()) continue;
       const auto begin = arguments_.begin() + std::ptrdiff_t(taken);
       const auto end = row.is_repeated ? arguments_.end() : begin + 1;
-      given_.push_back({&row, row.names, {begin, end}});
+      given_.push_back({&row, {begin, end}});
       taken = size_t(end - arguments_.begin());
     }
     if (taken < arguments_.size())
