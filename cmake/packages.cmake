@@ -116,4 +116,7 @@ trueshade_package(viewer graphics "deferred renderer whose image is the same on 
 "The command trueshade view: a window to fly through a scene, to change its
 pipeline, and to click on pixels."
   PACKAGE_DEPENDS "trueshade ${same}")
+# Python's byte code, which nobody else would take away again.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
+    ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
 include(CPack)
