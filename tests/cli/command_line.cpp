@@ -113,7 +113,7 @@ TEST_CASE("A misspelt name is answered with the one that was meant") {
   }
 }
 
-TEST_CASE("--version says targets and libraries, --version --json the same to programs") {
+TEST_CASE("The version comes with targets and libraries, and as JSON for programs") {
   const std::string text = answer({"--version"});
   CHECK(std::regex_search(text, std::regex("^trueshade [0-9]+\\.[0-9]+\\.[0-9]+\n")));
   const json version = json::parse(answer({"--version", "--json"}));
@@ -131,7 +131,7 @@ TEST_CASE("--version says targets and libraries, --version --json the same to pr
   CHECK(version.at("driver_libraries").at("EGL").is_boolean());
 }
 
-TEST_CASE("-q leaves the answer alone") {
+TEST_CASE("With -q every command leaves its answer alone") {
   const ScratchFolder folder;
   const std::string at = folder.path("");
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
