@@ -13,7 +13,7 @@ install_packages command python3 pybind11-dev python3-dev python3-numpy libsdl2-
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
 configure release TRUESHADE_PARTS=all "TRUESHADE_SIMD=avx512;avx2;sse4;scalar" TRUESHADE_PYTHON=ON CMAKE_INSTALL_PREFIX=/usr \
   "CMAKE_INSTALL_LIBDIR=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
-targets=(trueshade trueshade_image_io trueshade_python)
+targets=(trueshade trueshade_image_io trueshade_image_io_module trueshade_python)
 ninja -C build/release -t query trueshade_view_program >/dev/null 2>&1 && targets+=(trueshade_view_program)
 for target in "${targets[@]}"; do build release "$target"; done
 
