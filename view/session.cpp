@@ -231,7 +231,6 @@ void Session::receive() {
   for (const FrameMaker::Mail& mail : maker_.take_mail()) mail();
   if (std::optional<std::string> problem = maker_.take_problem()) {
     asks_card_ = false;
-    if (!files_of_load_->empty()) watch_.watch(*files_of_load_);
     tell(*problem, true);
   }
 }
@@ -244,12 +243,17 @@ void Session::watch_files() {
 
 void Session::reload() {
   watch_.watch(watch_.paths());  // what changes from here on calls for another time
-  const auto files = files_of_load_;
-  maker_.replace([this, files, source = source_] {
-    OpenedScene opened = opened_scene(source, *files);
-    auto facts = std::make_shared<SceneFacts>(std::move(opened.facts));
-    maker_.post([this, facts] { take_over(std::move(*facts)); });
-    return std::move(opened.scene);
+  maker_.replace([this, source = source_] {
+    std::vector<std::string> files;
+    try {
+      OpenedScene opened = opened_scene(source, files);
+      auto facts = std::make_shared<SceneFacts>(std::move(opened.facts));
+      maker_.post([this, facts] { take_over(std::move(*facts)); });
+      return std::move(opened.scene);
+    } catch (...) {
+      maker_.post([this, files] { watch_.watch(files); });  // one that was not read before may be what is wrong
+      throw;
+    }
   });
 }
 
@@ -264,7 +268,6 @@ void Session::take_over(SceneFacts facts) {
   plays_ = plays_ && facts_.moves;
   card_.reset();
   watch_.watch(facts_.files);
-  files_of_load_->clear();
   changed();
   tell("loaded " + facts_.spec + " anew");
 }

@@ -110,7 +110,6 @@ class Session {
   std::optional<Error> failed_save_;
   SourceWatch watch_;
   double clock_ = 0.0, next_look_ = 0.0;
-  std::shared_ptr<std::vector<std::string>> files_of_load_ = std::make_shared<std::vector<std::string>>();
   FrameMaker maker_;
 };
 

@@ -105,7 +105,7 @@ void draw_lights_panel(const PanelContext& context) {
   }
   std::optional<uint32_t>& selected = session.desk().selected_light;
   if (selected && *selected >= count) selected.reset();
-  const float editor = selected ? context.size(176) : 0.0f;
+  const float editor = selected ? context.size(164) : 0.0f;
   ImGui::BeginChild("list", {0, ImGui::GetContentRegionAvail().y - editor});
   ImGuiListClipper clipper;
   clipper.Begin(int(count));

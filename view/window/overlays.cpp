@@ -116,7 +116,7 @@ void draw_help(const PanelContext& context) {
   if (!context.session.desk().help) return;
   ImGui::SetNextWindowPos({context.width / 2, context.height / 2}, 0, {0.5f, 0.5f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.size(22), context.size(18)});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(17, 19, 23, 245));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(17, 19, 23, 252));
   ImGui::Begin("help", nullptr, kOverlay);
   ImGui::PushFont(context.fonts.bold);
   ImGui::TextUnformatted("Keys and mouse");
@@ -141,7 +141,7 @@ void draw_help(const PanelContext& context) {
 void draw_panel(const PanelContext& context) {
   const Panel panel = context.session.desk().panel;
   if (panel == Panel::none) return;
-  const float width = panel == Panel::pixel ? context.size(400) : context.panel_width();
+  const float width = std::min(panel == Panel::pixel ? context.size(380) : context.panel_width(), context.width * 0.6f);
   ImGui::SetNextWindowPos({context.width - width - context.size(10), context.size(10)});
   const float room = context.height - context.bar_height() - context.size(20);
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, room});

@@ -33,7 +33,9 @@ void draw_steps(const PanelContext& context, const Account& account) {
   for (size_t i = 0; i < account.parts.size(); ++i) {
     const Account& part = account.parts[i];
     ImGui::PushID(int(i));
-    if (ImGui::TreeNodeEx("##step", ImGuiTreeNodeFlags_SpanAvailWidth, "%s", part.title.c_str())) {
+    const size_t chapter = part.title.find(" (docs/");  // where the step is defined stands in the text that is copied
+    const std::string title = part.title.substr(0, chapter);
+    if (ImGui::TreeNodeEx("##step", ImGuiTreeNodeFlags_SpanAvailWidth, "%s", title.c_str())) {
       draw_quantities(context, part);
       draw_steps(context, part);
       ImGui::TreePop();
@@ -45,9 +47,11 @@ void draw_steps(const PanelContext& context, const Account& account) {
 /// The lights of the pixel, each with the share that it adds.
 void draw_lights(const PanelContext& context, const PixelCard& card) {
   constexpr size_t kListed = 8;
+  if (card.lights.empty()) return;
   const auto sum = [](const AddedLight& light) { return light.term.x + light.term.y + light.term.z; };
   float all = 0.0f;
   for (const AddedLight& light : card.lights) all += std::max(sum(light), 0.0f);
+  const float strongest = std::max(sum(card.lights.front()), 1e-30f);
   char title[64];
   std::snprintf(title, sizeof title, "%d lights add to it", int(card.lights.size()));
   heading(context, card.lights.size() == 1 ? "One light adds to it" : title);
@@ -67,9 +71,10 @@ void draw_lights(const PanelContext& context, const PixelCard& card) {
       context.session.desk().panel = Panel::lights;
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({at.x + begin, at.y + height * 0.25f},
-                       {at.x + begin + std::max(width * share, 1.0f), at.y + height * 0.85f},
-                       IM_COL32(code(light.term.x), code(light.term.y), code(light.term.z), 255));
+    list.AddRectFilled(
+        {at.x + begin, at.y + height * 0.25f},
+        {at.x + begin + std::max(width * std::clamp(sum(light) / strongest, 0.0f, 1.0f), 1.0f), at.y + height * 0.85f},
+        IM_COL32(code(light.term.x), code(light.term.y), code(light.term.z), 255));
     char percent[16];
     std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * double(share));
     list.AddText({at.x + room - ImGui::CalcTextSize(percent).x, at.y}, kDim, percent);

@@ -78,7 +78,8 @@ void draw_graph(const PanelContext& context, const char* id, std::span<const Ban
 void count_row(const PanelContext& context, const char* name, uint64_t value) {
   std::string digits = std::to_string(value);
   for (size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\xE2\x80\x89");
-  row_name(context, name);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kDim), "%s", name);
+  ImGui::SameLine(context.size(124));
   ImGui::TextUnformatted(digits.c_str());
 }
 
@@ -97,7 +98,8 @@ void draw_statistics_panel(const PanelContext& context) {
   count_row(context, "Fragments", stats.fragments);
   count_row(context, "Pairs lit", stats.lit_pixel_lights);
   count_row(context, "Evaluated", stats.evaluated_pixel_lights);
-  row_name(context, "Picture");
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kDim), "Picture");
+  ImGui::SameLine(context.size(124));
   ImGui::Text("%.2f ms, %d threads, tiles of %d", context.picture.draw_ms, stats.threads, stats.tile);
 }
 

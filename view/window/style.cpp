@@ -12,7 +12,7 @@ constexpr float kTextPixels = 15.0f, kMonoPixels = 13.0f;
 
 /// The first of these fonts that there is; ImGui's own otherwise.
 ImFont* font_of(std::initializer_list<const char*> names, float pixels) {
-  static const ImWchar kGlyphs[] = {0x20, 0x17f, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0};
+  static const ImWchar kGlyphs[] = {0x20, 0x17f, 0x2009, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0};
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   ImFontConfig config;
   config.OversampleH = config.OversampleV = 1;  // texels are pixels
@@ -46,9 +46,10 @@ void set_colors(ImVec4* colors) {
     colors[hovered] = color(255, 255, 255, 0.13);
   for (const ImGuiCol active : {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive})
     colors[active] = with_alpha(accent, 0.35f);
-  for (const ImGuiCol mark : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_PlotLines, ImGuiCol_NavHighlight})
+  colors[ImGuiCol_SliderGrab] = with_alpha(accent, 0.6f);  // its value stands over it
+  for (const ImGuiCol mark : {ImGuiCol_CheckMark, ImGuiCol_PlotLines, ImGuiCol_NavHighlight})
     colors[mark] = with_alpha(accent, 0.9f);
-  colors[ImGuiCol_SliderGrabActive] = accent;
+  colors[ImGuiCol_SliderGrabActive] = with_alpha(accent, 0.75f);
   colors[ImGuiCol_TextSelectedBg] = with_alpha(accent, 0.35f);
   colors[ImGuiCol_ScrollbarBg] = color(0, 0, 0, 0.0);
   colors[ImGuiCol_ScrollbarGrab] = color(255, 255, 255, 0.18);

@@ -1,0 +1,77 @@
+#include "view/display_codes.h"
+
+#include <cstdlib>
+
+#include "core/half.h"
+#include "tests/catch.hpp"
+
+namespace trueshade::viewer {
+namespace {
+
+/// The codes of R, G and B that a PNG of a picture holds, read back by its reader; of 16 bits the nearest of 8.
+std::vector<uint32_t> words_of_png(const Image& image, PictureValues values) {
+  ImageFileOptions options;
+  options.values = values;
+  const Image png = decode_image(encode_png(image, {}, options), "test", 1 << 20);
+  const bool wide = png.format == Format::rgba16;
+  std::vector<uint32_t> words;
+  for (int y = 0; y < png.height; ++y)
+    for (int x = 0; x < png.width; ++x) {
+      uint32_t word = 0;
+      for (int c = 0; c < 3; ++c) {
+        const uint32_t code = png.code(x, y, c);
+        word = word << 8 | (wide ? (code * 255 + 32767) / 65535 : code);
+      }
+      words.push_back(word);
+    }
+  return words;
+}
+
+/// A picture whose channels have every kind of bits: 37 x 29 texels of a linear congruence.
+Image scrambled(Format format) {
+  Image image(37, 29, format);
+  uint32_t state = 12345;
+  const FormatInfo layout = info(format);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < layout.channels; ++c) {
+        state = state * 1664525u + 1013904223u;
+        const int bits = layout.bits[size_t(c)];
+        // Floats mostly between 0 and 2, as pictures are; all codes otherwise.
+        const uint32_t code = layout.number_class == NumberClass::floating && bits == 32 ? 0x30000000u + (state >> 4)
+                                                                                         : state >> (32 - bits);
+        image.set_code(x, y, c,
+                       c == 3 ? (layout.number_class == NumberClass::unorm ? layout.largest_code(3) : 0) : code);
+      }
+  return image;
+}
+
+TEST_CASE("A screen shows the codes that a PNG of the picture holds, for every target and kind of values") {
+  DisplayCodes codes;  // keeps tables from one to the next
+  for (const Format format : kTargetFormats) {
+    for (const PictureValues values : {PictureValues::of_target, PictureValues::display_codes}) {
+      const Image image = scrambled(format);
+      std::vector<uint32_t> words;
+      codes.convert(image, values, words);
+      INFO(info(format).name << (values == PictureValues::of_target ? "" : " of display codes"));
+      const std::vector<uint32_t> expected = words_of_png(image, values);
+      int differing = 0;
+      for (size_t i = 0; i < words.size(); ++i)
+        for (const int shift : {0, 8, 16})
+          differing += std::abs(int(words[i] >> shift & 255) - int(expected[i] >> shift & 255)) >
+                       (info(format).bits[0] > 8 && info(format).number_class == NumberClass::unorm ? 1 : 0);
+      CHECK(differing == 0);
+    }
+  }
+}
+
+TEST_CASE("Words hold R above G above B") {
+  Image image(1, 1, Format::rgba8);
+  image.texels = {0x12, 0x34, 0x56, 0xff};
+  std::vector<uint32_t> words;
+  DisplayCodes().convert(image, PictureValues::of_target, words);
+  CHECK(words == std::vector<uint32_t>{0x123456});
+}
+
+}  // namespace
+}  // namespace trueshade::viewer

@@ -1,0 +1,206 @@
+"""The window under Xvfb, driven by scripts. Usage: test_window.py TRUESHADE [unittest's arguments]. TRUESHADE_SHOTS names a
+folder for screenshots to look at."""
+import json
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import zlib
+
+TRUESHADE = ""
+FOLDER = tempfile.TemporaryDirectory()
+DISPLAY = {}
+
+
+def path(name):
+    return os.path.join(FOLDER.name, name)
+
+
+def write(name, text):
+    with open(path(name), "w", encoding="utf-8") as file:
+        file.write(text)
+    return name
+
+
+def environment(**other):
+    plain = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+    return {**plain, **DISPLAY, **other}
+
+
+def run(*arguments, code=0, env=None, timeout=120):
+    done = subprocess.run([TRUESHADE, *arguments], cwd=FOLDER.name, capture_output=True, text=True, timeout=timeout,
+                          env=env or environment())
+    assert done.returncode == code, f"trueshade {' '.join(arguments)}: {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+def view(scene, lines, *options, code=0):
+    write("script.txt", "\n".join(lines) + "\nquit\n")
+    return run("view", scene, "--script", "script.txt", *options, code=code)
+
+
+def hashes(text):
+    return re.findall(r"^sha256:([0-9a-f]{64})", text, re.M)
+
+
+def pixels_of_png(name):
+    """Width, height and rows of RGB(A) of a PNG of 8 bits without interlacing."""
+    with open(path(name), "rb") as file:
+        data = file.read()
+    at, packed, channels, width, height = 8, b"", 0, 0, 0
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, _, color = struct.unpack(">IIBB", body[:10])
+            channels = 4 if color == 6 else 3
+        if kind == b"IDAT":
+            packed += body
+        at += size + 12
+    raw, rows, above = zlib.decompress(packed), [], bytes(width * channels)
+    for y in range(height):
+        begin = y * (width * channels + 1)
+        kind, line = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * channels])
+        for i in range(len(line)):
+            a, b = line[i - channels] if i >= channels else 0, above[i]
+            c = above[i - channels] if i >= channels else 0
+            p = a + b - c
+            nearest = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
+            line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+        rows.append([tuple(line[i:i + 3]) for i in range(0, len(line), channels)])
+        above = bytes(line)
+    return width, height, rows
+
+
+SCENE = """{"version": 1, "objects": [{"mesh": "knot", "color": [%s]}, {"mesh": "plane", "scale": 4}],
+  "lights": [{"type": "point", "position": [2, 3, 2], "range": 9}, {"type": "ambient", "color": [0.1, 0.1, 0.1]}]}"""
+
+
+class Window(unittest.TestCase):
+    def test_shows_the_hash_of_render(self):
+        for scene, options in (("builtin:cornell", []), ("builtin:circle,lights=20", ["--time", "1.5"]),
+                               ("builtin:lecture", ["--preset", "punctual", "--target", "rgba16f"])):
+            shown = hashes(view(scene, ["still", "hash"], "--size", "320x240", *options).stdout)
+            self.assertEqual(shown, hashes(run("render", scene, "--size", "320x240", "--hash", *options).stdout))
+
+    def test_flies_changes_clicks_saves_and_the_saved_scene_draws_the_picture(self):
+        answer = view("builtin:city", [
+            "still", "hash", "key w 0.4", "key d 0.2", "drag 400 300 330 320 0.2", "orbit 10 5", "still", "hash", "screenshot flown.png",
+            "preset light-volumes", "strategy deferred-volumes", "exposure 0.5", "light 3 off", "light-color 7 4 2 1",
+            "light-intensity 9 3", "light-position 11 0 20 0", "still", "hash", "click 300 420", "still", "wait 0.2",
+            "explanation", "screenshot clicked.png", "save saved.png", "save saved.json", "still", "view normal", "still", "hash",
+            "save normal.json", "still"], "--size", "800x600")
+        found = hashes(answer.stdout)
+        self.assertEqual(len(found), 4)
+        self.assertEqual(len(set(found)), 4)
+        self.assertEqual(hashes(run("render", "saved.json", "--hash").stdout), [found[2]])
+        self.assertEqual(hashes(run("render", "normal.json", "--hash").stdout), [found[3]])
+        self.assertIn(f"sha256:{found[2]}", run("info", "saved.png").stdout)
+        run("render", "saved.json", "-o", "rendered.png", "-q")
+        run("compare", "saved.png", "rendered.png", "--no-judge")
+        printed = answer.stdout[answer.stdout.index(found[2]) + 64:answer.stdout.rindex("sha256:")].split("\n", 1)[1]
+        explained = run("explain", "saved.json", "--pixel", "300,420", "-q").stdout
+        self.assertEqual(printed.split("\n", 1)[1], explained.split("\n", 1)[1])  # but for the name of the scene
+
+    def test_what_is_saved_at_a_time_stands_still(self):
+        found = hashes(view("builtin:circle", ["time 2.25", "still", "hash", "save time.json", "still"], "--size", "200x150").stdout)
+        self.assertEqual(hashes(run("render", "time.json", "--hash").stdout), found)
+        self.assertEqual(hashes(view("time.json", ["still", "hash", "save time2.json", "still"], "--size", "200x150").stdout), found)
+        self.assertEqual(hashes(run("render", "time2.json", "--hash").stdout), found)
+
+    def test_the_picture_is_as_large_as_the_window_and_shown_pixel_for_pixel(self):
+        view("builtin:cornell", ["size 400 300", "still", "press tab", "still", "screenshot bare.png", "save bare_picture.png", "still"])
+        window, picture = pixels_of_png("bare.png"), pixels_of_png("bare_picture.png")
+        self.assertEqual(window[:2], (400, 300))
+        self.assertEqual(window[2], picture[2])
+
+    def test_panels_lie_over_the_picture(self):
+        lines = ["still"]
+        for panel in ("picture", "lights", "pixel", "statistics", "none"):
+            lines += [f"panel {panel}", "wait 0.2", f"screenshot {panel}.png"]
+        lines += ["press f1", "wait 0.2", "screenshot help.png", "press escape", "wait 0.2", "screenshot closed.png"]
+        view("builtin:city", lines, "--size", "640x480")
+        bare = pixels_of_png("none.png")[2]
+        for panel in ("picture", "lights", "pixel", "statistics", "help"):
+            rows = pixels_of_png(f"{panel}.png")[2]
+            differing = sum(a != b for row, other in zip(rows, bare) for a, b in zip(row, other))
+            self.assertGreater(differing, 10000, panel)
+            self.assertEqual(rows[300][20], bare[300][20], panel)  # the left of the picture stays free
+        self.assertEqual([row[300:] for row in pixels_of_png("closed.png")[2][100:400]], [row[300:] for row in bare[100:400]])
+
+    def test_a_changed_file_is_loaded_anew_and_a_broken_one_keeps_the_last_scene(self):
+        write("scene.json", SCENE % "0.8, 0.2, 0.2")
+        lines = ["still", "hash", "wait 2.5", "still", "hash", "wait 2.5", "screenshot broken.png", "exposure 1", "still", "exposure 0",
+                 "still", "hash"]
+        begin = time.monotonic()
+
+        def edit():
+            time.sleep(1.5)
+            write("scene.json", SCENE % "0.2, 0.8, 0.2")
+            time.sleep(2.5)
+            write("scene.json", "{ broken")
+        editor = threading.Thread(target=edit)
+        editor.start()
+        done = view("scene.json", lines, "--size", "320x240")
+        editor.join()
+        self.assertLess(time.monotonic() - begin, 60)
+        first, second, third = hashes(done.stdout)
+        self.assertNotEqual(first, second)
+        self.assertEqual(second, third)
+        self.assertIn("scene.json", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        write("scene.json", SCENE % "0.2, 0.8, 0.2")
+        self.assertEqual(hashes(run("render", "scene.json", "--size", "320x240", "--hash").stdout), [third])
+
+    def test_garbage(self):
+        for text, reason in (("fly 3\n", "line 1: no line begins with 'fly'"), ("still\nkey w\n", "line 2: it ends too soon"),
+                             ("\x00\x01\x7f\n", "line 1"), ("preset best\n", "there is no preset 'best'")):
+            write("garbage.txt", text)
+            done = run("view", "builtin:cornell", "--script", "garbage.txt", code=3)
+            self.assertIn(reason, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertIn("there is no light 99999", view("builtin:cornell", ["still", "light 99999 off"], code=3).stderr)
+        self.assertIn("the camera looks at where it is", view("builtin:cornell", ["camera 1 2 3 1 2 3"], code=3).stderr)
+        view("builtin:cornell", ["still", "save nowhere/picture.png", "still"], code=5)
+        run("view", "nothing.json", code=5)
+        run("view", "builtin:cornell", "--script", "nothing.txt", code=5)
+        run("view", "builtin:cornell", "--ui-scale", "9", code=2)
+
+    def test_without_a_display_it_is_one_line(self):
+        bare = {key: value for key, value in environment().items() if key != "DISPLAY"}
+        done = run("view", "builtin:cornell", code=5, env={**bare, "SDL_VIDEODRIVER": "x11"})
+        self.assertTrue(done.stderr.startswith("trueshade: error: display: "), done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_times_are_reported(self):
+        view("builtin:cornell", ["still", "measure", "key w 0.5", "report times.json"], "--size", "320x240")
+        with open(path("times.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertGreater(report["pictures"], 5)
+        self.assertGreater(report["parts_ms"]["draw"]["median"], 0.0)
+
+
+def main():
+    global TRUESHADE
+    TRUESHADE = os.path.realpath(sys.argv[1])
+    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True)
+    try:
+        DISPLAY["DISPLAY"] = ":" + server.stdout.readline().strip()
+        program = unittest.main(module=__name__, argv=[sys.argv[0], *sys.argv[2:]], exit=False)
+        shots = os.environ.get("TRUESHADE_SHOTS")
+        if shots:
+            subprocess.run(f"cp {FOLDER.name}/*.png '{shots}'", shell=True, check=True)
+    finally:
+        server.terminate()
+        server.wait()
+    sys.exit(0 if program.result.wasSuccessful() else 1)
+
+
+if __name__ == "__main__":
+    main()
