@@ -90,8 +90,10 @@ double degrees_read_as(float radians) {
   const FpScope fp;
   const auto read = [](double degrees) { return float(degrees * (kPi / 180.0)); };
   double degrees = double(radians) * (180.0 / kPi);
-  const double rounded = std::round(degrees * 1e6) / 1e6;  // 45, not 45.00000000001
-  if (read(rounded) == radians) return rounded;
+  for (double parts = 1.0; parts <= 1e6; parts *= 10.0) {  // 45, not 45.000001
+    const double rounded = std::round(degrees * parts) / parts;
+    if (read(rounded) == radians) return rounded;
+  }
   while (read(degrees) < radians) degrees = std::nextafter(degrees, 1e9);
   while (read(degrees) > radians) degrees = std::nextafter(degrees, 0.0);
   return degrees;
