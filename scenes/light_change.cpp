@@ -1,54 +1,77 @@
 #include "scenes/light_change.h"
 
 #include <algorithm>
-#include <initializer_list>
+#include <unordered_map>
+#include <vector>
 
 #include "core/fp_env.h"
 
 namespace trueshade {
 namespace {
 
-void stop(Scene& scene, uint32_t light, std::initializer_list<LightProperty> properties) {
-  std::erase_if(scene.timeline.lights, [&](const LightMotion& motion) {
-    return motion.light == light &&
-           std::find(properties.begin(), properties.end(), motion.property) != properties.end();
+/// Of a light that is changed: what of it does not move any more, and the tracks of its colour that are left.
+struct ChangedLight {
+  bool color_stops = false, ambient_stops = false, position_stops = false;
+  std::vector<Track*> colors{};
+
+  bool stops(LightProperty property) const {
+    return (color_stops && (property == LightProperty::color || property == LightProperty::intensity)) ||
+           (ambient_stops && property == LightProperty::ambient) ||
+           (position_stops && property == LightProperty::position);
+  }
+};
+using ChangedLights = std::unordered_map<uint32_t, ChangedLight>;
+
+ChangedLights changed_lights(const Scene& scene, std::span<const LightChange> changes) {
+  ChangedLights changed;
+  for (const LightChange& change : changes) {
+    if (change.light >= scene.lights.size()) continue;
+    ChangedLight& light = changed[change.light];
+    light.color_stops = light.color_stops || change.color || !change.on;
+    light.ambient_stops = light.ambient_stops || !change.on;
+    light.position_stops = light.position_stops || change.position;
+  }
+  return changed;
+}
+
+void stop(Timeline& timeline, const ChangedLights& changed) {
+  const auto stops_there = [&changed](const auto& moving) {
+    const auto found = changed.find(moving.light);
+    return found != changed.end() && found->second.position_stops;
+  };
+  std::erase_if(timeline.orbits, stops_there);
+  std::erase_if(timeline.node_lights, stops_there);
+  std::erase_if(timeline.lights, [&changed](const LightMotion& motion) {
+    const auto found = changed.find(motion.light);
+    return found != changed.end() && found->second.stops(motion.property);
   });
 }
 
-void replace_color(Scene& scene, uint32_t light, const glm::vec3& color) {
-  stop(scene, light, {LightProperty::color, LightProperty::intensity});
-  scene.lights[light].color = color;
-}
-
-void multiply_color(Scene& scene, uint32_t light, double factor) {
+void multiply_color(Light& light, const std::vector<Track*>& tracks, double factor) {
   const auto times = [factor](const glm::dvec4& value) { return glm::dvec4(glm::dvec3(value) * factor, value.w); };
-  scene.lights[light].color = glm::vec3(times(glm::dvec4(scene.lights[light].color, 0.0)));
-  for (LightMotion& motion : scene.timeline.lights) {
-    if (motion.light != light || motion.property != LightProperty::color) continue;
-    for (auto* values : {&motion.track.values, &motion.track.arriving, &motion.track.leaving})
+  light.color = glm::vec3(times(glm::dvec4(light.color, 0.0)));
+  for (Track* const track : tracks)
+    for (auto* values : {&track->values, &track->arriving, &track->leaving})
       std::transform(values->begin(), values->end(), values->begin(), times);
-  }
-}
-
-void replace_position(Scene& scene, uint32_t light, const glm::vec3& position) {
-  stop(scene, light, {LightProperty::position});
-  std::erase_if(scene.timeline.orbits, [light](const Orbit& orbit) { return orbit.light == light; });
-  std::erase_if(scene.timeline.node_lights, [light](const NodeLight& hung) { return hung.light == light; });
-  scene.lights[light].position = position;
 }
 
 }  // namespace
 
-void change_light(Scene& scene, const LightChange& change) {
+void change_lights(Scene& scene, std::span<const LightChange> changes) {
   const FpScope fp;
-  if (change.light >= scene.lights.size()) return;
-  if (change.color) replace_color(scene, change.light, *change.color);
-  if (change.intensity) multiply_color(scene, change.light, *change.intensity);
-  if (change.position) replace_position(scene, change.light, *change.position);
-  if (change.on) return;
-  replace_color(scene, change.light, glm::vec3(0.0f));
-  stop(scene, change.light, {LightProperty::ambient});
-  scene.lights[change.light].ambient = glm::vec3(0.0f);
+  ChangedLights changed = changed_lights(scene, changes);
+  stop(scene.timeline, changed);
+  for (LightMotion& motion : scene.timeline.lights)
+    if (const auto found = changed.find(motion.light); found != changed.end())
+      if (motion.property == LightProperty::color) found->second.colors.push_back(&motion.track);
+  for (const LightChange& change : changes) {
+    if (change.light >= scene.lights.size()) continue;
+    Light& light = scene.lights[change.light];
+    if (change.color) light.color = *change.color;
+    if (change.intensity) multiply_color(light, changed[change.light].colors, *change.intensity);
+    if (change.position) light.position = *change.position;
+    if (!change.on) light.color = light.ambient = glm::vec3(0.0f);
+  }
 }
 
 }  // namespace trueshade

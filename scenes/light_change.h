@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
 #include "scenes/scene.h"
 
@@ -18,9 +19,10 @@ struct LightChange {
   bool operator==(const LightChange&) const = default;
 };
 
-/// Changes a light as the scene was loaded, before set_time(). A colour or position that is replaced does not move any
-/// more; an intensity multiplies the colour at every time. Numbers are not checked: validate() does that. Does nothing
-/// to a light that is not there.
-void change_light(Scene& scene, const LightChange& change);
+/// Changes lights as the scene was loaded, before set_time(), one after the other. A colour or position that is
+/// replaced does not move any more; an intensity multiplies the colour at every time. Numbers are not checked:
+/// validate() does that. Passes over lights that are not there. Takes time by the number of changes and of all that
+/// moves, not by their product.
+void change_lights(Scene& scene, std::span<const LightChange> changes);
 
 }  // namespace trueshade

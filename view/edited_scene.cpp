@@ -21,7 +21,7 @@ void EditedScene::change_lights(const ViewState& state) {
   scene_.timeline.lights = motions_;
   scene_.timeline.orbits = orbits_;
   scene_.timeline.node_lights = node_lights_;
-  for (const LightChange& change : state.changes) change_light(scene_, change);
+  trueshade::change_lights(scene_, state.changes);
   fit_lights_of_ours(scene_, state.pipeline.light_model);
   changes_ = state.changes;
   fitted_to_ = state.pipeline.light_model.falloff;

@@ -23,9 +23,9 @@ std::string name_of_spec(const std::string& spec) {
 /// What a scene file says of another scene, with the text of its own camera.
 void read_reference(const SceneSource& source, SceneFacts& facts) {
   if (!has_ending(source.spec, ".json")) return;
-  const Bytes bytes = read_user_file(source.spec, SceneLimits().json_bytes);
+  const Bytes bytes = read_user_file(source.spec, source.limits.json_bytes, "--max-json");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  facts.reference = reference_of_text(text, source.spec);
+  facts.reference = reference_of_text(text, source.spec, source.limits);
   if (!facts.reference) return;
   const json::Value value = json::parse(text, source.spec);
   if (const auto camera = json::Node(value, source.spec).find("camera"))

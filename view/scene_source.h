@@ -37,6 +37,7 @@ struct SceneSource {
   std::string spec;
   std::function<Scene()> load;
   std::function<Pipeline(const Scene&)> pipeline;
+  SceneLimits limits{};  ///< those that `load` holds the scene to
 };
 
 /// Loads a scene with all that is known of it. `files` gets the paths that were read, also where it throws.

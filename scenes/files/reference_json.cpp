@@ -1,5 +1,7 @@
 #include "scenes/files/reference_json.h"
 
+#include <unordered_map>
+
 #include "core/error.h"
 #include "scenes/files/content/scene_files.h"
 
@@ -9,6 +11,7 @@ namespace {
 constexpr std::string_view kChangeKeys[] = {"light", "on", "color", "intensity", "position"};
 constexpr json::ObjectKeys kChange = {"light_change", kChangeKeys};
 constexpr std::string_view kBuiltin = "builtin:";
+constexpr uint32_t kMostChanges = 1000;  // of one light, as each goes through all steps of its colour
 
 LightChange change_from_json(const json::Node& node) {
   node.check_keys(kChange);
@@ -51,23 +54,31 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
   if (const auto time = root.find("time")) reference.time = time->number(-kLatestTime, kLatestTime);
   const auto changes = root.find("light_changes");
   if (!changes) return reference;
-  const size_t count = changes->array(0, size_t(limits.lights)).size();
-  for (size_t i = 0; i < count; ++i) reference.changes.push_back(change_from_json(changes->element(i)));
+  const size_t count = changes->array(0, SIZE_MAX).size();
+  if (count > limits.lights)
+    changes->fail("there are " + std::to_string(count) + " changes", within_limit(limits.lights, "", "--max-lights"),
+                  ErrorKind::limit);
+  std::unordered_map<uint32_t, uint32_t> changes_of;
+  for (size_t i = 0; i < count; ++i) {
+    reference.changes.push_back(change_from_json(changes->element(i)));
+    if (++changes_of[reference.changes.back().light] > kMostChanges)
+      changes->element(i).fail("its light is changed more than " + std::to_string(kMostChanges) + " times",
+                               "put changes of a light together");
+  }
   return reference;
 }
 
 Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load) {
   if (!load)
-    root.member("scene").fail("the scene that refers to it is referred to itself", "name the last scene itself");
+    root.member("scene").fail("another scene refers to this one, which refers to one more", "refer to the last one");
   Scene scene = load(reference.scene);
-  for (size_t i = 0; i < reference.changes.size(); ++i) {
+  for (size_t i = 0; i < reference.changes.size(); ++i)
     if (reference.changes[i].light >= scene.lights.size())
       root.member("light_changes")
           .element(i)
           .member("light")
           .fail("there is no such light", "the scene has " + std::to_string(scene.lights.size()) + ", from 0");
-    change_light(scene, reference.changes[i]);
-  }
+  change_lights(scene, reference.changes);
   if (reference.time) {
     set_time(scene, *reference.time);
     const double fps = scene.timeline.fps;
@@ -77,10 +88,11 @@ Scene scene_of_reference(const SceneReference& reference, const json::Node& root
   return scene;
 }
 
-std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path) {
+std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path,
+                                                const SceneLimits& limits) {
   try {
     const json::Value value = json::parse(text, path);
-    return reference_from_json(json::Node(value, path), path, {});
+    return reference_from_json(json::Node(value, path), path, limits);
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -33,6 +33,7 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
 Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load);
 
 /// The reference of a scene file's text; nothing where it has none, or is no scene file. Throws nothing.
-std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path);
+std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path,
+                                                const SceneLimits& limits);
 
 }  // namespace trueshade

@@ -98,12 +98,23 @@ void run_exported(Bytes bytes) {
   });
 }
 
+/// What a scene of the fuzzer refers to, whatever its name: lights that move in every way, and a camera that does.
+Scene referred(const std::string&) {
+  constexpr const char* kText = R"({"version": 1, "objects": [{"mesh": "cube"}], "lights": [
+    {"type": "point", "steps": [{"time": 0, "color": [1, 0, 0], "position": [0, 1, 0], "intensity": 2},
+                                {"time": 2, "color": [0, 1, 0], "position": [4, 1, 0], "intensity": 4}]},
+    {"type": "ambient", "color": [0.1, 0.1, 0.1]}, {"type": "ring", "count": 3, "radius": 2, "turn_s": 4}],
+    "camera": {"steps": [{"time": 0, "eye": [0, 2, 4]}, {"time": 2, "eye": [4, 2, 0]}]}})";
+  static const Scene scene = scene_from_json(kText, path_of("r.json"), small_limits());
+  return scene;
+}
+
 /// But for scenes with our two large meshes, which are made in a tenth of a second, and in more than one under
 /// sanitizers.
 void run_scene(Bytes bytes) {
   for (const std::string_view large : {"rabbit", "knot"})
     if (text_of(bytes).find(large) != std::string_view::npos) return;
-  read([&] { check_scene(scene_from_json(text_of(bytes), path_of("s.json"), small_limits(), decode)); });
+  read([&] { check_scene(scene_from_json(text_of(bytes), path_of("s.json"), small_limits(), decode, referred)); });
 }
 
 void run_geometry(Bytes bytes, const char* name) {

@@ -1,5 +1,7 @@
 #include "view/edited_scene.h"
 
+#include <array>
+
 #include "core/error.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/presets.h"
@@ -12,7 +14,7 @@ namespace {
 /// The scene that loading, changing and moving give, each done once.
 Scene made_at_once(const std::string& spec, const ViewState& state) {
   Scene scene = load_scene(spec);
-  for (const LightChange& change : state.changes) change_light(scene, change);
+  change_lights(scene, state.changes);
   fit_lights_of_ours(scene, state.pipeline.light_model);
   set_time(scene, state.time);
   if (state.camera) scene.camera = *state.camera;
@@ -44,9 +46,9 @@ TEST_CASE("Whatever was shown before, a state gives the scene that loading and c
 TEST_CASE("A light that is off adds nothing, one of no light index changes nothing") {
   Scene scene = load_scene("builtin:circle,lights=3");
   const std::string before = scene_hash(scene);
-  change_light(scene, {3, false});
+  change_lights(scene, std::array{LightChange{3, false}});
   CHECK(scene_hash(scene) == before);
-  for (uint32_t i = 0; i < 3; ++i) change_light(scene, {i, false});
+  for (uint32_t i = 0; i < 3; ++i) change_lights(scene, std::array{LightChange{i, false}});
   for (const double time : {0.0, 1.3}) {
     set_time(scene, time);
     for (const Light& light : scene.lights) CHECK(light.color == glm::vec3(0.0f));
@@ -59,8 +61,8 @@ TEST_CASE("An intensity multiplies a colour that moves, at every time, and a col
     {"type": "point", "steps": [{"time": 0, "color": [1, 0, 0], "position": [0, 1, 0], "intensity": 2},
                                 {"time": 2, "color": [0, 1, 0], "position": [4, 1, 0], "intensity": 4}]}]})");
   Scene moving = load_scene(spec), brighter = load_scene(spec), fixed = load_scene(spec);
-  change_light(brighter, {0, true, {}, 8.0});
-  change_light(fixed, {0, true, glm::vec3(5, 6, 7), {}, glm::vec3(9, 9, 9)});
+  change_lights(brighter, std::array{LightChange{0, true, {}, 8.0}});
+  change_lights(fixed, std::array{LightChange{0, true, glm::vec3(5, 6, 7), {}, glm::vec3(9, 9, 9)}});
   for (const double time : {0.0, 0.5, 1.7, 3.0}) {
     for (Scene* scene : {&moving, &brighter, &fixed}) set_time(*scene, time);
     CHECK(brighter.lights[0].color == 8.0f * moving.lights[0].color);  // a power of two: exact

@@ -46,7 +46,7 @@ void run_window(const ViewOptions& options) {
   std::vector<ScriptStep> steps = script_of(options);
   const Display display;
   const SceneSource source{options.scene, [&options] { return scene_of_options(options.scene, options.limits); },
-                           [&options](const Scene& scene) { return pipeline_of(options, scene); }};
+                           [&options](const Scene& scene) { return pipeline_of(options, scene); }, options.limits};
   std::vector<std::string> files;
   OpenedScene opened = opened_scene(source, files);
   const Window::Look look = look_of(options, display);
