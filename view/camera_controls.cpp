@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteepest = kPi / 2.0 - kPi / 180.0;  // radians above or below the horizon
+constexpr double kNarrowest = kPi / 1800.0;            // field of view, radians
 constexpr double kSecondsToSpeed = 0.05;               // in which flight takes up 63 % of a new speed
 
 /// Any unit vector at right angles to a unit vector.
@@ -39,7 +40,7 @@ Camera camera_with_lens(const Camera& camera, double reach) {
   return out;
 }
 
-CameraControls::CameraControls(const Camera& from, double reach) : lens_(camera_with_lens(from, reach)) {
+CameraControls::CameraControls(const Camera& from, double reach) : lens_(camera_with_lens(from, reach)), reach_(reach) {
   const FpScope fp;
   eye_ = lens_.eye;
   const glm::dvec3 view = glm::dvec3(lens_.target) - eye_;
@@ -89,11 +90,14 @@ Camera CameraControls::camera() const {
   return camera;
 }
 
-void CameraControls::change_speed(double steps) { speed_ *= std::pow(1.2, steps); }
+void CameraControls::change_speed(double steps) {
+  speed_ = std::clamp(speed_ * std::pow(1.2, steps), reach_ * 1e-6, reach_ * 1e3);
+}
 
 double CameraControls::field_of_view() const { return double(lens_.fov_x_rad ? *lens_.fov_x_rad : lens_.fov_y_rad); }
 
 void CameraControls::set_field_of_view(double radians) {
+  radians = std::clamp(radians, kNarrowest, kPi - kNarrowest);
   if (lens_.fov_x_rad)
     lens_.fov_x_rad = float(radians);
   else

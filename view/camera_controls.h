@@ -33,8 +33,8 @@ class CameraControls {
 
   Camera camera() const;
   double speed() const { return speed_; }  ///< scene units a second
-  void change_speed(double steps);         ///< by a fifth a step
-  void set_field_of_view(double radians);  ///< vertical or horizontal, as the camera has it; in (0, pi)
+  void change_speed(double steps);         ///< by a fifth a step, between a millionth and a thousand of the reach
+  void set_field_of_view(double radians);  ///< vertical or horizontal, as the camera has it; from 0.1 to 179.9 degrees
   double field_of_view() const;
   void set_pivot(const glm::dvec3& point);  ///< looks at it from where the camera is
 
@@ -46,7 +46,8 @@ class CameraControls {
   Camera lens_;                         // field of view, near and far; and up
   glm::dvec3 eye_, up_, side_, ahead_;  // up_, side_, ahead_: unit, at right angles; yaw is measured from ahead_
   double yaw_ = 0.0, pitch_ = 0.0;      // radians
-  double distance_;                     // to the pivot
+  double reach_;
+  double distance_;  // to the pivot
   double speed_;
   glm::dvec3 velocity_{0.0};  // right, up, forward; scene units a second
 };

@@ -88,6 +88,11 @@ std::optional<std::string> FrameMaker::take_problem() {
   return std::exchange(problem_, std::nullopt);
 }
 
+bool FrameMaker::is_refused(uint64_t revision) const {
+  const std::lock_guard lock(mutex_);
+  return tried_revision_ == revision && !is_current_;
+}
+
 bool FrameMaker::busy() const {
   const std::lock_guard lock(mutex_);
   return at_work_ || asked_ || loader_ || !jobs_.empty() || !mail_.empty();
@@ -102,16 +107,19 @@ void FrameMaker::run(const std::function<void()>& task) {
     problem = error.what();
   } catch (const std::bad_alloc&) {
     problem = "memory: there is not enough (a smaller window or scene)";
+  } catch (const std::exception& fault) {
+    problem = std::string("internal: ") + fault.what() + " (please report it)";
   }
   {
     const std::lock_guard lock(mutex_);
-    problem_ = problem;
+    if (!problem_) problem_ = std::move(problem);  // the first is the cause of others
   }
   news_();
 }
 
 void FrameMaker::draw(ViewState state) {
   const uint64_t revision = state.revision;
+  bool done = false;
   run([&] {
     auto picture = std::make_shared<DrawnPicture>();
     picture->pipeline = drawn_pipeline(state);
@@ -127,15 +135,25 @@ void FrameMaker::draw(ViewState state) {
     picture->state = std::move(state);
     const std::lock_guard lock(mutex_);
     drawn_ = std::move(picture);
+    done = true;
   });
   {
     const std::lock_guard lock(mutex_);
     tried_revision_ = revision;
+    is_current_ = done;
   }
   news_();
 }
 
-bool FrameMaker::ready_job() const { return !jobs_.empty() && drawn_ && tried_revision_ >= jobs_.front().revision; }
+bool FrameMaker::ready_job() const { return !jobs_.empty() && tried_revision_ >= jobs_.front().revision; }
+
+void FrameMaker::carry_out(const WaitingJob& next, const std::shared_ptr<const DrawnPicture>& picture) {
+  run([&] {
+    if (!picture)
+      throw Error(ErrorKind::usage, "picture", "there is none of what is asked for", "go back to what can be drawn");
+    next.job(*scene_, *picture);
+  });
+}
 
 void FrameMaker::load_next() {
   const Loader load = [this] {
@@ -146,7 +164,8 @@ void FrameMaker::load_next() {
     scene_ = load();
     const std::lock_guard lock(mutex_);
     if (!asked_) asked_ = last_asked_;
-    hashed_revision_ = 0;
+    hashed_revision_ = tried_revision_ = 0;  // jobs wait for a picture of this scene
+    is_current_ = false;
   });
 }
 
@@ -172,10 +191,10 @@ void FrameMaker::work() {
     at_work_ = true;
     if (ready_job()) {
       const WaitingJob next = std::move(jobs_.front());
-      const std::shared_ptr<const DrawnPicture> picture = drawn_;
+      const std::shared_ptr<const DrawnPicture> picture = is_current_ ? drawn_ : nullptr;
       jobs_.pop_front();
       lock.unlock();
-      run([&] { next.job(*scene_, *picture); });
+      carry_out(next, picture);
       lock.lock();
     } else if (loader_ && !ends_) {
       lock.unlock();

@@ -42,7 +42,7 @@ class FrameMaker {
 
   using Job = std::function<void(EditedScene& scene, const DrawnPicture& picture)>;
   /// Calls the job in the maker's thread, with the scene and the picture of the state asked for last, or of a later
-  /// one. What it throws comes as a problem.
+  /// one. What it throws comes as a problem; so does that there is no picture of such a state.
   void send(Job job);
   /// Puts another scene in the place of this one, once `load` has made it; the newest state is drawn anew.
   using Loader = std::function<std::unique_ptr<EditedScene>()>;
@@ -55,7 +55,8 @@ class FrameMaker {
   std::shared_ptr<const DrawnPicture> newest() const;  ///< null before the first
   /// The picture's hash, 64 hex digits, which is found once nothing else has been asked for a moment; else empty.
   std::string hash_of(uint64_t revision) const;
-  std::optional<std::string> take_problem();  ///< what went wrong last, one line
+  std::optional<std::string> take_problem();  ///< what went wrong first since the last call, one line
+  bool is_refused(uint64_t revision) const;   ///< whether that state was tried, and could not be drawn
   bool busy() const;                          ///< whether anything waits or is at work
 
  private:
@@ -67,6 +68,7 @@ class FrameMaker {
   void draw(ViewState state);
   void run(const std::function<void()>& task);
   bool ready_job() const;
+  void carry_out(const WaitingJob& next, const std::shared_ptr<const DrawnPicture>& picture);
   void load_next();
 
   std::unique_ptr<EditedScene> scene_;  // of the maker's thread alone
@@ -83,6 +85,7 @@ class FrameMaker {
   std::vector<Mail> mail_;
   std::shared_ptr<const DrawnPicture> drawn_;
   uint64_t hashed_revision_ = 0, tried_revision_ = 0;  // tried: drawn, or refused
+  bool is_current_ = false;                            // the scene is as drawn_ shows it
   std::string hash_;
   std::optional<std::string> problem_;
   bool ends_ = false, at_work_ = false;

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "core/standard_input.h"
 #include "scenes/json/json_value.h"
 #include "scenes/trig.h"
 
@@ -66,6 +67,9 @@ std::string uri_of(const std::string& path) {
 /// The scene that is referred to, by its way from the folder of the file that is written.
 std::string way_to(const std::string& scene, const std::string& path) {
   if (scene.starts_with("builtin:")) return scene;
+  if (scene == kStandardInputName)
+    throw Error(ErrorKind::usage, path, "the scene came from standard input, which no scene file can refer to",
+                "open the scene from a file");
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(fs::path(path)).lexically_normal().parent_path();
   const std::string way = fs::absolute(fs::path(scene)).lexically_normal().lexically_relative(folder).string();

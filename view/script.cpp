@@ -65,6 +65,15 @@ class Line {
     rest_.remove_prefix(end);
     return word;
   }
+  /// The name of a key, which may be two words: `left shift`.
+  std::string key() {
+    const std::string first = word();
+    const std::string_view behind = rest_;
+    const std::string both = first + ' ' + word();
+    if (!key_named(first) && key_named(both)) return both;
+    rest_ = behind;
+    return first;
+  }
   std::string rest() {
     skip_blanks();
     const size_t end = rest_.find_last_not_of(" \t");
@@ -164,7 +173,7 @@ ScriptStep step_of(Line line, int number) {
   while (!form.empty()) {
     const std::string_view kind = form.substr(0, form.find(' '));
     form.remove_prefix(std::min(kind.size() + 1, form.size()));
-    const std::string word = kind == "FILE" ? line.rest() : line.word();
+    const std::string word = kind == "FILE" ? line.rest() : kind == "KEY" ? line.key() : line.word();
     if (word.empty()) line.fail("it ends too soon", name + " " + std::string(command->form));
     if (is_number(kind)) {
       step.numbers.push_back(number_of(word, kind, command->name, line));

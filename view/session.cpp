@@ -130,22 +130,21 @@ void Session::go_home() {
   changed();
 }
 
+void Session::look_at_pixel() {
+  if (!card_ || !card_->has_surface) return tell("click a surface first, then F looks at it");
+  CameraControls& own = take_camera();
+  own.set_pivot(glm::dvec3(card_->position));
+  state_.camera = own.camera();
+  changed();
+}
+
 void Session::act(Action action) {
-  const auto toggle = [this](Panel panel) {
-    desk_.panel = desk_.panel == panel && !desk_.hidden ? Panel::none : panel;
-    desk_.hidden = false;
-  };
   Pipeline pipeline = state_.pipeline;
   switch (action) {
     case Action::home:
       return go_home();
-    case Action::look_at_pixel: {
-      if (!card_ || !card_->has_surface) return tell("click a surface first, then F looks at it");
-      CameraControls& own = take_camera();
-      own.set_pivot(glm::dvec3(card_->position));
-      state_.camera = own.camera();
-      return changed();
-    }
+    case Action::look_at_pixel:
+      return look_at_pixel();
     case Action::play:
       if (!facts_.moves) return tell("nothing moves in this scene");
       return play(!plays_);
@@ -168,6 +167,23 @@ void Session::act(Action action) {
       return set_exposure(state_.exposure + 0.5);
     case Action::darker:
       return set_exposure(state_.exposure - 0.5);
+    case Action::save_picture:
+      return save_picture();
+    case Action::save_scene:
+      return save_scene();
+    case Action::reload:
+      return reload();
+    default:
+      return act_on_desk(action);
+  }
+}
+
+void Session::act_on_desk(Action action) {
+  const auto toggle = [this](Panel panel) {
+    desk_.panel = desk_.panel == panel && !desk_.hidden ? Panel::none : panel;
+    desk_.hidden = false;
+  };
+  switch (action) {
     case Action::help:
       desk_.help = !desk_.help;
       return;
@@ -182,12 +198,6 @@ void Session::act(Action action) {
     case Action::hide_panels:
       desk_.hidden = !desk_.hidden;
       return;
-    case Action::save_picture:
-      return save_picture();
-    case Action::save_scene:
-      return save_scene();
-    case Action::reload:
-      return reload();
     case Action::full_screen:
       desk_.full_screen = !desk_.full_screen;
       return;
@@ -205,7 +215,7 @@ void Session::act(Action action) {
   }
 }
 
-bool Session::moves() const { return plays_ || (controls_ && state_.camera && controls_->flies()); }
+bool Session::moves() const { return (plays_ && facts_.moves) || (controls_ && state_.camera && controls_->flies()); }
 
 void Session::pass(const CameraInput& input, double seconds) {
   clock_ += seconds;

@@ -82,6 +82,7 @@ class Session {
   std::shared_ptr<const DrawnPicture> picture() const { return maker_.newest(); }
   std::string hash() const { return maker_.hash_of(state_.revision); }  ///< of what is shown, once it is still
   bool waits() const { return maker_.busy() || asks_card_; }
+  bool is_refused() const { return maker_.is_refused(state_.revision); }  ///< what is asked for cannot be drawn
   const std::optional<Notice>& notice() const { return notice_; }
   void tell(std::string text, bool problem = false);
   double clock() const { return clock_; }
@@ -90,6 +91,8 @@ class Session {
 
  private:
   void changed();
+  void look_at_pixel();
+  void act_on_desk(Action action);  // of panels and the window, which change no picture
   const CameraControls& controls() const;
   CameraControls& take_camera();
   void receive();

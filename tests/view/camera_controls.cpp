@@ -88,6 +88,19 @@ TEST_CASE("Up and right are those of the camera, and pace and wheel change the s
   CHECK(eye.z == Approx(5.0f));
 }
 
+TEST_CASE("Speed and field of view stay within bounds, whatever is asked for") {
+  CameraControls controls(level_camera(), 8.0);
+  for (int i = 0; i < 100; ++i) controls.change_speed(100.0);
+  CHECK(controls.speed() == Approx(8000.0));
+  for (int i = 0; i < 100; ++i) controls.change_speed(-100.0);
+  CHECK(controls.speed() == Approx(8e-6));
+  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  for (const double asked : {-1.0, 0.0, 200.0}) {
+    controls.set_field_of_view(asked * kDegree);
+    CHECK(controls.field_of_view() == Approx((asked > 0.0 ? 179.9 : 0.1) * kDegree));
+  }
+}
+
 TEST_CASE("A camera of a matrix becomes one with a lens that sees the same") {
   Camera camera = level_camera();
   camera.fov_y_rad = 0.9f;

@@ -114,6 +114,9 @@ TEST_CASE("A scene that lies neither beside the saved file nor below is refused,
                     Catch::Contains("in its folder or below"));
   CHECK_THROWS_WITH(saved_scene(scene.facts, picture, spec), Catch::Contains("cannot refer to itself"));
   CHECK_NOTHROW(saved_scene(scene.facts, picture, folder.path("saved.json")));
+  SceneFacts piped = scene.facts;
+  piped.spec = "-";
+  CHECK_THROWS_WITH(saved_scene(piped, picture, folder.path("saved.json")), Catch::Contains("standard input"));
 }
 
 TEST_CASE("An angle in degrees is read as the very float of radians, for 100,000 angles") {

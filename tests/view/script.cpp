@@ -38,6 +38,18 @@ TEST_CASE("A script is read line by line: numbers, names, the rest of a line, co
   CHECK(steps[7].line == 10);
 }
 
+TEST_CASE("Every key has a name that a script can hold and press, also where it is of two words") {
+  for (const Key& key : keys()) {
+    INFO(key.name);
+    const std::string name(key.name);
+    const auto steps = script_from_text("key " + name + " 0.5\npress " + name, "flight.txt");
+    REQUIRE(steps.size() == 2);
+    CHECK(steps[0].words == std::vector<std::string>{name});
+    CHECK(steps[0].numbers == std::vector<double>{0.5});
+    CHECK(steps[1].words == std::vector<std::string>{name});
+  }
+}
+
 TEST_CASE("What is no script is refused with its line, in one line") {
   const std::pair<const char*, const char*> cases[] = {
       {"fly 3", "line 1: no line begins with 'fly'"},

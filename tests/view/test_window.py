@@ -90,7 +90,7 @@ class Window(unittest.TestCase):
 
     def test_flies_changes_clicks_saves_and_the_saved_scene_draws_the_picture(self):
         answer = view("builtin:city", [
-            "still", "hash", "key w 0.4", "key d 0.2", "drag 400 300 330 320 0.2", "orbit 10 5", "still", "hash", "screenshot flown.png",
+            "still", "hash", "key w 0.4", "key left shift 0.1", "key d 0.2", "drag 400 300 330 320 0.2", "orbit 10 5", "still", "hash", "screenshot flown.png",
             "preset light-volumes", "strategy deferred-volumes", "exposure 0.5", "light 3 off", "light-color 7 4 2 1",
             "light-intensity 9 3", "light-position 11 0 20 0", "still", "hash", "click 300 420", "still", "wait 0.2",
             "explanation", "screenshot clicked.png", "save saved.png", "save saved.json", "still", "view normal", "still", "hash",
@@ -172,10 +172,20 @@ class Window(unittest.TestCase):
         run("view", "builtin:cornell", "--ui-scale", "9", code=2)
 
     def test_without_a_display_it_is_one_line(self):
-        bare = {key: value for key, value in environment().items() if key != "DISPLAY"}
-        done = run("view", "builtin:cornell", code=5, env={**bare, "SDL_VIDEODRIVER": "x11"})
-        self.assertTrue(done.stderr.startswith("trueshade: error: display: "), done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1)
+        bare = {key: value for key, value in environment().items() if key not in ("DISPLAY", "XDG_RUNTIME_DIR")}
+        for other in ({}, {"SDL_VIDEODRIVER": ""}, {"SDL_VIDEODRIVER": "x11"}, {"XDG_RUNTIME_DIR": FOLDER.name}):
+            done = run("view", "builtin:cornell", code=5, env={**bare, **other}, timeout=20)
+            self.assertTrue(done.stderr.startswith("trueshade: error: display: "), f"{other}: {done.stderr}")
+            self.assertEqual(done.stderr.count("\n"), 1, f"{other}: {done.stderr}")
+
+    def test_a_script_that_would_wait_for_ever_ends(self):
+        done = view("builtin:circle", ["play", "still"], code=3)
+        self.assertIn("line 2: it waits until nothing moves", done.stderr)
+        write("far.json", """{"version": 1, "objects": [{"mesh": "cube"}], "camera": {"target": [0, 0, 0],
+          "steps": [{"time": 0, "eye": [0, 0, 4]}, {"time": 2, "eye": [0, 0, 0]}]}}""")
+        done = view("far.json", ["still", "time 2", "still"], code=3)
+        self.assertIn("line 3: it waits for a picture that cannot be drawn", done.stderr)
+        view("builtin:cornell", ["play", "still"])  # where nothing moves
 
     def test_times_are_reported(self):
         view("builtin:cornell", ["still", "measure", "key w 0.5", "report times.json"], "--size", "320x240")

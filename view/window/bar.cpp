@@ -31,7 +31,8 @@ void draw_time(const PanelContext& context, float width) {
   ImGui::SameLine();
   auto time = float(session.state().time);
   ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  if (ImGui::SliderFloat("##time", &time, 0.0f, float(session.facts().last_time), "%.2f s"))
+  if (ImGui::SliderFloat("##time", &time, 0.0f, float(session.facts().last_time), "%.2f s",
+                         ImGuiSliderFlags_AlwaysClamp))
     session.set_time(double(time));
   ImGui::SameLine();
 }

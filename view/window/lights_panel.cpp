@@ -47,7 +47,8 @@ void draw_color(const PanelContext& context, const Light& light, LightChange& ch
   float rgb[3] = {full.x, full.y, full.z};
   row_name(context, "Colour");
   if (ImGui::ColorEdit3("##rgb", rgb, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float)) {
-    change.color = glm::vec3(rgb[0], rgb[1], rgb[2]) * (brightness > 0.0f ? brightness : 1.0f);
+    const auto share = [](float typed) { return std::clamp(typed, 0.0f, 1.0f); };
+    change.color = glm::vec3(share(rgb[0]), share(rgb[1]), share(rgb[2])) * (brightness > 0.0f ? brightness : 1.0f);
     changed = true;
   }
   ImGui::SameLine();
@@ -70,7 +71,7 @@ void draw_editor(const PanelContext& context, uint32_t index) {
   row_name(context, "Intensity");
   ImGui::SetNextItemWidth(width);
   if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, 20.0f, "\xC3\x97 %.2f", ImGuiSliderFlags_Logarithmic)) {
-    change.intensity = double(intensity);
+    change.intensity = std::clamp(double(intensity), 0.0, 1e18);  // one that was typed may be over 20
     changed = true;
   }
   if (light.type == LightType::point || light.type == LightType::spot) {
@@ -80,7 +81,9 @@ void draw_editor(const PanelContext& context, uint32_t index) {
                                          : light.position;
     row_name(context, "Position");
     ImGui::SetNextItemWidth(width);
-    if (ImGui::DragFloat3("##position", &position.x, float(session.facts().reach / 500.0), 0.0f, 0.0f, "%.4g")) {
+    constexpr float kFarthest = 1e18f;
+    if (ImGui::DragFloat3("##position", &position.x, float(session.facts().reach / 500.0), -kFarthest, kFarthest,
+                          "%.4g", ImGuiSliderFlags_AlwaysClamp)) {
       change.position = position;
       changed = true;
     }

@@ -55,21 +55,20 @@ void draw_light(const PanelContext& context, float width) {
   if (post.tone_map != PostChain::ToneMap::none) {
     row_name(context, "Key");
     ImGui::SetNextItemWidth(width);
-    changed |= ImGui::SliderFloat("##key", &post.key, 0.01f, 1.0f, "%.3f", ImGuiSliderFlags_Logarithmic);
+    changed |= ImGui::SliderFloat("##key", &post.key, 0.01f, 1.0f, "%.3f",
+                                  ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   }
   row_name(context, "Bloom");
   ImGui::SetNextItemWidth(width);
-  changed |=
-      ImGui::SliderFloat("##bloom", &post.bloom.strength, 0.0f, 1.0f, post.bloom.strength > 0.0f ? "%.2f" : "off");
+  changed |= ImGui::SliderFloat("##bloom", &post.bloom.strength, 0.0f, 1.0f,
+                                post.bloom.strength > 0.0f ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp);
   row_name(context, "Samples");
   ImGui::SetNextItemWidth(width);
-  int samples = post.samples * post.samples;
-  constexpr std::string_view kSamples[] = {"1", "4", "9", "16"};
-  if (const auto chosen = choice("##samples", kSamples, size_t(std::clamp(post.samples, 1, 4) - 1), width)) {
+  constexpr std::string_view kSamples[] = {"1", "4", "9", "16", "25", "36", "49", "64"};
+  if (const auto chosen = choice("##samples", kSamples, size_t(post.samples - 1), width)) {
     post.samples = int(*chosen) + 1;
     changed = true;
   }
-  (void)samples;
   row_name(context, "Edges");
   changed |= ImGui::Checkbox("smoothed##edges", &post.edge_filter);
   if (changed) session.set_pipeline(pipeline);

@@ -134,7 +134,6 @@ bool ScriptPlayer::set(const ScriptStep& step) {
 
 /// What waits for nothing, and what is begun here and ends later.
 bool ScriptPlayer::begin(const ScriptStep& step) {
-  revision_ = session_.state().revision;
   if (set(step)) return step.command != "look" && step.command != "orbit";
   if (step.command == "key") press(step.words[0], true);
   if (step.command == "press") {
@@ -150,6 +149,17 @@ bool ScriptPlayer::begin(const ScriptStep& step) {
   return step.command == "quit";
 }
 
+/// Ends a script that would wait for ever.
+void ScriptPlayer::check_becomes_still(const ScriptStep& step) const {
+  const auto fail = [&](const char* reason, const char* remedy) {
+    throw Error(ErrorKind::bad_input, where_ + ": line " + std::to_string(step.line), reason, remedy);
+  };
+  if (session_.plays() && session_.facts().moves)
+    fail("it waits until nothing moves, and the time plays", "a line `pause` before it");
+  if (session_.is_refused() && !session_.waits())
+    fail("it waits for a picture that cannot be drawn", "other lines before it; the note says what is wrong");
+}
+
 bool ScriptPlayer::is_over(const ScriptStep& step) {
   const double passed = std::chrono::duration<double>(Clock::now() - begin_).count();
   constexpr double kMoment = 0.05;  // in which the window sees events and lays panels out
@@ -163,6 +173,7 @@ bool ScriptPlayer::is_over(const ScriptStep& step) {
   if (step.command == "click" || step.command == "press" || step.command == "look" || step.command == "orbit")
     return passed >= kMoment;
   if (step.command == "report") return true;
+  check_becomes_still(step);
   return is_still() && passed >= kMoment;  // saving, and `still`
 }
 

@@ -29,6 +29,7 @@ class ScriptPlayer {
   void move_to(int x, int y);
   void button(int x, int y, bool down);
   bool is_still() const;
+  void check_becomes_still(const ScriptStep& step) const;
   void drag_on(const ScriptStep& step, double part);
 
   const std::vector<ScriptStep> steps_;
@@ -39,7 +40,6 @@ class ScriptPlayer {
   bool begun_ = false;
   Clock::time_point begin_;
   int pointer_x_ = 0, pointer_y_ = 0;
-  uint64_t revision_ = 0;  // when the step began
 };
 
 }  // namespace trueshade::viewer

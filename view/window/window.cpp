@@ -1,10 +1,12 @@
 #include "view/window/window.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -22,6 +24,14 @@ constexpr int kLeastSide = 64;
 double ms_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double, std::milli>(b - a).count();
 }
+
+bool is_set(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+/// Whether Wayland may be there. Its library complains on standard error by itself where no folder for it is named.
+bool has_wayland() { return is_set("WAYLAND_DISPLAY") || is_set("XDG_RUNTIME_DIR"); }
 
 Error no_display(const std::string& reason) {
   return {ErrorKind::io, "display", "a window cannot be opened: " + reason,
@@ -55,6 +65,9 @@ Display::Display() {
   SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+  // SDL by itself ends at a display that nobody sees, "offscreen", where there is no other.
+  if (!is_set("SDL_VIDEODRIVER"))
+    SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, has_wayland() ? "x11,wayland" : "x11", SDL_HINT_OVERRIDE);
   if (SDL_Init(SDL_INIT_VIDEO) != 0) throw no_display(SDL_GetError());
   wake_event_ = SDL_RegisterEvents(1);
 }
@@ -206,6 +219,7 @@ void Window::draw_panels(const Canvas& canvas) {
     draw_notice(context);
     draw_help(context);
   } catch (const Error& error) {
+    ImGui::ErrorCheckEndFrameRecover(nullptr);  // ends what a panel has begun and not ended
     session_.tell(error.what(), true);
   }
   ImGui::Render();
@@ -245,6 +259,7 @@ void Window::show() {
 
 void Window::save_screenshot(const std::string& path) {
   const SDL_Surface* const surface = SDL_GetWindowSurface(window_);
+  if (surface == nullptr) throw no_display(SDL_GetError());
   Image image(surface->w, surface->h, Format::rgba8);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
