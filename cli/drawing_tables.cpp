@@ -192,10 +192,13 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
   add_strategy(table, texts.strategy);
   add_target(table, texts.target);
   add_profile(table, texts.profile);
-  add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames).group = "Pipeline";
+  add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames).group =
+      "Pipeline";
   add_value(table, "--threads", "COUNT", texts.threads, kThreadsHelp).group = "Execution";
   add_limits(table, options.limits);
-  table.details = "With --size the picture keeps its size, otherwise it is as large as the window. F1 in the window names all keys.";
+  table.details =
+      "With --size the picture keeps its size, otherwise it is as large as the window. F1 in the window names all "
+      "keys.";
   table.examples = {{"trueshade view builtin:city", "A city at night, to fly through."},
                     {"trueshade view builtin:city --size 800x600 --script flight.txt", "A flight that a file tells."}};
   table.see_also = {"render", "explain"};

@@ -30,6 +30,7 @@ void view(const ViewOptions&) {
   constexpr const char* kProgram = "trueshade-view";
   std::error_code absent;
   const fs::path here = fs::read_symlink("/proc/self/exe", absent).parent_path();
+  if (absent) throw Error(ErrorKind::io, "/proc/self/exe", absent.message(), "a system with /proc");
   for (const char* folder : {".", "../lib/trueshade", "../" TRUESHADE_LIBDIR "/trueshade"}) {
     const fs::path path = here / folder / kProgram;
     if (!fs::exists(path, absent)) continue;

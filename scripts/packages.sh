@@ -65,7 +65,7 @@ fi
 root=$work/root
 cp -L /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
 rm -f "$root/etc/apt/sources.list"
-cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d /etc/apt/trusted.gpg.d "$root/etc/apt/" 2>/dev/null || true
+cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d /etc/apt/keyrings /etc/apt/trusted.gpg.d "$root/etc/apt/" 2>/dev/null || true
 cp -r /usr/share/keyrings "$root/usr/share/" 2>/dev/null || true
 cp "$out"/*.deb "$root/root/"
 cp -r tests/consumer "$root/root/"

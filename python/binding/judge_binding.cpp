@@ -22,7 +22,7 @@ oracle::Profile profile_of(const std::string& name, const std::optional<int>& su
       names += (names.empty() ? "" : ", ") + std::string(known);
     throw bad_argument("profile", "there is no profile '" + name + "'", "one of: " + names);
   }
-  if (subpixel_bits) profile->subpixel_bits = int(number_within(*subpixel_bits, "subpixel_bits", 4, 8));
+  if (subpixel_bits) profile->subpixel_bits = int(number_within(*subpixel_bits, "subpixel_bits", 4, 16));
   return *profile;
 }
 

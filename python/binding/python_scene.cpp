@@ -17,7 +17,12 @@ Scene& PythonScene::changeable() {
 
 void PythonScene::set_time(double time) {
   forget();
-  trueshade::set_time(scene_, time);
+  try {
+    trueshade::set_time(scene_, time);
+  } catch (...) {  // it may have moved a part
+    trueshade::set_time(scene_, time_);
+    throw;
+  }
   time_ = time;
 }
 

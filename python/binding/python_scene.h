@@ -21,7 +21,7 @@ class PythonScene {
   const Scene& values() const { return scene_; }
   /// To be changed. Error(bad_input) while a call on another thread reads. Counts as another version.
   Scene& changeable();
-  void set_time(double time);
+  void set_time(double time);  ///< where it throws, the scene stands as before
   double time() const { return time_; }
   uint64_t version() const { return version_; }
 

@@ -355,7 +355,7 @@ def validate(
         whose alpha is not judged; None judges the planes alone. planes: what the renderer read back, by the names that
         render() has: depth, position, normal, albedo, id.object, ... Their size is the pipeline's.
     profile: unknown, vulkan, d3d-class, mesa-llvmpipe-22.3 or ideal: what the device promises. subpixel_bits: of its
-        window coordinates, 4 to 8, if it is known. significance: how many legal images may fail the tests of the whole
+        window coordinates, 4 to 16, if it is known. significance: how many legal images may fail the tests of the whole
         image.
 
     Returns the verdict of `trueshade validate --json`: `pass` says that no pixel is in violation, `stages` holds for
