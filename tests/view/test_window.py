@@ -185,7 +185,8 @@ class Window(unittest.TestCase):
           "steps": [{"time": 0, "eye": [0, 0, 4]}, {"time": 2, "eye": [0, 0, 0]}]}}""")
         done = view("far.json", ["still", "time 2", "still"], code=3)
         self.assertIn("line 3: it waits for a picture that cannot be drawn", done.stderr)
-        view("builtin:cornell", ["play", "still"])  # where nothing moves
+        write("stands.json", SCENE % "0.8, 0.2, 0.2")
+        view("stands.json", ["play", "still"])
 
     def test_times_are_reported(self):
         view("builtin:cornell", ["still", "measure", "key w 0.5", "report times.json"], "--size", "320x240")
