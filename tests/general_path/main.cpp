@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "core/fp_env.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -11,6 +13,7 @@
 
 int main() {
   using namespace trueshade;
+  const FpScope fp;
   std::string loaded;
   Scene scene;
   std::optional<PreparedScene> prepared;
@@ -19,7 +22,7 @@ int main() {
     if (golden.width != 200) continue;
     if (loaded != golden.scene) {
       prepared.reset();
-      scene = load_scene(std::string(golden.scene));
+      scene = builtin_scene(std::string_view(golden.scene).substr(sizeof "builtin:" - 1), {});
       prepared.emplace(scene);
       loaded = golden.scene;
     }

@@ -17,10 +17,12 @@ rm -r "${folders[@]}"
 find core raster shading -name '*.h' -o -name '*.cpp' | xargs sed -i '\,// fast path$,d'
 echo "removed: ${folders[*]}, and $lines lines"
 
-options=(-DCMAKE_CXX_COMPILER="$compiler" -DTRUESHADE_SIMD=native -DTRUESHADE_TESTS=OFF)
+options=(-DCMAKE_CXX_COMPILER="$compiler" -DTRUESHADE_SIMD=native -DTRUESHADE_TESTS=OFF -DTRUESHADE_PARTS=picture)
 [[ -n $launcher ]] && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher")
 # The copy gets one program more, which links the library as any other target does.
-printf '%s\n' 'add_executable(general_path tests/general_path/main.cpp)' 'target_link_libraries(general_path trueshade::shading trueshade::scenes)' >>CMakeLists.txt
+sed -i '/^if(TRUESHADE_PARTS STREQUAL "picture")/i \
+add_executable(general_path tests/general_path/main.cpp)\
+target_link_libraries(general_path trueshade::shading trueshade::scene_values)' CMakeLists.txt
 cmake -S . --preset release "${options[@]}" >"$work/configure.log" 2>&1 || { cat "$work/configure.log"; exit 1; }
 cmake --build build/release --target general_path >"$work/build.log" 2>&1 || { grep -E 'error|FAILED|undefined' "$work/build.log" | head -n 40; exit 1; }
 $(find build/release -name general_path -type f)
