@@ -89,6 +89,7 @@ void call_writing(Bytes& out) {
   for (const Format format : {Format::rgba8, Format::rgb10_a2, Format::rgba16f, Format::r11g11b10f}) {
     const Image image = of_format(format);
     out.put(encode_png(image, {{"key", "0.1"}}));
+    for (const std::vector<uint8_t>& piece : encoded_image("x.exr", image, {}, {})) out.put(piece);
     const std::string path = scratch_path("picture.exr");
     write_image(path, image, {}, {});
     for (const NamedImage& plane : read_planes(path)) out.put(plane.image);
@@ -118,7 +119,7 @@ void call_reading(Bytes& out) {
 }
 
 constexpr Row kRows[] = {
-    {"core/image_files/image_io.h", "write_image encode_png", call_writing},
+    {"core/image_files/image_io.h", "write_image encoded_image encode_png", call_writing},
     {"core/image_files/image_io.h", "read_planes decode_image read_image_info check_writable write_file", call_reading},
     {"shading/frame.h", "render_frame", call_frames},
     {"shading/frame.h", "PreparedScene scene clusters update", call_prepared},

@@ -90,6 +90,7 @@ void call_simd(Bytes& out) {
     const SimdScope scope(name);
     out.put(name);
   }
+  for (const std::string_view name : built_simd_targets()) out.put(name);
   out.put_error([] { const SimdScope scope("abacus"); });
 }
 
@@ -187,7 +188,7 @@ constexpr Row kRows[] = {
     {"core/image.h", "image_hash", [](Bytes& out) { out.put(image_hash(floats())); }},
     {"core/numeric_profile.h", "profile_name profile_from_name", call_names},
     {"core/sha256.h", "Sha256 update hex", call_sha},
-    {"core/simd/simd_target.h", "simd_targets SimdScope", call_simd},
+    {"core/simd/simd_target.h", "simd_targets built_simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
     {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
