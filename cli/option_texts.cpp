@@ -35,8 +35,6 @@ void check_raw_video(const RenderOptions& options) {
   if (options.hash || options.stats || options.json)
     throw usage("--raw-video", "standard output is the video", "leave out --hash, --stats and --json");
   if (!options.aovs.empty()) throw usage("--aov", "planes go into an EXR only", "leave out --aov or --raw-video");
-  if (options.cube_map && !options.cube_map->cross)
-    throw usage("--raw-video", "the faces of a cube map are six pictures", "add --cube-cross, which makes them one");
 }
 
 void check_cube_map(const RenderOptions& options) {

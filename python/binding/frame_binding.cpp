@@ -208,9 +208,9 @@ void add_frame(py::module_& module) {
           doc_of("Frame.pipeline"))
       .def("save", &save, doc_of("Frame.save"), "path"_a)
       .def("__repr__", &described);
-  module.def("render", &render, doc_of("render"), "scene"_a, "pipeline"_a = py::none(), py::kw_only(),
+  module.def("render", &render, doc_of("render"), "scene"_a.none(false), "pipeline"_a = py::none(), py::kw_only(),
              "planes"_a = py::tuple(), "threads"_a = 0, "simd"_a = "best");
-  module.def("shade", &shade, doc_of("shade"), "scene"_a, "planes"_a, "pipeline"_a = py::none(), py::kw_only(),
+  module.def("shade", &shade, doc_of("shade"), "scene"_a.none(false), "planes"_a, "pipeline"_a = py::none(), py::kw_only(),
              "threads"_a = 0, "simd"_a = "best");
   module.def(
       "image_hash",

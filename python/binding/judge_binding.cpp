@@ -86,10 +86,10 @@ py::object explain_pixel(PythonScene& scene, int x, int y, const py::object& pip
 
 void add_judge(py::module_& module) {
   using namespace py::literals;
-  module.def("validate", &validate_image, doc_of("validate"), "scene"_a, "image"_a, "planes"_a,
+  module.def("validate", &validate_image, doc_of("validate"), "scene"_a.none(false), "image"_a, "planes"_a,
              "pipeline"_a = py::none(), py::kw_only(), "profile"_a = "unknown", "subpixel_bits"_a = py::none(),
              "significance"_a = 1e-6);
-  module.def("explain", &explain_pixel, doc_of("explain"), "scene"_a, "x"_a, "y"_a, "pipeline"_a = py::none(),
+  module.def("explain", &explain_pixel, doc_of("explain"), "scene"_a.none(false), "x"_a, "y"_a, "pipeline"_a = py::none(),
              py::kw_only(), "everything"_a = false);
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("Raw video has standard output for itself, and a reader that goes ends
   check_refused(draw({"--raw-video", "-o", "-", "--hash"}, folder), 2, "standard output is the video");
   check_refused(draw({"--raw-video", "-o", "-", "--aov", "depth"}, folder), 2, "planes go into an EXR only");
   check_refused(run_command({"render", "builtin:red", "--cube-map", "eye", "--raw-video", "-o", "-"}), 2,
-                "six pictures");
+                "there are six");
   const std::string gone = "cd '" + folder.path("") +
                            "' && { " TRUESHADE_COMMAND
                            " render builtin:red --size 640x480 --frames 0-40 --raw-video -o - --quiet 2>err; "

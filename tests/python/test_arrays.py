@@ -324,3 +324,12 @@ def test_wrong_names_and_numbers_are_one_clear_error():
     ]:
         with pytest.raises(trueshade.Error, match=about):
             call()
+
+
+def test_none_for_a_scene_is_one_clear_error():
+    pipeline = trueshade.Pipeline(size=(8, 8))
+    image = np.zeros((8, 8, 4), np.uint8)
+    for call in (lambda: trueshade.render(None, pipeline), lambda: trueshade.shade(None, {}),
+                 lambda: trueshade.validate(None, image, {}), lambda: trueshade.explain(None, 1, 1)):
+        with pytest.raises(TypeError):
+            call()
