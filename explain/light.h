@@ -44,7 +44,7 @@ struct LightAtPixel {
 };
 LightAtPixel light_at(const LightModel& model, const LightRow& light, const LitPixel& pixel);
 
-/// How much a light adds, for an order of lights: |R| + |G| + |B| of its term, infinite where that is no number.
+/// The measure by which lights are ordered: |R| + |G| + |B| of the light's term, or infinity where this sum is NaN.
 float strength(const LightAtPixel& light);
 
 /// A sum of terms, or one term that is drawn by itself, as the target receives it: albedo and clamp applied.

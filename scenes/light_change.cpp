@@ -9,7 +9,7 @@
 namespace trueshade {
 namespace {
 
-/// Of a light that is changed: what of it does not move any more, and the tracks of its colour that are left.
+/// A changed light's properties that stop moving, and the color tracks that the light keeps.
 struct ChangedLight {
   bool color_stops = false, ambient_stops = false, position_stops = false;
   std::vector<Track*> colors{};

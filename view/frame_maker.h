@@ -28,8 +28,9 @@ struct DrawnPicture {
   static constexpr size_t kMostLights = 20000;
 };
 
-/// Draws the newest state that it is asked for, in a thread of its own; states that came in between are left out. The
-/// scene belongs to that thread: whoever wants to read it sends a job there, and the job sends its answer back as mail.
+/// Draws pictures on a thread that FrameMaker owns. Each picture shows the state that was asked for last; states that
+/// were asked for while a picture was drawn are skipped. Only that thread touches the scene. Another thread that wants
+/// to read the scene sends a job, and the job posts its answer as mail.
 class FrameMaker {
  public:
   /// `news` is called in the maker's thread whenever there is a picture, a hash or mail.

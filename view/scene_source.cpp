@@ -20,7 +20,7 @@ std::string name_of_spec(const std::string& spec) {
   return file.substr(0, file.find('.', 1));
 }
 
-/// What a scene file says of another scene, with the text of its own camera.
+/// Notes the scene that a scene file refers to, and the text of the camera that the file itself states.
 void read_reference(const SceneSource& source, SceneFacts& facts) {
   if (!has_ending(source.spec, ".json")) return;
   const Bytes bytes = read_user_file(source.spec, source.limits.json_bytes, "--max-json");

@@ -22,7 +22,7 @@ bool is_letter_of(std::string_view letters, const std::string& name) {
   return name.size() == 1 && letters.find(name[0]) != std::string_view::npos;
 }
 
-/// The place of a channel in its layer, by the last letter of its name: R, G, B, A or X, Y, Z, W from 0.
+/// The index of a channel in its layer, 0 to 3. The last part of the channel's name gives it: R, G, B, A or X, Y, Z, W.
 size_t place_of(const ChannelPair& pair) {
   const std::string last = split_name(pair.name).second;
   const size_t rgba = std::string_view("RGBA").find(last), xyzw = std::string_view("XYZW").find(last);

@@ -12,9 +12,9 @@ namespace trueshade::python {
 
 struct Cancelled {};
 
-/// Runs work on a thread of its own while the interpreter's lock is released, and looks for signals meanwhile, so that
-/// Ctrl-C ends a long call. `work` is given what it calls now and then, which throws once the work is to end. Work that
-/// never calls it ends first, and the interrupt follows.
+/// Runs `work` on another thread while the interpreter's lock is released. The calling thread looks for signals
+/// meanwhile, so that Ctrl-C ends a long call. `work` receives a function to call now and then. This function throws
+/// after an interrupt. Work that never calls the function runs to its end before the interrupt is raised.
 template <class Work>
 void run_interruptible(const Work& work) {
   std::atomic<bool> cancelled = false;

@@ -41,7 +41,7 @@ std::string PythonScene::hash() {
 }
 
 std::shared_ptr<const PreparedScene> PythonScene::prepared(const LightModel& model) {
-  if (scene_.lights_of_ours) {  // whose lights depend on the model: a scene of its own
+  if (scene_.lights_of_ours) {  // their brightness depends on the light model, so the frame gets a copy of the scene
     struct Owned {
       FittedScene scene;
       PreparedScene prepared;

@@ -11,7 +11,8 @@ namespace {
 constexpr std::string_view kChangeKeys[] = {"light", "on", "color", "intensity", "position"};
 constexpr json::ObjectKeys kChange = {"light_change", kChangeKeys};
 constexpr std::string_view kBuiltin = "builtin:";
-constexpr uint32_t kMostChanges = 1000;  // of one light, as each goes through all steps of its colour
+/// Changes of one light. Each change goes through all steps of the light's color over time.
+constexpr uint32_t kMostChanges = 1000;
 
 LightChange change_from_json(const json::Node& node) {
   node.check_keys(kChange);

@@ -65,7 +65,7 @@ Display::Display() {
   SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
-  // SDL by itself ends at a display that nobody sees, "offscreen", where there is no other.
+  // Without this hint SDL falls back to its driver "offscreen" where there is no display, and nobody sees the window.
   if (!is_set("SDL_VIDEODRIVER"))
     SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, has_wayland() ? "x11,wayland" : "x11", SDL_HINT_OVERRIDE);
   if (SDL_Init(SDL_INIT_VIDEO) != 0) throw no_display(SDL_GetError());
