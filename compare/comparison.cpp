@@ -53,8 +53,8 @@ bool holds_floats(const ChannelFile& part) {
                      [](const Channel& channel) { return is_color(channel) && channel.kind == ChannelKind::floating; });
 }
 
-/// FLIP has no error for a color that is not finite. A pixel that has one, and that differs between the pictures, counts
-/// as the largest error.
+/// FLIP has no error for a color that is not finite. A pixel that has one, and that differs between the pictures,
+/// counts as the largest error.
 void count_not_finite(const Pairing& pairing, FlipResult& result) {
   bool any = false;
   for (const ChannelPair& pair : pairing.parts.empty() ? std::vector<ChannelPair>{} : pairing.parts.front().channels) {
