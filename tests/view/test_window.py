@@ -178,6 +178,22 @@ class Window(unittest.TestCase):
             self.assertTrue(done.stderr.startswith("trueshade: error: display: "), f"{other}: {done.stderr}")
             self.assertEqual(done.stderr.count("\n"), 1, f"{other}: {done.stderr}")
 
+    def test_no_opengl_is_loaded(self):
+        write("script.txt", "still\nscreenshot loaded.png\nwait 30\n")
+        program = subprocess.Popen([TRUESHADE, "view", "builtin:cornell", "--script", "script.txt"], cwd=FOLDER.name, env=environment())
+        try:
+            for _ in range(200):
+                if os.path.exists(path("loaded.png")):
+                    break
+                time.sleep(0.1)
+            with open(f"/proc/{program.pid}/maps", encoding="utf-8") as maps:
+                loaded = set(os.path.basename(line.split()[-1]) for line in maps)
+        finally:
+            program.kill()
+            program.wait()
+        self.assertTrue(any(name.startswith("libSDL2") for name in loaded), loaded)
+        self.assertFalse([name for name in loaded if re.match("libGL|libEGL|.*_dri|libLLVM", name)])
+
     def test_a_script_that_would_wait_for_ever_ends(self):
         done = view("builtin:circle", ["play", "still"], code=3)
         self.assertIn("line 2: it waits until nothing moves", done.stderr)

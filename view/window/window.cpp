@@ -38,6 +38,14 @@ Error no_display(const std::string& reason) {
           "run it in a desktop, or under xvfb-run; trueshade render needs no display"};
 }
 
+/// Whether the display takes words 0x00RRGGBB from memory. By itself SDL draws a window's memory by OpenGL, which
+/// without a GPU works on the cores that draw the pictures. Wayland has no other way, nor have displays of other words.
+bool has_shared_words() {
+  SDL_DisplayMode mode{};
+  return std::string_view(SDL_GetCurrentVideoDriver()) == "x11" && SDL_GetDesktopDisplayMode(0, &mode) == 0 &&
+         (mode.format == SDL_PIXELFORMAT_RGB888 || mode.format == SDL_PIXELFORMAT_ARGB8888);
+}
+
 /// The picture in its place, nearest pixels where it is not shown one to one.
 void compose(const DrawnPicture& picture, const PicturePlace& place, const Canvas& canvas) {
   const int width = picture.frame.color.width, height = picture.frame.color.height;
@@ -69,6 +77,7 @@ Display::Display() {
   if (!is_set("SDL_VIDEODRIVER"))
     SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, has_wayland() ? "x11,wayland" : "x11", SDL_HINT_OVERRIDE);
   if (SDL_Init(SDL_INIT_VIDEO) != 0) throw no_display(SDL_GetError());
+  if (has_shared_words()) SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
   wake_event_ = SDL_RegisterEvents(1);
 }
 
