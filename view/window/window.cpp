@@ -253,7 +253,8 @@ void Window::show() {
   draw_panels(canvas);
   const Clock::time_point drawn = Clock::now();
   SDL_UpdateWindowSurface(window_);
-  const Clock::time_point end = last_show_ = Clock::now();
+  const Clock::time_point end = Clock::now();
+  last_show_ = begin;
   if (!is_new) return;
   PictureTimes times;
   times[Part::interval] = ms_between(last_new_picture_, end);

@@ -80,7 +80,7 @@ class Window {
   std::shared_ptr<const DrawnPicture> shown_;
   std::string shown_hash_;
   Clock::time_point last_pass_, last_new_picture_, last_show_;
-  std::chrono::duration<double> shortest_{1.0 / 125.0};  // between two pictures
+  std::chrono::duration<double> shortest_{1.0 / 125.0};  // from one picture to the next
   int frames_to_show_ = kSettlingFrames;
   bool full_screen_ = false, was_moving_ = false;
 };
