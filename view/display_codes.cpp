@@ -21,13 +21,15 @@ uint8_t code_of(float value, bool is_linear) {
 
 uint32_t word_of(const uint8_t rgb[3]) { return uint32_t(rgb[0]) << 16 | uint32_t(rgb[1]) << 8 | rgb[2]; }
 
-/// Of four bytes R, G, B, A a pixel, on a little-endian machine.
-void swap_bytes(const uint8_t* texels, int count, uint32_t* out) {
-  for (int x = 0; x < count; ++x) {
-    uint32_t bits;
-    std::memcpy(&bits, texels + 4 * size_t(x), 4);
-    out[x] = (bits & 0xffu) << 16 | (bits & 0xff00u) | (bits >> 16 & 0xffu);
-  }
+/// Of four bytes R, G, B, A on a little-endian machine.
+uint32_t word_of_bytes(uint32_t bits) { return (bits & 0xffu) << 16 | (bits & 0xff00u) | (bits >> 16 & 0xffu); }
+
+template <size_t n>
+void swap_bytes(const uint8_t* texels, uint32_t* out) {
+  uint32_t bits[n];
+  std::memcpy(bits, texels, sizeof bits);
+  for (uint32_t& word : bits) word = word_of_bytes(word);
+  std::memcpy(out, bits, sizeof bits);
 }
 
 bool is_tabulated(const FormatInfo& layout) {
@@ -62,20 +64,16 @@ void DisplayCodes::make_table(Format format, PictureValues values) {
 
 void DisplayCodes::convert(const Image& image, PictureValues values, std::vector<uint32_t>& out) {
   const FormatInfo layout = info(image.format);
-  const bool as_bytes = layout.bytes_per_channel == 1 && layout.channels == 4, by_table = has_one_table(layout);
-  const bool linear = holds_linear_light(layout, values);
-  if (!as_bytes && by_table) make_table(image.format, values);
+  const bool by_table = has_one_table(layout), linear = holds_linear_light(layout, values);
+  if (holds_display_codes(image)) return out.clear();
+  if (by_table) make_table(image.format, values);
   out.resize(size_t(image.width) * size_t(image.height));
   const int bands = (image.height + kRowsOfBand - 1) / kRowsOfBand;
-  parallel_for(bands, as_bytes ? 1 : 0, [&](int band) {
+  parallel_for(bands, 0, [&](int band) {
     const FpScope fp;
     std::vector<float> row(by_table ? 0 : 3 * size_t(image.width));
     for (int y = band * kRowsOfBand; y < std::min(image.height, (band + 1) * kRowsOfBand); ++y) {
       uint32_t* const words = out.data() + size_t(y) * size_t(image.width);
-      if (as_bytes) {
-        swap_bytes(image.texel(0, y), image.width, words);
-        continue;
-      }
       if (!by_table) read_row(image, y, 3, row.data());
       for (int x = 0; x < image.width; ++x) {
         uint8_t rgb[3];
@@ -85,6 +83,23 @@ void DisplayCodes::convert(const Image& image, PictureValues values, std::vector
       }
     }
   });
+}
+
+bool holds_display_codes(const Image& image) {
+  const FormatInfo layout = info(image.format);
+  return layout.bytes_per_channel == 1 && layout.channels == 4;
+}
+
+void read_words(const Image& image, const std::vector<uint32_t>& words, int x, int y, std::span<uint32_t> out) {
+  if (!words.empty()) {
+    std::memcpy(out.data(), words.data() + size_t(y) * size_t(image.width) + size_t(x), out.size_bytes());
+    return;
+  }
+  constexpr size_t kAtOnce = 16;  // a fixed number: compilers make vectors of it
+  const uint8_t* const texels = image.texel(x, y);
+  size_t i = 0;
+  for (; i + kAtOnce <= out.size(); i += kAtOnce) swap_bytes<kAtOnce>(texels + 4 * i, out.data() + i);
+  for (; i < out.size(); ++i) swap_bytes<1>(texels + 4 * i, out.data() + i);
 }
 
 }  // namespace trueshade::viewer

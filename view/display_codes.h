@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image_files/image_io.h"
@@ -11,6 +12,7 @@ namespace trueshade::viewer {
 class DisplayCodes {
  public:
   /// Words 0x00RRGGBB, rows top first. `values`: what the picture's numbers stand for. Needs a format with R, G and B.
+  /// None for a picture that holds its codes (holds_display_codes()).
   void convert(const Image& image, PictureValues values, std::vector<uint32_t>& out);
 
  private:
@@ -20,5 +22,11 @@ class DisplayCodes {
   Format format_{};
   PictureValues values_{};
 };
+
+/// Whether the texels are four bytes R, G, B, A, which a screen shows as they are.
+bool holds_display_codes(const Image& image);
+
+/// Words 0x00RRGGBB of the pixels from (x, y), y from the top, of one row. `words`: what convert() made of the image.
+void read_words(const Image& image, const std::vector<uint32_t>& words, int x, int y, std::span<uint32_t> out);
 
 }  // namespace trueshade::viewer

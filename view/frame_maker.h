@@ -22,7 +22,7 @@ struct DrawnPicture {
   Camera camera;      ///< where it was seen from
   Frame frame;
   std::vector<Light> lights;    ///< as they stand; empty of more than kMostLights
-  std::vector<uint32_t> words;  ///< for a screen, 0x00RRGGBB, rows top first
+  std::vector<uint32_t> words;  ///< of DisplayCodes::convert(); read_words() reads them
   double draw_ms = 0.0, convert_ms = 0.0;
 
   static constexpr size_t kMostLights = 20000;

@@ -13,7 +13,7 @@ namespace trueshade::viewer {
 enum class Part : uint8_t {
   interval,  ///< from one shown picture to the next
   draw,      ///< render_frame(), in its own thread
-  convert,   ///< to the codes of a screen, in the same thread
+  convert,   ///< to the codes of a screen, in the same thread; next to nothing where the picture holds them
   compose,   ///< the picture copied to the window
   panels,    ///< panels laid out and drawn over it
   present,   ///< the window handed to the display

@@ -37,7 +37,7 @@ PixelCard pixel_card(const EditedScene& scene, const DrawnPicture& picture, int 
   PixelCard card;
   card.x = x, card.y = y;
   card.revision = picture.state.revision;
-  card.word = picture.words[size_t(y) * size_t(pipeline.width) + size_t(x)];
+  read_words(picture.frame.color, picture.words, x, y, {&card.word, 1});
   card.account = account_of(frame, history);
   add_finished_pixel(scene.scene(), pipeline, x, y, card.account);
   card.text = explanation_text(card.account);

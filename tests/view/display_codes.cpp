@@ -46,13 +46,21 @@ Image scrambled(Format format) {
   return image;
 }
 
+/// All words of a picture, by rows.
+std::vector<uint32_t> shown_words(const Image& image, PictureValues values, DisplayCodes& codes) {
+  std::vector<uint32_t> converted, words(size_t(image.width) * size_t(image.height));
+  codes.convert(image, values, converted);
+  for (int y = 0; y < image.height; ++y)
+    read_words(image, converted, 0, y, std::span(words).subspan(size_t(y * image.width), size_t(image.width)));
+  return words;
+}
+
 TEST_CASE("A screen shows the codes that a PNG of the picture holds, for every target and kind of values") {
   DisplayCodes codes;  // keeps tables from one to the next
   for (const Format format : kTargetFormats) {
     for (const PictureValues values : {PictureValues::of_target, PictureValues::display_codes}) {
       const Image image = scrambled(format);
-      std::vector<uint32_t> words;
-      codes.convert(image, values, words);
+      const std::vector<uint32_t> words = shown_words(image, values, codes);
       INFO(info(format).name << (values == PictureValues::of_target ? "" : " of display codes"));
       const std::vector<uint32_t> expected = words_of_png(image, values);
       int differing = 0;
@@ -68,9 +76,25 @@ TEST_CASE("A screen shows the codes that a PNG of the picture holds, for every t
 TEST_CASE("Words hold R above G above B") {
   Image image(1, 1, Format::rgba8);
   image.texels = {0x12, 0x34, 0x56, 0xff};
-  std::vector<uint32_t> words;
-  DisplayCodes().convert(image, PictureValues::of_target, words);
-  CHECK(words == std::vector<uint32_t>{0x123456});
+  DisplayCodes codes;
+  CHECK(shown_words(image, PictureValues::of_target, codes) == std::vector<uint32_t>{0x123456});
+}
+
+TEST_CASE("A part of a row has the words that the whole row has there, for every target") {
+  DisplayCodes codes;
+  for (const Format format : kTargetFormats) {
+    const Image image = scrambled(format);
+    std::vector<uint32_t> converted;
+    codes.convert(image, PictureValues::of_target, converted);
+    std::vector<uint32_t> row(size_t(image.width));
+    read_words(image, converted, 0, 11, row);
+    for (const size_t count : {1u, 15u, 16u, 17u, 32u}) {
+      std::vector<uint32_t> part(count + 1, 0xdeadbeefu);
+      read_words(image, converted, 4, 11, std::span(part).first(count));
+      CHECK(std::equal(part.begin(), part.end() - 1, row.begin() + 4));
+      CHECK(part.back() == 0xdeadbeefu);
+    }
+  }
 }
 
 }  // namespace

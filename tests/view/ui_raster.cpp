@@ -71,6 +71,52 @@ TEST_CASE("Triangles that share an edge cover each pixel once") {
   CHECK(sheet.count(once) > 1500);
 }
 
+/// Which pixels' centres are in a triangle by its edge functions; of a centre on an edge nothing is said.
+struct Expected {
+  bool inside, on_edge;
+};
+Expected expected_at(const ImVec2 (&corner)[3], int x, int y) {
+  int left = 0, right = 0;
+  for (int i = 0; i < 3; ++i) {
+    const ImVec2 &a = corner[i], &b = corner[(i + 1) % 3];
+    const double cross =
+        (double(b.x) - double(a.x)) * (y + 0.5 - double(a.y)) - (double(b.y) - double(a.y)) * (x + 0.5 - double(a.x));
+    const double size = 1.0 + std::fabs(double(b.x) - double(a.x)) + std::fabs(double(b.y) - double(a.y));
+    if (std::fabs(cross) < 1e-4 * size) return {false, true};
+    ++(cross > 0.0 ? right : left);
+  }
+  return {left == 0 || right == 0, false};
+}
+
+TEST_CASE("Triangles cover the pixels in them and no others, be they slender, tiny or far larger than the canvas") {
+  uint32_t state = 7;
+  const auto number = [&state](float low, float high) {
+    state = state * 1664525u + 1013904223u;
+    return low + (high - low) * float(state >> 8) * 0x1p-24f;
+  };
+  int covered = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const float reach = trial % 4 == 0 ? 3.0f : trial % 4 == 1 ? 900.0f : 70.0f;
+    ImVec2 corner[3];
+    for (ImVec2& at : corner) at = {number(-reach, reach) + 30.0f, number(-reach, reach) + 20.0f};
+    if (trial % 4 == 3) corner[2] = {corner[0].x + number(-1, 1), corner[0].y + number(-1, 1)};
+    Sheet sheet;
+    sheet.list().Flags = ImDrawListFlags_None;
+    sheet.list().AddTriangleFilled(corner[0], corner[1], corner[2], IM_COL32(255, 255, 255, 255));
+    sheet.draw();
+    int wrong = 0;
+    for (int y = 0; y < Sheet::kHeight; ++y)
+      for (int x = 0; x < Sheet::kWidth; ++x) {
+        const Expected expected = expected_at(corner, x, y);
+        wrong += !expected.on_edge && expected.inside != (sheet.at(x, y) != 0);
+        covered += expected.inside;
+      }
+    INFO("triangle " << trial);
+    CHECK(wrong == 0);
+  }
+  CHECK(covered > 50000);
+}
+
 TEST_CASE("Texts are drawn in their colour, and nothing is drawn outside the canvas") {
   Sheet sheet;
   sheet.list().AddText({2, 2}, IM_COL32(255, 0, 0, 255), "Trueshade");

@@ -102,6 +102,18 @@ class UiRaster {
   /// Of a triangle that runs clockwise on a screen: whether the edge owns the points on it.
   static bool owns(const ImVec2& from, const ImVec2& to) { return to.y < from.y || (to.y == from.y && to.x > from.x); }
 
+  /// The pixels of a row that may lie to the inner side of the edge of a triangle that runs clockwise on a screen:
+  /// those that cross() finds there, and a few more, as it rounds.
+  static void cut(Box& span, const ImVec2& from, const ImVec2& to, float y) {
+    const double dx = double(to.x) - double(from.x), dy = double(to.y) - double(from.y);
+    if (std::fabs(dy) < 1e-6) return;
+    const double along = dx * (double(y) - double(from.y)) / dy, x = double(from.x) + along;
+    const double far = std::fabs(double(from.x)) + std::max(std::abs(span.x0), std::abs(span.x1)) + 1.0;
+    const double rounding = 1e-6 * (std::fabs(along) + far);
+    if (dy < 0.0) span.x0 = std::max(span.x0, first_centre(float(std::clamp(x - rounding, -1e6, 1e6))) - 1);
+    if (dy > 0.0) span.x1 = std::min(span.x1, first_centre(float(std::clamp(x + rounding, -1e6, 1e6))) + 1);
+  }
+
   void draw_triangle(const ImDrawVert& a, const ImDrawVert& p, const ImDrawVert& q) {
     const float area = cross(a.pos, p.pos, q.pos.x, q.pos.y);
     if (area == 0.0f || !std::isfinite(area)) return;
@@ -117,7 +129,9 @@ class UiRaster {
     for (int y = box.y0; y < box.y1; ++y) {
       uint32_t* const row = canvas_.row(y);
       const float py = float(y) + 0.5f;
-      for (int x = box.x0; x < box.x1; ++x) {
+      Box span = box;
+      cut(span, b.pos, c.pos, py), cut(span, c.pos, a.pos, py), cut(span, a.pos, b.pos, py);
+      for (int x = span.x0; x < span.x1; ++x) {
         const float px = float(x) + 0.5f;
         const float wa = cross(b.pos, c.pos, px, py), wb = cross(c.pos, a.pos, px, py),
                     wc = cross(a.pos, b.pos, px, py);

@@ -50,20 +50,24 @@ bool has_shared_words() {
 void compose(const DrawnPicture& picture, const PicturePlace& place, const Canvas& canvas) {
   const int width = picture.frame.color.width, height = picture.frame.color.height;
   const int x0 = std::max(place.x, 0), x1 = std::min(place.x + place.width, canvas.width);
+  std::vector<uint32_t> words(place.scale == 1.0 ? 0 : size_t(width));
+  std::vector<int> columns(place.scale == 1.0 ? 0 : size_t(x1 - x0));
+  for (size_t i = 0; i < columns.size(); ++i) columns[i] = std::clamp(place.column(x0 + int(i)), 0, width - 1);
   for (int y = 0; y < canvas.height; ++y) {
     uint32_t* const row = canvas.row(y);
     if (y < place.y || y >= place.y + place.height) {
       std::fill(row, row + canvas.width, kBackground);
       continue;
     }
-    const uint32_t* const words =
-        picture.words.data() + size_t(std::clamp(place.line(y), 0, height - 1)) * size_t(width);
     std::fill(row, row + x0, kBackground);
     std::fill(row + x1, row + canvas.width, kBackground);
-    if (place.scale == 1.0)
-      std::memcpy(row + x0, words + (x0 - place.x), size_t(x1 - x0) * sizeof *words);
-    else
-      for (int x = x0; x < x1; ++x) row[x] = words[std::clamp(place.column(x), 0, width - 1)];
+    const int line = std::clamp(place.line(y), 0, height - 1);
+    if (place.scale == 1.0) {
+      read_words(picture.frame.color, picture.words, x0 - place.x, line, {row + x0, row + x1});
+      continue;
+    }
+    read_words(picture.frame.color, picture.words, 0, line, words);
+    for (int x = x0; x < x1; ++x) row[x] = words[size_t(columns[size_t(x - x0)])];
   }
 }
 
