@@ -37,17 +37,35 @@ void draw_time(const PanelContext& context, float width) {
   ImGui::SameLine();
 }
 
-void panel_button(const PanelContext& context, const char* name, Panel panel, Action action) {
+struct PanelButton {
+  Panel panel;
+  Action action;
+  /// The panel's name with a capital.
+  std::string label() const {
+    std::string name(kPanelNames[size_t(panel)]);
+    name.front() = char(name.front() - 'a' + 'A');
+    return name;
+  }
+};
+
+constexpr PanelButton kPanelButtons[] = {{Panel::picture, Action::picture_panel},
+                                         {Panel::lights, Action::lights_panel},
+                                         {Panel::pixel, Action::pixel_panel},
+                                         {Panel::statistics, Action::statistics_panel}};
+constexpr const char* kHelp = "?";
+
+void draw_panel_button(const PanelContext& context, const PanelButton& button) {
+  const auto& [panel, action] = button;
   const bool open = context.session.desk().panel == panel;
   if (open) ImGui::PushStyleColor(ImGuiCol_Text, kAccent);
-  if (ImGui::Button(name)) context.session.act(action);
+  if (ImGui::Button(button.label().c_str())) context.session.act(action);
   if (open) ImGui::PopStyleColor();
   ImGui::SameLine();
 }
 
-float width_of_button(const char* name) {
+float width_of_button(const std::string& label) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  return ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  return ImGui::CalcTextSize(label.c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
 }
 
 }  // namespace
@@ -84,17 +102,13 @@ void draw_bar(const PanelContext& context) {
     session.set_pipeline(other);
   }
   ImGui::SameLine();
-  constexpr const char* kNames[] = {"Picture", "Lights", "Pixel", "Times", "?"};
-  float buttons = context.size(4);
-  for (const char* name : kNames) buttons += width_of_button(name);
+  float buttons = context.size(4) + width_of_button(kHelp);
+  for (const PanelButton& button : kPanelButtons) buttons += width_of_button(button.label());
   const float room = context.width - buttons - ImGui::GetCursorPosX() - context.size(14);
   if (room > context.size(110)) draw_time(context, std::min(room, context.size(420)));
   ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), context.width - buttons));
-  panel_button(context, kNames[0], Panel::picture, Action::picture_panel);
-  panel_button(context, kNames[1], Panel::lights, Action::lights_panel);
-  panel_button(context, kNames[2], Panel::pixel, Action::pixel_panel);
-  panel_button(context, kNames[3], Panel::statistics, Action::statistics_panel);
-  if (ImGui::Button(kNames[4])) session.act(Action::help);
+  for (const PanelButton& button : kPanelButtons) draw_panel_button(context, button);
+  if (ImGui::Button(kHelp)) session.act(Action::help);
   ImGui::End();
   ImGui::PopStyleVar(3);
 }
