@@ -119,6 +119,29 @@ class Window(unittest.TestCase):
         self.assertEqual(window[:2], (400, 300))
         self.assertEqual(window[2], picture[2])
 
+    def test_the_bar_covers_no_row_of_the_picture(self):
+        view("builtin:cornell", ["still", "screenshot whole.png", "save whole_picture.png", "still"], "--size", "400x300")
+        window, picture = pixels_of_png("whole.png"), pixels_of_png("whole_picture.png")
+        self.assertEqual(picture[:2], (400, 300))
+        self.assertGreater(window[1], 330)
+        self.assertEqual(window[2][60:300], picture[2][60:300])  # below what stands at the top left
+        view("builtin:cornell", ["size 400 330", "still", "save above.png", "press tab", "still", "save all.png", "still"])
+        self.assertLess(pixels_of_png("above.png")[1], 300)
+        self.assertEqual(pixels_of_png("all.png")[:2], (400, 330))
+
+    def test_heat_maps_have_a_scale_with_their_colours(self):
+        view("builtin:city", ["view overdraw", "still", "screenshot heat.png", "save heat_picture.png", "view lit", "still", "screenshot lit.png",
+                              "save lit_picture.png", "still"], "--size", "640x480")
+
+        def column(name):  # where the scale stands
+            return [sum(row[26]) for row in pixels_of_png(name)[2][60:186]]
+        scale = column("heat.png")
+        self.assertEqual(scale, sorted(scale, reverse=True))
+        self.assertGreater(scale[0], 600)
+        self.assertLess(scale[-1], 60)
+        self.assertNotEqual(scale, column("heat_picture.png"))
+        self.assertEqual(column("lit.png"), column("lit_picture.png"))
+
     def test_panels_lie_over_the_picture(self):
         lines = ["still"]
         for panel in ("picture", "lights", "pixel", "statistics", "none"):

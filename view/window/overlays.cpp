@@ -1,7 +1,10 @@
 // What lies over the picture: status, notices, marks, the page of keys.
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <glm/vec4.hpp>
 
+#include "shading/output/heat_map.h"
 #include "view/window/panels.h"
 
 namespace trueshade::viewer {
@@ -110,6 +113,28 @@ void draw_marks(const PanelContext& context) {
     list.AddCircle(*at, context.size(9), IM_COL32(0, 0, 0, 160), 24, context.size(3.5f));
     list.AddCircle(*at, context.size(9), kAccent, 24, context.size(1.5f));
   }
+}
+
+void draw_scale(const PanelContext& context) {
+  const uint32_t top = context.picture.frame.view_scale;
+  if (top == 0) return;
+  const float x = context.size(20), y = context.size(58), width = context.size(12), edge = context.size(10);
+  const int rows = int(context.size(128));
+  const float line = ImGui::GetTextLineHeight();
+  const auto label = [&](uint32_t count) { return std::to_string(count); };
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float right = x + width + context.size(8) + ImGui::CalcTextSize(label(top).c_str()).x + edge;
+  list.AddRectFilled({x - edge, y - edge}, {right, y + float(rows) + edge}, kPaper, context.size(6));
+  for (int row = 0; row < rows; ++row) {
+    const std::array<uint8_t, 3> rgb = heat_color(256 - 256 * row / (rows - 1));
+    list.AddRectFilled({x, y + float(row)}, {x + width, y + float(row + 1)}, IM_COL32(rgb[0], rgb[1], rgb[2], 255));
+  }
+  const auto write = [&](uint32_t count, float at) {
+    list.AddText({x + width + context.size(8), std::floor(at)}, kText, label(count).c_str());
+  };
+  write(top, y - line * 0.2f);
+  if (top > 1) write(top / 2, y + (float(rows) - line) * 0.5f);
+  write(0, y + float(rows) - line * 0.8f);
 }
 
 void draw_help(const PanelContext& context) {

@@ -17,7 +17,7 @@ struct PanelContext {
   float width, height;  ///< of the window
 
   float size(float pixels) const { return pixels * scale; }
-  float bar_height() const { return size(42.0f); }
+  float bar_height() const { return float(bar_rows(double(scale))); }
   float panel_width() const { return size(332.0f); }
 };
 
@@ -26,6 +26,7 @@ void draw_bar(const PanelContext& context);     ///< below: preset, view, time, 
 void draw_status(const PanelContext& context);  ///< top left: what is shown, how fast, its hash
 void draw_notice(const PanelContext& context);  ///< what happened last
 void draw_marks(const PanelContext& context);   ///< over the picture: the clicked pixel, the selected light
+void draw_scale(const PanelContext& context);   ///< left: what the colours of a heat map stand for
 void draw_panel(const PanelContext& context);   ///< at the right: the one that is open
 void draw_help(const PanelContext& context);
 

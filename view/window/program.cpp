@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "scenes/files/content/scene_files.h"
 #include "view/script.h"
+#include "view/window/placement.h"
 #include "view/window/script_player.h"
 #include "view/window/window.h"
 
@@ -28,14 +29,15 @@ std::vector<ScriptStep> script_of(const ViewOptions& options) {
   return script_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *options.script);
 }
 
-/// The window's size: the picture's where it is given, else three quarters of the display, within bounds.
+/// The window's size: of the picture and the bar where it is given, else 1280 x 720 in texts of that scale, within the
+/// display.
 Window::Look look_of(const ViewOptions& options, const Display& display) {
   Window::Look look{1280, 720, options.size.has_value(), options.scale > 0.0 ? options.scale : display.text_scale()};
   SDL_Rect room{0, 0, look.width, look.height};
   SDL_GetDisplayUsableBounds(0, &room);
   if (options.size)
     return look.width = std::clamp(options.size->width, 320, std::max(room.w, 320)),
-           look.height = std::clamp(options.size->height, 240, std::max(room.h, 240)), look;
+           look.height = std::clamp(options.size->height + bar_rows(look.scale), 240, std::max(room.h, 240)), look;
   look.width = std::clamp(int(look.width * look.scale), 320, std::max(room.w * 9 / 10, 320));
   look.height = std::clamp(int(look.height * look.scale), 240, std::max(room.h * 9 / 10, 240));
   return look;
@@ -50,7 +52,8 @@ void run_window(const ViewOptions& options) {
   std::vector<std::string> files;
   OpenedScene opened = opened_scene(source, files);
   const Window::Look look = look_of(options, display);
-  if (!options.size) opened.facts.pipeline.width = look.width, opened.facts.pipeline.height = look.height;
+  if (!options.size)
+    opened.facts.pipeline.width = look.width, opened.facts.pipeline.height = look.height - bar_rows(look.scale);
   check_memory(opened.scene->scene(), opened.facts.pipeline, options.execution, {});
   Session session(source, std::move(opened), options.execution, [&display] { display.wake(); });
   if (options.time != 0.0) session.set_time(options.time);

@@ -132,7 +132,16 @@ void Window::fit_picture() {
   if (fixed_picture_) return;
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);
+  if (!session_.desk().hidden) height -= bar_rows(scale_);
   session_.set_size(std::max(width, kLeastSide), std::max(height, kLeastSide));
+}
+
+/// Above the bar; where a picture that fits the window does not fit there, the bar covers its last rows.
+PicturePlace Window::place_of(const Image& image, int width, int height) const {
+  const int above = height - bar_rows(scale_);
+  const bool fits_window = image.width <= width && image.height <= height;
+  const bool has_all = session_.desk().hidden || above < kLeastSide || (fits_window && image.height > above);
+  return {image.width, image.height, width, has_all ? height : above};
 }
 
 void Window::set_size(int width, int height) {
@@ -146,7 +155,7 @@ void Window::click(int x, int y) {
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);
   const Image& image = shown_->frame.color;
-  const PicturePlace place(image.width, image.height, width, height);
+  const PicturePlace place = place_of(image, width, height);
   const int column = place.column(x), line = place.line(y);
   if (column < 0 || line < 0 || column >= image.width || line >= image.height) return;
   session_.desk().panel = Panel::pixel;
@@ -157,7 +166,6 @@ void Window::take(const SDL_Event& event) {
   if (event.type == display_.wake_event()) return;  // who is woken looks for what is new
   frames_to_show_ = kSettlingFrames;
   if (event.type == SDL_QUIT) session_.desk().ends = true;
-  if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) fit_picture();
   input_->take(event);
 }
 
@@ -202,6 +210,7 @@ bool Window::step(std::chrono::milliseconds longest) {
   const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(last_show_ + shortest_ - Clock::now());
   if (rest.count() > 0) SDL_Delay(uint32_t(rest.count()));
   take_events(std::min(patience, longest));
+  fit_picture();
   pass_time();
   if (std::exchange(full_screen_, session_.desk().full_screen) != session_.desk().full_screen)
     SDL_SetWindowFullscreen(window_, session_.desk().full_screen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
@@ -218,7 +227,7 @@ void Window::draw_panels(const Canvas& canvas) {
                              fonts_,
                              times_,
                              *shown_,
-                             PicturePlace(image.width, image.height, canvas.width, canvas.height),
+                             place_of(image, canvas.width, canvas.height),
                              float(scale_),
                              float(canvas.width),
                              float(canvas.height)};
@@ -226,6 +235,7 @@ void Window::draw_panels(const Canvas& canvas) {
     if (!session_.desk().hidden) {
       draw_marks(context);
       draw_status(context);
+      draw_scale(context);
       draw_bar(context);
       draw_panel(context);
     }
@@ -251,8 +261,7 @@ void Window::show() {
   if (surface == nullptr || surface->format->BytesPerPixel != 4) throw no_display("its pixels are not of 32 bits");
   const Clock::time_point begin = Clock::now();
   const Canvas canvas{static_cast<uint32_t*>(surface->pixels), surface->w, surface->h, surface->pitch / 4};
-  compose(*picture, PicturePlace(picture->frame.color.width, picture->frame.color.height, canvas.width, canvas.height),
-          canvas);
+  compose(*picture, place_of(picture->frame.color, canvas.width, canvas.height), canvas);
   const Clock::time_point composed = Clock::now();
   draw_panels(canvas);
   const Clock::time_point drawn = Clock::now();

@@ -9,6 +9,7 @@
 
 #include "view/frame_times.h"
 #include "view/session.h"
+#include "view/window/placement.h"
 #include "view/window/style.h"
 #include "view/window/ui_raster.h"
 #include "view/window/window_input.h"
@@ -63,6 +64,7 @@ class Window {
   void take_events(std::chrono::milliseconds longest);
   void take(const SDL_Event& event);
   void fit_picture();
+  PicturePlace place_of(const Image& image, int width, int height) const;
   void pass_time();
   void show();
   void draw_panels(const Canvas& canvas);
