@@ -326,6 +326,30 @@ def test_wrong_names_and_numbers_are_one_clear_error():
             call()
 
 
+def test_a_wrong_call_is_one_line_that_names_the_argument():
+    scene = trueshade.Scene()
+    for call, line in [
+        (lambda: trueshade.render(scene, plane=["depth"]), "render: there is no argument 'plane' (did you mean 'planes'?)"),
+        (lambda: trueshade.Pipeline(sise=(8, 8)), "Pipeline: there is no argument 'sise' (did you mean 'size'?)"),
+        (lambda: trueshade.strategies(first=1), "strategies: there is no argument 'first' (it has none)"),
+        (lambda: scene.add_light(colour=(1, 1, 1)), "Scene.add_light: there is no argument 'colour' (did you mean 'color'?)"),
+        (lambda: scene.set_clear(zzz=1), "Scene.set_clear: there is no argument 'zzz' (it has color)"),
+        (lambda: trueshade.render(), "render: missing a required argument: 'scene'"),
+        (lambda: scene.set_clear((0, 0, 0, 0), 1), "Scene.set_clear: too many positional arguments"),
+        (lambda: scene.add_light(7), "Scene.add_light: type is an int, and has to be a str"),
+        (lambda: scene.add_light(range="far"), "Scene.add_light: range is a str, and has to be a number"),
+        (lambda: scene.add_mesh(GOOD, FACES, flat="yes"), "Scene.add_mesh: flat is a str, and has to be True or False"),
+        (lambda: trueshade.render(scene, threads=1.5), "render: threads is a float, and has to be a whole number"),
+        (lambda: trueshade.render(3), "render: scene is an int, and has to be a trueshade.Scene"),
+        (lambda: trueshade.explain(None, 1, 1), "explain: scene is None, and has to be a trueshade.Scene"),
+        (lambda: trueshade.shade(scene, [1]), "shade: planes is a list, and has to be a dict"),
+    ]:
+        with pytest.raises(TypeError) as caught:
+            call()
+        assert str(caught.value) == line
+        assert caught.value.__cause__ is None and caught.value.__context__ is None
+
+
 def test_none_for_a_scene_is_one_clear_error():
     pipeline = trueshade.Pipeline(size=(8, 8))
     image = np.zeros((8, 8, 4), np.uint8)
