@@ -116,6 +116,8 @@ Error bad_argument(const std::string& name, const std::string& reason, const std
   return {ErrorKind::bad_input, name, reason, remedy};
 }
 
+std::string type_name(const py::handle& value) { return py::str(py::type::handle_of(value).attr("__name__")); }
+
 py::array array_from(const py::handle& value, const std::string& name) {
   if (!py::isinstance<py::array>(value))
     throw bad_argument(

@@ -19,6 +19,9 @@ namespace py = pybind11;
 /// Error(bad_input) of an argument, in the house's form.
 Error bad_argument(const std::string& name, const std::string& reason, const std::string& remedy);
 
+/// The name of an object's type, as Python has it.
+std::string type_name(const py::handle& value);
+
 /// A NumPy array. Error(bad_input) for what is none, such as a list, and for masked arrays, whose mask would be lost.
 py::array array_from(const py::handle& value, const std::string& name);
 

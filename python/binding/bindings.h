@@ -17,6 +17,9 @@ void add_files(py::module_& module);
 /// without.
 const char* doc_of(std::string_view name);
 
+/// A text of the library with Python's arguments where it names options of the command: `strategy` for `--strategy`.
+std::string in_words_of_python(std::string text);
+
 /// A dict of JSON text, and the text of an object that JSON has.
 py::object from_json(const std::string& text);
 std::string to_json(const py::handle& value);

@@ -4,6 +4,7 @@
 
 #include "cli/compared_pictures.h"
 #include "core/expansion.h"
+#include "core/file_ending.h"
 #include "core/half.h"
 #include "core/image_files/picture_file.h"
 #include "python/binding/bindings.h"
@@ -71,6 +72,16 @@ void fit_channels(Source& array, const PictureFile& other) {
   if (there == 1) channels.front().name = other.parts.front().channels.front().name;
 }
 
+/// Greys become colours where a file has them; of two arrays each says itself which it is.
+void check_both_have_colors(const Source& reference, const Source& test) {
+  if (!reference.is_array || !test.is_array || (reference.channels == 1) == (test.channels == 1)) return;
+  const auto told = [](int channels) {
+    return channels == 1 ? std::string("no colours") : std::to_string(channels) + " channels";
+  };
+  throw bad_argument("test", "the array has " + told(test.channels) + ", and reference has " + told(reference.channels),
+                     "two of shape (height, width), or two of (height, width, 3 or 4)");
+}
+
 py::dict values_of(const compare::PixelValues& pixel) {
   py::dict out, values;
   out["x"] = pixel.x, out["y"] = pixel.y;
@@ -85,7 +96,9 @@ py::dict dict_of(const compare::Comparison& c) {
   py::dict out;
   out["pass"] = c.passes();
   out["outcome"] = kOutcomes[size_t(c.outcome)];
-  out["failures"] = c.failures, out["notes"] = c.notes, out["colors"] = c.colors;
+  py::list failures;
+  for (const std::string& failure : c.failures) failures.append(in_words_of_python(failure));
+  out["failures"] = failures, out["notes"] = c.notes, out["colors"] = c.colors;
   out["unequal_pixels"] = c.differences.unequal_pixels;
   out["not_finite_pixels"] = c.differences.not_finite_pixels;
   py::list channels, criteria;
@@ -139,8 +152,11 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
   ask(Measure::psnr, psnr);
   ask(Measure::flip_mean, flip);
   Source a = picture_from(reference, "reference"), b = picture_from(test, "test");
+  check_both_have_colors(a, b);
   fit_channels(a, b.picture), fit_channels(b, a.picture);
   const std::string page_path = page.is_none() ? std::string() : path_of(page);
+  if (!page_path.empty() && !has_ending(page_path, ".html"))
+    throw bad_argument("page", "'" + page_path + "' does not end like a page", "end the name in .html");
   if (!page_path.empty()) check_writable(page_path);
   ComparedPictures pictures;
   pictures.reference = std::move(a.picture), pictures.test = std::move(b.picture);

@@ -1,10 +1,30 @@
 // The extension module: its parts, and what errors are in Python.
 #include <new>
+#include <string_view>
+#include <utility>
 
 #include "cli/version.h"
 #include "python/binding/bindings.h"
 
 namespace trueshade::python {
+
+namespace {
+
+/// What errors name by an option of the command and Python by an argument.
+constexpr std::pair<std::string_view, std::string_view> kArgumentOfOption[] = {
+    {"--strategy", "strategy"},
+    {"--view", "values['view']"},
+    {"--pixel", "x, y"},
+    {"--allow-nonfinite", "allow_nonfinite=True"}};
+
+}  // namespace
+
+std::string in_words_of_python(std::string text) {
+  for (const auto& [option, argument] : kArgumentOfOption)
+    for (size_t at = 0; (at = text.find(option, at)) != std::string::npos; at += argument.size())
+      text.replace(at, option.size(), argument);
+  return text;
+}
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
@@ -27,7 +47,7 @@ void add_errors(py::module_& module) {
       if (pointer) std::rethrow_exception(pointer);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::out_of_memory) return PyErr_SetString(PyExc_MemoryError, error.what());
-      py::object instance = error_type(error.what());
+      py::object instance = error_type(in_words_of_python(error.what()));
       instance.attr("exit_code") = int(error.kind());
       PyErr_SetObject(error_type.ptr(), instance.ptr());
     } catch (const std::bad_alloc&) {

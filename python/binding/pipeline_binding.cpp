@@ -63,8 +63,7 @@ Pipeline PythonPipeline::over(const Scene& scene) const {
 Pipeline pipeline_for(const Scene& scene, const py::object& pipeline) {
   if (pipeline.is_none()) return PythonPipeline{}.over(scene);
   if (!py::isinstance<PythonPipeline>(pipeline))
-    throw bad_argument("pipeline", "it is a " + std::string(py::str(py::type::of(pipeline).attr("__name__"))),
-                       "pass trueshade.Pipeline(...), or nothing");
+    throw bad_argument("pipeline", "it is a " + type_name(pipeline), "pass trueshade.Pipeline(...), or nothing");
   return pipeline.cast<const PythonPipeline&>().over(scene);
 }
 

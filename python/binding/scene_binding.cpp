@@ -149,7 +149,9 @@ uint32_t add_texture(PythonScene& to, const py::object& texels, bool srgb, bool 
 TextureSlot slot_of(PythonScene& scene, const py::object& index, const std::string& name) {
   TextureSlot slot;
   if (index.is_none()) return slot;
-  const int64_t texture = index.cast<int64_t>();
+  if (PyIndex_Check(index.ptr()) == 0 || PyBool_Check(index.ptr()))
+    throw bad_argument(name, "it is a " + type_name(index), "an index that add_texture() gave, or None");
+  const Py_ssize_t texture = PyNumber_AsSsize_t(index.ptr(), nullptr);  // what is larger becomes the largest
   if (texture < 0 || size_t(texture) >= scene.values().textures.size())
     throw bad_argument(name, "there is no texture " + std::to_string(texture), "an index that add_texture() gave");
   slot.texture = int32_t(texture);
@@ -286,8 +288,11 @@ void add_point_lights(PythonScene& to, const py::object& positions, const py::ob
 
 void set_camera(PythonScene& to, const py::object& eye, const py::object& target, const py::object& up, double fov_deg,
                 const std::optional<double>& fov_x_deg, double near, double far, const py::object& clip_from_world) {
+  if (target.is_none() && clip_from_world.is_none())
+    throw bad_argument("target", "there is none", "the point that the camera looks at, or clip_from_world");
   Camera camera;
-  camera.eye = place_of(eye, "eye"), camera.target = place_of(target, "target"), camera.up = place_of(up, "up");
+  camera.eye = place_of(eye, "eye"), camera.up = place_of(up, "up");
+  if (!target.is_none()) camera.target = place_of(target, "target");
   camera.fov_y_rad = float(number_within(fov_deg, "fov_deg", 0.001, 179.999) * (kPi / 180.0));
   if (fov_x_deg) camera.fov_x_rad = float(number_within(*fov_x_deg, "fov_x_deg", 0.001, 179.999) * (kPi / 180.0));
   if (!(near > 0.0 && near < far && far <= kFarthest))
@@ -357,7 +362,7 @@ void add_scene(py::module_& module) {
            "ambient"_a = zero, "spot_exponent"_a = 0.0)
       .def("add_point_lights", &add_point_lights, doc_of("Scene.add_point_lights"), "positions"_a, "colors"_a,
            "ranges"_a)
-      .def("set_camera", &set_camera, doc_of("Scene.set_camera"), "eye"_a, "target"_a, py::kw_only(),
+      .def("set_camera", &set_camera, doc_of("Scene.set_camera"), "eye"_a, "target"_a = py::none(), py::kw_only(),
            "up"_a = py::make_tuple(0.0, 1.0, 0.0), "fov_deg"_a = 45.0, "fov_x_deg"_a = py::none(), "near"_a = 0.1,
            "far"_a = 1000.0, "clip_from_world"_a = py::none())
       .def("set_clear", &set_clear, doc_of("Scene.set_clear"), "color"_a)

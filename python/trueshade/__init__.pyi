@@ -179,7 +179,7 @@ class Scene:
     def set_camera(
         self,
         eye: _Vector3,
-        target: _Vector3,
+        target: Optional[_Vector3] = None,
         *,
         up: _Vector3 = (0.0, 1.0, 0.0),
         fov_deg: float = 45.0,
@@ -190,7 +190,8 @@ class Scene:
     ) -> None:
         """Sets the camera.
 
-        eye, target, up: world space. fov_deg: the full vertical angle; fov_x_deg: the full horizontal one, in its place.
+        eye, target, up: world space; without clip_from_world there has to be a target. fov_deg: the full vertical
+            angle; fov_x_deg: the full horizontal one, in its place.
         near, far: distances in scene units, 0 < near < far.
         clip_from_world: an engine's own matrix, (4, 4), which multiplies columns and replaces all but the eye. Its clip
             space is OpenGL's, -w <= z <= w, unless the pipeline says otherwise.
@@ -400,7 +401,8 @@ def compare(
 
     Returns `pass`, `outcome` (same, within, different, mismatched), `verdict` in one line, `failures`, `notes`,
     `unequal_pixels`, `channels`, `criteria`, and `first` and `worst`: pixels with both values of every channel.
-    Raises Error for arrays that are no picture and files that cannot be read.
+    Raises Error for arrays that are no picture, for two of which one alone has colours, for files that cannot be read
+    and for a page that does not end in .html.
     """
 
 def write_image(

@@ -104,6 +104,7 @@ def test_textures_instances_and_spot_lights_are_drawn():
 
 GOOD = np.zeros((4, 3), np.float32)
 FACES = np.array([[0, 1, 2]], np.uint32)
+GREY = np.zeros((4, 4), np.uint8)
 
 
 def with_nan(array, place, value=np.nan):
@@ -316,14 +317,41 @@ def test_wrong_names_and_numbers_are_one_clear_error():
         (lambda: scene.add_material(shininess=2.5), "whole number"),
         (lambda: scene.add_material(roughness=2), "roughness"),
         (lambda: scene.add_material(color_map=7), "no texture 7"),
+        (lambda: scene.add_material(color_map="x"), "color_map: it is a str"),
+        (lambda: scene.add_material(normal_map=1.0), "normal_map: it is a float"),
+        (lambda: scene.add_material(emission_map=True), "emission_map: it is a bool"),
+        (lambda: scene.add_material(color_map=2**70), "no texture"),
+        (lambda: scene.set_camera((0, 0, 1)), "target: there is none"),
         (lambda: scene.set_camera((0, 0, 1), (0, 0, 0), near=3, far=2), "near"),
         (lambda: scene.set_camera((0, 0, 1), (0, 0, 0), clip_from_world=np.eye(3)), r"shape \(3, 3\)"),
         (lambda: trueshade.Pipeline(values={"width": {1, 2}}), "nothing that JSON has"),
         (lambda: trueshade.compare("a.png", "b.png", psnr=-1), "below 0"),
+        (lambda: trueshade.compare(GREY, np.zeros((4, 4, 3), np.uint8)), "test: the array has 3 channels"),
+        (lambda: trueshade.compare(np.zeros((4, 4, 4), np.uint8), GREY), "test: the array has no colours"),
+        (lambda: trueshade.compare(GREY, GREY, page="x.txt"), "page: 'x.txt' does not end like a page"),
         (lambda: trueshade.explain(scene, 900, 0), "900,0 is not in the picture"),
     ]:
         with pytest.raises(trueshade.Error, match=about):
             call()
+
+
+def test_errors_name_arguments_of_python_instead_of_options():
+    scene = trueshade.load_scene("builtin:cornell")
+    nan = np.full((4, 4, 4), np.nan, np.float32)
+    told = [str(trueshade.compare(nan, nan)["failures"])]
+    pipeline = trueshade.Pipeline(size=(8, 8), strategy="forward-multipass")
+    views = trueshade.Pipeline(size=(8, 8), values={"view": "normal"})
+    normal = {"normal": trueshade.render(scene, trueshade.Pipeline(size=(8, 8)), planes=["normal"]).planes["normal"]}
+    for call in (
+        lambda: trueshade.explain(scene, 900, 0),
+        lambda: trueshade.shade(scene, normal, pipeline),
+        lambda: trueshade.shade(scene, normal, views),
+    ):
+        with pytest.raises(trueshade.Error) as caught:
+            call()
+        told.append(str(caught.value))
+    for text, argument in zip(told, ["allow_nonfinite=True", "x, y", "strategy", "values['view']"]):
+        assert argument in text and "--" not in text, text
 
 
 def test_a_wrong_call_is_one_line_that_names_the_argument():
@@ -348,6 +376,15 @@ def test_a_wrong_call_is_one_line_that_names_the_argument():
             call()
         assert str(caught.value) == line
         assert caught.value.__cause__ is None and caught.value.__context__ is None
+
+
+def test_a_camera_of_a_matrix_needs_no_target():
+    """As a scene file has it."""
+    scene = trueshade.Scene()
+    scene.set_camera((1, 2, 3), clip_from_world=np.eye(4))
+    other = trueshade.Scene()
+    other.set_camera((1, 2, 3), (0, 0, 0), clip_from_world=np.eye(4))
+    assert scene.hash == other.hash
 
 
 def test_none_for_a_scene_is_one_clear_error():
