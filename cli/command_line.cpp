@@ -1,6 +1,6 @@
 // Reads a command line by the tables of commands. Arguments and options come in any order; `--name VALUE` and
 // `--name=VALUE`, `-o VALUE` and `-oVALUE`, and `-qo VALUE` are the same as in other programs, and all behind `--` are
-// arguments.
+// arguments. A -h among switches of one letter asks for help as well.
 #include <algorithm>
 #include <span>
 
@@ -29,7 +29,7 @@ class CommandReader {
     bool only_arguments = false;
     for (next_ = 0; next_ < words_.size();) {
       const std::string& word = words_[next_++];
-      if (!only_arguments && (word == "-h" || word == "--help")) return true;
+      if (!only_arguments && word == "--help") return true;
       if (only_arguments || word.size() < 2 || word[0] != '-')
         arguments_.push_back(word);
       else if (word == "--")
@@ -38,6 +38,7 @@ class CommandReader {
         read_long(word);
       else
         read_short(word);
+      if (asks_help_) return true;
     }
     return false;
   }
@@ -83,9 +84,11 @@ class CommandReader {
   void read_short(const std::string& word) {
     for (size_t at = 1; at < word.size(); ++at) {
       const std::string name = std::string("-") + word[at];
+      if (name == "-h" && are_spelled(word.substr(at + 1))) return void(asks_help_ = true);
       // An unknown first letter makes the whole word the mistake: `-size` is an option with a dash too few.
-      const OptionRow& row =
-          at == 1 && !is_spelled(name) ? row_spelled(word.substr(0, word.find('='))) : row_spelled(name);
+      const OptionRow& row = at == 1 && (name == "-h" || !is_spelled(name))
+                                 ? row_spelled(word.substr(0, word.find('=')))
+                                 : row_spelled(name);
       if (row.is_switch()) {
         if (word.substr(at + 1).starts_with('='))
           throw usage(name, "it takes no value", "leave out what stands behind the =");
@@ -101,6 +104,10 @@ class CommandReader {
   bool is_spelled(const std::string& name) const {
     const std::vector<std::string> all = table_.option_spellings();
     return std::find(all.begin(), all.end(), name) != all.end();
+  }
+
+  bool are_spelled(const std::string& letters) const {
+    return std::all_of(letters.begin(), letters.end(), [this](char c) { return is_spelled(std::string("-") + c); });
   }
 
   const std::string& value_behind(const OptionRow& row, const std::string& name) {
@@ -135,6 +142,7 @@ class CommandReader {
   const CommandTable& table_;
   std::span<const std::string> words_;
   size_t next_ = 0;
+  bool asks_help_ = false;
   std::vector<std::string> arguments_;
   std::vector<GivenRow> given_;
 };
@@ -150,7 +158,7 @@ const CommandTable& named_command(const CommandTables& tables, const std::string
               did_you_mean(name.substr(0, name.find('=')), kOptions) + "`trueshade --help` names all options");
 }
 
-/// `--version`, which may have `--json` behind it.
+/// `--version`, which may have `--json` beside it.
 Command version_command(std::span<const std::string> words) {
   VersionOptions options;
   for (const std::string& word : words) {
@@ -191,6 +199,10 @@ Command command_from_arguments(int count, const char* const* arguments) {
   if (words[0] == "--help" || words[0] == "-h") return PrintText{help_of_program(tables)};
   const std::span<const std::string> rest = std::span(words).subspan(1);
   if (words[0] == "--version") return version_command(rest);
+  if (words[0] == "--json" && words.size() > 1 && words[1] == "--version") {
+    std::swap(words[0], words[1]);
+    return version_command(rest);
+  }
   const CommandTable& table = named_command(tables, words[0]);
   CommandReader reader(table, rest);
   if (reader.read()) return PrintText{help_of_command(table)};

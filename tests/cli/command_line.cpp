@@ -39,6 +39,7 @@ TEST_CASE("Help of every command has -q, stands in groups and in lines of 100 co
     const std::string help = answer({command, "--help"});
     CHECK(help == answer({"help", command}));
     CHECK(help == answer({command, "-h", "--no-such-option"}));
+    CHECK(help == answer({command, "-qh"}));
     CHECK(help.find("-q,--quiet") != std::string::npos);
     CHECK(help.find("Usage: trueshade " + command + " [OPTIONS]") != std::string::npos);
     for (size_t begin = 0, end; begin < help.size(); begin = end + 1) {
@@ -95,6 +96,7 @@ TEST_CASE("A misspelt name is answered with the one that was meant") {
       {"did you mean render? one of:", "rendr"},
       {"did you mean --preset? ", "render", "builtin:cornell", "--preste", "x"},
       {"did you mean --size? ", "render", "builtin:cornell", "-size", "4x4"},
+      {"did you mean --hash? ", "render", "builtin:cornell", "-hash"},
       {"did you mean many-lights? ", "render", "builtin:cornell", "--hash", "--preset", "many-light"},
       {"did you mean albedo? ", "render", "builtin:cornell", "--hash", "--view", "alebdo"},
       {"did you mean rgba16f? ", "render", "builtin:cornell", "--hash", "--target", "rgba16ff"},
@@ -117,6 +119,7 @@ TEST_CASE("The version comes with targets and libraries, and as JSON for program
   const std::string text = answer({"--version"});
   CHECK(std::regex_search(text, std::regex("^trueshade [0-9]+\\.[0-9]+\\.[0-9]+\n")));
   const json version = json::parse(answer({"--version", "--json"}));
+  CHECK(version == json::parse(answer({"--json", "--version"})));
   CHECK(text.starts_with("trueshade " + version.at("version").get<std::string>() + '\n'));
   const json list = json::parse(answer({"list", "--json"}));
   CHECK(version.at("simd").at("runs_here") == list.at("simd"));
