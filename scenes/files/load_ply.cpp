@@ -212,10 +212,16 @@ class Reader {
       source_.fail(std::to_string(element.count) + " vertices", "below 2^32");
   }
 
-  uint64_t list_length(const Property& property) {
+  /// What else may be wrong where the first face cannot be read: it begins where the vertices end.
+  std::string count_in_doubt(uint64_t face) const {
+    if (face > 0) return "";
+    return "; perhaps the vertices are not " + std::to_string(mesh_.vertex_count()) + ", as the header says";
+  }
+
+  uint64_t list_length(const Property& property, const std::string& doubt = "") {
     const double length = source_.value(*property.count);
     if (length < 0.0 || uint64_t(length) > source_.left() / source_.least_bytes(property.type))
-      source_.fail("a list says " + std::to_string(int64_t(length)) + " and the file is too short for it",
+      source_.fail("a list says " + std::to_string(int64_t(length)) + " and the file is too short for it" + doubt,
                    "as many as the file holds");
     return uint64_t(length);
   }
@@ -304,17 +310,19 @@ class Reader {
   }
 
   void read_polygon(const Property& property, uint64_t face) {
-    const uint64_t corners = list_length(property);
+    const uint64_t corners = list_length(property, count_in_doubt(face));
     if (corners < 3)
-      source_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners", "3 or more");
+      source_.fail(
+          "face " + std::to_string(face) + " has " + std::to_string(corners) + " corners" + count_in_doubt(face),
+          "3 or more");
     make_room(3 * (corners - 2));
     uint32_t first = 0, previous = 0;
     for (uint64_t i = 0; i < corners; ++i) {
       const double index = source_.value(property.type);
       if (!(index >= 0.0 && index < double(mesh_.vertex_count())))
-        source_.fail(
-            "face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) + " is beyond the vertices",
-            "from 0 to below " + std::to_string(mesh_.vertex_count()));
+        source_.fail("face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) +
+                         " is beyond the vertices" + count_in_doubt(face),
+                     "from 0 to below " + std::to_string(mesh_.vertex_count()));
       const uint32_t corner = uint32_t(index);
       if (i == 0) first = corner;
       if (i >= 2) mesh_.indices.insert(mesh_.indices.end(), {first, previous, corner});
