@@ -31,11 +31,14 @@ bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether e
 /// Names of the faults that `validate` looks for; none in a program that has no judge.
 std::vector<std::string> fault_names();
 
+/// Thrown where a program that read the text has ended, as `head` does: so does the command, without a word.
+struct ReaderGone {};
+
 /// Writes text to standard output, as printable() has it, and flushes it. Error(io) where that fails, say on a full
-/// disk.
+/// disk; ReaderGone.
 void print(std::string_view text);
 
-/// The same of a file's bytes, as they are.
+/// The same of a file's bytes, as they are. Error(io) too where the reader has ended: the file is torn.
 void print_bytes(std::span<const uint8_t> bytes);
 /// Of a report all, or where --quiet is given the line that begins with `verdict`.
 std::string shown_report(const std::string& text);

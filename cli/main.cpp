@@ -22,7 +22,8 @@
 namespace trueshade {
 namespace {
 
-constexpr int kOurFault = 70;  // sysexits.h: EX_SOFTWARE
+constexpr int kOurFault = 70;         // sysexits.h: EX_SOFTWARE
+constexpr int kReaderGone = 128 + 13;  // as of a program that SIGPIPE ends
 
 /// Writes all of it, and takes no memory for that.
 void write_to_standard_error(std::string_view text) {
@@ -77,6 +78,8 @@ int exit_code_of(const std::exception_ptr& fault) {
     std::rethrow_exception(fault);
   } catch (const Error& error) {
     return say_error(error.what(), int(error.kind()));
+  } catch (const ReaderGone&) {
+    return kReaderGone;
   } catch (const std::bad_alloc&) {
     return say_out_of_memory();
   } catch (const std::length_error&) {  // more elements than a container can ever have

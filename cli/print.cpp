@@ -10,17 +10,30 @@
 #include "core/printable_text.h"
 
 namespace trueshade {
+namespace {
+
+/// 0 where standard output has taken all of it, else errno.
+int failure_of_writing(const void* bytes, size_t size) {
+  const auto paused = Activity::pause();
+  return std::fwrite(bytes, 1, size, stdout) == size && std::fflush(stdout) == 0 ? 0 : errno;
+}
+
+Error cannot_write(int failure) {
+  return {ErrorKind::io, "standard output", std::string("cannot write: ") + std::strerror(failure),
+          "check where it is sent"};
+}
+
+}  // namespace
 
 void print(std::string_view text) {
   const std::string shown = printable(text, Lines::several);
-  print_bytes({reinterpret_cast<const uint8_t*>(shown.data()), shown.size()});
+  const int failure = failure_of_writing(shown.data(), shown.size());
+  if (failure == EPIPE) throw ReaderGone();
+  if (failure != 0) throw cannot_write(failure);
 }
 
 void print_bytes(std::span<const uint8_t> bytes) {
-  const auto paused = Activity::pause();
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0) return;
-  throw Error(ErrorKind::io, "standard output", std::string("cannot write: ") + std::strerror(errno),
-              "check where it is sent");
+  if (const int failure = failure_of_writing(bytes.data(), bytes.size()); failure != 0) throw cannot_write(failure);
 }
 
 std::string shown_report(const std::string& text) {

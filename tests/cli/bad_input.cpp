@@ -164,6 +164,21 @@ TEST_CASE("standard output that takes nothing is exit 5") {
   CHECK(WEXITSTATUS(status) == 5);
 }
 
+TEST_CASE("a reader that has ended ends the command without a word") {
+  const ScratchFolder folder;
+  for (const char* arguments : {"list", "render --help", "render builtin:red --size 8x8 --hash"}) {
+    INFO(arguments);
+    const std::string line = "cd '" + folder.path("") + "' && { sleep 0.1; '" TRUESHADE_COMMAND "' " + arguments +
+                             " 2>err; echo $? >code; } | true";
+    CHECK(std::system(line.c_str()) == 0);
+    std::ifstream err(folder.path("err")), code(folder.path("code"));
+    CHECK(std::string{std::istreambuf_iterator<char>(err), {}}.empty());
+    int exit_code = -1;
+    code >> exit_code;
+    CHECK(exit_code == 141);
+  }
+}
+
 TEST_CASE("what a file holds does nothing to a terminal, in errors and in what info prints") {
   const ScratchFolder folder;
   folder.write("m.ply", std::string("ply\nformat ascii 1.0\nver\0tex\x1b[2J\xc2\x9b\xe2\x80\xae\xff many\n", 44));
