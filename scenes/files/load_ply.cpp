@@ -320,9 +320,9 @@ class Reader {
     for (uint64_t i = 0; i < corners; ++i) {
       const double index = source_.value(property.type);
       if (!(index >= 0.0 && index < double(mesh_.vertex_count())))
-        source_.fail("face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) +
-                         " is beyond the vertices" + count_in_doubt(face),
-                     "from 0 to below " + std::to_string(mesh_.vertex_count()));
+        source_.fail(
+            "face " + std::to_string(face) + ": index " + std::to_string(int64_t(index)) + " is beyond the vertices",
+            "from 0 to below " + std::to_string(mesh_.vertex_count()));
       const uint32_t corner = uint32_t(index);
       if (i == 0) first = corner;
       if (i >= 2) mesh_.indices.insert(mesh_.indices.end(), {first, previous, corner});
