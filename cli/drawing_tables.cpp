@@ -75,6 +75,8 @@ void add_render_output(CommandTable& table, RenderOptions& options, RenderTexts&
   add_switch(table, "--cube-cross", texts.cube_cross, "Write a cube map as one picture of 4 x 3 faces");
   add_switch(table, "--raw-video", options.raw_video,
              "With -o -: the codes of all frames, one after the other, for ffmpeg to read from a pipe");
+  add_switch(table, "--resume", options.resume,
+             "Go on with a large picture where an earlier run has stopped: its FILE.part and FILE.progress are there");
   add_switch(table, "--hash", options.hash, "Print the hash of the image's stored bytes");
   add_switch(table, "--stats", options.stats, "Print counts and times");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
@@ -98,6 +100,10 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_value(table, "SCENE", "SCENE", options.scene, kSceneHelp).is_required = true;
   add_render_output(table, options, texts);
   add_size(table, texts.size);
+  add_value(table, "--region", "X,Y,WxH", texts.region,
+            "Draw this part of the picture alone, with the very pixels that the picture has there; X and Y count from "
+            "its top left")
+      .group = kCameraGroup;
   add_time(table, texts.time);
   add_value(table, "--frames", "FIRST-LAST", texts.frames,
             "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending")

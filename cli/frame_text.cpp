@@ -9,6 +9,12 @@
 namespace trueshade {
 namespace {
 
+/// As --region takes it.
+std::string region_text(const PictureRegion& region) {
+  return std::to_string(region.x) + ',' + std::to_string(region.y) + ',' + std::to_string(region.width) + 'x' +
+         std::to_string(region.height);
+}
+
 std::string size_text(const Image& image) { return std::to_string(image.width) + 'x' + std::to_string(image.height); }
 
 double ratio(uint64_t part, uint64_t whole) { return whole == 0 ? 0.0 : double(part) / double(whole); }
@@ -47,6 +53,7 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:scene", result.scene.spec},
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
   if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
+  if (!result.execution.region.whole()) metadata.emplace_back("trueshade:region", region_text(result.execution.region));
   if (!result.scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(result.time));
   metadata.emplace_back("trueshade:version", kVersion);
   if (result.frame.view_scale > 0)
@@ -117,12 +124,15 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
   JsonObject stats;
   for (const StatLine& line : stat_lines(result)) stats.put_raw(line.key, line.value);
   JsonArray aovs, paths;
-  for (const NamedImage& aov : result.frame.aovs)
+  for (size_t i = 0; i < result.frame.aovs.size(); ++i) {
+    const NamedImage& aov = result.frame.aovs[i];
+    const std::string hash = i < result.aov_hashes.size() ? result.aov_hashes[i] : image_hash(aov.image);
     aovs.add_raw(JsonObject()
                      .put("name", aov.name)
                      .put("format", info(aov.image.format).name)
-                     .put("hash", "sha256:" + image_hash(aov.image))
+                     .put("hash", "sha256:" + hash)
                      .text());
+  }
   for (const std::string& file : files) paths.add_raw(json_string(file));
   JsonObject json;
   json.put("version", kVersion);
@@ -131,6 +141,7 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
       .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
   if (!result.cube_map.empty()) json.put("cube_map", result.cube_map);
+  if (!result.execution.region.whole()) json.put("region", region_text(result.execution.region));
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
   json.put_raw("ignored", ignored_json(result.notes)).put_raw("notes", lines_json(result.notes));
   return json.text() + '\n';

@@ -23,6 +23,7 @@ struct RenderedFrame {
   Notes notes{};
   std::string command{};          ///< as it was given, for a report
   std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
+  std::vector<std::string> aov_hashes{};  ///< of each aov, 64 hex digits, where their images have no texels
   std::string cube_map{};         ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
 };
 

@@ -48,6 +48,13 @@ void check_cube_map(const RenderOptions& options) {
                 "leave out --cube-cross, or --stats and --json");
 }
 
+void check_region(const RenderOptions& options) {
+  if (options.cube_map) throw usage("--region", "the faces of a cube map are whole", "leave out one of the two");
+  for (const std::string& path : options.outputs)
+    if (has_ending(path, ".html"))
+      throw usage("--region", "a report shows the whole picture", "end the names after -o in .png or .exr");
+}
+
 /// The option that prints an answer, if there is one.
 std::string printing_option(const RenderOptions& options) {
   return options.json ? "--json" : options.hash ? "--hash" : options.stats ? "--stats" : "";
@@ -55,6 +62,7 @@ std::string printing_option(const RenderOptions& options) {
 
 void check_outputs(const RenderOptions& options) {
   if (options.cube_map) check_cube_map(options);
+  if (!options.execution.region.whole()) check_region(options);
   if (options.raw_video) return check_raw_video(options);
   check_standard_output(options.outputs, printing_option(options));
   check_named_once("-o", options.outputs);
@@ -90,7 +98,8 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (!options.raw_video)
     for (std::string& path : options.outputs) path = output_with_ending(path);
-  if (texts.size) options.size = size_from_text(*texts.size);
+  if (texts.size) options.size = size_from_text(*texts.size, kMostPictureSide);
+  if (texts.region) options.execution.region = region_from_text(*texts.region);
   if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.frames) options.frames = frames_from_text(*texts.frames);

@@ -45,15 +45,33 @@ int tile_from_text(const std::string& option, const std::string& text) {
   return int(*value);
 }
 
-Size size_from_text(const std::string& text) {
+Size size_from_text(const std::string& text, int most) {
   const size_t cross = text.find('x');
   const auto width = integer(std::string_view(text).substr(0, cross));
   const auto height = integer(cross == std::string::npos ? "" : std::string_view(text).substr(cross + 1));
   if (!width || !height || *width < 1 || *height < 1)
     throw usage("--size", "'" + text + "' is not a size", "give WIDTHxHEIGHT in pixels, like 800x600");
-  if (*width > kMaxSide || *height > kMaxSide)
-    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over 65536 pixels a side", "at most 65536x65536");
+  const std::string limit = std::to_string(most);
+  if (*width > most || *height > most)
+    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over " + limit + " pixels a side",
+                "at most " + limit + 'x' + limit);
   return {int(*width), int(*height)};
+}
+
+PictureRegion region_from_text(const std::string& text) {
+  const size_t after_x = text.find(','), after_y = text.find(',', after_x + 1), cross = text.find('x');
+  const bool separated = after_x != std::string::npos && after_y != std::string::npos && cross != std::string::npos;
+  const auto number = [&](size_t begin, size_t end) -> std::optional<int64_t> {
+    if (!separated || begin > end) return std::nullopt;
+    return integer(std::string_view(text).substr(begin, end - begin));
+  };
+  const auto x = number(0, after_x), y = number(after_x + 1, after_y), width = number(after_y + 1, cross),
+             height = number(cross + 1, text.size());
+  const auto within = [](const std::optional<int64_t>& v, int least) { return v && *v >= least && *v <= kMostPictureSide; };
+  if (!within(x, 0) || !within(y, 0) || !within(width, 1) || !within(height, 1))
+    throw usage("--region", "'" + text + "' is no region of a picture",
+                "give X,Y,WxH in pixels, X and Y counted from the top left, like 1024,0,512x256");
+  return {int(*x), int(*y), int(*width), int(*height)};
 }
 
 PixelPlace place_from_text(const std::string& option, const std::string& text) {

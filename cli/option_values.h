@@ -13,7 +13,8 @@ namespace trueshade {
 /// pixels a side is Error(limit).
 int integer_in(const std::string& option, const std::string& text, int least, int most);
 int tile_from_text(const std::string& option, const std::string& text);
-Size size_from_text(const std::string& text);
+Size size_from_text(const std::string& text, int most = kMostDrawnSide);
+PictureRegion region_from_text(const std::string& text);  ///< of `X,Y,WxH`
 double time_from_text(const std::string& text);
 /// Above 0 and at most 0.01.
 double chance_from_text(const std::string& option, const std::string& text);

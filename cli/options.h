@@ -72,6 +72,7 @@ struct RenderOptions : PipelineOptions {
   std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()
   Execution execution;
   bool hash = false, stats = false, json = false;
+  bool resume = false;  ///< a large picture goes on where an earlier process has stopped
 };
 
 /// `trueshade shade`: of RenderOptions without frames, planes, views and statistics. `scene` has the lights.

@@ -47,9 +47,9 @@ bool is_black(const Image& picture) {
   return true;
 }
 
-/// Why nothing of the scene is to be seen; empty where something is.
-std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame& frame) {
-  const FrameStats& stats = frame.stats;
+}  // namespace
+
+std::string empty_note(const Scene& scene, const FrameStats& stats) {
   if (stats.covered_pixels == 0 && stats.transparent_fragments == 0) {
     if (stats.triangles == 0) return "Nothing is drawn: The scene has no triangles";
     if (scene.camera.clip_from_world && is_singular(*scene.camera.clip_from_world))
@@ -60,6 +60,14 @@ std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame
            " triangles covers a pixel (the camera may look past the scene or stand beyond its near and far planes, "
            "and cull_face may leave out the side that it sees)";
   }
+  return {};
+}
+
+namespace {
+
+/// Why nothing of the scene is to be seen; empty where something is.
+std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame& frame) {
+  if (std::string empty = empty_note(scene, frame.stats); !empty.empty()) return empty;
   if (pipeline.view != ImageView::lit || !is_black(frame.color)) return {};
   if (scene.lights.empty()) return "The picture is black: The scene has no lights";
   return "The picture is black: None of its " + std::to_string(scene.lights.size()) +

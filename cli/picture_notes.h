@@ -8,8 +8,11 @@
 
 namespace trueshade {
 
-/// Notes that a picture calls for once it is drawn: why it is black, how much of it is clamped, and what hides it. Full
-/// sentences without their full stops. `to_png`: it is written as a PNG, which holds no value above 1.
+/// Why nothing of the scene is drawn; empty where something is. A note is a full sentence without its full stop.
+std::string empty_note(const Scene& scene, const FrameStats& stats);
+
+/// Notes that a picture calls for once it is drawn: why it is black, how much of it is clamped, and what hides it.
+/// `to_png`: it is written as a PNG, which holds no value above 1.
 std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png);
 
 }  // namespace trueshade

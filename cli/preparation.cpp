@@ -49,28 +49,26 @@ uint64_t texel_bytes(const Pipeline& pipeline) {
   return pipeline.view == ImageView::lit ? uint64_t(info(pipeline.target).bytes_per_texel()) : 4;
 }
 
-uint64_t pixels_of(const Pipeline& pipeline) { return uint64_t(pipeline.width) * uint64_t(pipeline.height); }
-
 }  // namespace
 
-uint64_t picture_memory(const Pipeline& pipeline, std::span<const std::string> planes) {
+uint64_t picture_memory(const Pipeline& pipeline, const PictureRegion& region, std::span<const std::string> planes) {
   uint64_t bytes = texel_bytes(pipeline);
   for (const std::string& plane : planes)
     bytes += uint64_t(info(aov_format(plane, surface_planes(pipeline))).bytes_per_texel());
-  return bytes * pixels_of(pipeline);
+  return bytes * drawn_pixels(pipeline, region);
 }
 
-uint64_t file_memory(const Pipeline& pipeline, std::span<const std::string> paths,
+uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std::span<const std::string> paths,
                      std::span<const std::string> planes) {
   // Of the bytes that a frame has; PNG and EXR of built-in scenes keep 8 to 56 of 100.
   constexpr uint64_t kKeptOf100 = 35;
   // On a page: a picture of 8 bits a channel, and the page with all of them.
-  const uint64_t texel = texel_bytes(pipeline), shown = 4 + 3;
+  const uint64_t texel = texel_bytes(pipeline), shown = 4 + 3, pixels = drawn_pixels(pipeline, region);
   uint64_t largest = 0;
   for (const std::string& path : paths)
-    largest = std::max(largest, has_ending(path, ".html") ? 100 * std::max(shown, texel) * pixels_of(pipeline)
-                                : has_ending(path, ".exr") ? kKeptOf100 * picture_memory(pipeline, planes)
-                                                           : kKeptOf100 * texel * pixels_of(pipeline));
+    largest = std::max(largest, has_ending(path, ".html") ? 100 * std::max(shown, texel) * pixels
+                                : has_ending(path, ".exr") ? kKeptOf100 * picture_memory(pipeline, region, planes)
+                                                           : kKeptOf100 * texel * pixels);
   return largest / 100;
 }
 

@@ -19,13 +19,14 @@ Scene scene_of_options(const std::string& spec, const Limits& limits);
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                   std::span<const std::string> aovs, uint64_t more = 0);
 
-/// Bytes of a picture as it is stored, with its planes.
-uint64_t picture_memory(const Pipeline& pipeline, std::span<const std::string> planes);
+/// Bytes of a picture, or of a region of it, as it is stored, with its planes.
+uint64_t picture_memory(const Pipeline& pipeline, const PictureRegion& region, std::span<const std::string> planes);
 
 /// Bytes that the largest of a frame's files takes while it is made: files are made in memory, one after the other. An
 /// estimate, because how much compression helps depends on the picture; write_image() holds it to the cap. `planes`: of
 /// an EXR.
-uint64_t file_memory(const Pipeline& pipeline, std::span<const std::string> paths, std::span<const std::string> planes);
+uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std::span<const std::string> paths,
+                     std::span<const std::string> planes);
 
 /// The pipeline of all layers, each over the one before: preset, scene file, pipeline file, options. Valid.
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene);

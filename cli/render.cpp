@@ -10,6 +10,7 @@
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
 #include "cli/json_text.h"
+#include "cli/large_render.h"
 #include "cli/notes.h"
 #include "cli/picture_encoding.h"
 #include "cli/picture_notes.h"
@@ -109,6 +110,14 @@ RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const P
   return result;
 }
 
+/// Prints what was asked for of a frame but JSON, which comes back.
+std::string answer(const RenderOptions& options, const std::vector<std::string>& paths, const RenderedFrame& result) {
+  if (options.json) return json_of(result, paths);
+  if (options.hash) print(hash_line(result));
+  if (options.stats) print(stats_text(result));
+  return {};
+}
+
 /// Writes the files of a frame that is drawn, and prints what was asked for but JSON, which comes back.
 std::string hand_out(const RenderOptions& options, const std::vector<std::string>& paths, RenderedFrame& result) {
   const bool to_png =
@@ -124,10 +133,7 @@ std::string hand_out(const RenderOptions& options, const std::vector<std::string
   } else {
     write_outputs(options, paths, result);
   }
-  if (options.json) return json_of(result, paths);
-  if (options.hash) print(hash_line(result));
-  if (options.stats) print(stats_text(result));
-  return {};
+  return answer(options, paths, result);
 }
 
 /// As files and JSON name the place and the part of a cube map: `0,1.5,-2 px`.
@@ -152,6 +158,11 @@ class Pictures {
       prepared_.emplace(scene_);
     if (options_.cube_map) return cube_map(time, paths);
     RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+    if (renders_in_bands(options_, pipeline_)) {
+      result.scene_hash = scene_hash(scene_);
+      render_in_bands(options_, *prepared_, paths, result);
+      return finish_large(paths, result);
+    }
     draw(options_, *prepared_, result);
     finish(paths, result);
   }
@@ -187,9 +198,21 @@ class Pictures {
     finish(paths, result);
   }
 
-  /// A note is said once, with the first picture that calls for it.
+  /// Of a picture whose files are written already.
+  void finish_large(const std::vector<std::string>& paths, RenderedFrame& result) {
+    if (std::string note = empty_note(result.scene, result.frame.stats); !note.empty())
+      result.notes.lines.push_back(std::move(note));
+    for (const std::string& path : paths)
+      say_written(path, about_file(path, result, result.frame.aovs), standard_output_of(options_));
+    say_result(result, answer(options_, paths, result));
+  }
+
   void finish(const std::vector<std::string>& paths, RenderedFrame& result) {
-    const std::string document = hand_out(options_, paths, result);
+    say_result(result, hand_out(options_, paths, result));
+  }
+
+  /// A note is said once, with the first picture that calls for it.
+  void say_result(const RenderedFrame& result, const std::string& document) {
     for (const std::string& line : result.notes.lines)
       if (said_.insert(line).second) say_notes({line});
     if (options_.json) documents_ += (documents_.empty() ? "" : ",") + document.substr(0, document.size() - 1);
@@ -220,8 +243,8 @@ void render_frames(const RenderOptions& options, double fps, Pictures& pictures)
 uint64_t memory_besides_frame(const RenderOptions& options, const Pipeline& pipeline) {
   constexpr uint64_t kFacesOfCross = 12;
   const bool cross = options.cube_map && options.cube_map->cross;
-  const uint64_t of_files = file_memory(pipeline, options.outputs, options.aovs);
-  return cross ? kFacesOfCross * (of_files + picture_memory(pipeline, options.aovs)) : of_files;
+  const uint64_t of_files = file_memory(pipeline, options.execution.region, options.outputs, options.aovs);
+  return cross ? kFacesOfCross * (of_files + picture_memory(pipeline, {}, options.aovs)) : of_files;
 }
 
 void check_cube_map(const RenderOptions& options, const Pipeline& pipeline) {
@@ -243,9 +266,15 @@ void render(const RenderOptions& options) {
   Scene scene = scene_of_options(options.scene, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
   check_cube_map(options, pipeline);
+  if (options.resume && (!renders_in_bands(options, pipeline) || options.outputs.empty()))
+    throw Error(ErrorKind::usage, "--resume", "only files of large pictures can be gone on with",
+                "leave it out: over 16384 pixels a side, or 67108864 in all, a picture is large");
+  validate_region(pipeline, options.execution.region);
+  if (!renders_in_bands(options, pipeline)) validate_drawn_size(pipeline, options.execution.region);
   fit_lights_of_ours(scene, pipeline.light_model);
-  check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
-               memory_besides_frame(options, pipeline));
+  if (!renders_in_bands(options, pipeline))
+    check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
+                 memory_besides_frame(options, pipeline));
   Pictures pictures(options, scene, pipeline);
   if (options.frames)
     render_frames(options, scene.timeline.fps, pictures);

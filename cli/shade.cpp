@@ -61,7 +61,7 @@ void shade(const ShadeOptions& options) {
   Pipeline pipeline = pipeline_of(options, scene);
   pipeline.width = files.width(), pipeline.height = files.height();
   fit_lights_of_ours(scene, pipeline.light_model);
-  check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, options.outputs, {}));
+  check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, {}, options.outputs, {}));
   const CapturedPlanes planes = planes_to_light(options, files, scene, pipeline);
   files = {};
   RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};

@@ -7,8 +7,8 @@
 
 #include "core/fp_env.h"
 #include "core/half.h"
+#include "core/image_hash.h"
 #include "core/image_rows.h"
-#include "core/sha256.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
 
@@ -125,14 +125,10 @@ double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
   }
 }
 
-std::string image_hash(const Image& image) {
+void ImageHash::add(const Image& image) {
   const FpScope fp;
   const FormatInfo layout = info(image.format);
-  Sha256 hash;
-  if (layout.number_class != NumberClass::floating) {
-    hash.update(image.texels.data(), image.texels.size());
-    return hash.hex();
-  }
+  if (layout.number_class != NumberClass::floating) return hash_.update(image.texels.data(), image.texels.size());
   std::vector<uint8_t> chunk;
   for (size_t done = 0; done < image.texels.size(); done += chunk.size()) {
     const size_t size = std::min(kChunkBytes, image.texels.size() - done);
@@ -143,8 +139,15 @@ std::string image_hash(const Image& image) {
       make_nans_one<uint16_t>(chunk.data(), size, 0x7c00, 0x7e00);
     else
       make_nans_one<uint32_t>(chunk.data(), size, 0x7f800000, 0x7fc00000);
-    hash.update(chunk.data(), size);
+    hash_.update(chunk.data(), size);
   }
+}
+
+std::string ImageHash::hex() { return hash_.hex(); }
+
+std::string image_hash(const Image& image) {
+  ImageHash hash;
+  hash.add(image);
   return hash.hex();
 }
 

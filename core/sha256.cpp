@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
 
 namespace trueshade {
@@ -114,6 +115,46 @@ void Sha256::update(const void* data, size_t bytes) {
   if (bytes != 0) std::memcpy(pending_.data(), next, bytes);
 }
 
+namespace {
+
+constexpr char kDigits[] = "0123456789abcdef";
+
+void append_hex(uint64_t value, int digits, std::string& text) {
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) text += kDigits[(value >> shift) & 15u];
+}
+
+/// The value of so many digits, which are taken from the front of the text; false where they are none.
+template <typename Word>
+bool take_hex(std::string_view& text, Word& value) {
+  const size_t digits = 2 * sizeof(Word);
+  if (text.size() < digits) return false;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, value, 16);
+  const bool whole = error == std::errc() && end == text.data() + digits;
+  text.remove_prefix(digits);
+  return whole;
+}
+
+}  // namespace
+
+std::string Sha256::progress() const {
+  std::string text;
+  append_hex(bytes_, 16, text);
+  for (const uint32_t word : state_) append_hex(word, 8, text);
+  for (size_t i = 0; i < size_t(bytes_ % 64); ++i) append_hex(pending_[i], 2, text);
+  return text;
+}
+
+bool Sha256::resume(std::string_view progress) {
+  Sha256 read;
+  read.plain_ = plain_;
+  bool good = take_hex(progress, read.bytes_);
+  for (uint32_t& word : read.state_) good = good && take_hex(progress, word);
+  for (size_t i = 0; good && i < size_t(read.bytes_ % 64); ++i) good = take_hex(progress, read.pending_[i]);
+  if (!good || !progress.empty()) return false;
+  *this = read;
+  return true;
+}
+
 std::string Sha256::hex() {
   const uint64_t bits = bytes_ * 8;
   std::array<uint8_t, 72> padding{0x80};
@@ -121,10 +162,8 @@ std::string Sha256::hex() {
   for (size_t i = 0; i < 8; ++i) padding[zeros + i] = uint8_t(bits >> (56 - 8 * i));
   update(padding.data(), zeros + 8);
 
-  constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
-  for (const uint32_t word : state_)
-    for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[(word >> shift) & 15u];
+  for (const uint32_t word : state_) append_hex(word, 8, text);
   return text;
 }
 

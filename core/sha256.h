@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace trueshade {
 
@@ -15,6 +16,12 @@ class Sha256 {
   explicit Sha256(Blocks blocks) : plain_(blocks == Blocks::plain) {}
 
   void update(const void* data, size_t bytes);
+
+  /// How far it has come, as hex digits, from which another process can go on.
+  std::string progress() const;
+  /// Goes on from progress(). Returns false, and changes nothing, for a text that is none.
+  bool resume(std::string_view progress);
+
   std::string hex();  ///< 64 lower-case digits; call once, last
 
  private:

@@ -127,7 +127,8 @@ DepthRule depth_rule(const GeometryState& state, NumericProfile profile) {
   return rule;
 }
 
-WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile) {
+WindowTransform window_transform(const GeometryState& state, int width, int height, NumericProfile profile,
+                                 const PictureRegion& region) {
   const Viewport v = whole_or_set(state.viewport, width, height);
   WindowTransform out;
   out.upper_left = state.clip_origin == ClipOrigin::upper_left;
@@ -141,9 +142,13 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   for (int axis = 0; axis < 2; ++axis)
     out.float_snap =
         out.float_snap && std::max(std::abs(out.scale[axis]), std::abs(out.offset[axis])) <= kFloatSnapLimit;
+  const int64_t corner[2] = {region.whole() ? 0 : region.x,
+                             region.whole() ? 0 : int64_t(height) - region.y - region.height};  // lower left, y up
   for (int axis = 0; axis < 2; ++axis) {
     out.half_size[axis] = float(out.scale[axis]) / 256.0f;
     out.center[axis] = float(out.offset[axis]) / 256.0f;
+    out.corner[axis] = corner[axis];
+    out.offset[axis] -= 256 * corner[axis];
   }
   out.zero_to_one = state.clip_depth == ClipDepth::zero_to_one;
   // + 0 turns -0 into 0: no stored depth is -0, so minima and maxima have one answer on every SIMD target.
@@ -156,19 +161,24 @@ WindowTransform window_transform(const GeometryState& state, int width, int heig
   out.depth = depth_rule(state, profile);
   if (out.depth.offsets() && !state.depth_clamp) out.depth_low = 0.0f, out.depth_high = 1.0f;  // GL 4.6 core, 14.6.5
   const auto clamped = [](int64_t value, int size) { return int(std::clamp<int64_t>(value, 0, size)); };
-  out.x0 = clamped(v.x, width);
-  out.x1 = clamped(int64_t(v.x) + v.width, width);
-  out.y0 = clamped(v.y, height);
-  out.y1 = clamped(int64_t(v.y) + v.height, height);
+  const int64_t left = v.x - corner[0], bottom = v.y - corner[1];
+  const int drawn[2] = {region.whole() ? width : region.width, region.whole() ? height : region.height};
+  out.x0 = clamped(left, drawn[0]);
+  out.x1 = clamped(left + v.width, drawn[0]);
+  out.y0 = clamped(bottom, drawn[1]);
+  out.y1 = clamped(bottom + v.height, drawn[1]);
   return out;
 }
 
-View make_view(const Scene& scene, const Pipeline& pipeline, int threads, std::vector<InstanceTransform> memory) {
+View make_view(const Scene& scene, const Pipeline& pipeline, int threads, std::vector<InstanceTransform> memory,
+               const PictureRegion& region) {
   const Matrix4 clip = clip_matrix(scene, pipeline);
-  View view{pipeline.width,
-            pipeline.height,
+  const PictureRegion drawn = drawn_region(pipeline, region);
+  View view{drawn.width,
+            drawn.height,
+            region,
             pipeline.profile,
-            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile),
+            window_transform(pipeline.geometry, pipeline.width, pipeline.height, pipeline.profile, region),
             std::move(memory),
             inverse_rows(clip),
             rounded_rows(clip),

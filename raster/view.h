@@ -44,7 +44,8 @@ struct WindowTransform {
   bool upper_left;          ///< turns facing and the inclusive horizontal edge
   int x0, y0, x1, y1;       ///< pixels that may be drawn: viewport and image, half open, y up
   bool float_snap = false;  ///< llvmpipe's: x_px = fma(x * (1 / w), half_size, center), x_fx = RNE((x_px - 0.5) * 256)
-  float half_size[2], center[2];  ///< pixels
+  float half_size[2], center[2];  ///< pixels, of the whole picture
+  int64_t corner[2] = {0, 0};  ///< of a region: its lower left pixel in the picture; offset counts from there
   DepthRule depth;
 };
 
@@ -80,7 +81,8 @@ class FaceStates {
 
 /// Everything of a frame that the geometry pass reads, made once a frame.
 struct View {
-  int width, height;
+  int width, height;  ///< pixels of what is drawn: the picture, or a region of it
+  PictureRegion region;
   NumericProfile profile;
   WindowTransform window;
   std::vector<InstanceTransform> instances;  ///< one per Scene::instances
@@ -91,10 +93,12 @@ struct View {
   std::vector<MaterialValues> materials;     ///< one per Scene::materials; empty where the light model reads none
 };
 
+/// Of a picture of width x height pixels. Of a region, window coordinates count from the region's lower left pixel, and
+/// are those of the whole picture moved by whole pixels.
 WindowTransform window_transform(const GeometryState& state, int width, int height,
-                                 NumericProfile profile = NumericProfile::ideal);
+                                 NumericProfile profile = NumericProfile::ideal, const PictureRegion& region = {});
 /// `memory`: of the instances of any view before, to be used again.
 View make_view(const Scene& scene, const Pipeline& pipeline, int threads = 1,
-               std::vector<InstanceTransform> memory = {});
+               std::vector<InstanceTransform> memory = {}, const PictureRegion& region = {});
 
 }  // namespace trueshade

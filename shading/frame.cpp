@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/error.h"
 #include "core/fp_env.h"
 #include "core/memory_cap.h"
 #include "core/simd/simd_target.h"
@@ -43,7 +44,7 @@ std::vector<int> tile_order(const ClusterBins& bins, const Execution& execution)
 
 // Refuses a frame before its pictures are allocated: with more than the cap the system would end the program.
 void check_memory(const FramePlan& plan, const Pipeline& pipeline, std::span<const std::string> planes) {
-  const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
+  const uint64_t pixels = drawn_pixels(pipeline, plan.execution.region);
   uint64_t texel = uint64_t(info(pipeline.target).bytes_per_texel());
   for (const std::string& name : planes)
     texel += uint64_t(info(aov_format(name, plan.surface_planes)).bytes_per_texel());
@@ -119,7 +120,7 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
   std::optional<LoopTimes> log(std::in_place);
   const TablesLoan loan;
   FrameTables& tables = *loan;
-  View view = make_view(scene, pipeline, threads, std::move(tables.transforms));
+  View view = make_view(scene, pipeline, threads, std::move(tables.transforms), plan.execution.region);
   make_tables(plan, prepared, pipeline, planes, view, tables, frame);
   const FrameWork work{plan,
                        prepared,
@@ -139,7 +140,7 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
   draw_tiles(work, progress);
   tables.transforms = std::move(view.instances);
 
-  stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
+  stats.pixels = drawn_pixels(pipeline, plan.execution.region);
   stats.lights = scene.lights.size();
   stats.pixel_lights = stats.covered_pixels * stats.lights;
   stats.triangles = scene.triangle_count();
@@ -159,6 +160,8 @@ Frame light_surfaces(const Scene& scene, const Pipeline& asked, const Execution&
                      const Progress& progress) {
   validate(asked);
   validate(execution);
+  if (!execution.region.whole())
+    throw Error(ErrorKind::usage, "region", "given surfaces are lit as a whole", "leave the region out");
   Pipeline pipeline = asked;
   pipeline.transparency.mode = TransparencyMode::none;
   check_surfaces(given, pipeline);

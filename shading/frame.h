@@ -1,6 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -102,6 +105,24 @@ class PreparedScene {
   std::unique_ptr<ClusteredScene> clusters_;
 };
 
+/// The least and the largest of some values; none yet where the least is infinite.
+struct Extent {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+
+  void add(const Extent& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+};
+
+/// Numbers of the whole picture that the pixels of all its regions depend on (shading/picture_region.h); each is as it
+/// is here where nothing depends on it.
+struct PictureConstants {
+  uint32_t view_scale = 0;           ///< of heat maps: Frame::view_scale
+  double logarithmic_mean = 0.0;     ///< of the luminance before tones are mapped
+  std::array<Extent, 3> extents{};   ///< of the views `depth` (the first) and `position`: finite values on surfaces
+};
+
 /// Called now and then with the tiles done and the tiles in all, from any one thread at a time.
 using Progress = std::function<void(int done, int total)>;
 
@@ -109,8 +130,11 @@ using Progress = std::function<void(int done, int total)>;
 /// `execution`, the machine and the caller's floating-point environment never change a bit of it.
 /// The image is the target, or what pipeline.view shows instead. `aovs`: names, see is_aov_name(). Throws Error(usage)
 /// for values out of range.
+/// With execution.region the frame and its planes are that part of the picture, and its counts are those of what had to
+/// be drawn for it. `constants`: of the picture; null: where has_constants(), the whole picture is drawn to find them.
 Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution = {},
-                   std::span<const std::string> aovs = {}, const Progress& progress = {});
+                   std::span<const std::string> aovs = {}, const Progress& progress = {},
+                   const PictureConstants* constants = nullptr);
 Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {}, const Progress& progress = {});
 

@@ -79,7 +79,7 @@ uint64_t post_texel_bytes(const Pipeline& pipeline) {
 uint64_t predicted_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                           std::span<const std::string> aovs) {
   constexpr uint64_t kOfThread = uint64_t(3) << 20, kOfLight = sizeof(LightRow) + sizeof(Light) + 32;
-  const uint64_t pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);
+  const uint64_t pixels = drawn_pixels(pipeline, execution.region);
   return geometry_bytes(scene) + scene.lights.size() * kOfLight +
          uint64_t(thread_count(execution.threads)) * kOfThread +
          pixels * (frame_texel_bytes(pipeline, aovs) + post_texel_bytes(pipeline));

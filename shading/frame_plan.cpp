@@ -38,7 +38,8 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
                      std::span<const std::string> planes, bool lit) {
   FramePlan plan{};
   plan.execution = execution;
-  if (execution.tile == 0) plan.execution.tile = tile_for(pipeline.width, pipeline.height, execution.threads);
+  const PictureRegion drawn = drawn_region(pipeline, execution.region);
+  if (execution.tile == 0) plan.execution.tile = tile_for(drawn.width, drawn.height, execution.threads);
   const LightPass of_strategy = blends_lights(pipeline.strategy) ? LightPass::blends : LightPass::sums;
   plan.light_pass = lit ? of_strategy : LightPass::none;
   plan.transparency = draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none;

@@ -51,7 +51,7 @@ void make_tables(const FramePlan& plan, const PreparedScene& prepared, const Pip
   const auto make_image = [&](int i) {
     if (i == 0 && !plan.lit()) return;
     const Format format = i == 0 ? plan.target.format : aov_format(planes[size_t(i - 1)], plan.surface_planes);
-    (i == 0 ? frame.color : frame.aovs[size_t(i - 1)].image) = Image(pipeline.width, pipeline.height, format);
+    (i == 0 ? frame.color : frame.aovs[size_t(i - 1)].image) = Image(view.width, view.height, format);
   };
   LightTableUpdate rows(scene.lights, pipeline.light_model, pipeline.light_volumes,
                         pipeline.strategy == Strategy::deferred_volumes, scene.camera, tables.lights);

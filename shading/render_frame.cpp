@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "core/error.h"
 #include "core/fp_env.h"
@@ -11,6 +12,7 @@
 #include "shading/output/overlay.h"
 #include "shading/output/post_frame.h"
 #include "shading/output/view_image.h"
+#include "shading/picture_region.h"
 
 namespace trueshade {
 namespace {
@@ -69,11 +71,34 @@ Image boxes_view(const Scene& scene, const Pipeline& pipeline, const Execution& 
 
 // The frame drawn at the size of its samples, and the chain upon that.
 Image finished_from_samples(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
-                            const Progress& progress) {
+                            double mean, const Progress& progress) {
   std::vector<std::string> planes;
   if (pipeline.post.marker_radius > 0.0f) planes.emplace_back("depth");
-  const Frame large = draw_frame(prepared, pipeline_before_post(pipeline), execution, planes, true, progress);
-  return finished_image(prepared.scene(), pipeline, execution, large.color, depth_of(large.aovs));
+  const Frame large = draw_frame(prepared, pipeline_before_post(pipeline, execution.region),
+                                 execution_before_post(pipeline, execution), planes, true, progress);
+  return finished_image(prepared.scene(), pipeline, execution, large.color, depth_of(large.aovs), mean);
+}
+
+// The image that a view other than `lit` shows.
+void show_view(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
+               const std::optional<PictureConstants>& of_picture, std::span<const NamedImage> planes, Frame& frame) {
+  if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty()) {
+    const Image& counted = plane_named(planes, counts);
+    frame.view_scale = of_picture ? of_picture->view_scale : heat_scale(counted);
+    frame.color = heat_image(counted, frame.view_scale, execution.threads);
+  } else if (shows_boxes(pipeline.view)) {
+    frame.color = boxes_view(scene, pipeline, execution, planes);
+  } else {
+    frame.color = of_picture ? view_image(pipeline.view, execution.threads, planes, of_picture->extents)
+                             : view_image(pipeline.view, execution.threads, planes);
+  }
+}
+
+// What a region needs to know of the picture: as given, or measured. Nothing where the frame itself tells it.
+std::optional<PictureConstants> constants_of(const PreparedScene& prepared, const Pipeline& pipeline,
+                                             const Execution& execution, const PictureConstants* given) {
+  if (execution.region.whole() || !has_constants(pipeline)) return std::nullopt;
+  return given != nullptr ? *given : picture_constants(prepared, pipeline, execution);
 }
 
 }  // namespace
@@ -82,15 +107,21 @@ std::span<const std::string_view> aov_names() { return kAovNames; }
 
 bool is_aov_name(std::string_view name) { return is_plane(name); }
 
-Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& execution,
-                   std::span<const std::string> aovs, const Progress& progress) {
+Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, const Execution& asked,
+                   std::span<const std::string> aovs, const Progress& progress, const PictureConstants* given) {
   const FpScope fp;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   validate(pipeline);
-  validate(execution);
+  validate(asked);
+  validate_region(pipeline, asked.region);
+  validate_drawn_size(pipeline, asked.region);
   check_planes(aovs, prepared.scene());
   const std::vector<std::string> needed = planes_needed(pipeline, aovs);
+  const std::optional<PictureConstants> constants = constants_of(prepared, pipeline, asked, given);
+  const double mean = constants ? constants->logarithmic_mean : 0.0;
+  Execution execution = asked;
+  execution.region = region_to_draw(pipeline, asked.region, needed);
   const bool lit = pipeline.view == ImageView::lit || execution.count_as_gl ||
                    std::any_of(needed.begin(), needed.end(), shows_light);
   Frame frame = draw_frame(prepared, pipeline, execution, planes_to_draw(needed), lit, progress);
@@ -98,8 +129,8 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
   Image finished;
   if (post)
     finished = pipeline.post.samples > 1
-                   ? finished_from_samples(prepared, pipeline, execution, progress)
-                   : finished_image(prepared.scene(), pipeline, execution, frame.color, depth_of(frame.aovs));
+                   ? finished_from_samples(prepared, pipeline, execution, mean, progress)
+                   : finished_image(prepared.scene(), pipeline, execution, frame.color, depth_of(frame.aovs), mean);
   std::vector<NamedImage> drawn = std::move(frame.aovs), planes;
   const auto place = [&](const std::string& name) { return std::find_if(drawn.begin(), drawn.end(), named(name)); };
   for (const std::string& name : needed) {
@@ -113,15 +144,11 @@ Frame render_frame(const PreparedScene& prepared, const Pipeline& pipeline, cons
     const bool again = std::count_if(planes.begin(), planes.end(), named(plane.name)) > 1;
     plane.image = again ? there->image : std::move(there->image);
   }
-  if (const std::string_view counts = heat_plane(pipeline.view); !counts.empty())
-    frame.color = heat_image(plane_named(planes, counts), frame.view_scale = heat_scale(plane_named(planes, counts)),
-                             execution.threads);
-  else if (shows_boxes(pipeline.view))
-    frame.color = boxes_view(prepared.scene(), pipeline, execution, planes);
-  else if (pipeline.view != ImageView::lit)
-    frame.color = view_image(pipeline.view, execution.threads, planes);
+  if (pipeline.view != ImageView::lit) show_view(prepared.scene(), pipeline, execution, constants, planes, frame);
   if (post) frame.color = std::move(finished);
   planes.resize(aovs.size());
+  frame.color = part_of(std::move(frame.color), execution.region, asked.region);
+  for (NamedImage& plane : planes) plane.image = part_of(std::move(plane.image), execution.region, asked.region);
   frame.aovs = std::move(planes);
   frame.stats.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return frame;

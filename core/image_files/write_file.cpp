@@ -5,53 +5,17 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <climits>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <memory>
-#include <optional>
 #include <span>
 
-#include "core/error.h"
 #include "core/fp_env.h"
+#include "core/image_files/file_place.h"
 #include "core/image_files/image_io.h"
 
 namespace trueshade {
 namespace {
-
-const char* remedy(int error) {
-  switch (error) {
-    case ENOENT:
-    case ENOTDIR:
-      return "create the folder first";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "choose a folder you may write to";
-    case ENOSPC:
-    case EDQUOT:
-      return "free some space or choose another disk";
-    case EFBIG:
-      return "raise the limit on file sizes, or write a smaller image";
-    case EISDIR:
-      return "name a file, not a folder";
-    case ENAMETOOLONG:
-      return "choose a shorter name";
-    default:
-      return "check the disk and the folder";
-  }
-}
-
-[[noreturn]] void fail(const std::string& path, const char* step, int error) {
-  throw Error(ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(error), remedy(error));
-}
-
-std::string folder_of(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
 
 std::string temporary_name(const std::string& path, int attempt) {
   return folder_of(path) + "/.trueshade-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
@@ -76,56 +40,12 @@ void remove_abandoned(const std::string& folder) {
   }
 }
 
-/// What a path that may be written stands for.
-struct Destination {
-  bool stream;                   ///< a device or a pipe: bytes go into it, and nothing takes its place
-  std::string path;              ///< with no link at its end
-  std::optional<mode_t> mode{};  ///< permissions of the file that is there
-};
-
-/// Where links lead, also to what is not there yet.
-std::string followed(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as many as Linux follows
-  std::string at = path;
-  for (int links = 0; links <= kMostLinks; ++links) {
-    char target[PATH_MAX];
-    const ssize_t length = readlink(at.c_str(), target, sizeof target);
-    if (length < 0) return at;
-    const std::string next(target, size_t(length));
-    at = next.starts_with('/') ? next : folder_of(at) + '/' + next;
-  }
-  fail(path, "find what it links to", ELOOP);
-}
-
-Destination destination_of(const std::string& path) {
-  if (path.empty()) throw Error(ErrorKind::io, "''", "is no name of a file", "name one");
-  struct stat there {};
-  if (stat(path.c_str(), &there) != 0) {
-    if (errno == ENAMETOOLONG) fail(path, "write", errno);  // what else hinders, making a file in the folder will say
-    return {false, followed(path)};
-  }
-  if (S_ISCHR(there.st_mode) || S_ISFIFO(there.st_mode)) return {true, path};
-  if (S_ISDIR(there.st_mode)) fail(path, "write", EISDIR);
-  if (!S_ISREG(there.st_mode))
-    throw Error(ErrorKind::io, path, "is neither a file nor a stream of bytes", "choose another name");
-  return {false, followed(path), there.st_mode & 0777};
-}
-
-void write_bytes(int descriptor, const std::string& path, std::span<const uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, "write", errno);
-    bytes = bytes.subspan(size_t(written));
-  }
-}
-
 void write_stream(const std::string& path, const FilePieces& pieces) {
   struct Stream {
     int descriptor;
     ~Stream() { close(descriptor); }
   } stream{open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
-  if (stream.descriptor < 0) fail(path, "open", errno);
+  if (stream.descriptor < 0) fail_to_write(path, "open", errno);
   for (const std::span<const uint8_t> piece : pieces) write_bytes(stream.descriptor, path, piece);
 }
 
@@ -141,7 +61,7 @@ class Temporary {
     for (int attempt = 0; descriptor_ < 0; ++attempt) {
       name_ = temporary_name(path, attempt);
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-      if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail(path, "create a file in its folder", errno);
+      if (descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) fail_to_write(path, "create a file in its folder", errno);
     }
     // The lock keeps remove_abandoned() of other processes from this file, also of processes that do not see this one's
     // number. Nobody else has opened the file, so the lock is free. Without locks the process number has to do.
@@ -160,24 +80,17 @@ class Temporary {
 
   /// The permissions of the file that it takes the place of, where the system allows.
   void take_mode(mode_t mode) {
-    if (fchmod(descriptor_, mode) != 0 && errno != EPERM && errno != ENOTSUP) fail(path_, "give it its mode", errno);
+    if (fchmod(descriptor_, mode) != 0 && errno != EPERM && errno != ENOTSUP) fail_to_write(path_, "give it its mode", errno);
   }
 
-  /// On disk under the final name, in this order, so that a crash leaves the old file or the new one.
+  /// On disk under the final name, so that a crash leaves the old file or the new one.
   void take_name() {
-    if (fsync(descriptor_) != 0 && errno != EINVAL) fail(path_, "write to disk", errno);
     if (name_.empty()) give_name();
+    move_to_place(descriptor_, name_, path_);
+    name_.clear();
     const int closed = close(descriptor_);
     descriptor_ = -1;
-    if (closed != 0) fail(path_, "write", errno);
-    if (rename(name_.c_str(), path_.c_str()) != 0) fail(path_, "take this name", errno);
-    name_.clear();
-    const int folder = open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0)
-      return;  // a folder may be writable and not readable; its entry is then written when the system likes
-    const int synced = fsync(folder) != 0 && errno != EINVAL ? errno : 0;
-    close(folder);
-    if (synced != 0) fail(path_, "write its folder to disk", synced);
+    if (closed != 0) fail_to_write(path_, "write", errno);
   }
 
  private:
@@ -189,7 +102,7 @@ class Temporary {
       if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0)
         name_ = name;
       else if (errno != EEXIST || attempt == 1000)
-        fail(path_, "create a file in its folder", errno);
+        fail_to_write(path_, "create a file in its folder", errno);
     }
   }
 

@@ -99,7 +99,7 @@ int OutlineTasks::start(std::span<const Light> lights, const Pipeline& pipeline,
   Work& w = *work_;
   w.lights = lights, w.volumes = pipeline.light_volumes, w.meshes = &meshes, w.view = &view, w.out = &out;
   out.state = light_geometry_state(pipeline);
-  out.window = window_transform(out.state, pipeline.width, pipeline.height, pipeline.profile);
+  out.window = window_transform(out.state, pipeline.width, pipeline.height, pipeline.profile, view.region);
   const size_t padded = (lights.size() + 15) / 16 * 16;
   out.kind.resize(lights.size());
   out.layers.resize(lights.size());

@@ -26,16 +26,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline void rebuild_positions(const View& view, const TileRect& rect, const float* depth, SurfaceTile& out) {
   const WindowTransform& t = view.window;
   const auto& m = view.world_from_clip;
-  const float left = float(t.offset[0] / 128 - t.scale[0] / 128) * 0.5f;
-  const float bottom = float(t.offset[1] / 128 - std::abs(t.scale[1]) / 128) * 0.5f;
+  const int column = rect.x + int(t.corner[0]), row = rect.y + int(t.corner[1]);  // of the picture
+  const float left = float(2 * t.corner[0] + t.offset[0] / 128 - t.scale[0] / 128) * 0.5f;
+  const float bottom = float(2 * t.corner[1] + t.offset[1] / 128 - std::abs(t.scale[1]) / 128) * 0.5f;
   const float per_x = float(2.0 / double(t.scale[0] / 128)), per_y = float(2.0 / double(std::abs(t.scale[1]) / 128));
   const float per_z = float(1.0 / t.z_scale), z_offset = float(t.z_offset);
   for (int y = 0; y < rect.size; ++y) {
     for (int x = 0; x < rect.size; ++x) {
       const int i = tile_index(rect.size, x, y);
       if (out.covered[i] == 0) continue;
-      const float nx = (float(rect.x + x) + 0.5f - left) * per_x - 1.0f;
-      const float up = (float(rect.y + y) + 0.5f - bottom) * per_y - 1.0f;
+      const float nx = (float(column + x) + 0.5f - left) * per_x - 1.0f;
+      const float up = (float(row + y) + 0.5f - bottom) * per_y - 1.0f;
       const float ny = t.upper_left ? -up : up;
       const float nz = (depth[i] - z_offset) * per_z;
       float h[4];

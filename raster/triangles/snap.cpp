@@ -49,7 +49,7 @@ std::optional<int64_t> float_snapped(const WindowTransform& t, int axis, float c
   const float pixels = fused_multiply_add(coordinate * (1.0f / w), t.half_size[axis], t.center[axis]);
   const double from_center = double((pixels - 0.5f) * 256.0f);
   if (!(std::abs(from_center) < double(kWideLimit))) return std::nullopt;
-  return int64_t(std::nearbyint(from_center)) + 128;
+  return int64_t(std::nearbyint(from_center)) + 128 - 256 * t.corner[axis];
 }
 
 std::optional<int64_t> snapped_quotient(double x, double w, int64_t scale) {

@@ -125,7 +125,7 @@ HWY_INLINE V64 float_snap(V64 coordinate, V64 w, const WindowTransform& t, int a
   const V32 ndc = hn::Mul(hn::DemoteTo(df, coordinate), hn::Div(hn::Set(df, 1.0f), hn::DemoteTo(df, w)));
   const V32 pixels = fused_multiply_add(ndc, hn::Set(df, t.half_size[axis]), hn::Set(df, t.center[axis]));
   const V32 from_center = hn::Mul(hn::Sub(pixels, hn::Set(df, 0.5f)), hn::Set(df, 256.0f));
-  return hn::Add(hn::Round(hn::PromoteTo(d, from_center)), hn::Set(d, 128.0));
+  return hn::Add(hn::Round(hn::PromoteTo(d, from_center)), hn::Set(d, double(128 - 256 * t.corner[axis])));
 }
 
 /// One axis of the window position, relative to `origin`; `fits` loses the lanes that do not fit the vector path.

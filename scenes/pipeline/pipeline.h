@@ -103,7 +103,7 @@ inline constexpr BlendState kAddLight{true, kAccumulate, kAccumulate, {}, {true,
 /// Everything that may change a pixel, beside the scene.
 struct Pipeline {
   std::string preset = "many-lights";  ///< the row the other values started from; not read by any stage
-  int width = 800, height = 800;       ///< pixels, 1..65536 each
+  int width = 800, height = 800;       ///< pixels, 1..2^20 each; over 65536 a side a picture is drawn by regions
   GeometryState geometry;
   GBufferState gbuffer;
   LightModel light_model;
@@ -128,6 +128,16 @@ constexpr GBufferState surface_planes(const Pipeline& pipeline) {
   return g;
 }
 
+/// A rectangle of a picture's pixels, rows counted from the top. 0 x 0 stands for the whole picture, whatever x and y.
+struct PictureRegion {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PictureRegion&) const = default;
+  bool whole() const { return width == 0 && height == 0; }
+};
+
+inline constexpr int kMostPictureSide = 1 << 20;  ///< pixels
+inline constexpr int kMostDrawnSide = 1 << 16;    ///< pixels, of what one frame draws: the picture, or a region of it
+
 /// How a frame is computed. Never changes a pixel.
 struct Execution {
   int threads = 0;                 ///< 0: one a core; at most 1024
@@ -140,7 +150,17 @@ struct Execution {
   bool count_as_gl = false;      ///< count pixels under light geometry too (FrameStats::gl)
   bool fast_geometry = true;     ///< special paths for usual triangles and surfaces; otherwise the general ones for all
   bool bounded_codes = true;     ///< codes of a light's term and of sums by bounds on them, where one code is possible
+  PictureRegion region{};        ///< the frame is this part of the picture: the pixels that the picture has there
 };
+
+/// The part of the picture that a frame shows, in pixels.
+constexpr PictureRegion drawn_region(const Pipeline& pipeline, const PictureRegion& region) {
+  return region.width == 0 && region.height == 0 ? PictureRegion{0, 0, pipeline.width, pipeline.height} : region;
+}
+constexpr uint64_t drawn_pixels(const Pipeline& pipeline, const PictureRegion& region) {
+  const PictureRegion drawn = drawn_region(pipeline, region);
+  return uint64_t(drawn.width) * uint64_t(drawn.height);
+}
 
 /// The side of tiles that a frame is drawn with where Execution::tile is 0: 64 pixels, or 32 if there are fewer than 8
 /// tiles of 64 pixels for each thread. `threads` as in Execution.
@@ -149,6 +169,9 @@ int tile_for(int width, int height, int threads);
 /// Throws Error(usage) naming the field and its range.
 void validate(const Pipeline& pipeline);
 void validate(const Execution& execution);
+void validate_region(const Pipeline& pipeline, const PictureRegion& region);  ///< that it is within the picture
+/// That what is drawn at once, the picture or a region of it, is at most kMostDrawnSide pixels a side.
+void validate_drawn_size(const Pipeline& pipeline, const PictureRegion& region);
 
 /// Pipeline as JSON, all fields, fixed key order and number spelling: equal pipelines are equal texts.
 std::string pipeline_json(const Pipeline& pipeline);

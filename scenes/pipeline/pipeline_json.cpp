@@ -195,8 +195,8 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
     for (const Preset& row : presets()) names.push_back(row.name);
     p = presets()[preset->choice(names)].pipeline;
   }
-  read_integer(node, "width", p.width, 1, 65536);
-  read_integer(node, "height", p.height, 1, 65536);
+  read_integer(node, "width", p.width, 1, kMostPictureSide);
+  read_integer(node, "height", p.height, 1, kMostPictureSide);
   if (const auto geometry = node.find("geometry")) read_geometry(*geometry, p.geometry);
   if (const auto gbuffer = node.find("gbuffer")) read_gbuffer(*gbuffer, p.gbuffer);
   if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);

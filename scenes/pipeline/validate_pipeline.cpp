@@ -140,8 +140,8 @@ void check_post(const PostChain& p) {
 
 void validate(const Pipeline& pipeline) {
   const FpScope fp;
-  require_integer(pipeline.width, 1, 65536, "width", "1 to 65536 pixels");
-  require_integer(pipeline.height, 1, 65536, "height", "1 to 65536 pixels");
+  require_integer(pipeline.width, 1, kMostPictureSide, "width", "1 to 1048576 pixels");
+  require_integer(pipeline.height, 1, kMostPictureSide, "height", "1 to 1048576 pixels");
   check_geometry(pipeline.geometry);
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
@@ -160,6 +160,24 @@ void validate(const Pipeline& pipeline) {
 int tile_for(int width, int height, int threads) {
   const auto tiles = [](int side) { return uint64_t(side + 63) / 64; };
   return tiles(width) * tiles(height) < 8 * uint64_t(thread_count(threads)) ? 32 : 64;
+}
+
+void validate_region(const Pipeline& pipeline, const PictureRegion& region) {
+  const auto within = [](int first, int size, int most) { return first >= 0 && size >= 1 && first <= most - size; };
+  if (!region.whole() &&
+      !(within(region.x, region.width, pipeline.width) && within(region.y, region.height, pipeline.height)))
+    refuse("region",
+           std::to_string(region.x) + ',' + std::to_string(region.y) + ',' + std::to_string(region.width) + 'x' +
+               std::to_string(region.height),
+           "X,Y,WxH within the picture of " + std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) +
+               " pixels");
+}
+
+void validate_drawn_size(const Pipeline& pipeline, const PictureRegion& region) {
+  const PictureRegion drawn = drawn_region(pipeline, region);
+  if (std::max(drawn.width, drawn.height) > kMostDrawnSide)
+    refuse(region.whole() ? "size" : "region", std::to_string(drawn.width) + 'x' + std::to_string(drawn.height),
+           "at most 65536 pixels a side are drawn at once; a larger picture is drawn by regions");
 }
 
 void validate(const Execution& execution) {

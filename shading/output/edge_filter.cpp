@@ -11,6 +11,7 @@ namespace trueshade {
 namespace {
 
 constexpr int kReach = 12;                                     // pixels an edge is followed each way
+static_assert(kReach + 2 <= kEdgeReach);
 constexpr float kLeastContrast = 0.0625f, kContrast = 0.125f;  // absolute, and as a share of the brightest
 
 /// Luminance of each pixel, clamped to [0, 1]; past the border its last pixel goes on.

@@ -46,7 +46,7 @@ Image overlay(const Scene& over, const Pipeline& pipeline, const Execution& exec
   culled.geometry = state;
   const SimdScope simd(execution.simd);
   const ClusteredScene clusters = cluster_scene(over);
-  const View view = make_view(over, culled, execution.threads);
+  const View view = make_view(over, culled, execution.threads, {}, execution.region);
   const int tile = execution.tile != 0 ? execution.tile : tile_for(depth.width, depth.height, execution.threads);
   ClusterBins bins;
   bin_clusters(over, clusters, view, tile, execution.geometry_culling, execution.threads, bins);

@@ -92,21 +92,32 @@ void add_bloom(const PostChain::Bloom& bloom, int threads, Picture& picture) {
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = picture.at(x, y)[c] + bloom.strength * light.at(x, y)[c];
 }
 
-double logarithmic_mean(const Picture& picture, float offset) {
-  double sum = 0.0;
+void LogarithmicMean::add_to_rows(const Picture& picture, std::span<double> rows) const {
   for (int y = 0; y < picture.height; ++y) {
-    double row = 0.0;
+    double& row = rows[size_t(y)];
     for (int x = 0; x < picture.width; ++x) {
       const float* p = picture.at(x, y);
-      row = row + log2_of(double(offset) + double(luminance(tame(p[0]), tame(p[1]), tame(p[2]))));
+      row = row + log2_of(double(offset_) + double(luminance(tame(p[0]), tame(p[1]), tame(p[2]))));
     }
-    sum = sum + row;
   }
-  return exp2_of(sum / (double(picture.width) * double(picture.height)));
 }
 
-void map_tones(const PostChain& chain, Picture& picture) {
-  const float scale = float(double(chain.key) / logarithmic_mean(picture, chain.log_offset));
+void LogarithmicMean::add(std::span<const double> rows) {
+  for (const double row : rows) sum_ = sum_ + row;
+}
+
+double LogarithmicMean::of(uint64_t pixels) const { return exp2_of(sum_ / double(pixels)); }
+
+double logarithmic_mean(const Picture& picture, float offset) {
+  LogarithmicMean mean(offset);
+  std::vector<double> rows(size_t(picture.height), 0.0);
+  mean.add_to_rows(picture, rows);
+  mean.add(rows);
+  return mean.of(uint64_t(picture.width) * uint64_t(picture.height));
+}
+
+void map_tones(const PostChain& chain, double logarithmic_mean, Picture& picture) {
+  const float scale = float(double(chain.key) / logarithmic_mean);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       float* p = picture.at(x, y);
@@ -117,6 +128,10 @@ void map_tones(const PostChain& chain, Picture& picture) {
       const float ratio = l > 0.0f ? mapped / l : 0.0f;
       for (int c = 0; c < 3; ++c) p[c] = p[c] * ratio;
     }
+}
+
+void map_tones(const PostChain& chain, Picture& picture) {
+  map_tones(chain, logarithmic_mean(picture, chain.log_offset), picture);
 }
 
 void encode_srgb(int threads, Picture& picture) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image.h"
@@ -28,15 +30,32 @@ Picture box_average(const Picture& picture, int samples, int threads);
 /// Adds strength times the blurred light above the threshold.
 void add_bloom(const PostChain::Bloom& bloom, int threads, Picture& picture);
 
-/// exp of the mean of log(offset + luminance) over all pixels.
+/// exp of the mean of log(offset + luminance) over all pixels, of pictures that come in parts.
+class LogarithmicMean {
+ public:
+  explicit LogarithmicMean(float offset) : offset_(offset) {}
+  /// Adds the pixels of each row to that row's sum, from the left.
+  void add_to_rows(const Picture& picture, std::span<double> rows) const;
+  void add(std::span<const double> rows);  ///< the sums of whole rows, from the top
+  double of(uint64_t pixels) const;        ///< of the whole picture, whose pixels these are
+
+ private:
+  float offset_;
+  double sum_ = 0.0;
+};
 double logarithmic_mean(const Picture& picture, float offset);
 
 /// Reinhard's global operator (E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, "Photographic tone reproduction for
 /// digital images", 2002, equations 1 to 4), luminance alone, hue kept.
-void map_tones(const PostChain& chain, Picture& picture);
+/// `logarithmic_mean`: of the whole picture, of which this may be a part.
+void map_tones(const PostChain& chain, double logarithmic_mean, Picture& picture);
+void map_tones(const PostChain& chain, Picture& picture);  ///< of a whole picture
 
 /// Linear values as sRGB values in [0, 1] (IEC 61966-2-1); alpha as it is.
 void encode_srgb(int threads, Picture& picture);
+
+/// How far from a pixel smoothed_edges() looks, pixels.
+inline constexpr int kEdgeReach = 14;
 
 /// Edges smoothed as FXAA does: each pixel next to an edge takes of its neighbour across what the edge's slope, seen
 /// from its ends, would cover. Flat parts and straight level or upright edges keep their bits. Alpha as it is.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/image_rows.h"
 #include "core/srgb_codes.h"
@@ -57,22 +56,17 @@ Image picture(const Image& shown, const Image& object, int threads, const Color&
   return view;
 }
 
-/// Least and largest finite value of a channel where there is a surface.
-struct Extent {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+/// Where a value lies between the least and the largest, from 0 to 1.
+double share(const Extent& extent, double value) {
+  return extent.most > extent.least ? (value - extent.least) / (extent.most - extent.least) : 0.5;
+}
 
-  void add(const Extent& other) {
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
-  }
-  double share(double value) const { return most > least ? (value - least) / (most - least) : 0.5; }
-};
-
+/// Extents of the finite values where there is a surface.
 template <int kChannels>
-std::array<Extent, kChannels> extents(const Image& plane, const Image& object, int threads) {
-  std::vector<std::array<Extent, kChannels>> of_row(size_t(plane.height));
+std::array<Extent, 3> extents(const Image& plane, const Image& object, int threads) {
+  std::vector<std::array<Extent, 3>> of_row(size_t(plane.height));
   for_each_row(plane, kChannels, object, threads, [&](int y, const float* values, const uint32_t* objects) {
-    std::array<Extent, kChannels> row;
+    std::array<Extent, 3> row;
     for (int x = 0; x < plane.width; ++x)
       for (size_t c = 0; c < kChannels; ++c) {
         const float value = values[kChannels * size_t(x) + c];
@@ -80,7 +74,7 @@ std::array<Extent, kChannels> extents(const Image& plane, const Image& object, i
       }
     of_row[size_t(y)] = row;
   });
-  std::array<Extent, kChannels> all;
+  std::array<Extent, 3> all;
   for (const auto& row : of_row)
     for (size_t c = 0; c < kChannels; ++c) all[c].add(row[c]);
   return all;
@@ -99,17 +93,15 @@ Image directions(const Image& normal, const Image& object, int threads) {
   });
 }
 
-Image places(const Image& position, const Image& object, int threads) {
-  const auto extent = extents<3>(position, object, threads);
+Image places(const Image& position, const Image& object, const std::array<Extent, 3>& extent, int threads) {
   return picture<3>(position, object, threads, [&](const float* p) {
-    return Rgb{code(extent[0].share(p[0])), code(extent[1].share(p[1])), code(extent[2].share(p[2]))};
+    return Rgb{code(share(extent[0], p[0])), code(share(extent[1], p[1])), code(share(extent[2], p[2]))};
   });
 }
 
-Image distances(const Image& distance, const Image& object, int threads) {
-  const Extent extent = extents<1>(distance, object, threads)[0];
+Image distances(const Image& distance, const Image& object, const Extent& extent, int threads) {
   return picture<1>(distance, object, threads, [&](const float* z) {
-    const uint8_t grey = code(1.0 - 0.875 * extent.share(z[0]));
+    const uint8_t grey = code(1.0 - 0.875 * share(extent, z[0]));
     return Rgb{grey, grey, grey};
   });
 }
@@ -161,12 +153,24 @@ std::string_view heat_plane(ImageView view) {
   return "";
 }
 
-Image view_image(ImageView view, int threads, std::span<const NamedImage> planes) {
+std::array<Extent, 3> view_extents(ImageView view, int threads, std::span<const NamedImage> planes) {
   const Image& shown = plane_named(planes, planes_of_view(view)[0]);
   const Image& object = plane_named(planes, "id.object");
-  if (view == ImageView::depth) return distances(shown, object, threads);
+  return view == ImageView::depth ? extents<1>(shown, object, threads) : extents<3>(shown, object, threads);
+}
+
+Image view_image(ImageView view, int threads, std::span<const NamedImage> planes) {
+  return view_image(view, threads, planes,
+                    shows_extents(view) ? view_extents(view, threads, planes) : std::array<Extent, 3>{});
+}
+
+Image view_image(ImageView view, int threads, std::span<const NamedImage> planes,
+                 const std::array<Extent, 3>& of_picture) {
+  const Image& shown = plane_named(planes, planes_of_view(view)[0]);
+  const Image& object = plane_named(planes, "id.object");
+  if (view == ImageView::depth) return distances(shown, object, of_picture[0], threads);
   if (view == ImageView::normal) return directions(shown, object, threads);
-  if (view == ImageView::position) return places(shown, object, threads);
+  if (view == ImageView::position) return places(shown, object, of_picture, threads);
   if (view == ImageView::uv) return texture_places(shown, object, threads);
   return picture<3>(shown, object, threads, linear_color);
 }

@@ -31,8 +31,8 @@ TEST_CASE("options out of range are refused by name") {
   check_render_refused({"--size", "-8x8"}, 2, "--size");
   check_render_refused({"--size", ""}, 2, "--size");
   check_render_refused({"--size", "99999999999999999999x1"}, 2, "--size");
-  check_render_refused({"--size", "65537x1"}, 4, "65536");
-  check_render_refused({"--size", "1x65537"}, 4, "65536");
+  check_render_refused({"--size", "1048577x1"}, 4, "1048576");
+  check_render_refused({"--size", "1x1048577"}, 4, "1048576");
   check_render_refused({"--threads", "-1"}, 2, "--threads");
   check_render_refused({"--threads", "many"}, 2, "--threads");
   check_render_refused({"--threads", "1025"}, 2, "--threads");

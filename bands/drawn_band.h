@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bands/large_picture.h"
+
+namespace trueshade {
+
+/// A band as it was drawn, and as each file holds it.
+struct DrawnBand {
+  Image color;
+  std::vector<Image> planes;          ///< of the aovs
+  std::vector<EncodedRows> of_files;  ///< of LargePicture::files
+  FrameStats counts;                  ///< without what lists say of tiles and loops
+};
+
+/// Draws a band and encodes it. The pixels are the picture's, whatever the height of bands.
+DrawnBand draw_band(const LargePicture& picture, int index);
+
+/// A band as bytes, to be sent: with `planes` also the planes' pixels, which nobody needs but for hashes of them.
+enum class SentPlanes : uint8_t { no, yes };
+std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes);
+/// Error(bad_input) for bytes that are no band of this picture.
+DrawnBand band_of_bytes(const LargePicture& picture, int index, std::span<const uint8_t> bytes);
+
+/// Adds the counts and times of a part of a picture to those of others: scene and strategy stay as they are.
+void add_counts(const FrameStats& part, FrameStats& sum);
+
+/// These counts and times as words, and back; false for words that are not of counts_of().
+std::vector<uint64_t> counts_of(const FrameStats& stats);
+bool set_counts(std::span<const uint64_t> words, FrameStats& stats);
+
+}  // namespace trueshade

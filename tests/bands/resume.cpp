@@ -1,0 +1,121 @@
+// Pictures that a process has left unfinished are gone on with, and end as the same files.
+#include "bands/picture_writer.h"
+#include "bands/progress_note.h"
+#include "core/error.h"
+#include "tests/bands/city_picture.h"
+#include "tests/catch.hpp"
+#include "tests/scratch_folder.h"
+
+using namespace trueshade;
+using testing::city_picture;
+
+namespace {
+
+std::string content(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Draws bands until `stop` of them are done, or all; whether it has finished.
+bool go_on(LargePicture picture, const std::string& identity, Resume resume, int stop, int& rows_before) {
+  PictureWriter writer(picture, identity, resume, std::chrono::seconds(0));
+  rows_before = picture.rows_done = writer.rows_done();
+  for (int i = 0; i < picture.bands(); ++i) {
+    if (i == stop) return false;
+    writer.take(draw_band(picture, i));
+  }
+  writer.finish();
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("A picture goes on from every band, with bands of another height, and ends as the same files", "[bands]") {
+  const Scene scene = builtin_scene("city");
+  const PreparedScene prepared(scene);
+  const ScratchFolder folder;
+  LargePicture picture = city_picture(prepared, 130, 500);
+  picture.aovs = {"depth"};
+  picture.files = {folder.path("a.png"), folder.path("a.exr")};
+  int before = 0;
+  REQUIRE(go_on(picture, "same", Resume::no, -1, before));
+  const std::string png = content(picture.files[0]), exr = content(picture.files[1]);
+  for (int stop = 0; stop < picture.bands(); ++stop) {
+    INFO("stopped after " << stop);
+    for (const std::string& file : picture.files) std::filesystem::remove(file);
+    picture.rows = 64;
+    REQUIRE_FALSE(go_on(picture, "same", Resume::no, stop, before));
+    CHECK_FALSE(std::filesystem::exists(picture.files[0]));
+    picture.rows = stop % 2 == 0 ? 64 : 192;
+    REQUIRE(go_on(picture, "same", Resume::yes, -1, before));
+    CHECK(before == 64 * stop);
+    CHECK((content(picture.files[0]) == png));
+    CHECK((content(picture.files[1]) == exr));
+    CHECK(folder.entries() == std::vector<std::string>{"a.exr", "a.png"});
+  }
+}
+
+TEST_CASE("A picture begins anew where what is there is not of it, torn, or partly gone", "[bands]") {
+  const Scene scene = builtin_scene("sphere");
+  const PreparedScene prepared(scene);
+  const ScratchFolder folder;
+  LargePicture picture = city_picture(prepared, 100, 300);
+  picture.files = {folder.path("a.png"), folder.path("b.png")};
+  int before = 0;
+  REQUIRE(go_on(picture, "same", Resume::no, -1, before));
+  const std::string png = content(picture.files[0]);
+  const std::string note = note_name(picture.files[0]);
+  const auto damaged = [&](const char* what, const auto& damage) {
+    INFO(what);
+    REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
+    damage();
+    REQUIRE(go_on(picture, "same", Resume::yes, -1, before));
+    CHECK(before == 0);
+    CHECK((content(picture.files[0]) == png));
+    CHECK((content(picture.files[1]) == png));
+  };
+  damaged("no note", [&] { std::filesystem::remove(note); });
+  damaged("a note that is torn", [&] { std::filesystem::resize_file(note, std::filesystem::file_size(note) - 9); });
+  damaged("a note with another digit", [&] {
+    std::string text = content(note);
+    text[text.find("rows ") + 5] ^= 1;
+    folder.write("a.png.progress", text);
+  });
+  damaged("a part is gone", [&] { std::filesystem::remove(picture.files[1] + ".part"); });
+  REQUIRE_FALSE(go_on(picture, "other", Resume::no, 3, before));
+  REQUIRE(go_on(picture, "same", Resume::yes, -1, before));
+  CHECK(before == 0);
+
+  // A part that lacks what the note speaks of is an error: the disk has lost it.
+  REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
+  std::filesystem::resize_file(picture.files[0] + ".part", 50);
+  CHECK_THROWS_AS(go_on(picture, "same", Resume::yes, -1, before), Error);
+}
+
+TEST_CASE("Two processes do not write one part", "[bands]") {
+  const Scene scene = builtin_scene("sphere");
+  const PreparedScene prepared(scene);
+  const ScratchFolder folder;
+  LargePicture picture = city_picture(prepared, 100, 100);
+  picture.files = {folder.path("a.png")};
+  const PictureWriter first(picture, "same", Resume::no);
+  CHECK_THROWS_AS(PictureWriter(picture, "same", Resume::no), Error);
+}
+
+TEST_CASE("Notes come back as they were, and texts that are none do not", "[bands]") {
+  ProgressNote note{"abc", 640, "00ff", {"11", "22"}, {{100, 5, 77}, {3, 2, 1}}, {1, 2, 3}};
+  const std::string text = text_of(note);
+  const std::optional<ProgressNote> read = note_of(text);
+  REQUIRE(read);
+  CHECK(text_of(*read) == text);
+  CHECK(read->rows == 640);
+  CHECK(read->files[1].pieces == 2);
+  CHECK_FALSE(note_of(""));
+  for (size_t i = 0; i < text.size(); ++i) {
+    CHECK_FALSE(note_of(text.substr(0, i)));
+    std::string other = text;
+    other[i] = char(other[i] ^ 1);
+    CHECK_FALSE(note_of(other));
+  }
+}
