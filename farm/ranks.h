@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace trueshade {
@@ -19,9 +20,10 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  virtual int own() const = 0;              ///< this process's rank, in [0, count())
-  virtual int count() const = 0;            ///< of all ranks, lost ones too
-  virtual int on_this_machine() const = 0;  ///< ranks that share its cores, this one too
+  virtual int own() const = 0;                   ///< this process's rank, in [0, count())
+  virtual int count() const = 0;                 ///< of all ranks, lost ones too
+  virtual std::string host(int rank) const = 0;  ///< name of its machine, for messages
+  virtual int on_this_machine() const = 0;       ///< ranks that share its cores, this one too
 
   /// Returns at once; the message waits in memory until the receiver has taken it. Of no effect to a rank that is
   /// forgotten. `to` is not own().
@@ -40,6 +42,11 @@ class Ranks {
   /// leave too. Where rank 0 has forgotten some it ends all processes, and this call may not return. `exit_code`: of
   /// this process.
   virtual void leave(int exit_code) = 0;
+
+  uint32_t next_round() { return rounds_++; }  ///< counts calls of share_tasks(), from 0
+
+ private:
+  uint32_t rounds_ = 0;
 };
 
 }  // namespace trueshade
