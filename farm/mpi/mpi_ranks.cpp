@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 #include "farm/mpi/traffic.h"
 
@@ -85,7 +84,7 @@ void MpiRanks::join() {
   char host[MPI_MAX_PROCESSOR_NAME] = "";
   int length = 0;
   MPI_Get_processor_name(host, &length);
-  std::strncpy(own.host, host, sizeof own.host - 1);
+  std::copy_n(host, std::min(size_t(length), sizeof own.host - 1), own.host);
   own.process = known_process(getpid());
   std::vector<Introduction> all(static_cast<size_t>(size));
   MPI_Allgather(&own, int(sizeof own), MPI_BYTE, all.data(), int(sizeof own), MPI_BYTE, MPI_COMM_WORLD);
