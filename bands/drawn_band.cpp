@@ -175,9 +175,6 @@ DrawnBand draw_band(const LargePicture& picture, int index) {
 
 std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes) {
   ByteWriter out;
-  const auto put = [&out](auto value, auto) { out.number(value); };
-  for_each_sum(band.counts, band.counts, put);
-  for_each_constant(band.counts, band.counts, put);
   write_texels(band.color, out);
   if (planes == SentPlanes::yes)
     for (const Image& plane : band.planes) write_texels(plane, out);
@@ -188,22 +185,26 @@ std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes) {
     for (const std::vector<uint8_t>& piece : rows.pieces) out.run(piece);
   }
   out.number(uint8_t(planes == SentPlanes::yes));
+  for (const uint64_t word : counts_of(band.counts)) out.number(word);
   return out.take();
 }
 
+std::span<const uint8_t> part_of_band_without_times(std::span<const uint8_t> bytes) {
+  const size_t counts = counts_of(FrameStats()).size() * sizeof(uint64_t);
+  return bytes.first(bytes.size() - std::min(bytes.size(), counts));
+}
+
 DrawnBand band_of_bytes(const LargePicture& picture, int index, std::span<const uint8_t> bytes) {
-  if (bytes.empty()) ByteReader::fail();
-  ByteReader in(bytes.first(bytes.size() - 1));
+  const std::span<const uint8_t> pixels = part_of_band_without_times(bytes);
+  if (pixels.empty()) ByteReader::fail();
+  ByteReader in(pixels.first(pixels.size() - 1)), counts(bytes.subspan(pixels.size()));
   const PictureRegion region = picture.band(index);
   DrawnBand band;
-  const auto get = [&in](auto& value, const auto&) { in.number(value); };
-  for_each_sum(band.counts, band.counts, get);
-  for_each_constant(band.counts, band.counts, get);
   band.color = read_texels(picture.color(), region, in);
-  if (bytes.back() != 0)
+  if (pixels.back() != 0)
     for (const Format format : picture.planes()) band.planes.push_back(read_texels(format, region, in));
   for (size_t i = 0; i < picture.files.size(); ++i) {
-    EncodedRows rows;
+    EncodedRows& rows = band.of_files.emplace_back();
     uint64_t pieces = 0;
     in.number(rows.checksum);
     in.number(rows.bytes);
@@ -212,9 +213,11 @@ DrawnBand band_of_bytes(const LargePicture& picture, int index, std::span<const 
       const std::span<const uint8_t> piece = in.run();
       rows.pieces.emplace_back(piece.begin(), piece.end());
     }
-    band.of_files.push_back(std::move(rows));
   }
   if (!in.at_end()) ByteReader::fail();
+  std::vector<uint64_t> words;
+  while (!counts.at_end()) counts.number(words.emplace_back());
+  set_counts(words, band.counts);
   return band;
 }
 

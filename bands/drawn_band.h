@@ -21,6 +21,8 @@ DrawnBand draw_band(const LargePicture& picture, int index);
 /// A band as bytes, to be sent: with `planes` also the planes' pixels, which nobody needs but for hashes of them.
 enum class SentPlanes : uint8_t { no, yes };
 std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes);
+/// The part of these bytes that is the same wherever the band was drawn.
+std::span<const uint8_t> part_of_band_without_times(std::span<const uint8_t> bytes);
 /// Error(bad_input) for bytes that are no band of this picture.
 DrawnBand band_of_bytes(const LargePicture& picture, int index, std::span<const uint8_t> bytes);
 

@@ -93,6 +93,15 @@ void add_render_execution(CommandTable& table, RenderOptions& options, RenderTex
              "Try every light on every pixel; never changes a pixel");
 }
 
+void add_sharing(CommandTable& table, RenderOptions& options, RenderTexts& texts) {
+  table.open_group = "Frames shared by MPI (docs/farm.md)";
+  add_value(table, "--lost-after", "SECONDS", texts.lost_after,
+            "A process that was not heard for so long is lost, 1 to 86400 (60)");
+  add_switch(table, "--continue-without-lost", options.sharing.continue_without_lost,
+             "Give frames of a process that is lost, that fails or that has another scene to the others; else the run "
+             "ends with an error");
+}
+
 }  // namespace
 
 CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
@@ -118,11 +127,14 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_profile(table, texts.profile);
   add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames);
   add_render_execution(table, options, texts);
+  add_sharing(table, options, texts);
   add_limits(table, options.limits);
   table.examples = {
       {"trueshade render builtin:city -o city.png --hash", "A picture, and the hash that it has on every machine."},
       {"trueshade render scene.json -o out.exr --aov depth,position,normal,albedo", "A picture with its G-buffer."},
-      {"trueshade render model.glb -o report.html", "A page with pictures, lights, counts and times."}};
+      {"trueshade render model.glb -o report.html", "A page with pictures, lights, counts and times."},
+      {"mpirun -n 4 trueshade render scene.json --frames 0-99 -o out.####.png",
+       "A hundred frames, shared by four processes."}};
   table.see_also = {"explain", "validate", "compare", "list"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
   return table;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -9,15 +10,18 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <variant>
 
 #include "cli/commands.h"
+#include "cli/shared_render.h"
 #include "cli/options.h"
 #include "cli/terminal.h"
 #include "core/error.h"
 #include "core/memory_cap.h"
 #include "core/printable_text.h"
+#include "farm/process_ranks.h"
 
 namespace trueshade {
 namespace {
@@ -125,18 +129,28 @@ void set_up(const Command& command) {
       command);
 }
 
+/// The only catch.
+int run(int count, char** arguments) {
+  const MpiStart start = mpi_start();
+  const bool is_other = start.by_mpi && start.rank != 0;
+  try {
+    const Command command = command_from_arguments(count, arguments);
+    if (is_other && !is_shared(command)) return 0;  // rank 0 alone carries it out
+    set_up(command);
+    return execute(command);
+  } catch (...) {
+    // What all processes of MPI find, as a wrong option, rank 0 says, and mpirun ends the others when rank 0 ends.
+    if (is_other) std::this_thread::sleep_for(std::chrono::seconds(2));
+    return exit_code_of(std::current_exception());
+  }
+}
+
 }  // namespace
 }  // namespace trueshade
 
-/// The only catch. A failed write must come back as an error, not as the end by a signal.
+/// A failed write must come back as an error, not as the end by a signal.
 int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    const trueshade::Command command = trueshade::command_from_arguments(count, arguments);
-    trueshade::set_up(command);
-    return trueshade::execute(command);
-  } catch (...) {
-    return trueshade::exit_code_of(std::current_exception());
-  }
+  return trueshade::leave_process_ranks(trueshade::run(count, arguments));
 }

@@ -11,7 +11,7 @@ namespace trueshade {
 /// Of render.
 struct RenderTexts {
   std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, encode, threads, tile, cube_map,
-      region;
+      region, lost_after;
   bool no_light_culling = false, cube_cross = false;
 };
 

@@ -8,6 +8,7 @@
 #include "cli/limit_options.h"
 #include "compare/comparison.h"
 #include "core/image_files/image_io.h"
+#include "farm/task_sharing.h"
 #include "gl/emit/glsl_terms.h"
 #include "scenes/pipeline/pipeline.h"
 
@@ -71,6 +72,7 @@ struct RenderOptions : PipelineOptions {
   std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()
   Execution execution;
+  SharingRules sharing;  ///< of frames, by ranks that MPI has started
   bool hash = false, stats = false, json = false;
   bool resume = false;  ///< a large picture goes on where an earlier process has stopped
 };

@@ -8,14 +8,6 @@
 #include "cli/option_values.h"
 
 namespace trueshade {
-namespace {
-
-std::span<const uint8_t> bytes_of_page(const std::string& page) {
-  return {reinterpret_cast<const uint8_t*>(page.data()), page.size()};
-}
-
-}  // namespace
-
 bool is_standard_output(const std::string& path) {
   return path == "-" || path == "-.png" || path == "-.exr" || path == "-.html";
 }
@@ -39,11 +31,6 @@ void write_picture(const std::string& path, const Image& color, std::span<const 
                    const Metadata& metadata, const ImageFileOptions& options) {
   if (!is_standard_output(path)) return write_image(path, color, aovs, metadata, options);
   for (const std::vector<uint8_t>& piece : encoded_image(path, color, aovs, metadata, options)) print_bytes(piece);
-}
-
-void write_page(const std::string& path, const std::string& page) {
-  if (is_standard_output(path)) return print_bytes(bytes_of_page(page));
-  write_file(path, bytes_of_page(page));
 }
 
 }  // namespace trueshade

@@ -18,9 +18,8 @@ void check_standard_output(const std::vector<std::string>& outputs, const std::s
 /// check_writable() of a file. Error(usage) where standard output is a terminal.
 void check_output(const std::string& path);
 
-/// write_image() and write_file(), also to standard output. Error(io).
+/// write_image(), also to standard output. Error(io).
 void write_picture(const std::string& path, const Image& color, std::span<const NamedImage> aovs,
                    const Metadata& metadata, const ImageFileOptions& options);
-void write_page(const std::string& path, const std::string& page);
 
 }  // namespace trueshade

@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <vector>
 
-#include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/option_values.h"
 #include "cli/picture_encoding.h"
@@ -25,12 +23,12 @@ void check_video_is_taken() {
     throw usage("--raw-video", "standard output is a terminal", "add > FILE, or | and a program that reads the video");
 }
 
-void write_raw_video(const RenderOptions& options, const RenderedFrame& result) {
+std::vector<uint8_t> raw_video(const RenderOptions& options, const RenderedFrame& result) {
   const Image& color = result.frame.color;
   const PngCodes codes(color, file_options(options, result.pipeline));
   std::vector<uint8_t> bytes(codes.row_bytes() * size_t(color.height));
   for (int y = 0; y < color.height; ++y) codes.row(y, bytes.data() + size_t(y) * codes.row_bytes());
-  print_bytes(bytes);
+  return bytes;
 }
 
 std::string raw_video_note(const RenderOptions& options, const RenderedFrame& picture) {

@@ -1,0 +1,56 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/banded_picture.h"
+#include "cli/options.h"
+#include "cli/picture_sink.h"
+#include "scenes/scene.h"
+#include "shading/frame.h"
+
+namespace trueshade {
+
+/// Called now and then while a picture is drawn; what it throws ends the drawing.
+using ProgressSeen = std::function<void()>;
+
+/// The planes asked for, then those that a report shows and that are not among them.
+std::vector<std::string> planes_to_render(const RenderOptions& options);
+
+/// The pictures that `render` makes, one after the other, from one scene whose meshes are loaded and clustered once.
+/// Borrows all.
+class Pictures {
+ public:
+  /// `execution`: how they are drawn; documents tell of that of the options.
+  Pictures(const RenderOptions& options, Scene& scene, const Pipeline& pipeline, const Execution& execution)
+      : options_(options), scene_(scene), pipeline_(pipeline), execution_(execution) {}
+
+  /// Makes the picture, or the cube map, of a frame of the timeline, whose number goes into the names of the outputs; or
+  /// with nothing that of the options' time.
+  void picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen = {});
+
+  /// The outputs of a frame of the timeline, or with nothing those of the picture that there is.
+  std::vector<std::string> outputs_of(std::optional<int> frame) const;
+  /// Seconds.
+  double time_of(std::optional<int> frame) const;
+  /// A picture that is not drawn yet, the scene brought to its time. `band_rows`: as BandedPicture has it. It lives until
+  /// the next call.
+  BandedPicture& in_bands(std::optional<int> frame, int band_rows);
+  /// Hands out that picture, all of whose bands are taken.
+  void hand_out_bands(std::optional<int> frame, PictureSink& sink);
+
+ private:
+  void go_to(double time);
+  void at_time(double time, const std::vector<std::string>& paths, PictureSink& sink, const ProgressSeen& seen);
+  void cube_map(double time, const std::vector<std::string>& paths, PictureSink& sink, const ProgressSeen& seen);
+
+  const RenderOptions& options_;
+  Scene& scene_;
+  const Pipeline& pipeline_;
+  const Execution execution_;
+  std::optional<PreparedScene> prepared_;  // from the first picture on
+  std::optional<BandedPicture> banded_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,187 @@
+#include "cli/shared_render.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "cli/activity.h"
+#include "cli/notes.h"
+#include "cli/option_values.h"
+#include "cli/pictures.h"
+#include "cli/terminal.h"
+#include "cli/version.h"
+#include "core/file_ending.h"
+#include "core/standard_input.h"
+#include "core/threads/parallel_for.h"
+#include "farm/task_sharing.h"
+#include "scenes/pipeline/pipeline.h"
+
+namespace trueshade {
+namespace {
+
+/// The cores of a machine are divided among its ranks. The side of tiles stays that of one process, because statistics
+/// count tiles.
+Execution shared_execution(const RenderOptions& options, const Ranks& ranks) {
+  Execution execution = execution_of(options);
+  if (execution.threads == 0) execution.threads = std::max(1, thread_count(0) / ranks.on_this_machine());
+  return execution;
+}
+
+std::string outputs_text(const RenderOptions& options) {
+  std::string text = joined(options.outputs);
+  for (const auto& [name, is_on] : {std::pair{" --hash", options.hash}, {" --stats", options.stats},
+                                    {" --json", options.json}, {" --raw-video", options.raw_video}})
+    if (is_on) text += name;
+  if (!options.aovs.empty()) text += " --aov " + joined(options.aovs);
+  if (options.encode) text += " --encode " + std::to_string(int(*options.encode));
+  if (!options.cube_map) return text;
+  text += options.cube_map->cross ? " --cube-cross" : " --cube-map";
+  if (const auto& eye = options.cube_map->eye)
+    for (const float value : {eye->x, eye->y, eye->z}) text += ' ' + std::to_string(value);
+  return text;
+}
+
+/// What two ranks must have in common for what they draw to be parts of one work.
+std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions& options, SceneToRender& of) {
+  std::vector<std::pair<std::string, std::string>> identity = {{"version", kVersion}, {"commit", kCommit}};
+  if (options.frames)
+    identity.emplace_back("frames", std::to_string(options.frames->first) + '-' + std::to_string(options.frames->last));
+  const PictureRegion& region = options.execution.region;
+  identity.emplace_back("region", std::to_string(region.x) + ',' + std::to_string(region.y) + ',' +
+                                      std::to_string(region.width) + 'x' + std::to_string(region.height));
+  identity.emplace_back("output", outputs_text(options));
+  identity.emplace_back("pipeline", pipeline_json(of.pipeline));
+  const double first = options.frames ? double(options.frames->first) / of.scene.timeline.fps : options.time;
+  const double last = options.frames ? double(options.frames->last) / of.scene.timeline.fps : options.time;
+  for (const auto& [name, time] : {std::pair{"scene", first}, {"scene at the last frame", last}}) {
+    set_time(of.scene, time);
+    identity.emplace_back(name, scene_hash(of.scene));
+    if (of.scene.timeline.empty() || first == last) break;
+  }
+  return identity;
+}
+
+/// Rows of a band, the same on every rank: of large pictures some 16 million pixels; of others as many as give each rank
+/// a few.
+int shared_band_rows(const RenderOptions& options, const Pipeline& pipeline, int ranks) {
+  constexpr int64_t kPixels = int64_t(1) << 24;
+  constexpr int kBandsOfRank = 4, kLeast = 16;
+  const PictureRegion drawn = drawn_region(pipeline, options.execution.region);
+  const auto whole = [](int64_t rows, int unit) { return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit; };
+  if (is_streamed(options, pipeline)) return whole(std::min<int64_t>(kPixels / drawn.width, drawn.height), kStripRows);
+  return whole(drawn.height / (kBandsOfRank * ranks), kLeast);
+}
+
+/// What each rank draws.
+class SharedRender {
+ public:
+  SharedRender(const RenderOptions& options, Ranks& ranks, PictureSink& sink)
+      : options_(options), ranks_(ranks), sink_(sink), execution_(shared_execution(options, ranks)) {}
+
+  /// The first tasks: a sequence, or the bands of the first picture.
+  SharedTasks first_tasks() {
+    of_.emplace(options_, execution_);
+    const Pipeline& pipeline = of_->pipeline;
+    const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
+    if (execution_.tile == 0) execution_.tile = tile_for(drawn.width, drawn.height, options_.execution.threads);
+    pictures_.emplace(options_, of_->scene, pipeline, execution_);
+    identity_ = identity_of(options_, *of_);
+    if (ranks_.own() == 0) activity_.emplace("rendering", Activity::Counts::by_hand);
+    return by_bands() ? band_tasks(frame_at(0)) : frame_tasks();
+  }
+
+  /// Whether tasks are bands of a picture, and there is another picture than the first `done`.
+  bool goes_on(int done) const { return by_bands() && options_.frames && done < frames(); }
+
+  SharedTasks band_tasks(std::optional<int> frame) {
+    BandedPicture& picture =
+        pictures_->in_bands(frame, shared_band_rows(options_, of_->pipeline, ranks_.count()));
+    if (ranks_.own() == 0) picture.begin();
+    SharedTasks tasks;
+    tasks.count = picture.bands();
+    tasks.identity = identity_;
+    tasks.told.assign(kTold, 0);
+    const int rows = picture.rows_done();
+    std::memcpy(tasks.told.data(), &rows, kTold);
+    tasks.hear = [&picture](std::span<const uint8_t> told) {
+      int done = 0;
+      if (told.size() == kTold) std::memcpy(&done, told.data(), kTold);
+      picture.set_rows_done(done);
+    };
+    tasks.run = [&picture](int band, const Wanted& wanted) {
+      wanted.check();
+      return picture.bytes_of(picture.draw(band));
+    };
+    tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
+    tasks.take = [this, &picture](int band, const std::vector<uint8_t>& bytes) {
+      picture.take(picture.band_of(band, bytes));
+      activity_->show(band + 1, picture.bands(), "bands");
+    };
+    return tasks;
+  }
+
+  void hand_out_bands(std::optional<int> frame) { pictures_->hand_out_bands(frame, sink_); }
+  std::optional<int> frame_at(int index) const {
+    return options_.frames ? std::optional(options_.frames->first + index) : std::nullopt;
+  }
+  bool by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
+
+ private:
+  static constexpr size_t kTold = sizeof(int);  ///< rows that are done
+
+  int frames() const { return options_.frames->last - options_.frames->first + 1; }
+
+  SharedTasks frame_tasks() {
+    SharedTasks tasks;
+    tasks.count = frames();
+    tasks.identity = identity_;
+    tasks.run = [this](int task, const Wanted& wanted) {
+      PackedPictures packed;
+      pictures_->picture(frame_at(task), packed, [&wanted] { wanted.check(); });
+      return packed.bytes();
+    };
+    tasks.same_part = part_without_times;
+    tasks.take = [this](int task, const std::vector<uint8_t>& result) {
+      replay(result, sink_);
+      activity_->show(task + 1, frames(), "frames");
+    };
+    return tasks;
+  }
+
+  const RenderOptions& options_;
+  Ranks& ranks_;
+  PictureSink& sink_;
+  Execution execution_;
+  std::optional<SceneToRender> of_;
+  std::optional<Pictures> pictures_;
+  std::vector<std::pair<std::string, std::string>> identity_;
+  std::optional<Activity> activity_;  // of rank 0
+};
+
+}  // namespace
+
+bool is_shared(const RenderOptions& options) {
+  if (options.frames) return true;
+  return !options.cube_map && !options.raw_video &&
+         std::none_of(options.outputs.begin(), options.outputs.end(),
+                      [](const std::string& path) { return has_ending(path, ".html"); });
+}
+
+void render_shared(const RenderOptions& options, Ranks& ranks, PictureSink& sink) {
+  if (options.scene == kStandardInputName)
+    throw usage("SCENE", "mpirun gives standard input to rank 0 alone", "name a file that every machine has");
+  if (ranks.own() != 0) be_quiet();
+  std::vector<std::string> lost;
+  SharedRender render(options, ranks, sink);
+  SharingReport report = share_tasks(ranks, options.sharing, [&render] { return render.first_tasks(); });
+  for (int done = 1;; ++done) {
+    lost.insert(lost.end(), report.lost.begin(), report.lost.end());
+    if (ranks.own() == 0 && render.by_bands()) render.hand_out_bands(render.frame_at(done - 1));
+    if (!render.goes_on(done)) break;
+    report = share_tasks(ranks, options.sharing, [&] { return render.band_tasks(render.frame_at(done)); });
+  }
+  for (const std::string& rank : lost) say_notes({rank + "; its work was done by others"});
+}
+
+}  // namespace trueshade

@@ -1,0 +1,136 @@
+#include "farm/following.h"
+
+#include <cstdlib>
+#include <optional>
+
+#include "core/error.h"
+#include "farm/failures.h"
+
+namespace trueshade {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+Following::Following(Ranks& ranks, const SharingRules& rules, uint32_t round)
+    : ranks_(ranks), rules_(rules), round_(round), talking_([this] { talk(); }) {}
+
+Following::~Following() {
+  {
+    const Lock lock(mutex_);
+    worked_ = true;
+  }
+  talking_.join();
+}
+
+void Following::work(const std::function<SharedTasks()>& prepare) {
+  std::optional<SharedTasks> tasks;
+  try {
+    tasks = prepare();
+    RankSays hello{.what = RankSays::What::hello};
+    for (const auto& [name, value] : tasks->identity) hello.words.insert(hello.words.end(), {name, value});
+    tell(std::move(hello));
+  } catch (...) {
+    tell_failure(-1);
+  }
+  if (tasks) do_tasks(*tasks);
+  Lock lock(mutex_);
+  changed_.wait(lock, [this] { return all_done_; });
+  if (lost_) std::rethrow_exception(lost_);
+}
+
+void Following::do_tasks(const SharedTasks& tasks) {
+  for (bool is_first = true;; is_first = false) {
+    int task = 0;
+    {
+      Lock lock(mutex_);
+      changed_.wait(lock, [this] { return all_done_ || !to_do_.empty(); });
+      if (all_done_) return;
+      task = to_do_.front();
+      to_do_.pop_front();
+    }
+    try {
+      if (is_first && tasks.hear) tasks.hear(told_);  // which is the same with every task
+      tell({.what = RankSays::What::result, .number = task, .bytes = tasks.run(task, wanted_)});
+    } catch (const Withdrawn&) {
+      return;
+    } catch (...) {
+      return tell_failure(task);
+    }
+  }
+}
+
+void Following::talk() {
+  Clock::time_point heard = Clock::now(), told{}, ended{};
+  while (true) {
+    const std::optional<RankMessage> message = ranks_.receive(std::chrono::milliseconds(50));
+    const Clock::time_point now = Clock::now();
+    const Lock lock(mutex_);
+    if (message && message->from == 0) {
+      heard = now;
+      hear(*message);
+    }
+    if (now - told >= beat_interval(rules_.lost_after)) {
+      told = now;
+      ranks_.send(0, packed({.what = RankSays::What::beat, .round = round_}));
+    }
+    if (!all_done_ && (ranks_.has_ended(0) || now - heard > rules_.lost_after)) {
+      lost_ = std::make_exception_ptr(Error(ErrorKind::io, "rank 0 on " + ranks_.host(0),
+                                            "it is lost, and the run with it", "what it has written is kept"));
+      ranks_.forget(0);
+      all_done_ = true;
+      wanted_.withdraw();
+      changed_.notify_all();
+    }
+    if (worked_) break;
+    if (!all_done_) continue;
+    if (ended == Clock::time_point{}) ended = now;
+    if (now - ended > rules_.lost_after) {  // a task that nobody waits for does not end
+      ranks_.leave(0);
+      std::_Exit(0);
+    }
+  }
+  ranks_.send(0, packed({.what = RankSays::What::bye, .round = round_}));
+}
+
+/// Under the lock.
+void Following::hear(const RankMessage& message) {
+  const std::optional<RankSays> says = unpacked(message.bytes);
+  if (!says) {
+    lost_ = std::make_exception_ptr(Error(ErrorKind::bad_input, "rank 0 on " + ranks_.host(0), "it speaks otherwise",
+                                          "start the same version of Trueshade everywhere"));
+  } else if (says->round != round_) {
+    return;
+  } else if (says->what == RankSays::What::work) {
+    to_do_.push_back(says->number);
+    told_ = says->bytes;
+  } else if (says->what == RankSays::What::end) {
+    for (const int32_t rank : says->numbers)
+      if (rank != ranks_.own()) ranks_.forget(rank);
+  }
+  rank_0_is_here_ = true;
+  for (const RankSays& waiting : untold_) ranks_.send(0, packed(waiting));
+  untold_.clear();
+  if (!says || says->what == RankSays::What::end) {
+    all_done_ = true;
+    wanted_.withdraw();
+  }
+  changed_.notify_all();
+}
+
+void Following::tell(RankSays says) {
+  says.round = round_;
+  const Lock lock(mutex_);
+  if (rank_0_is_here_)
+    ranks_.send(0, packed(says));
+  else
+    untold_.push_back(std::move(says));
+}
+
+void Following::tell_failure(int task) {
+  const FailureText failure = failure_text(std::current_exception());
+  tell({.what = RankSays::What::failure, .number = task, .kind = failure.kind, .words = {failure.text}});
+}
+
+}  // namespace trueshade

@@ -1,0 +1,284 @@
+#include "farm/leading.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/sha256.h"
+#include "farm/failures.h"
+
+namespace trueshade {
+namespace {
+
+using Clock = HandOut::Clock;
+using Milliseconds = std::chrono::milliseconds;
+
+constexpr Milliseconds kLook{50};        // between looks for losses
+constexpr Milliseconds kPatience{5000};  // with the others, once the run has failed
+
+const char* const kSameEverywhere = "give every machine the same program and the same files";
+
+std::string same_hash(const SharedTasks& tasks, std::span<const uint8_t> result) {
+  const std::span<const uint8_t> part = tasks.same_part ? tasks.same_part(result) : result;
+  Sha256 hash;
+  hash.update(part.data(), part.size());
+  return hash.hex();
+}
+
+std::string shown(const std::string& value) {
+  constexpr size_t kMost = 64;
+  return "'" + (value.size() <= kMost ? value : value.substr(0, kMost) + "...") + "'";
+}
+
+}  // namespace
+
+Leading::Leading(Ranks& ranks, const SharingRules& rules, uint32_t round)
+    : ranks_(ranks), rules_(rules), round_(round), others_(size_t(ranks.count())) {
+  for (Other& other : others_) other.heard = Clock::now();
+  report_.tasks_of_rank.resize(others_.size());
+  answering_ = std::thread([this] { answer(); });
+}
+
+Leading::~Leading() {
+  if (answering_.joinable()) end_within(std::min(kPatience, rules_.lost_after));
+}
+
+void Leading::begin(const SharedTasks& tasks) {
+  const Lock lock(mutex_);
+  tasks_ = &tasks;
+  const int ranks = ranks_.count();
+  const int window = rules_.window > 0 ? rules_.window : 4 * ranks;
+  hand_out_.emplace(HandOut::Rules{tasks.count, ranks, std::max(rules_.ahead, 1), window, rules_.slow_after,
+                                   tasks.in_any_order});
+  for (int rank = 1; rank < ranks; ++rank)
+    if (others_[size_t(rank)].hello) meet(rank);
+  hand_out();
+  working_ = std::thread([this] { work(); });
+}
+
+std::optional<Leading::Result> Leading::next_result() {
+  Lock lock(mutex_);
+  const auto next = [this] { return tasks_->in_any_order ? waiting_.begin() : waiting_.find(next_to_take_); };
+  changed_.wait(lock, [&] { return failure_ || hand_out_->all_taken() || next() != waiting_.end(); });
+  const auto found = next();
+  if (found != waiting_.end()) {  // what came before a failure is kept
+    Result result{found->first, std::move(found->second)};
+    waiting_.erase(found);
+    return result;
+  }
+  if (failure_) std::rethrow_exception(failure_);
+  return {};
+}
+
+void Leading::taken(int task) {
+  const Lock lock(mutex_);
+  hand_out_->taken(task);
+  next_to_take_ = task + 1;
+  hand_out();
+  changed_.notify_all();
+}
+
+SharingReport Leading::end() {
+  end_within(rules_.lost_after);
+  report_.handed_out_twice = hand_out_->handed_out_twice();
+  return report_;
+}
+
+void Leading::end_within(Milliseconds patience) {
+  {
+    const Lock lock(mutex_);
+    ending_ = true;
+    given_up_ = Clock::now() + patience;
+    own_wanted_.withdraw();
+    RankSays end{.what = RankSays::What::end, .round = round_};
+    for (int rank = 1; rank < ranks_.count(); ++rank)
+      if (others_[size_t(rank)].phase == Phase::lost) end.numbers.push_back(rank);
+    for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, packed(end));
+    changed_.notify_all();
+  }
+  answering_.join();
+  if (working_.joinable()) working_.join();
+}
+
+void Leading::answer() {
+  Clock::time_point looked{};
+  while (true) {
+    std::optional<RankMessage> message = ranks_.receive(kLook);
+    const Lock lock(mutex_);
+    try {
+      if (message) hear(*message);
+      const Clock::time_point now = Clock::now();
+      if (now - looked >= kLook) {
+        looked = now;
+        beat();
+        look_for_losses();
+        if (hand_out_) hand_out();  // tasks may have become slow ones
+      }
+    } catch (...) {  // memory
+      fail(std::current_exception());
+    }
+    if (ending_ && all_left()) return;
+    if (!ending_ || Clock::now() < given_up_) continue;
+    for (int rank = 1; rank < ranks_.count(); ++rank)  // nobody waits for what they are at
+      if (!others_[size_t(rank)].left) ranks_.forget(rank);
+    return;
+  }
+}
+
+void Leading::work() {
+  while (true) {
+    std::optional<int> task;
+    {
+      Lock lock(mutex_);
+      // Time alone makes a task slow, so this thread looks for itself now and then.
+      changed_.wait_for(lock, kLook, [&] {
+        return ending_ || failure_ || hand_out_->all_taken() || (task = hand_out_->next_for(0, Clock::now()));
+      });
+      if (!task && (ending_ || failure_ || hand_out_->all_taken())) return;
+    }
+    if (!task) continue;
+    try {
+      std::vector<uint8_t> bytes = tasks_->run(*task, own_wanted_);
+      const Lock lock(mutex_);
+      hear_result(0, *task, std::move(bytes));
+    } catch (const Withdrawn&) {
+      return;
+    } catch (...) {
+      const Lock lock(mutex_);
+      return fail(std::current_exception());
+    }
+  }
+}
+
+void Leading::hear(const RankMessage& message) {
+  const int rank = message.from;
+  Other& other = others_[size_t(rank)];
+  other.heard = Clock::now();
+  std::optional<RankSays> says = unpacked(message.bytes);
+  if (!says) {
+    if (other.phase != Phase::left_out)
+      leave_out(rank, ErrorKind::bad_input, "it speaks otherwise", "start the same version of Trueshade everywhere");
+    other.left = true;  // nor does it know what the end is
+    return;
+  }
+  if (says->round != round_) return;
+  if (says->what == RankSays::What::bye) other.left = true;
+  if (other.phase == Phase::left_out || other.phase == Phase::lost) return;
+  if (says->what == RankSays::What::hello) {
+    other.hello = std::move(says);
+    if (hand_out_) meet(rank), hand_out();
+  } else if (says->what == RankSays::What::result) {
+    hear_result(rank, says->number, std::move(says->bytes));
+  } else if (says->what == RankSays::What::failure) {
+    const std::string text = says->words.empty() ? "" : says->words[0];
+    if (rules_.continue_without_lost)
+      leave_out(rank, ErrorKind::io, text, "");
+    else
+      fail(failure_from(name_of(rank), says->kind, text));
+  }
+}
+
+/// Compares who a rank is with who rank 0 is.
+void Leading::meet(int rank) {
+  Other& other = others_[size_t(rank)];
+  const std::vector<std::string> words = std::move(other.hello->words);
+  const auto& identity = tasks_->identity;
+  std::string difference;
+  if (words.size() != 2 * identity.size()) difference = "what it tells of itself is not what rank 0 tells";
+  for (size_t i = 0; i < identity.size() && difference.empty(); ++i) {
+    const auto& [name, value] = identity[i];
+    if (words[2 * i] != name || words[2 * i + 1] != value)
+      difference = "its " + words[2 * i] + " is " + shown(words[2 * i + 1]) + ", and the " + name + " of rank 0 is " +
+                   shown(value);
+  }
+  if (!difference.empty()) return leave_out(rank, ErrorKind::bad_input, difference, kSameEverywhere);
+  other.phase = Phase::ready;
+}
+
+void Leading::hear_result(int rank, int task, std::vector<uint8_t> bytes) {
+  if (!hand_out_ || task < 0 || task >= tasks_->count) return;
+  const bool first = hand_out_->came(task, rank, Clock::now());
+  if (hand_out_->was_handed_out_twice(task)) {
+    const std::string hash = same_hash(*tasks_, bytes);
+    const auto [known, is_new] = hashes_.emplace(task, hash);
+    if (!is_new && known->second != hash)
+      fail(std::make_exception_ptr(std::logic_error("task " + std::to_string(task) + " has another result on " +
+                                                    name_of(rank) + " than on another rank")));
+  }
+  if (first) {
+    ++report_.tasks_of_rank[size_t(rank)];
+    waiting_.emplace(task, std::move(bytes));
+  }
+  hand_out();
+  changed_.notify_all();
+}
+
+void Leading::look_for_losses() {
+  for (int rank = 1; rank < ranks_.count(); ++rank) {
+    const Other& other = others_[size_t(rank)];
+    if (other.phase == Phase::lost || other.left) continue;
+    if (ranks_.has_ended(rank)) {
+      lose(rank, "its process has ended");
+    } else if (Clock::now() - other.heard > rules_.lost_after) {
+      char text[64];
+      std::snprintf(text, sizeof text, "nothing was heard of it for %g s",
+                    std::chrono::duration<double>(rules_.lost_after).count());
+      lose(rank, text);
+    }
+  }
+}
+
+/// Of a rank that is not there any more.
+void Leading::lose(int rank, const std::string& how) {
+  Other& other = others_[size_t(rank)];
+  if (!ending_ && other.phase != Phase::left_out)
+    leave_out(rank, ErrorKind::io, how, "what is finished is kept; --continue-without-lost goes on without it");
+  other.phase = Phase::lost;
+  other.left = true;
+  ranks_.forget(rank);
+}
+
+/// Its tasks are for others, if the run goes on at all.
+void Leading::leave_out(int rank, ErrorKind kind, const std::string& why, const std::string& remedy) {
+  others_[size_t(rank)].phase = Phase::left_out;
+  if (!rules_.continue_without_lost) return fail(std::make_exception_ptr(Error(kind, name_of(rank), why, remedy)));
+  report_.lost.push_back(name_of(rank) + ": " + why);
+  if (!hand_out_) return;
+  hand_out_->lose(rank);
+  hand_out();
+  changed_.notify_all();
+}
+
+void Leading::hand_out() {
+  if (failure_ || ending_) return;
+  for (int rank = 1; rank < ranks_.count(); ++rank) {
+    if (others_[size_t(rank)].phase != Phase::ready) continue;
+    while (const std::optional<int> task = hand_out_->next_for(rank, Clock::now()))
+      ranks_.send(rank, packed({.what = RankSays::What::work, .round = round_, .number = *task, .bytes = tasks_->told}));
+  }
+}
+
+void Leading::beat() {
+  const Clock::time_point now = Clock::now();
+  if (now - last_beat_ < beat_interval(rules_.lost_after)) return;
+  last_beat_ = now;
+  for (int rank = 1; rank < ranks_.count(); ++rank) say(rank, RankSays::What::beat);
+}
+
+bool Leading::all_left() const {
+  return std::all_of(others_.begin() + 1, others_.end(), [](const Other& other) { return other.left; });
+}
+
+void Leading::fail(std::exception_ptr failure) {
+  if (!failure_) failure_ = std::move(failure);
+  changed_.notify_all();
+}
+
+void Leading::say(int rank, RankSays::What what, int number) {
+  ranks_.send(rank, packed({.what = what, .round = round_, .number = number}));
+}
+
+std::string Leading::name_of(int rank) const { return "rank " + std::to_string(rank) + " on " + ranks_.host(rank); }
+
+}  // namespace trueshade

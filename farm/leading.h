@@ -1,0 +1,93 @@
+#pragma once
+// Rank 0 of share_tasks().
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "farm/hand_out.h"
+#include "farm/messages.h"
+#include "farm/task_sharing.h"
+
+namespace trueshade {
+
+/// Three threads: the caller's makes the tasks and takes results; one answers the other ranks from construction to
+/// end(); one does tasks of rank 0's own.
+class Leading {
+ public:
+  Leading(Ranks& ranks, const SharingRules& rules, uint32_t round);
+  ~Leading();  ///< ends a run that has failed, and waits for the others for some seconds
+  Leading(const Leading&) = delete;
+  Leading& operator=(const Leading&) = delete;
+
+  /// Hands the tasks out from now on. They stay alive until end().
+  void begin(const SharedTasks& tasks);
+
+  struct Result {
+    int task;
+    std::vector<uint8_t> bytes;
+  };
+  /// The next result for SharedTasks::take; nothing after the last. Throws what has ended the run.
+  std::optional<Result> next_result();
+  void taken(int task);
+
+  /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost.
+  SharingReport end();
+
+ private:
+  enum class Phase : uint8_t { starting, ready, left_out, lost };
+  struct Other {
+    Phase phase = Phase::starting;
+    bool left = false;  // has said bye
+    HandOut::Clock::time_point heard{};
+    std::optional<RankSays> hello{};  // until the tasks are known
+  };
+  using Lock = std::unique_lock<std::mutex>;
+
+  void answer();  // the second thread
+  void work();    // the third
+
+  void end_within(std::chrono::milliseconds patience);
+
+  // These are called under the lock.
+  void hear(const RankMessage& message);
+  void meet(int rank);
+  void hear_result(int rank, int task, std::vector<uint8_t> bytes);
+  void look_for_losses();
+  void lose(int rank, const std::string& how);
+  void leave_out(int rank, ErrorKind kind, const std::string& why, const std::string& remedy);
+  void hand_out();
+  void beat();
+  bool all_left() const;
+  void fail(std::exception_ptr failure);
+  void say(int rank, RankSays::What what, int number = -1);
+  std::string name_of(int rank) const;
+
+  Ranks& ranks_;
+  const SharingRules rules_;
+  const uint32_t round_;
+  const SharedTasks* tasks_ = nullptr;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Other> others_;  // [0] is not used
+  std::optional<HandOut> hand_out_;
+  std::map<int, std::vector<uint8_t>> waiting_;  // results that are not taken yet
+  std::map<int, std::string> hashes_;            // of same parts, of tasks that were handed out twice
+  int next_to_take_ = 0;
+  std::exception_ptr failure_;
+  bool ending_ = false;
+  HandOut::Clock::time_point given_up_{};  // when the others are waited for no longer, once it is ending
+  HandOut::Clock::time_point last_beat_{};
+  SharingReport report_;
+  Wanted own_wanted_;
+  std::thread answering_, working_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,42 @@
+#pragma once
+// What the ranks of share_tasks() say to each other.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trueshade {
+
+struct RankSays {
+  enum class What : uint8_t {
+    beat,     ///< that it is there
+    hello,    ///< to rank 0: it is ready; words: names and values of the identity, in turn
+    work,     ///< from rank 0: number: a task; bytes: SharedTasks::told
+    result,   ///< to rank 0: number: the task; bytes
+    failure,  ///< to rank 0: number: the task, or -1 before there were any; kind; words: the text
+    end,      ///< from rank 0: nothing is left to do; numbers: ranks that are lost
+    bye,      ///< to rank 0: it has seen the end
+  };
+  What what;
+  uint32_t round = 0;  ///< which call of share_tasks(), from 0
+  int32_t number = -1;
+  int32_t kind = 0;  ///< an ErrorKind, 0 for an exception of another class
+  std::vector<int32_t> numbers{};
+  std::vector<std::string> words{};
+  std::vector<uint8_t> bytes{};
+};
+
+/// How often a rank says that it is there.
+inline std::chrono::milliseconds beat_interval(std::chrono::milliseconds lost_after) {
+  return std::min(std::chrono::milliseconds(1000), lost_after / 5);
+}
+
+std::vector<uint8_t> packed(const RankSays& says);
+/// Nothing where the bytes are none of packed(), as another version may send them.
+std::optional<RankSays> unpacked(std::span<const uint8_t> message);
+
+}  // namespace trueshade

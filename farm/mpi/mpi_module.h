@@ -1,0 +1,12 @@
+#pragma once
+// What the module trueshade_mpi.so exports. It alone links MPI, and is loaded by a command that MPI has started.
+#include "farm/ranks.h"
+
+namespace trueshade {
+
+/// Joins the other processes, and waits for all of them. The caller owns the ranks. Called once in a process.
+using JoinRanks = Ranks* (*)();
+inline constexpr const char* kMpiModuleSymbol = "trueshade_join_mpi_ranks";
+inline constexpr const char* kMpiModule = "trueshade_mpi.so";
+
+}  // namespace trueshade

@@ -1,0 +1,64 @@
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "farm/mpi/known_process.h"
+#include "farm/ranks.h"
+
+namespace trueshade {
+
+/// Ranks over MPI. One thread makes all calls of MPI, from MPI_Init_thread to MPI_Finalize; it looks for messages and
+/// sleeps between, at most 2 ms, as the other ranks may want the core.
+class MpiRanks : public Ranks {
+ public:
+  MpiRanks();
+  ~MpiRanks() override;
+
+  int own() const override { return own_; }
+  int count() const override { return int(members_.size()); }
+  std::string host(int rank) const override { return members_[size_t(rank)].host; }
+  int on_this_machine() const override { return on_this_machine_; }
+  void send(int to, std::vector<uint8_t> bytes) override;
+  std::optional<RankMessage> receive(std::chrono::milliseconds timeout) override;
+  bool has_ended(int rank) const override;
+  void forget(int rank) override;
+  void leave(int exit_code) override;
+
+ private:
+  struct Member {
+    std::string host;
+    KnownProcess process;
+    bool is_seen = false;  // from here, so that its end would be seen too
+    std::atomic<bool> forgotten{false};
+  };
+  struct Letter {
+    int to;
+    std::vector<uint8_t> bytes;
+  };
+  class Traffic;  // the requests of MPI that are under way
+  using Lock = std::unique_lock<std::mutex>;
+
+  void join();
+  void serve();  // the thread
+  void finish(Traffic& traffic);
+  void end_forgotten();
+  bool any_forgotten() const;
+
+  int own_ = 0, on_this_machine_ = 1;
+  std::deque<Member> members_;  // an atomic does not move
+  std::mutex mutex_;
+  std::condition_variable joined_or_left_, arrived_, wanted_;
+  bool joined_ = false, leaving_ = false, left_ = false;
+  int exit_code_ = 0;
+  std::vector<Letter> outbox_;
+  std::deque<RankMessage> inbox_;
+  std::thread serving_;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,47 @@
+#pragma once
+#include <mpi.h>
+
+#include <deque>
+#include <list>
+#include <memory>
+
+#include "farm/mpi/mpi_ranks.h"
+
+namespace trueshade {
+
+/// Messages under way. Long ones go in pieces, of which all but the last have the tag kMore.
+class MpiRanks::Traffic {
+ public:
+  explicit Traffic(MPI_Comm communicator, int ranks) : communicator_(communicator), from_(size_t(ranks)) {}
+
+  void send(Letter letter);
+  /// Goes on with all that is under way; what is complete is appended. Returns whether anything moved.
+  bool advance(std::deque<RankMessage>& complete, const std::deque<Member>& members);
+  bool all_sent(const std::deque<Member>& members) const;
+
+ private:
+  struct Sent {
+    int to;
+    std::shared_ptr<const std::vector<uint8_t>> bytes;
+    MPI_Request request;
+  };
+  struct Piece {
+    std::vector<uint8_t> bytes;
+    bool is_last;
+    MPI_Request request;
+  };
+  struct Source {
+    std::deque<Piece> pieces;    // in the order that they were sent in
+    std::vector<uint8_t> begun;  // of a message whose last piece is not here
+  };
+
+  bool advance_sent(const std::deque<Member>& members);
+  bool accept();
+  bool advance_source(int rank, std::deque<RankMessage>& complete);
+
+  MPI_Comm communicator_;
+  std::list<Sent> sent_;
+  std::vector<Source> from_;
+};
+
+}  // namespace trueshade

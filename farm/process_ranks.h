@@ -1,0 +1,21 @@
+#pragma once
+#include "farm/ranks.h"
+
+namespace trueshade {
+
+/// What the environment says of how this process was started.
+struct MpiStart {
+  bool by_mpi = false;  ///< by mpirun or the like, with more than one process
+  int rank = 0;
+};
+/// Of OMPI_COMM_WORLD_RANK, PMIX_RANK or PMI_RANK, and the sizes that go with them. No MPI is needed for that.
+MpiStart mpi_start();
+
+/// The ranks of this process, joined at the first call; nullptr where it was not started by MPI or is alone. Loads the
+/// module trueshade_mpi.so, which links MPI. Error(io) where it is not there.
+Ranks* process_ranks();
+
+/// The last call before the process ends with that exit code: leaves the ranks, if they were joined. Returns it.
+int leave_process_ranks(int exit_code);
+
+}  // namespace trueshade

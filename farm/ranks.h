@@ -1,0 +1,52 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trueshade {
+
+/// What one rank sent to another, whole.
+struct RankMessage {
+  int from;
+  std::vector<uint8_t> bytes;  ///< any number of them, also none
+};
+
+/// The processes that work together, as one of them sees the others. Between two ranks messages arrive in the order
+/// they were sent in. A rank that is lost does not say so: who waits for it needs a time limit (task_sharing.h).
+/// Any thread may call send() and receive(); the others are called by one thread at a time.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+
+  virtual int own() const = 0;                   ///< this process's rank, in [0, count())
+  virtual int count() const = 0;                 ///< of all ranks, lost ones too
+  virtual std::string host(int rank) const = 0;  ///< name of its machine, for messages
+  virtual int on_this_machine() const = 0;       ///< ranks that share its cores, this one too
+
+  /// Returns at once; the message waits in memory until the receiver has taken it. Of no effect to a rank that is
+  /// forgotten. `to` is not own().
+  virtual void send(int to, std::vector<uint8_t> bytes) = 0;
+
+  /// The next message of any rank; nothing where none has come in `timeout`. 0 only looks.
+  virtual std::optional<RankMessage> receive(std::chrono::milliseconds timeout) = 0;
+
+  /// Whether the process of a rank has ended, which is known of ranks on this machine only; false where it is unknown.
+  virtual bool has_ended(int rank) const = 0;
+
+  /// From now on that rank is lost: nothing is sent to it, what it sent is dropped, and leave() does not wait for it.
+  virtual void forget(int rank) = 0;
+
+  /// The last call, by every rank: sends what waits, and waits for some seconds until the others that are not forgotten
+  /// leave too. Where rank 0 has forgotten some it ends all processes, and this call may not return. `exit_code`: of
+  /// this process.
+  virtual void leave(int exit_code) = 0;
+
+  uint32_t next_round() { return rounds_++; }  ///< counts calls of share_tasks(), from 0
+
+ private:
+  uint32_t rounds_ = 0;
+};
+
+}  // namespace trueshade

@@ -1,0 +1,82 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "farm/ranks.h"
+
+namespace trueshade {
+
+/// Whether what a task is at work on is still wanted: its result may have come from another rank meanwhile, or the run
+/// is over. Long tasks look now and then.
+class Wanted {
+ public:
+  bool still() const { return !withdrawn_; }
+  /// Throws Withdrawn, which share_tasks() catches, where the result is no longer wanted.
+  void check() const;
+  void withdraw() { withdrawn_ = true; }
+
+ private:
+  std::atomic<bool> withdrawn_{false};
+};
+struct Withdrawn {};
+
+/// Tasks 0 .. count - 1, and what becomes of their results. A result is a function of the task's number alone.
+struct SharedTasks {
+  int count = 0;
+
+  /// What must be equal on every rank before work starts, by the name that an error gives it: `{"scene", hash}`,
+  /// `{"pipeline", json}`, `{"frames", "0-99"}`. Bytes are compared; the values are shown in full up to 64 characters.
+  std::vector<std::pair<std::string, std::string>> identity;
+
+  /// Of rank 0: what the others have to know before their first task, and cannot know by themselves.
+  std::vector<uint8_t> told;
+  /// On the other ranks: receives that, once, before the first task. Throws as `run`.
+  std::function<void(std::span<const uint8_t> told)> hear;
+
+  /// Does a task; on any rank, one at a time in a process, on one thread. An exception of it ends the run.
+  std::function<std::vector<uint8_t>(int task, const Wanted& wanted)> run;
+
+  /// The part of a result that is the same whoever did the task, in a result that holds times as well; not set: all.
+  std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
+
+  /// On rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
+  /// exception of it ends the run on all ranks and reaches the caller there.
+  std::function<void(int task, std::vector<uint8_t> result)> take;
+  /// Takes results in the order that they come in instead: `take` is called once for each task, in any order.
+  bool in_any_order = false;
+};
+
+struct SharingRules {
+  std::chrono::milliseconds lost_after{60000};  ///< a rank that was not heard for so long is lost
+  bool continue_without_lost = false;           ///< gives tasks of lost ranks to others; else a loss is an Error
+  int ahead = 2;   ///< tasks that a rank has at a time, at least 1: one at work, and others that wait for it
+  int window = 0;  ///< results that wait for one before them, and tasks at work; 0: 4 for each rank
+  std::chrono::milliseconds slow_after{2000};  ///< no task is handed out a second time earlier than that
+};
+
+/// What rank 0 tells of a run that is complete.
+struct SharingReport {
+  std::vector<int> tasks_of_rank;  ///< results of each rank that counted
+  std::vector<std::string> lost;   ///< sentences on ranks that were left out: `rank 2 on node7: ...`
+  int handed_out_twice = 0;
+};
+
+/// Shares tasks among all ranks; each calls it. `prepare` makes the tasks (it loads the scene, say) while heartbeats go
+/// on; then each rank says who it is (version, commit, identity), and rank 0 hands tasks out to whoever is free, itself
+/// included. At the end of the list, and where one result holds up all others, idle ranks do tasks of slow ones again:
+/// the first result counts, and another one must be equal.
+/// Returns on rank 0 when the last result is taken, elsewhere (with an empty report) when rank 0 says that all is done.
+/// May be called several times in a process, by all ranks in the same order.
+/// Throws on rank 0: what `take`, its own `prepare` and its own `run` throw; Error of the kind and text of what another
+/// rank's `prepare` or `run` threw, with `rank N on HOST: ` before it; Error(io) for a lost rank; Error(bad_input) for
+/// a rank that differs; std::logic_error for two results of a task that differ. Then the others return in order, and
+/// what was taken stays. On other ranks nothing is thrown but Error(io) where rank 0 is lost.
+SharingReport share_tasks(Ranks& ranks, const SharingRules& rules, const std::function<SharedTasks()>& prepare);
+
+}  // namespace trueshade
