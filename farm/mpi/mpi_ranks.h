@@ -17,8 +17,11 @@ namespace trueshade {
 /// sleeps between, at most 2 ms, as the other ranks may want the core.
 class MpiRanks : public Ranks {
  public:
+  /// Waits for all the others, which may have died before they came: has_joined() tells.
   MpiRanks();
   ~MpiRanks() override;
+
+  bool has_joined() const { return joined_; }
 
   int own() const override { return own_; }
   int count() const override { return int(members_.size()); }
