@@ -144,8 +144,9 @@ void MpiRanks::finish(Traffic& traffic) {
     if (mpirun_goes_on()) {
       end_forgotten();
     } else {
+      // Of a process that has died mpirun may know: it is not called while it ends the others, or may hang.
+      if (own_ != 0 || any_forgotten_has_ended()) std::this_thread::sleep_for(kPatience);
       if (own_ == 0) MPI_Abort(MPI_COMM_WORLD, exit_code_);
-      std::this_thread::sleep_for(kPatience);
     }
     std::_Exit(exit_code_);
   }
@@ -160,6 +161,12 @@ void MpiRanks::end_forgotten() {
   for (int rank = 0; rank < count(); ++rank)
     if (const Member& member = members_[size_t(rank)]; member.forgotten && member.is_seen && !has_ended(rank))
       kill(member.process.number, SIGKILL);
+}
+
+bool MpiRanks::any_forgotten_has_ended() const {
+  for (int rank = 0; rank < count(); ++rank)
+    if (members_[size_t(rank)].forgotten && has_ended(rank)) return true;
+  return false;
 }
 
 bool MpiRanks::any_forgotten() const {

@@ -52,6 +52,7 @@ class MpiRanks : public Ranks {
   void finish(Traffic& traffic);
   void end_forgotten();
   bool any_forgotten() const;
+  bool any_forgotten_has_ended() const;
 
   int own_ = 0, on_this_machine_ = 1;
   std::deque<Member> members_;  // an atomic does not move
