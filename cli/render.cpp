@@ -42,9 +42,16 @@ void check_cube_map(const RenderOptions& options, const Pipeline& pipeline) {
                 "add --size NxN");
 }
 
-void check_outputs(const RenderOptions& options) {
-  if (options.raw_video) return check_video_is_taken();
-  for (const std::string& path : options.outputs) check_output(path);
+/// `ranks`: rank 0 writes, and standard output goes through mpirun, which looks like a terminal to it.
+void check_outputs(const RenderOptions& options, const Ranks* ranks) {
+  if (ranks != nullptr) {
+    for (const std::string& path : options.outputs)
+      if (ranks->own() == 0 && !is_standard_output(path)) check_writable(path);
+  } else if (options.raw_video) {
+    check_video_is_taken();
+  } else {
+    for (const std::string& path : options.outputs) check_output(path);
+  }
 }
 
 }  // namespace
@@ -70,7 +77,7 @@ bool is_shared(const Command& command) {
 void render(const RenderOptions& options) {
   Ranks* const ranks = is_shared(options) ? process_ranks() : nullptr;
   check_pipeline(options);
-  if (ranks == nullptr || ranks->own() == 0) check_outputs(options);
+  check_outputs(options, ranks);
   PrintedPictures sink(options);
   if (ranks != nullptr) {
     render_shared(options, *ranks, sink);

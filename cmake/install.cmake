@@ -9,6 +9,9 @@ install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_
 install(TARGETS trueshade_image_files trueshade_image_io EXPORT trueshade_image_io COMPONENT dev)
 install(TARGETS trueshade COMPONENT command)
 install(TARGETS trueshade_image_io_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade COMPONENT image_io)
+if(TARGET trueshade_mpi_module)
+  install(TARGETS trueshade_mpi_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/trueshade COMPONENT mpi)
+endif()
 foreach(header
   core/blend_state.h core/error.h core/expansion.h core/format.h core/memory_cap.h core/threads/parallel_for.h core/half.h core/image.h core/image_files/image_io.h core/numeric_profile.h core/sha256.h
   scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/mesh.h scenes/pipeline/pipeline.h

@@ -28,11 +28,15 @@ set(package_image_io trueshade-image-io)
 set(package_dev libtrueshade-dev)
 set(package_python python3-trueshade)
 set(package_viewer trueshade-view)
+set(package_mpi trueshade-mpi)
 if(TARGET trueshade_python)
   list(APPEND components python)
 endif()
 if(TARGET trueshade_view_program)
   list(APPEND components viewer)
+endif()
+if(TARGET trueshade_mpi_module)
+  list(APPEND components mpi)
 endif()
 
 # What every package has in share/doc: the copyright, and a changelog whose date is that of the sources.
@@ -97,7 +101,7 @@ trueshade_package(command graphics "deferred renderer whose image is the same on
 "Trueshade draws 3D scenes with many lights on the CPU. Its image has the
 same hash on every machine, so it can be the reference that a GPU's image is
 judged by. This package has the command trueshade."
-  PACKAGE_RECOMMENDS "libegl1, libopengl0, libgl1-mesa-dri" PACKAGE_SUGGESTS "trueshade-image-io, trueshade-view, mesa-vulkan-drivers, libvulkan1")
+  PACKAGE_RECOMMENDS "libegl1, libopengl0, libgl1-mesa-dri" PACKAGE_SUGGESTS "trueshade-image-io, trueshade-view, trueshade-mpi, mesa-vulkan-drivers, libvulkan1")
 trueshade_package(image_io graphics "reader of EXR and JPEG pictures for Trueshade"
 "Trueshade writes EXR and PNG and reads PNG by itself. With this package,
 which brings OpenImageIO, it reads EXR files and JPEG textures too."
@@ -116,6 +120,10 @@ trueshade_package(viewer graphics "deferred renderer whose image is the same on 
 "The command trueshade view: a window to fly through a scene, to change its
 pipeline, and to click on pixels."
   PACKAGE_DEPENDS "trueshade ${same}")
+trueshade_package(mpi graphics "deferred renderer whose image is the same on every CPU: frames shared by MPI"
+"With this package frames of a sequence are shared by the processes that
+mpirun or Slurm starts, on one machine or many."
+  PACKAGE_DEPENDS "trueshade ${same}" PACKAGE_RECOMMENDS "openmpi-bin")
 # Python's byte code, which nobody else would take away again.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
     ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)

@@ -2,16 +2,18 @@
 #include "farm/process_ranks.h"
 
 #include <dlfcn.h>
+#include <sched.h>
 
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include "core/error.h"
-#include "farm/mpi/mpi_module.h"
+#include "farm/mpi_module.h"
 
 namespace trueshade {
 namespace {
@@ -24,6 +26,16 @@ constexpr std::array<Variables, 3> kVariables = {{{"OMPI_COMM_WORLD_RANK", "OMPI
                                                   {"PMI_RANK", "PMI_SIZE"},
                                                   {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}}};
 
+/// mpirun binds each of one or two processes to a core of its own, which is for programs of one thread. A binding that
+/// was asked for stays, as does what the system grants the process.
+void undo_usual_binding() {
+  if (std::getenv("OMPI_MCA_orte_bound_at_launch") == nullptr || std::getenv("OMPI_MCA_hwloc_base_binding_policy"))
+    return;
+  cpu_set_t all;
+  std::memset(&all, 0xff, sizeof all);
+  sched_setaffinity(0, sizeof all, &all);
+}
+
 Ranks* loaded_ranks() {
   namespace fs = std::filesystem;
   std::error_code absent;
@@ -34,7 +46,11 @@ Ranks* loaded_ranks() {
     if (!fs::exists(path, absent)) continue;
     void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     const auto join = module == nullptr ? nullptr : reinterpret_cast<JoinRanks>(dlsym(module, kMpiModuleSymbol));
-    if (join != nullptr) return join();
+    if (join != nullptr) {
+      if (Ranks* const joined = join()) return joined;
+      throw Error(ErrorKind::io, "MPI", "some processes of this run did not come within two minutes",
+                  "see what mpirun says of them");
+    }
     reason = dlerror();
   }
   throw Error(ErrorKind::io, kMpiModule, "this run was started by MPI, and the module cannot be loaded: " + reason,
@@ -59,7 +75,10 @@ MpiStart mpi_start() {
 
 Ranks* process_ranks() {
   std::unique_ptr<Ranks>& ranks = joined_ranks();
-  if (!ranks && mpi_start().by_mpi) ranks.reset(loaded_ranks());
+  if (!ranks && mpi_start().by_mpi) {
+    undo_usual_binding();
+    ranks.reset(loaded_ranks());
+  }
   return ranks.get();
 }
 

@@ -12,7 +12,8 @@ struct MpiStart {
 MpiStart mpi_start();
 
 /// The ranks of this process, joined at the first call; nullptr where it was not started by MPI or is alone. Loads the
-/// module trueshade_mpi.so, which links MPI. Error(io) where it is not there.
+/// module trueshade_mpi.so, which links MPI. Error(io) where it is not there, or where
+/// others have not come within two minutes.
 Ranks* process_ranks();
 
 /// The last call before the process ends with that exit code: leaves the ranks, if they were joined. Returns it.

@@ -23,7 +23,7 @@ class Ranks {
   virtual int own() const = 0;                   ///< this process's rank, in [0, count())
   virtual int count() const = 0;                 ///< of all ranks, lost ones too
   virtual std::string host(int rank) const = 0;  ///< name of its machine, for messages
-  virtual int on_this_machine() const = 0;       ///< ranks that share its cores, this one too
+  virtual int on_this_machine() const = 0;       ///< ranks that may run on the same cores, this one too
 
   /// Returns at once; the message waits in memory until the receiver has taken it. Of no effect to a rank that is
   /// forgotten. `to` is not own().

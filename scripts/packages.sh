@@ -9,11 +9,11 @@ out=build/packages
 suite=bookworm
 golden=$(sed -nE 's/.*"builtin:city", "many-lights", 800, 800, "([0-9a-f]{64})".*/\1/p' tests/golden/frames.h)
 
-install_packages command python3 pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils gzip xz-utils
+install_packages command python3 libopenmpi-dev pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils gzip xz-utils
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
 configure release TRUESHADE_PARTS=all "TRUESHADE_SIMD=avx512;avx2;sse4;scalar" TRUESHADE_PYTHON=ON CMAKE_INSTALL_PREFIX=/usr \
   "CMAKE_INSTALL_LIBDIR=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
-targets=(trueshade trueshade_image_io trueshade_image_io_module trueshade_python)
+targets=(trueshade trueshade_image_io trueshade_image_io_module trueshade_mpi_module trueshade_python)
 ninja -C build/release -t query trueshade_view_program >/dev/null 2>&1 && targets+=(trueshade_view_program)
 for target in "${targets[@]}"; do build release "$target"; done
 
@@ -105,6 +105,11 @@ if compgen -G "$out/trueshade-view_*.deb" >/dev/null; then
   quietly "apt install of the viewer" inside 'cd /root && apt-get -qq -y --no-install-recommends install ./trueshade-view_*.deb'
   say "trueshade-view was installed"
 fi
+quietly "apt install of trueshade-mpi" inside 'cd /root && apt-get -qq -y --no-install-recommends install ./trueshade-mpi_*.deb openmpi-bin'
+[[ $(inside 'mpirun --allow-run-as-root --oversubscribe -n 2 trueshade render builtin:city --frames 0-1 --hash | head -n 1') == "$hash" ]] ||
+  die "two ranks of MPI draw another hash"
+say "trueshade-mpi was installed, and two ranks draw the same"
+
 quietly "apt remove" inside 'apt-get -qq -y purge "trueshade*" "libtrueshade*" python3-trueshade && ! command -v trueshade'
 left=$(inside 'find / -xdev -name "*trueshade*" -not -path "/root/*" -not -path "/proc/*" -not -path "/var/lib/apt/*"')
 [[ -z $left ]] || die "apt purge leaves: $left"

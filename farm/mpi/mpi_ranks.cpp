@@ -1,6 +1,7 @@
 #include "farm/mpi/mpi_ranks.h"
 
 #include <mpi.h>
+#include <sched.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -16,12 +17,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kShortSleep = 50us, kLongSleep = 2000us;
+constexpr auto kPatienceToJoin = 120s;
 constexpr auto kPatience = 5s;  // with what is under way, and with the others at the end
 
 /// What a rank tells all others when it joins.
 struct Introduction {
   char host[64];
   KnownProcess process;
+  cpu_set_t cores;
 };
 
 /// Whether mpirun lets the others go on when a process dies (--enable-recovery).
@@ -35,7 +38,7 @@ bool mpirun_goes_on() {
 MpiRanks::MpiRanks() {
   serving_ = std::thread([this] { serve(); });
   Lock lock(mutex_);
-  joined_or_left_.wait(lock, [this] { return joined_; });
+  joined_or_left_.wait_for(lock, kPatienceToJoin, [this] { return joined_; });
 }
 
 MpiRanks::~MpiRanks() {
@@ -86,6 +89,7 @@ void MpiRanks::join() {
   MPI_Get_processor_name(host, &length);
   std::copy_n(host, std::min(size_t(length), sizeof own.host - 1), own.host);
   own.process = known_process(getpid());
+  sched_getaffinity(0, sizeof own.cores, &own.cores);
   std::vector<Introduction> all(static_cast<size_t>(size));
   MPI_Allgather(&own, int(sizeof own), MPI_BYTE, all.data(), int(sizeof own), MPI_BYTE, MPI_COMM_WORLD);
   on_this_machine_ = 0;
@@ -94,7 +98,7 @@ void MpiRanks::join() {
     member.host = one.host;
     member.process = one.process;
     const bool is_here = member.host == own.host;
-    on_this_machine_ += is_here;
+    on_this_machine_ += is_here && CPU_EQUAL(&one.cores, &own.cores);
     member.is_seen = is_here && one.process.started != 0 &&
                      known_process(one.process.number).started == one.process.started;
   }
@@ -135,13 +139,16 @@ void MpiRanks::finish(Traffic& traffic) {
     std::this_thread::sleep_for(kShortSleep);
   }
   if (any_forgotten()) {
-    end_forgotten();
-    if (!mpirun_goes_on()) {
-      // MPI_Finalize would wait for the lost ones. MPI_Abort ends all, and mpirun ends with the code.
+    // MPI_Finalize would wait for the lost ones. MPI_Abort ends all, and mpirun ends with the code; but where mpirun goes
+    // on without those that die, it ends nobody, and waits for all.
+    if (mpirun_goes_on()) {
+      end_forgotten();
+    } else {
+      // Of a process that has died mpirun may know: it is not called while it ends the others, or may hang.
+      if (own_ != 0 || any_forgotten_has_ended()) std::this_thread::sleep_for(kPatience);
       if (own_ == 0) MPI_Abort(MPI_COMM_WORLD, exit_code_);
-      std::this_thread::sleep_for(kPatience);
-      std::_Exit(exit_code_);
     }
+    std::_Exit(exit_code_);
   }
   MPI_Finalize();
   const Lock lock(mutex_);
@@ -149,11 +156,17 @@ void MpiRanks::finish(Traffic& traffic) {
   joined_or_left_.notify_all();
 }
 
-/// mpirun waits for every process, also for one that is stopped or waits for a disk for ever.
+/// Those of this machine that are stopped, or wait for a disk for ever.
 void MpiRanks::end_forgotten() {
   for (int rank = 0; rank < count(); ++rank)
     if (const Member& member = members_[size_t(rank)]; member.forgotten && member.is_seen && !has_ended(rank))
       kill(member.process.number, SIGKILL);
+}
+
+bool MpiRanks::any_forgotten_has_ended() const {
+  for (int rank = 0; rank < count(); ++rank)
+    if (members_[size_t(rank)].forgotten && has_ended(rank)) return true;
+  return false;
 }
 
 bool MpiRanks::any_forgotten() const {

@@ -17,8 +17,11 @@ namespace trueshade {
 /// sleeps between, at most 2 ms, as the other ranks may want the core.
 class MpiRanks : public Ranks {
  public:
+  /// Waits for all the others, which may have died before they came: has_joined() tells.
   MpiRanks();
   ~MpiRanks() override;
+
+  bool has_joined() const { return joined_; }
 
   int own() const override { return own_; }
   int count() const override { return int(members_.size()); }
@@ -49,6 +52,7 @@ class MpiRanks : public Ranks {
   void finish(Traffic& traffic);
   void end_forgotten();
   bool any_forgotten() const;
+  bool any_forgotten_has_ended() const;
 
   int own_ = 0, on_this_machine_ = 1;
   std::deque<Member> members_;  // an atomic does not move

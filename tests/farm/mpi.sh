@@ -1,0 +1,171 @@
+#!/bin/bash
+# `render --frames` under mpirun against one process, byte by byte. Usage: mpi.sh TRUESHADE MODE
+#   frames       scenes by 2, 3, 4 and 8 ranks; SIMD targets that differ; what is not shared
+#   all_frames   every built-in scene by 1, 2, 3, 4 and 8 ranks
+#   faults       a rank is killed, is stopped; rank 0 is killed; the disk is full; another scene; no module
+#   killed N     kills a rank at N random times: what is there is whole, and --continue-without-lost ends with all
+set -euo pipefail
+trueshade=$(realpath "$1")
+if ! command -v mpirun >/dev/null || [[ ! -e ${trueshade%/*}/trueshade_mpi.so ]]; then
+  echo "SKIPPED: no mpirun, or no module trueshade_mpi.so beside the command (libopenmpi-dev, openmpi-bin)"
+  exit 0
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+mpi() { timeout -k 1 100 mpirun --oversubscribe "$@" </dev/null; }
+die() {
+  printf '%s\n' "$@"
+  exit 1
+}
+scenes=(city cornell circle lecture atrium)
+
+# same RANKS WORDS...: both write the same files and the same output.
+same() {
+  local ranks=$1
+  shift
+  rm -rf one many
+  mkdir one many
+  (cd one && "$trueshade" render "$@" >out 2>err) || die "one process: $(<one/err)"
+  (cd many && mpi -n "$ranks" "$trueshade" render "$@" >out 2>err) || die "$ranks ranks, $*: $(<many/err)"
+  diff -r -x err one many || die "$ranks ranks, $*"
+  [[ $(wc -l <one/out) -gt 0 || -n $(ls one/*.png) ]]
+}
+film=(--frames 3-9 --size 96x64 -o f.####.png -o g.exr --aov depth,normal --hash)
+
+# without_times FILE: JSON or a table of --stats, without what a clock has measured.
+without_times() { sed -E 's/"[a-z_]*_ms": [0-9.e+-]+//g; /\[ms\]/d' "$1"; }
+
+frames() {
+  local counts=(2 3 4 8) i
+  for i in "${!scenes[@]}"; do same "${counts[i % 4]}" "builtin:${scenes[i]}" "${film[@]}"; done
+  same 1 builtin:city "${film[@]}"
+  same 3 builtin:city --frames 0-3 --size 32x32 --cube-map eye -o c.png --hash
+  same 3 builtin:city --frames 0-3 --size 32x32 --raw-video -o -
+
+  # One film by ranks of different SIMD targets; a frame by a rank of another scene is refused.
+  local rank=0 words=() simd
+  for simd in $("$trueshade" list --json | grep -oE '"simd": \[[^]]*' | grep -oE '[a-z0-9]+' | tail -n +2); do
+    words+=(${words:+:} -n 1 "$trueshade" render builtin:atrium "${film[@]}" --simd "$simd")
+  done
+  rm -rf one many
+  mkdir one many
+  (cd one && "$trueshade" render builtin:atrium "${film[@]}" >out 2>err)
+  (cd many && mpi "${words[@]}" >out 2>err) || die "SIMD targets: $(<many/err)"
+  diff -r -x err one many || die "SIMD targets"
+
+  "$trueshade" render builtin:city --frames 0-5 --size 96x64 --json -q >one.json
+  mpi -n 3 "$trueshade" render builtin:city --frames 0-5 --size 96x64 --json -q >many.json
+  diff <(without_times one.json) <(without_times many.json) >/dev/null || die "--json"
+  "$trueshade" render builtin:city --frames 0-5 --size 96x64 --stats -q >one.stats
+  mpi -n 3 "$trueshade" render builtin:city --frames 0-5 --size 96x64 --stats -q >many.stats
+  diff <(without_times one.stats) <(without_times many.stats) || die "--stats"
+
+  # What is not shared rank 0 does alone.
+  [[ $(mpi -n 3 "$trueshade" --version) == "$("$trueshade" --version)" ]] || die "--version"
+  [[ $(mpi -n 3 "$trueshade" render --help) == "$("$trueshade" render --help)" ]] || die "--help"
+  [[ $(mpi -n 3 "$trueshade" render builtin:city --size 32x32 --hash) == "$("$trueshade" render builtin:city --size 32x32 --hash)" ]] ||
+    die "one picture"
+  status=0
+  mpi -n 3 "$trueshade" render builtin:city --frames 5 --size 32 --hash >out 2>err || status=$?
+  [[ $status == 2 && $(grep -c 'trueshade: error' err) == 1 ]] || die "a wrong option: $status, $(<err)"
+}
+
+all_frames() {
+  local scene count
+  scenes+=(rabbits sphere red)
+  for scene in "${scenes[@]}"; do
+    for count in 1 2 3 4 8; do same "$count" "builtin:$scene" "${film[@]}"; done
+  done
+  same 3 builtin:city,lights=9 --frames 0-2 --size 6000x6000 --raw-video -o -  # 144 MB a frame: messages in pieces
+}
+
+# ranks_of NAME: numbers of processes and their ranks, of the run whose output folder is NAME.
+ranks_of() {
+  local process rank
+  for process in $(pgrep -f "^$trueshade render builtin:lecture.*$1/"); do
+    rank=$(tr '\0' '\n' 2>/dev/null </proc/"$process"/environ | sed -n 's/^OMPI_COMM_WORLD_RANK=//p') || true
+    [[ -n $rank ]] && echo "$process $rank"
+  done
+}
+
+# strike SIGNAL RANK SECONDS WORDS... -- MPI_WORDS...: starts a film in folder `hit` by 4 ranks, and sends one of them a
+# signal. Sets status and seconds; whatever is written is what one process writes.
+strike() {
+  local signal=$1 rank=$2 after=$3 words=() process i
+  shift 3
+  while [[ $1 != -- ]]; do words+=("$1") && shift; done
+  shift
+  rm -rf hit
+  mkdir hit
+  SECONDS=0 status=0
+  mpi "$@" -n 4 "$trueshade" render "${long_film[@]}" -o "$work/hit/f.####.png" "${words[@]}" >hit/out 2>hit.err &
+  local job=$!
+  until [[ -s hit/out ]] || ! kill -0 "$job" 2>/dev/null; do sleep 0.02; done  # the ranks have joined
+  sleep "$after"
+  process=$(ranks_of hit | sed -n "s/ $rank\$//p")
+  [[ -n $process ]] && kill "-$signal" "$process"
+  wait "$job" || status=$?
+  seconds=$SECONDS
+  for picture in hit/*.png; do
+    [[ -e $picture ]] || continue
+    cmp -s "$picture" "whole/${picture#hit/}" || die "$picture is not what one process writes"
+  done
+  [[ -z $(find hit -name '.trueshade-*') ]] || die "a part of a file is left"
+  cmp -s <(head -n "$(wc -l <hit/out)" whole/out) hit/out || die "standard output is not the beginning of the whole"
+  for i in {1..100}; do
+    [[ -z $(ranks_of hit) ]] && return
+    sleep 0.05
+  done
+  die "ranks are left: $(ranks_of hit)"
+}
+long_film=(builtin:lecture --frames 0-39 --size 640x480 --hash -q)
+whole() {
+  mkdir -p whole
+  "$trueshade" render "${long_film[@]}" -o "$work/whole/f.####.png" >whole/out
+}
+all_there() { [[ $(ls hit/*.png | wc -l) == 40 && $(wc -l <hit/out) == 40 ]]; }
+
+faults() {
+  whole
+  strike KILL 2 0.2 --
+  [[ $status == 137 || $status == 5 ]] || die "a killed rank: $status, $(<hit.err)"
+  strike STOP 2 0.2 --lost-after 2 --
+  all_there || [[ $status == 5 && $(<hit.err) == *"rank 2 on "*": nothing was heard of it for 2 s"* ]] || die "a stopped rank: $status, $(<hit.err)"
+  strike STOP 1 0.2 --lost-after 2 --continue-without-lost -- --enable-recovery
+  all_there || die "a stopped rank, without it: $status, $(<hit.err)"
+  strike KILL 0 0.2 -- --enable-recovery
+  ((seconds < 20)) || die "rank 0 was killed, and the others took $seconds s"
+
+  status=0
+  mpi -n 1 "$trueshade" render builtin:city --frames 0-9 --hash : \
+    -n 1 "$trueshade" render builtin:city,seed=4 --frames 0-9 --hash >out 2>err || status=$?
+  [[ $status == 3 && $(<err) == *"rank 1 on "*": its scene is '"* ]] || die "another scene: $status, $(<err)"
+
+  status=0
+  mpi -n 3 bash -c 'ulimit -f 20; exec "$@"' bash "$trueshade" render builtin:lecture --frames 0-9 --size 640x480 -o "$work/full.png" >out 2>err || status=$?
+  [[ $status == 5 && $(grep -c 'trueshade: error' err) == 1 && $(<err) == *"full.0000.png: cannot write"* ]] ||
+    die "a full disk: $status, $(<err)"
+
+  mkdir alone
+  cp "$trueshade" alone
+  status=0
+  mpi -n 3 alone/"${trueshade##*/}" render builtin:city --frames 0-9 --hash >out 2>err || status=$?
+  [[ $status == 5 && $(grep -c 'trueshade: error: trueshade_mpi.so: ' err) == 1 && ! -s out ]] || die "no module: $status, $(<err)"
+}
+
+killed() {
+  local i rank after finished=0
+  whole
+  for ((i = 0; i < $1; ++i)); do
+    rank=$((1 + RANDOM % 3)) after=0.$((RANDOM % 90 + 10))
+    strike KILL "$rank" "$after" --continue-without-lost -- --enable-recovery
+    all_there || die "rank $rank was killed after $after s, and the others did not finish: $(<hit.err)"
+    finished=$((finished + 1))
+    strike KILL $((RANDOM % 4)) "$after" --
+  done
+  echo "$finished runs lost a rank and ended with all frames"
+}
+
+"${@:2}"
