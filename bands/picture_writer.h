@@ -14,14 +14,14 @@ namespace trueshade {
 enum class Resume : uint8_t { no, yes };
 
 /// Takes the bands of a picture from the top down: its hash, its counts, its files. Beside the first file stays a note
-/// (progress_note.h) of how far the files on disk have come, renewed every few seconds; it goes when the files are
+/// (progress_note.h) of how far the files on disk have come, renewed every second; it goes when the files are
 /// whole.
 class PictureWriter {
  public:
   /// `identity`: all that may change a byte of the files, as text. With Resume::yes the picture goes on after
   /// rows_done(), if there is a note of the same identity. Error(io); Error(usage) as StreamedFile.
   PictureWriter(const LargePicture& picture, const std::string& identity, Resume resume,
-                std::chrono::seconds between_notes = std::chrono::seconds(5));
+                std::chrono::seconds between_notes = std::chrono::seconds(1));
   ~PictureWriter();  ///< leaves parts and note, so that the picture can be gone on with
 
   int rows_done() const { return rows_done_; }  ///< from the top

@@ -1,8 +1,11 @@
 #!/bin/bash
-# `render --frames` under mpirun against one process, byte by byte. Usage: mpi.sh TRUESHADE MODE
+# `render` under mpirun against one process, byte by byte. Usage: mpi.sh TRUESHADE MODE
 #   frames       scenes by 2, 3, 4 and 8 ranks; SIMD targets that differ; what is not shared
 #   all_frames   every built-in scene by 1, 2, 3, 4 and 8 ranks
 #   faults       a rank is killed, is stopped; rank 0 is killed; the disk is full; another scene; no module
+#   bands        one picture by 2, 3, 4 and 8 ranks: strategies, SIMD targets, a region, a view, a large picture
+#   all_bands    every built-in scene and strategy by 1, 2, 3, 4 and 8 ranks
+#   resumed N    kills a rank that draws a large picture at N random times; --resume ends with the same files
 #   killed N     kills a rank at N random times: what is there is whole, and --continue-without-lost ends with all
 set -euo pipefail
 trueshade=$(realpath "$1")
@@ -166,6 +169,64 @@ killed() {
     strike KILL $((RANDOM % 4)) "$after" --
   done
   echo "$finished runs lost a rank and ended with all frames"
+}
+
+strategies=(forward-multipass forward-loop deferred-volumes deferred-loop)
+picture=(--size 150x110 -o a.png -o b.exr --aov depth,normal,light.count --hash)
+
+bands() {
+  local counts=(2 3 4 8) i words=() simd
+  for i in "${!strategies[@]}"; do
+    same "${counts[i]}" "builtin:${scenes[i]}" "${picture[@]}" --strategy "${strategies[i]}"
+  done
+  same 3 builtin:city "${picture[@]}" --region 30,20,90x70 --view light-count
+  same 3 builtin:city --size 16500x200 -o a.png -o b.exr --aov depth --hash
+  same 2 builtin:city --size 16500x200 --frames 1-2 -o a.png --hash
+  for simd in $("$trueshade" list --json | grep -oE '"simd": \[[^]]*' | grep -oE '[a-z0-9]+' | tail -n +2); do
+    words+=(${words:+:} -n 1 "$trueshade" render builtin:atrium "${picture[@]}" --simd "$simd")
+  done
+  rm -rf one many
+  mkdir one many
+  (cd one && "$trueshade" render builtin:atrium "${picture[@]}" >out 2>err)
+  (cd many && mpi "${words[@]}" >out 2>err) || die "SIMD targets: $(<many/err)"
+  diff -r -x err one many || die "SIMD targets"
+}
+
+all_bands() {
+  local scene strategy count
+  scenes+=(rabbits sphere red)
+  for scene in "${scenes[@]}"; do
+    for strategy in "${strategies[@]}"; do
+      for count in 1 2 3 4 8; do same "$count" "builtin:$scene" "${picture[@]}" --strategy "$strategy"; done
+    done
+  done
+}
+
+resumed() {
+  local i rank after status went_on=0 large=(builtin:lecture --size 17000x20000 --hash -q)
+  mkdir whole
+  "$trueshade" render "${large[@]}" -o whole/a.png -o whole/a.exr >whole/out
+  for ((i = 0; i < $1; ++i)); do
+    rm -rf hit
+    mkdir hit
+    rank=$((RANDOM % 4)) after=$((RANDOM % 6)).$((RANDOM % 90 + 10)) status=0
+    mpi -n 4 "$trueshade" render "${large[@]}" -o "$work/hit/a.png" -o "$work/hit/a.exr" >hit.out 2>hit.err &
+    local job=$!
+    sleep "$after"
+    kill -KILL $(ranks_of hit | sed -n "s/ $rank\$//p") 2>/dev/null || true
+    wait "$job" || status=$?
+    ((status == 0)) || [[ ! -e hit/a.exr ]] || die "a picture is there although its last rank was killed"
+    [[ -e hit/a.png.progress ]] && went_on=$((went_on + 1))
+    if ((i % 2 == 0)); then
+      mpi -n 3 "$trueshade" render "${large[@]}" -o "$work/hit/a.png" -o "$work/hit/a.exr" --resume >hit.out 2>hit.err
+    else
+      "$trueshade" render "${large[@]}" -o "$work/hit/a.png" -o "$work/hit/a.exr" --resume >hit.out 2>hit.err
+    fi || die "rank $rank was killed after $after s: $(<hit.err)"
+    cmp whole/out hit.out || die "another hash: rank $rank was killed after $after s"
+    cmp whole/a.exr hit/a.exr && cmp whole/a.png hit/a.png || die "other files: rank $rank, $after s"
+    [[ $(ls -A hit | wc -l) == 2 ]] || die "more than the files is left: $(ls -A hit)"
+  done
+  echo "$1 pictures whose rank was killed have the same hash; $went_on of them went on from a note"
 }
 
 "${@:2}"
