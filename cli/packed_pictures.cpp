@@ -1,5 +1,5 @@
-// Items of PackedPictures: number in the order, kind, two texts, bytes. Those whose content holds times stand apart from
-// the others, which are the same wherever a picture is drawn.
+// Items of PackedPictures: number in the order, kind, two texts, bytes. Those whose content holds times stand apart
+// from the others, which are the same wherever a picture is drawn.
 #include <cstring>
 
 #include "cli/picture_sink.h"
@@ -86,9 +86,7 @@ void PackedPictures::put(bool is_timed, uint8_t kind, const std::string& first, 
 void PackedPictures::file(const std::string& path, EncodedFile file, const std::string& about, bool is_timed) {
   put(is_timed, uint8_t(is_timed ? Kind::timed_file : Kind::file), path, about, file);
 }
-void PackedPictures::video(std::vector<uint8_t> codes) {
-  put(false, uint8_t(Kind::video), {}, {}, {std::move(codes)});
-}
+void PackedPictures::video(std::vector<uint8_t> codes) { put(false, uint8_t(Kind::video), {}, {}, {std::move(codes)}); }
 void PackedPictures::text(const std::string& text) { put(false, uint8_t(Kind::text), text, {}, {}); }
 void PackedPictures::timed_text(const std::string& text) { put(true, uint8_t(Kind::timed_text), text, {}, {}); }
 void PackedPictures::document(const std::string& json) { put(true, uint8_t(Kind::document), json, {}, {}); }

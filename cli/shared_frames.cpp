@@ -28,8 +28,10 @@ Execution shared_execution(const RenderOptions& options, const Ranks& ranks) {
 
 std::string outputs_text(const RenderOptions& options) {
   std::string text = joined(options.outputs);
-  for (const auto& [name, is_on] : {std::pair{" --hash", options.hash}, {" --stats", options.stats},
-                                    {" --json", options.json}, {" --raw-video", options.raw_video}})
+  for (const auto& [name, is_on] : {std::pair{" --hash", options.hash},
+                                    {" --stats", options.stats},
+                                    {" --json", options.json},
+                                    {" --raw-video", options.raw_video}})
     if (is_on) text += name;
   if (!options.aovs.empty()) text += " --aov " + joined(options.aovs);
   if (options.encode) text += " --encode " + std::to_string(int(*options.encode));
@@ -70,7 +72,8 @@ void render_shared_frames(const RenderOptions& options, Ranks& ranks, PictureSin
   std::optional<Activity> activity;
   const auto prepare = [&] {
     of.emplace(options, execution);
-    if (execution.tile == 0) execution.tile = tile_for(of->pipeline.width, of->pipeline.height, options.execution.threads);
+    if (execution.tile == 0)
+      execution.tile = tile_for(of->pipeline.width, of->pipeline.height, options.execution.threads);
     pictures.emplace(options, of->scene, of->pipeline, execution);
     SharedTasks tasks;
     tasks.count = count;
