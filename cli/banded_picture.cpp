@@ -84,7 +84,9 @@ class BandsIntoMemory : public BandConsumer {
   void finish(RenderedFrame& result) override { result.frame = std::move(frame_); }
 
  private:
-  void copy(const Image& rows, Image& to) const { std::memcpy(to.texel(0, rows_), rows.texels.data(), rows.texels.size()); }
+  void copy(const Image& rows, Image& to) const {
+    std::memcpy(to.texel(0, rows_), rows.texels.data(), rows.texels.size());
+  }
 
   const LargePicture& picture_;
   Frame frame_;
@@ -125,8 +127,8 @@ void BandedPicture::begin() {
   consumer_ = std::make_unique<BandsIntoFiles>(picture_, options_.resume ? Resume::yes : Resume::no);
   picture_.rows_done = consumer_->rows_done();
   if (options_.resume && picture_.rows_done > 0)
-    say_notes({"The picture goes on after " + std::to_string(picture_.rows_done) +
-               " rows that an earlier run has drawn"});
+    say_notes(
+        {"The picture goes on after " + std::to_string(picture_.rows_done) + " rows that an earlier run has drawn"});
 }
 
 std::vector<uint8_t> BandedPicture::bytes_of(const DrawnBand& band) const {

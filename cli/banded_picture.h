@@ -24,8 +24,8 @@ class BandConsumer {
 
 class BandedPicture {
  public:
-  /// `result`: a frame that is not drawn yet. `files`: of the outputs. `band_rows`: 0: by the memory that there is; else
-  /// a multiple of kStripRows for files that are streamed.
+  /// `result`: a frame that is not drawn yet. `files`: of the outputs. `band_rows`: 0: by the memory that there is;
+  /// else a multiple of kStripRows for files that are streamed.
   BandedPicture(const RenderOptions& options, const PreparedScene& scene, const Execution& execution,
                 RenderedFrame result, const std::vector<std::string>& files, int band_rows);
 
@@ -43,8 +43,8 @@ class BandedPicture {
   DrawnBand band_of(int index, std::span<const uint8_t> bytes) const { return band_of_bytes(picture_, index, bytes); }
 
   void take(const DrawnBand& band) { consumer_->take(band); }
-  /// The picture, once all bands are taken. Of a streamed one the images have no texels, hashes are known, and the files
-  /// are written.
+  /// The picture, once all bands are taken. Of a streamed one the images have no texels, hashes are known, and the
+  /// files are written.
   RenderedFrame& finish();
   bool is_streamed() const { return streamed_; }
 

@@ -15,8 +15,8 @@
 #include <variant>
 
 #include "cli/commands.h"
-#include "cli/shared_render.h"
 #include "cli/options.h"
+#include "cli/shared_render.h"
 #include "cli/terminal.h"
 #include "core/error.h"
 #include "core/memory_cap.h"

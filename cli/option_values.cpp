@@ -67,7 +67,9 @@ PictureRegion region_from_text(const std::string& text) {
   };
   const auto x = number(0, after_x), y = number(after_x + 1, after_y), width = number(after_y + 1, cross),
              height = number(cross + 1, text.size());
-  const auto within = [](const std::optional<int64_t>& v, int least) { return v && *v >= least && *v <= kMostPictureSide; };
+  const auto within = [](const std::optional<int64_t>& v, int least) {
+    return v && *v >= least && *v <= kMostPictureSide;
+  };
   if (!within(x, 0) || !within(y, 0) || !within(width, 1) || !within(height, 1))
     throw usage("--region", "'" + text + "' is no region of a picture",
                 "give X,Y,WxH in pixels, X and Y counted from the top left, like 1024,0,512x256");

@@ -1,5 +1,5 @@
-// Items of PackedPictures: number in the order, kind, two texts, bytes. Those whose content holds times stand apart from
-// the others, which are the same wherever a picture is drawn.
+// Items of PackedPictures: number in the order, kind, two texts, bytes. Those whose content holds times stand apart
+// from the others, which are the same wherever a picture is drawn.
 #include <cstring>
 
 #include "cli/picture_sink.h"
@@ -91,9 +91,7 @@ void PackedPictures::file(const std::string& path, EncodedFile file, const std::
 void PackedPictures::written(const std::string& path, const std::string& about) {
   put(false, uint8_t(Kind::written), path, about, {});
 }
-void PackedPictures::video(std::vector<uint8_t> codes) {
-  put(false, uint8_t(Kind::video), {}, {}, {std::move(codes)});
-}
+void PackedPictures::video(std::vector<uint8_t> codes) { put(false, uint8_t(Kind::video), {}, {}, {std::move(codes)}); }
 void PackedPictures::text(const std::string& text) { put(false, uint8_t(Kind::text), text, {}, {}); }
 void PackedPictures::timed_text(const std::string& text) { put(true, uint8_t(Kind::timed_text), text, {}, {}); }
 void PackedPictures::document(const std::string& json) { put(true, uint8_t(Kind::document), json, {}, {}); }

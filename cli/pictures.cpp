@@ -38,11 +38,11 @@ void draw(const RenderOptions& options, const PreparedScene& prepared, const Exe
           const ProgressSeen& seen, RenderedFrame& result) {
   {
     ProgressBar bar("rendering", "tiles");
-    result.frame = render_frame(prepared, result.pipeline, execution, planes_to_render(options),
-                                [&](int done, int total) {
-                                  bar.show(done, total);
-                                  if (seen) seen();
-                                });
+    result.frame =
+        render_frame(prepared, result.pipeline, execution, planes_to_render(options), [&](int done, int total) {
+          bar.show(done, total);
+          if (seen) seen();
+        });
   }
   if (!wants_report(options)) return;
   ProgressBar bar("timing", "frames");

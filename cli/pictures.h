@@ -26,16 +26,16 @@ class Pictures {
   Pictures(const RenderOptions& options, Scene& scene, const Pipeline& pipeline, const Execution& execution)
       : options_(options), scene_(scene), pipeline_(pipeline), execution_(execution) {}
 
-  /// Makes the picture, or the cube map, of a frame of the timeline, whose number goes into the names of the outputs; or
-  /// with nothing that of the options' time.
+  /// Makes the picture, or the cube map, of a frame of the timeline, whose number goes into the names of the outputs;
+  /// or with nothing that of the options' time.
   void picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen = {});
 
   /// The outputs of a frame of the timeline, or with nothing those of the picture that there is.
   std::vector<std::string> outputs_of(std::optional<int> frame) const;
   /// Seconds.
   double time_of(std::optional<int> frame) const;
-  /// A picture that is not drawn yet, the scene brought to its time. `band_rows`: as BandedPicture has it. It lives until
-  /// the next call.
+  /// A picture that is not drawn yet, the scene brought to its time. `band_rows`: as BandedPicture has it. It lives
+  /// until the next call.
   BandedPicture& in_bands(std::optional<int> frame, int band_rows);
   /// Hands out that picture, all of whose bands are taken.
   void hand_out_bands(std::optional<int> frame, PictureSink& sink);

@@ -30,8 +30,10 @@ Execution shared_execution(const RenderOptions& options, const Ranks& ranks) {
 
 std::string outputs_text(const RenderOptions& options) {
   std::string text = joined(options.outputs);
-  for (const auto& [name, is_on] : {std::pair{" --hash", options.hash}, {" --stats", options.stats},
-                                    {" --json", options.json}, {" --raw-video", options.raw_video}})
+  for (const auto& [name, is_on] : {std::pair{" --hash", options.hash},
+                                    {" --stats", options.stats},
+                                    {" --json", options.json},
+                                    {" --raw-video", options.raw_video}})
     if (is_on) text += name;
   if (!options.aovs.empty()) text += " --aov " + joined(options.aovs);
   if (options.encode) text += " --encode " + std::to_string(int(*options.encode));
@@ -62,8 +64,8 @@ std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions
   return identity;
 }
 
-/// Rows of a band, the same on every rank: of large pictures some 16 million pixels; of others as many as give each rank
-/// a few.
+/// Rows of a band, the same on every rank: of large pictures some 16 million pixels; of others as many as give each
+/// rank a few.
 int shared_band_rows(const RenderOptions& options, const Pipeline& pipeline, int ranks) {
   constexpr int64_t kPixels = int64_t(1) << 24;
   constexpr int kBandsOfRank = 4, kLeast = 16;
@@ -95,8 +97,7 @@ class SharedRender {
   bool goes_on(int done) const { return by_bands() && options_.frames && done < frames(); }
 
   SharedTasks band_tasks(std::optional<int> frame) {
-    BandedPicture& picture =
-        pictures_->in_bands(frame, shared_band_rows(options_, of_->pipeline, ranks_.count()));
+    BandedPicture& picture = pictures_->in_bands(frame, shared_band_rows(options_, of_->pipeline, ranks_.count()));
     if (ranks_.own() == 0) picture.begin();
     SharedTasks tasks;
     tasks.count = picture.bands();

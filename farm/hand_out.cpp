@@ -33,8 +33,8 @@ std::optional<int> HandOut::fresh() {
 
 /// The lowest task that one other rank has for long already.
 std::optional<int> HandOut::slow_one(int rank, Clock::time_point now) const {
-  const auto mean = measured_ == 0 ? Clock::duration::zero()
-                                   : std::chrono::duration_cast<Clock::duration>(spent_ / measured_);
+  const auto mean =
+      measured_ == 0 ? Clock::duration::zero() : std::chrono::duration_cast<Clock::duration>(spent_ / measured_);
   const Clock::duration slow = std::max<Clock::duration>(rules_.slow_after, 2 * mean);
   for (const int task : at_work_) {
     const std::vector<Holder>& holders = tasks_[size_t(task)].holders;

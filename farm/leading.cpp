@@ -49,8 +49,8 @@ void Leading::begin(const SharedTasks& tasks) {
   tasks_ = &tasks;
   const int ranks = ranks_.count();
   const int window = rules_.window > 0 ? rules_.window : 4 * ranks;
-  hand_out_.emplace(HandOut::Rules{tasks.count, ranks, std::max(rules_.ahead, 1), window, rules_.slow_after,
-                                   tasks.in_any_order});
+  hand_out_.emplace(
+      HandOut::Rules{tasks.count, ranks, std::max(rules_.ahead, 1), window, rules_.slow_after, tasks.in_any_order});
   for (int rank = 1; rank < ranks; ++rank)
     if (others_[size_t(rank)].hello) meet(rank);
   hand_out();
@@ -255,7 +255,8 @@ void Leading::hand_out() {
   for (int rank = 1; rank < ranks_.count(); ++rank) {
     if (others_[size_t(rank)].phase != Phase::ready) continue;
     while (const std::optional<int> task = hand_out_->next_for(rank, Clock::now()))
-      ranks_.send(rank, packed({.what = RankSays::What::work, .round = round_, .number = *task, .bytes = tasks_->told}));
+      ranks_.send(rank,
+                  packed({.what = RankSays::What::work, .round = round_, .number = *task, .bytes = tasks_->told}));
   }
 }
 

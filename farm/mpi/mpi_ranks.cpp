@@ -99,8 +99,8 @@ void MpiRanks::join() {
     member.process = one.process;
     const bool is_here = member.host == own.host;
     on_this_machine_ += is_here && CPU_EQUAL(&one.cores, &own.cores);
-    member.is_seen = is_here && one.process.started != 0 &&
-                     known_process(one.process.number).started == one.process.started;
+    member.is_seen =
+        is_here && one.process.started != 0 && known_process(one.process.number).started == one.process.started;
   }
 }
 
@@ -139,8 +139,8 @@ void MpiRanks::finish(Traffic& traffic) {
     std::this_thread::sleep_for(kShortSleep);
   }
   if (any_forgotten()) {
-    // MPI_Finalize would wait for the lost ones. MPI_Abort ends all, and mpirun ends with the code; but where mpirun goes
-    // on without those that die, it ends nobody, and waits for all.
+    // MPI_Finalize would wait for the lost ones. MPI_Abort ends all, and mpirun ends with the code; but where mpirun
+    // goes on without those that die, it ends nobody, and waits for all.
     if (mpirun_goes_on()) {
       end_forgotten();
     } else {

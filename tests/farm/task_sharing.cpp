@@ -1,5 +1,7 @@
 // Tasks shared by ranks that are threads: every order, loss, delay and error gives each result once, in order, or one
 // clear error on rank 0; and nobody waits for ever.
+#include "farm/task_sharing.h"
+
 #include <algorithm>
 #include <atomic>
 #include <random>
@@ -7,7 +9,6 @@
 
 #include "core/error.h"
 #include "farm/messages.h"
-#include "farm/task_sharing.h"
 #include "tests/catch.hpp"
 #include "tests/farm/local_ranks.h"
 
@@ -182,7 +183,8 @@ TEST_CASE("without lost ranks the run goes on to the end, whoever is lost, and w
         run.rules.continue_without_lost = true;
         std::atomic<int> gone{0};
         run.run = [&](int rank, int task, const Wanted& wanted) {
-          if (rank != 0 && task >= at && gone < lost_ranks && !network.is_lost(rank)) ++gone, network.lose(rank, is_seen);
+          if (rank != 0 && task >= at && gone < lost_ranks && !network.is_lost(rank))
+            ++gone, network.lose(rank, is_seen);
           work_for(10ms, wanted);
           return result_of(task);
         };
@@ -255,7 +257,8 @@ TEST_CASE("a second result that differs is an error, whichever comes first") {
 TEST_CASE("an error of a task, of making the tasks and of taking a result ends the run with its text and kind") {
   Run run;
   run.run = [](int rank, int task, const Wanted& wanted) {
-    if (rank == 2) throw Error(ErrorKind::limit, "roof.gltf: mesh 3", "too many (of (these))", "ask for less (or (so))");
+    if (rank == 2)
+      throw Error(ErrorKind::limit, "roof.gltf: mesh 3", "too many (of (these))", "ask for less (or (so))");
     work_for(10ms, wanted);
     return result_of(task);
   };
@@ -345,13 +348,19 @@ TEST_CASE("where rank 0 is lost the others end with an error") {
 }
 
 TEST_CASE("messages come back as they were, and bytes that are none are told") {
-  const RankSays says{.what = RankSays::What::hello, .round = 3, .number = -1, .kind = 4, .numbers = {1, 2},
-                      .words = {"", "a\0b"}, .bytes = {0, 255}};
+  const RankSays says{.what = RankSays::What::hello,
+                      .round = 3,
+                      .number = -1,
+                      .kind = 4,
+                      .numbers = {1, 2},
+                      .words = {"", "a\0b"},
+                      .bytes = {0, 255}};
   const Bytes bytes = packed(says);
   const std::optional<RankSays> back = unpacked(bytes);
   REQUIRE(back);
   CHECK(packed(*back) == bytes);
-  for (size_t size = 0; size + says.bytes.size() < bytes.size(); ++size) CHECK_FALSE(unpacked(std::span(bytes).first(size)));
+  for (size_t size = 0; size + says.bytes.size() < bytes.size(); ++size)
+    CHECK_FALSE(unpacked(std::span(bytes).first(size)));
   std::mt19937 random(5);
   for (int i = 0; i < 20000; ++i) {
     Bytes hostile = bytes;

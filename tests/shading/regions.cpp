@@ -186,8 +186,7 @@ TEST_CASE("A region of a picture too large to draw whole is a region of twice th
       const double at_x = kMostPictureSide - 400 + x + 0.5, at_y = 300 - 1 - y + 0.5;
       if (std::abs(at_x - edge_x) < 0.01 || std::abs(at_y - edge_y) < 0.01) continue;  // snapped by 1/512 pixel
       const bool covered = at_x < edge_x && at_y > edge_y;
-      if (frame.aovs[0].image.code(x, y, 0) != (covered ? 1u : 0u))
-        FAIL("pixel " << x << ',' << y << " of the region");
+      if (frame.aovs[0].image.code(x, y, 0) != (covered ? 1u : 0u)) FAIL("pixel " << x << ',' << y << " of the region");
     }
 }
 
@@ -196,9 +195,9 @@ TEST_CASE("Regions out of the picture, and pictures too large to draw whole, are
   const PreparedScene prepared(scene);
   Pipeline p = pipeline_of(scene, 100, 80);
   Execution execution;
-  for (const PictureRegion& region : {PictureRegion{0, 0, 101, 1}, PictureRegion{-1, 0, 2, 2}, PictureRegion{99, 79, 1, 2},
-                                      PictureRegion{5, 5, 0, 3}, PictureRegion{5, 5, 3, 0},
-                                      PictureRegion{2147483647, 0, 2147483647, 1}}) {
+  for (const PictureRegion& region :
+       {PictureRegion{0, 0, 101, 1}, PictureRegion{-1, 0, 2, 2}, PictureRegion{99, 79, 1, 2}, PictureRegion{5, 5, 0, 3},
+        PictureRegion{5, 5, 3, 0}, PictureRegion{2147483647, 0, 2147483647, 1}}) {
     execution.region = region;
     CHECK_THROWS_AS(render_frame(prepared, p, execution), Error);
   }
