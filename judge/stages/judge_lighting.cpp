@@ -147,7 +147,7 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
     if (!sees_thresholds_ || !lit.branches.empty()) continue;
     const double largest = color_.layout.largest_code(k);
     if (std::optional<NearThreshold> s = near_threshold(output, largest, profile_.likely.code_reach, 0, k)) {
-      s->above = color_.stored(x, y, k) > s->threshold;
+      s->uppers = color_.stored(x, y, k) > s->threshold ? 1 : 0;
       m.near_thresholds.push_back(*s);
     }
   }
