@@ -228,10 +228,9 @@ ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
   std::vector<uint8_t> rows, next;
   exr.read(0, std::min(at_once, spec.height), rows);
   for (int end = at_once; !rows.empty(); end += at_once) {
-    std::future<void> coming;  // is read while the rows before are taken apart
+    std::future<void> coming;  // read while the rows before are taken apart, or after it where no thread starts
     next.clear();
-    if (end < spec.height)
-      coming = std::async(std::launch::async, [&] { exr.read(end, std::min(end + at_once, spec.height), next); });
+    if (end < spec.height) coming = std::async([&] { exr.read(end, std::min(end + at_once, spec.height), next); });
     append_words(rows, spec.pixel_bytes(true), offsets, file.channels);
     if (coming.valid()) coming.get();
     std::swap(rows, next);
