@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,31 @@ Error bad_plane(const PlaneChannelList& plane, int x, int y, const std::string& 
           plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + ' ' + reason, remedy};
 }
 
+/// The same of a row of floats of 32 bits that the file holds as such.
+int store_floats(const PlaneChannelList& plane, int y, Image& image) {
+  const size_t count = plane.channels.size(), pixel = file_pixel(plane, 0, y), width = size_t(image.width);
+  uint8_t* const row = image.texel(0, y);
+  size_t first = width;
+  for (size_t c = 0; c < count; ++c) {
+    const uint32_t* const words = &plane.channels[c]->words[pixel];
+    for (size_t x = 0; x < width; ++x) {
+      std::memcpy(row + (x * count + c) * sizeof(uint32_t), words + x, sizeof(uint32_t));
+      if (std::isnan(std::bit_cast<float>(words[x]))) first = std::min(first, x);
+    }
+  }
+  return first < width ? int(first) : -1;
+}
+
+bool holds_floats(const PlaneChannelList& plane) {
+  return std::all_of(plane.channels.begin(), plane.channels.end(),
+                     [](const Channel* c) { return c->kind == ChannelKind::floating; });
+}
+
 /// Row y of the image. Returns the first x whose value is not a number, -1 where there is none.
 int store_row(const PlaneChannelList& plane, int y, Image& image) {
   const FormatInfo layout = info(image.format);
+  if (layout.number_class == NumberClass::floating && layout.bytes_per_channel == 4 && holds_floats(plane))
+    return store_floats(plane, y, image);
   const bool keeps_codes = layout.number_class != NumberClass::floating, halves = layout.small_float();
   int first = -1;
   for (int c = 0; c < layout.channels; ++c) {

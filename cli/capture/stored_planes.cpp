@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -104,6 +105,25 @@ Error unheld_value(const std::string& where, const std::string& place, double va
                      "store the channel as uint, or the number itself as a float");
 }
 
+/// A row of floats of 32 bits as codes of 8 bits, of as many channels. Returns x and channel of the first value that is
+/// no code, x -1 where all are.
+std::array<int, 2> store_codes(const Image& given, int y, const FormatInfo& to, Image& image) {
+  const FormatInfo from = info(given.format);
+  std::array<int, 2> unheld{-1, 0};
+  const uint8_t* const floats = given.texel(0, y);
+  uint8_t* const codes = image.texel(0, y);
+  for (int i = 0; i < given.width * from.channels; ++i) {
+    float value;
+    std::memcpy(&value, floats + size_t(i) * sizeof value, sizeof value);
+    const int k = i % from.channels;
+    if (const auto code = code_of(double(value), to.largest_code(k), from))
+      codes[i] = uint8_t(*code);
+    else if (unheld[0] < 0)
+      unheld = {i / from.channels, k};
+  }
+  return unheld;
+}
+
 Image converted(const std::string& where, const std::string& name, const Image& given, Format wanted) {
   const FormatInfo from = info(given.format);
   const Format format = format_for(wanted, from.channels);
@@ -128,7 +148,14 @@ Image converted(const std::string& where, const std::string& name, const Image& 
     return pads_normal && untouched(given, x, y) ? 0.0 : 1.0;  // w of what is drawn is 1
   };
   std::vector<std::array<int, 2>> unheld(size_t(given.height), {-1, 0});  // the first x and channel of each row
+  const bool is_plain = from.number_class == NumberClass::floating && from.bytes_per_channel == 4 &&
+                        to.number_class == NumberClass::unorm && to.bytes_per_channel == 1 && !to.srgb &&
+                        from.channels == to.channels;
   parallel_for(given.height, 0, [&](int y) {
+    if (is_plain) {
+      unheld[size_t(y)] = store_codes(given, y, to, image);
+      return;
+    }
     for (int x = 0; x < given.width; ++x)
       for (int k = 0; k < to.channels; ++k) {
         const std::optional<uint32_t> bits = bits_of(value_at(x, y, k), to, k, from);

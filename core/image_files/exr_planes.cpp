@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -223,11 +224,16 @@ ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
   for (int c = 0; c < spec.nchannels; ++c) file.channels.push_back(exr_channel_of(path, spec, c));
   std::vector<size_t> offsets;
   for (int c = 0; c < spec.nchannels; ++c) offsets.push_back(spec.pixel_bytes(0, c, true));
-  std::vector<uint8_t> rows;
   const int at_once = spec.tile_width == 0 ? kRowsAtOnce : spec.tile_height;
-  for (int first = 0; first < spec.height; first += at_once) {
-    exr.read(first, std::min(first + at_once, spec.height), rows);
+  std::vector<uint8_t> rows, next;
+  exr.read(0, std::min(at_once, spec.height), rows);
+  for (int end = at_once; !rows.empty(); end += at_once) {
+    std::future<void> coming;  // read while the rows before are taken apart, or after it where no thread starts
+    next.clear();
+    if (end < spec.height) coming = std::async([&] { exr.read(end, std::min(end + at_once, spec.height), next); });
     append_words(rows, spec.pixel_bytes(true), offsets, file.channels);
+    if (coming.valid()) coming.get();
+    std::swap(rows, next);
   }
   return file;
 }

@@ -165,16 +165,20 @@ std::vector<AggregateTest> aggregate_tests(const StageVerdict& v) {
     others = other_surfaces(surfaces);
     region_of_surfaces = least_likely_region("surfaces of a region", 0.5, surfaces, v.width, v.height);
   };
+  // A conversion within 0.6 may use its latitude otherwise from code to code, and regions have codes of their own.
+  const double least_share = v.rule.code_reach > 0.5 ? 1 : 0;
   parallel_for(5, 0, [&](int part) {
     if (part == 0) with_surfaces();
     if (part == 1)
-      region_of_stores = least_likely_region("stores of a region", 0, choices_of_stores(v), v.width, v.height);
+      region_of_stores =
+          least_likely_region("stores of a region", least_share, choices_of_stores(v), v.width, v.height);
     if (part == 2) stores = groups_of_stores(v);
     if (part == 3) clusters = store_clusters(v);
     if (part == 4) crossings = crossed(v);
   });
-  return {ruled_out(v, stores), stored_apart(v), crossings,        second_neighbours(stores), store_bias(stores),
-          clusters,             others,          region_of_stores, region_of_surfaces};
+  return {ruled_out(v, stores), stored_apart(v), crossings, second_neighbours(stores),
+          store_bias(stores),   clusters,        others,    region_of_stores,
+          region_of_surfaces};
 }
 
 const AggregateTest& least_likely(const std::vector<AggregateTest>& tests) {

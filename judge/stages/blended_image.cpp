@@ -1,4 +1,6 @@
 // The last image of strategies that blend: what a pixel may hold, carried through all draws.
+#include <algorithm>
+
 #include "judge/stages/blending_judge.h"
 #include "judge/stages/judge_blending.h"
 #include "judge/stages/thresholds.h"
@@ -31,37 +33,33 @@ Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& bl
 
 /// Notes conversions that may give either of two codes.
 void BlendingJudge::see_thresholds(const PixelState& p, const DrawnFragment& f, bool added) {
-  std::array<ConversionsInDoubt, 3>& channels = in_doubt_[size_t(&p - pixels_.data())];
-  for (int i = 0; i < 3; ++i) {
-    const auto k = size_t(i);
-    ConversionsInDoubt& doubt = channels[k];
-    if (!added) doubt.count = 0;
-    const uint32_t before = added ? uint32_t(p.likely[k].nominal) : 0;
-    const std::optional<NearThreshold> s =
-        near_threshold(f.output.nominal[k], color_.layout.largest_code(i), profile_.likely.code_reach, before, i);
-    if (!s) continue;
-    if (doubt.count < ConversionsInDoubt::kMost) doubt.draws[doubt.count] = *s;
-    doubt.count = std::min(doubt.count + 1, ConversionsInDoubt::kMost + 1);
+  const auto pixel = size_t(&p - pixels_.data()), width = size_t(pipeline_.width);
+  const int x = int(pixel % width);
+  ConversionsInDoubt& row = in_doubt_[pixel / width];
+  for (int k = 0; k < 3; ++k) {
+    if (!added) row.replace(x, k);
+    const uint32_t before = added ? uint32_t(p.likely[size_t(k)].nominal) : 0;
+    const std::optional<NearThreshold> s = near_threshold(f.output.nominal[size_t(k)], color_.layout.largest_code(k),
+                                                          profile_.likely.code_reach, before, k);
+    if (s) row.add(x, *s);
   }
 }
 
-/// What the last image says of them: where all took the lower code, or all the upper one, each is known.
-void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const {
-  for (size_t k = 0; k < 3; ++k) {
-    const ConversionsInDoubt& doubt = in_doubt_[at(x, y)][k];
-    const double nominal = p.likely[k].nominal;
-    if (doubt.count == 0 || doubt.count > ConversionsInDoubt::kMost) continue;
-    if (nominal >= color_.layout.largest_code(int(k)) - double(doubt.count)) continue;  // it may have been clamped
-    double lower = nominal;
-    for (size_t i = 0; i < doubt.count; ++i) lower -= doubt.draws[i].nominal_above ? 1 : 0;
-    const double uppers = view.stored(x, y, int(k)) - lower;
-    if (uppers != 0 && uppers != double(doubt.count)) continue;
-    int before = 0;  // codes that earlier draws left, beyond the nominal ones
-    for (size_t i = 0; i < doubt.count; ++i) {
-      NearThreshold s = doubt.draws[i];
-      s.above = uppers > 0;
-      s.threshold_of_sum += uint32_t(before);
-      before += int(s.above) - int(s.nominal_above);
+/// What the last image says of them: how many gave the upper code.
+void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) {
+  constexpr size_t kMost = 32;  // of one sum
+  for (int k = 0; k < 3; ++k) {
+    const std::span<const NearThreshold> doubts = in_doubt_[size_t(y)].at(x, k);
+    const double nominal = p.likely[size_t(k)].nominal;
+    if (doubts.empty() || doubts.size() > kMost) continue;
+    if (nominal >= color_.layout.largest_code(k) - double(doubts.size())) continue;  // it may have been clamped
+    const auto lower = nominal - double(std::count_if(doubts.begin(), doubts.end(),
+                                                      [](const NearThreshold& s) { return s.nominal_above; }));
+    const double uppers = view.stored(x, y, k) - lower;
+    if (uppers < 0 || uppers > double(doubts.size())) continue;
+    for (size_t i = 0; i < doubts.size(); ++i) {
+      NearThreshold s = doubts[i];
+      s.sum_of = uint8_t(doubts.size() - i), s.uppers = uint8_t(uppers);
       m.near_thresholds.push_back(s);
     }
   }
@@ -88,7 +86,7 @@ void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const Bl
 }
 
 /// The choice between what the likely rule leaves after all draws and what was stored. Sums of equal sources are one.
-void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const {
+void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) {
   m.choices.clear();
   if (!view.quantised() || p.split || p.is_clamped || (layers_ && layers_->any(x, y))) return;
   for (int k = 0; k < view.channels; ++k) {

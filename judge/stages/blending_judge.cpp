@@ -51,7 +51,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
   covered_.resize(pixels);
   surfaces_.resize(pixels);
   pixels_.resize(pixels);
-  if (sees_thresholds_) in_doubt_.resize(pixels);
+  if (sees_thresholds_) in_doubt_.resize(size_t(pipeline.height));
   rows_.resize(size_t(pipeline.height));
   each_row([&](int y) {
     for (int x = 0; x < pipeline_.width; ++x)

@@ -12,6 +12,7 @@
 #include "judge/legal/blend_ways.h"
 #include "judge/legal/light_cover.h"
 #include "judge/stages/captured_surface.h"
+#include "judge/stages/conversions_in_doubt.h"
 #include "judge/stages/tied_surfaces.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -31,13 +32,6 @@ struct PixelState {
   bool open = false;        ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
-};
-
-/// Of a channel of a pixel the draws whose conversion to codes may give either of two.
-struct ConversionsInDoubt {
-  static constexpr size_t kMost = 2;  ///< that are told apart
-  std::array<NearThreshold, kMost> draws{};
-  size_t count = 0;  ///< kMost + 1: more
 };
 
 class BlendingJudge {
@@ -109,8 +103,8 @@ class BlendingJudge {
   Texel kept_in_floats(const DrawnFragment& f, const BlendState& blend, const Texel& sum) const;
   void see_thresholds(const PixelState& p, const DrawnFragment& f, bool added);
   void carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend);
-  void tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
-  void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) const;
+  void tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m);
+  void choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m);
   void choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn, const BlendState& blend,
               const PlaneView& view, Match& m) const;
   void unchanged(int x, int y, size_t i);
@@ -141,7 +135,7 @@ class BlendingJudge {
   std::vector<uint8_t> covered_;
   std::vector<ShadedSurface> surfaces_;
   std::vector<PixelState> pixels_;
-  std::vector<std::array<ConversionsInDoubt, 3>> in_doubt_;  ///< by pixel; empty where they are not looked at
+  std::vector<ConversionsInDoubt> in_doubt_;  ///< by row; empty where they are not looked at
   std::vector<RowTally> rows_;
   bool seen_ = false;         ///< targets are handed over
   Image before_;              ///< the first of the batch

@@ -82,7 +82,8 @@ class GBufferJudge {
   /// Whether an albedo without a surface is what transparent surfaces may have left on the clear value.
   bool is_layered(const PlaneView& view, int x, int y) const;
   /// The albedo of a surface under transparent ones.
-  void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Match& m) const;
+  template <typename Found>
+  void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Found& m) const;
   /// The values that a plane may hold where what was packed is in `packed`.
   static Range widened(const Range& packed, const PlaneView& view, int x, int y_top) {
     const double error = view.packing_error(x, y_top);
@@ -91,11 +92,21 @@ class GBufferJudge {
 
   /// What a plane may hold of a normal's component.
   Range held_normal(const AttributePlane& plane, const SurfaceValues& surface, int k, int x, int y_top) const;
+  /// Holds the pixel against one surface, and returns whether that is bounded there. Found: Match, or what has its
+  /// members but asks for nothing beyond the pixel's legality.
+  template <typename Found>
+  bool compare(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, SurfacePoint::Within within,
+               Found& m) const;
   /// How the pixel fares against one surface, and whether that is `bounded` there.
+  ///   worst_error: the largest one so far; what is less is not told
   Match match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
-              SurfacePoint::Within within = SurfacePoint::Within::box) const;
+              double worst_error) const;
+  /// Whether the pixel shows one surface with its vertices in the middle of their boxes: it is legal then, and else may
+  /// be so.
+  bool fits_middle(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory) const;
   /// An integer of the range.
-  void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Match& m) const;
+  template <typename Found>
+  void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Found& m) const;
 
   /// Possible surfaces that may be seen, the nominal one first.
   void find_legal(std::span<const PossibleSurface> all, std::vector<const PossibleSurface*>& legal,

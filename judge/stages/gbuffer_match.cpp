@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/error.h"
 #include "judge/stages/gbuffer_judge.h"
@@ -7,6 +8,40 @@
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
+
+namespace {
+
+/// What is asked of a surface by Match's names, where nothing but its legality matters.
+struct Legality {
+  bool legal = true;
+  static constexpr double excess = HUGE_VAL;
+
+  void channel_is(const PlaneView& view, const char*, int channel, const Range& range, double stored, uint32_t,
+                  const Profile& profile) {
+    if (view.quantised())
+      legal = legal && legal_texel(range, view.image->format, channel, profile).contains(stored);
+    else
+      legal = legal && ((stored >= range.low && stored <= range.high) || legal_float(range).contains(stored));
+  }
+  void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
+                 uint32_t pixel, const Profile& profile) {
+    channel_is(view, name, channel, range, stored, pixel, profile);
+  }
+  void texel_is(const PlaneView&, const char*, int, const LegalTexel& texel, double, double stored, uint32_t,
+                const Profile&) {
+    legal = legal && texel.contains(stored);
+  }
+  void note(const char*, int, const LegalTexel&, double, double) { legal = false; }
+};
+
+/// A legal albedo under transparent surfaces.
+void take_layers(const LayeredVerdict& v, Match& m) {
+  m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
+  m.worst_error = std::max(m.worst_error, v.match.worst_error);
+  if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
+}
+
+}  // namespace
 
 GBufferJudge::GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                            const JudgedRows& rows, Asked asked, const PossibleSurfaces* wider,
@@ -54,8 +89,9 @@ bool GBufferJudge::is_layered(const PlaneView& view, int x, int y) const {
          PixelClass::violation;
 }
 
+template <typename Found>
 void GBufferJudge::judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top,
-                                 Match& m) const {
+                                 Found& m) const {
   Texel stored;
   for (int k = 0; k < plane.view.channels; ++k) {
     const Range base = surface.base_color(k, plane.interpolation);
@@ -68,9 +104,7 @@ void GBufferJudge::judge_layered(const AttributePlane& plane, const SurfaceValue
   const LayeredVerdict v = judge_ways(ways, plane.view, "albedo", x, y_top, profile_);
   if (v.pixel_class == PixelClass::violation)
     return m.note("albedo", v.match.channel, v.match.legal_value, v.match.given, 1);
-  m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
-  m.worst_error = std::max(m.worst_error, v.match.worst_error);
-  if (worse(v.pixel_class, PixelClass::tex)) m.layered = v.pixel_class;
+  if constexpr (std::is_same_v<Found, Match>) take_layers(v, m);
 }
 
 Range GBufferJudge::held_normal(const AttributePlane& plane, const SurfaceValues& surface, int k, int x,
@@ -82,10 +116,17 @@ Range GBufferJudge::held_normal(const AttributePlane& plane, const SurfaceValues
   return widened(normalized(component(0), component(1), component(2), k, profile_), plane.view, x, y_top);
 }
 
-Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
-                          SurfacePoint::Within within) const {
+template <typename Found>
+void GBufferJudge::judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Found& m) const {
+  if (!looked_up) return m.channel_is(specular_, "specular", 3, range, stored, pixel, profile_);
+  m.lookup_is(specular_, "specular", 3, range, stored, pixel, profile_);
+  if (stored != std::nearbyint(stored)) m.note("specular", 3, {range.value, range.low, range.high}, stored, 1);
+}
+
+template <typename Found>
+bool GBufferJudge::compare(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory,
+                           SurfacePoint::Within within, Found& m) const {
   std::array<LastTexel, 4>& constants = memory.constants;
-  Match m;
   const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
   const Instance& instance = projector_.scene().instances[c.instance];
@@ -95,13 +136,13 @@ Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMem
   };
   identifier(object_, "id.object", c.instance + 1.0);
   identifier(material_, "id.material", instance.material + 1.0);
-  if (!m.legal && object_) return m;
+  if (!m.legal && object_) return true;
   const SurfaceValues surface(projector_, memory.forms.of(c.instance, c.triangle), c, sx, sy, within);
-  bounded = surface.bounded();
+  const bool bounded = surface.bounded();
   if (depth_)
     m.channel_is(depth_, "depth", 0, widened(surface.depth(), depth_, x, y_top),
                  depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)), pixel, profile_);
-  if (!m.legal && m.excess > 1e3) return m;  // another surface altogether
+  if (!m.legal && m.excess > 1e3) return bounded;  // another surface altogether
   const auto judge_channel = [&](const PlaneView& view, const char* name, int k, const Range& range, double stored,
                                  bool looked_up) {
     if (looked_up)
@@ -151,13 +192,21 @@ Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMem
     judge_channel(emission_, "emission", k, range, emission_.stored(x, y_top, k),
                   k < 3 ? surface.glowing() : surface.shaded());
   }
+  return bounded;
+}
+
+Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
+                          double worst_error) const {
+  Match m;
+  m.worst_error = worst_error;
+  bounded = compare(c, x, y_top, memory, SurfacePoint::Within::box, m);
   return m;
 }
 
-void GBufferJudge::judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Match& m) const {
-  if (!looked_up) return m.channel_is(specular_, "specular", 3, range, stored, pixel, profile_);
-  m.lookup_is(specular_, "specular", 3, range, stored, pixel, profile_);
-  if (stored != std::nearbyint(stored)) m.note("specular", 3, {range.value, range.low, range.high}, stored, 1);
+bool GBufferJudge::fits_middle(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory) const {
+  Legality found;
+  compare(c, x, y_top, memory, SurfacePoint::Within::middle, found);
+  return found.legal;
 }
 
 }  // namespace trueshade::oracle

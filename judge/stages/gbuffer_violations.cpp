@@ -53,8 +53,7 @@ bool GBufferJudge::is_surely_legal(std::span<const PossibleSurface> all, int x, 
   if (all.empty()) return is_clear(x, y_top);
   if (is_clear(x, y_top)) return false;
   const auto seen = nominally_seen(all, x + 0.5, pipeline_.height - 1 - y_top + 0.5, memory.forms);
-  bool bounded = true;
-  return seen && match(*seen, x, y_top, memory, bounded, SurfacePoint::Within::middle).legal;
+  return seen && fits_middle(*seen, x, y_top, memory);
 }
 
 void GBufferJudge::find_violation(int x, int y_top, GBufferMemory& memory, RowTally& row) const {

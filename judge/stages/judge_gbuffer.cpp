@@ -116,8 +116,8 @@ void GBufferJudge::judge_pixel(std::span<const PossibleSurface> all, int x, int 
   for (const PossibleSurface* c : legal) {
     bool bounded = true;
     Match m;
-    if (asked_ == Asked::violations) m = match(*c, x, y_top, memory, bounded, SurfacePoint::Within::middle);
-    if (asked_ == Asked::classes || !m.legal) m = match(*c, x, y_top, memory, bounded);
+    if (asked_ == Asked::classes || !fits_middle(*c, x, y_top, memory))
+      m = match(*c, x, y_top, memory, bounded, row.worst_error);
     if (m.legal && c != nominal) {
       if (!patch) patch = patch_key(projector_, all, sx, sy);
       if (c->low > *patch) m.note("depth", 0, {*patch, -HUGE_VAL, *patch}, c->middle, 1);

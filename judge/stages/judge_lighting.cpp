@@ -147,7 +147,7 @@ bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& chang
     if (!sees_thresholds_ || !lit.branches.empty()) continue;
     const double largest = color_.layout.largest_code(k);
     if (std::optional<NearThreshold> s = near_threshold(output, largest, profile_.likely.code_reach, 0, k)) {
-      s->above = color_.stored(x, y, k) > s->threshold;
+      s->uppers = color_.stored(x, y, k) > s->threshold ? 1 : 0;
       m.near_thresholds.push_back(*s);
     }
   }
@@ -249,9 +249,12 @@ bool keeps_exact_pixels(const Profile& wide, const Profile& narrow, const Captur
   const PlaneView color = target_of(capture, pipeline);
   const HalfStore nominal = wide.half == HalfStore::either ? wide.likely.half : wide.half;
   const bool is_half_alike = !color.layout.small_float() || narrow.half == HalfStore::either || narrow.half == nominal;
+  const Format format = color.image->format;
+  const bool has_mesa_codes = color.layout.srgb || format == Format::rgb10_a2 || format == Format::rgba16;
   const bool is_any_mesa =
       narrow.blend == BlendRule::mesa_codes || wide.blend == BlendRule::mesa_codes || wide.likely.mesa_codes;
-  return color.quantised() && is_half_alike && !is_any_mesa && capture.plane("light.count") == nullptr;
+  return color.quantised() && is_half_alike && !(has_mesa_codes && is_any_mesa) &&
+         capture.plane("light.count") == nullptr;
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "judge/stages/thresholds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
+#include <compare>
+#include <optional>
+#include <span>
+#include <unordered_map>
 
 namespace trueshade::oracle {
 
@@ -23,29 +27,125 @@ double least_left_out(std::vector<float>& highs_above, std::vector<float>& lows_
   return double(least);
 }
 
-double crossed_by(std::vector<NearThreshold>& stores, uint32_t NearThreshold::*threshold) {
-  const auto key = [threshold](const NearThreshold& s) {
-    return std::tuple(s.channel, s.*threshold, s.above, s.low, s.high);
-  };
-  std::sort(stores.begin(), stores.end(),
-            [&](const NearThreshold& a, const NearThreshold& b) { return key(a) < key(b); });
-  double crossed = 0;
-  std::vector<float> highs_above, lows_below;
-  for (size_t i = 0; i < stores.size();) {
-    highs_above.clear(), lows_below.clear();
-    size_t j = i;
-    for (; j < stores.size() && stores[j].channel == stores[i].channel && stores[j].*threshold == stores[i].*threshold;
-         ++j) {
-      if (j > i && key(stores[j]) == key(stores[j - 1])) continue;
-      if (stores[j].above)
-        highs_above.push_back(stores[j].high);
-      else
-        lows_below.push_back(stores[j].low);
-    }
-    crossed += least_left_out(highs_above, lows_below);
-    i = j;
+/// What is converted: what a draw adds, or the sum that a target becomes.
+enum class Converted : uint8_t { what_is_added, the_sum };
+
+/// A conversion of which it is known which code came out.
+struct ToldStore {
+  uint32_t place;  ///< of the threshold: channel and code
+  float low, high;
+  bool above;
+  auto operator<=>(const ToldStore&) const = default;
+};
+
+/// Of a threshold: the least upper bound of a store above it, and the largest lower bound of one below. Where they
+/// cross, the threshold is anywhere between.
+struct ThresholdBounds {
+  float least_above = HUGE_VALF, most_below = -HUGE_VALF;
+  bool are_below(const NearThreshold& s) const { return s.low > std::max(least_above, most_below); }
+  bool are_above(const NearThreshold& s) const { return s.high < std::min(least_above, most_below); }
+};
+
+/// Tells which way the conversions went, sum by sum: where all went one way, or where the thresholds that others show
+/// leave one outcome.
+class Telling {
+ public:
+  Telling(std::span<const NearThreshold> stores, Converted converted) : stores_(stores), converted_(converted) {
+    for (size_t i = 0; i < stores_.size(); i += stores_[i].sum_of) untold_.push_back(i);
   }
-  return crossed;
+
+  /// Stores that no threshold explains, and sums that none do.
+  double crossed() {
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const size_t before = untold_.size();
+      contradicted_ = 0;
+      std::erase_if(untold_, [this](size_t first) { return tell(first); });
+      if (untold_.size() == before) break;
+      for (; learnt_ < told_.size(); ++learnt_) learn(told_[learnt_]);
+    }
+    return left_out() + contradicted_;
+  }
+
+ private:
+  enum class Went : uint8_t { either, below, above };
+  uint32_t place_of(const NearThreshold& s, int earlier) const {
+    const uint32_t code = converted_ == Converted::what_is_added ? s.threshold : uint32_t(s.threshold_of_sum + earlier);
+    return uint32_t(s.channel) << 17 | code;
+  }
+  void learn(const ToldStore& s);
+  Went went(const NearThreshold& s, int least_earlier, int most_earlier) const;
+  bool tell(size_t first);
+  double left_out();
+
+  const std::span<const NearThreshold> stores_;
+  const Converted converted_;
+  std::vector<size_t> untold_;  ///< the first conversion of each sum that is not told
+  std::vector<ToldStore> told_;
+  size_t learnt_ = 0;  ///< of these
+  std::unordered_map<uint32_t, ThresholdBounds> bounds_;
+  double contradicted_ = 0;
+};
+
+void Telling::learn(const ToldStore& s) {
+  ThresholdBounds& b = bounds_[s.place];
+  if (s.above)
+    b.least_above = std::min(b.least_above, s.high);
+  else
+    b.most_below = std::max(b.most_below, s.low);
+}
+
+/// Which way a conversion went, where every sum that those before it may have left says the same.
+Telling::Went Telling::went(const NearThreshold& s, int least_earlier, int most_earlier) const {
+  if (converted_ == Converted::what_is_added) least_earlier = most_earlier = 0;
+  std::optional<Went> all;
+  for (int earlier = least_earlier; earlier <= most_earlier; ++earlier) {
+    const auto known = bounds_.find(place_of(s, earlier));
+    if (known == bounds_.end()) return Went::either;
+    const ThresholdBounds& b = known->second;
+    const Went here = b.are_below(s) ? Went::above : b.are_above(s) ? Went::below : Went::either;
+    if (here == Went::either || (all && *all != here)) return Went::either;
+    all = here;
+  }
+  return *all;
+}
+
+/// Whether it is known how each conversion of a sum went: then it is added to what is told.
+bool Telling::tell(size_t first) {
+  const std::span<const NearThreshold> sum = stores_.subspan(first, stores_[first].sum_of);
+  std::array<Went, 256> ways;
+  int uppers = sum[0].uppers, open = 0;
+  int least = 0, most = 0;  // codes that the earlier ones left beyond the nominal ones
+  for (size_t i = 0; i < sum.size(); ++i) {
+    ways[i] = went(sum[i], least, most);
+    open += ways[i] == Went::either ? 1 : 0, uppers -= ways[i] == Went::above ? 1 : 0;
+    least += int(ways[i] == Went::above) - int(sum[i].nominal_above);
+    most += int(ways[i] != Went::below) - int(sum[i].nominal_above);
+  }
+  if (uppers < 0 || uppers > open) contradicted_ += 1;
+  if (uppers != 0 && uppers != open) return false;
+  int earlier = 0;
+  for (size_t i = 0; i < sum.size(); ++i) {
+    const bool above = ways[i] == Went::either ? uppers > 0 : ways[i] == Went::above;
+    told_.push_back({place_of(sum[i], earlier), sum[i].low, sum[i].high, above});
+    earlier += int(above) - int(sum[i].nominal_above);
+  }
+  return true;
+}
+
+double Telling::left_out() {
+  std::sort(told_.begin(), told_.end());
+  told_.erase(std::unique(told_.begin(), told_.end()), told_.end());
+  double count = 0;
+  std::vector<float> highs_above, lows_below;
+  for (size_t i = 0; i < told_.size();) {
+    highs_above.clear(), lows_below.clear();
+    const uint32_t place = told_[i].place;
+    for (; i < told_.size() && told_[i].place == place; ++i)
+      told_[i].above ? highs_above.push_back(told_[i].high) : lows_below.push_back(told_[i].low);
+    count += least_left_out(highs_above, lows_below);
+  }
+  return count;
 }
 
 }  // namespace
@@ -60,7 +160,7 @@ std::optional<NearThreshold> near_threshold(const Range& range, double largest, 
   if (!(low - own <= threshold && high + own >= threshold)) return std::nullopt;
   NearThreshold s;
   s.low = float(low - threshold), s.high = float(high - threshold);
-  s.threshold = uint32_t(code), s.threshold_of_sum = before + uint32_t(code);
+  s.threshold = uint16_t(code), s.threshold_of_sum = uint16_t(before + uint32_t(code));
   s.channel = uint8_t(channel);
   s.nominal_above = value >= threshold;
   return s;
@@ -71,9 +171,8 @@ bool converts_as_seen(const PlaneView& target, const Profile& profile) {
          !profile.likely.sums_in_floats;
 }
 
-double crossed_stores(std::vector<NearThreshold> stores) {
-  const double of_what_is_added = crossed_by(stores, &NearThreshold::threshold);
-  return std::min(of_what_is_added, crossed_by(stores, &NearThreshold::threshold_of_sum));
+double crossed_stores(std::span<const NearThreshold> stores) {
+  return std::min(Telling(stores, Converted::what_is_added).crossed(), Telling(stores, Converted::the_sum).crossed());
 }
 
 }  // namespace trueshade::oracle

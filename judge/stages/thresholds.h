@@ -1,7 +1,7 @@
 #pragma once
 // Where a conversion to codes changes from one code to the next, as an image shows it.
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "judge/legal/store.h"
 #include "judge/stages/tally.h"
@@ -11,7 +11,7 @@ namespace trueshade::oracle {
 /// A value that is converted to codes, if a conversion within `reach` of them may give either of two.
 ///   range: before it is scaled by `largest`; what rounding the product may add is added here
 ///   before: the code that the result is added to; 0 where it is stored
-/// `pixel` and `above` are left to the caller.
+/// `sum_of` and `uppers` are left to the caller.
 std::optional<NearThreshold> near_threshold(const Range& range, double largest, double reach, uint32_t before,
                                             int channel);
 
@@ -21,7 +21,9 @@ bool converts_as_seen(const PlaneView& target, const Profile& profile);
 
 /// The least number of stores that no nondecreasing conversion makes, whatever its thresholds (D3D11.3 functional
 /// spec, 3.2.3.6: conversions to integers do not decrease). Values are anywhere between their bounds; equal ones count
-/// once. The conversion may be of what is added, or of what the sum becomes: of both the lesser number.
-double crossed_stores(std::vector<NearThreshold> stores);
+/// once. Which way each conversion of a sum went is told where all went one way, or where the thresholds that other
+/// sums show leave one outcome; a sum that these rule out counts as one. The conversion may be of what is added, or of
+/// what the sum becomes: of both the lesser number.
+double crossed_stores(std::span<const NearThreshold> stores);
 
 }  // namespace trueshade::oracle

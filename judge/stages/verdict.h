@@ -30,15 +30,17 @@ struct StoreChoice {
   int8_t taken;    ///< 0: the nominal one; -1, 1: one below, above
 };
 
-/// A store whose value lies so near the threshold between two codes that the likely rule lets either be stored. Kept
-/// where that rule reaches beyond half a code.
+/// A value that is converted to codes and lies so near the threshold between two of them that the likely rule lets
+/// either come out. Kept where that rule reaches beyond half a code. What was stored may be the sum of several such
+/// conversions, which stand in a row, in the order in which they were added.
 struct NearThreshold {
   float low = 0, high = 0;        ///< bounds of the value, in codes from the middle between the two
-  uint32_t threshold = 0;         ///< the lower of the two codes
-  uint32_t threshold_of_sum = 0;  ///< the same of what a blended target becomes
+  uint16_t threshold = 0;         ///< the lower of the two codes
+  uint16_t threshold_of_sum = 0;  ///< the same of what a blended target becomes, had those before it gone as nominal
   uint8_t channel = 0;
+  uint8_t sum_of = 1;          ///< how many conversions are of one sum, this one and those behind it
+  uint8_t uppers = 0;          ///< of these, how many gave the upper code
   bool nominal_above = false;  ///< the upper code is the nominal one
-  bool above = false;          ///< the upper code was stored
 };
 
 /// A pixel with more than one legal surface or branch. A pixel may have several.
@@ -59,13 +61,13 @@ struct StageVerdict {
   uint64_t stored_values = 0;                    ///< unorm and half channels judged
   std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
-  std::vector<NearThreshold> near_thresholds;  ///< of fixed-point targets whose conversion to codes is seen
-  uint64_t stored_apart = 0;  ///< stores whose value is that of the pixel to the left, which stored another code,
-                              ///< although the likely rule leaves one outcome
-  StoreRule rule;                 ///< by which `choices` are choices
-  double worst_error = 0;         ///< float planes: largest |given - value| / bound
-  std::vector<double> row_errors; ///< the same of each row
-  std::vector<WorstPixel> worst;  ///< at most 32
+  std::vector<NearThreshold> near_thresholds;    ///< of fixed-point targets whose conversion to codes is seen
+  uint64_t stored_apart = 0;       ///< stores whose value is that of the pixel to the left, which stored another code,
+                                   ///< although the likely rule leaves one outcome
+  StoreRule rule;                  ///< by which `choices` are choices
+  double worst_error = 0;          ///< float planes: largest |given - value| / bound
+  std::vector<double> row_errors;  ///< the same of each row
+  std::vector<WorstPixel> worst;   ///< at most 32
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   bool passes() const { return count(PixelClass::violation) == 0; }

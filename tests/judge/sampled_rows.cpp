@@ -7,6 +7,7 @@
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"
+#include "tests/judge/random_scene.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -185,6 +186,48 @@ TEST_CASE("Violations asked beside a looser judgement are those of a judgement o
       refused += check_guesses(scene, pipeline, with_faults(capture), turn / 2);
     }
   CHECK(refused > 100);
+}
+
+namespace {
+
+/// A scene with glass, with textured materials whose alpha test drops texels, or with both.
+Scene scene_with_holes(Pcg32& random, bool glass, bool masks) {
+  Scene scene;
+  const auto suits = [&] {
+    const Material& m = scene.materials[1];
+    return m.transparent == glass && m.color_map.used() == masks;
+  };
+  do scene = testing::random_scene(random);
+  while (!suits());
+  if (masks) scene.materials[2].alpha_cutoff = 0.7f;
+  for (size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].material = uint32_t(i % 3);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Violations asked beside a looser judgement are its own where there is glass and where masks drop texels",
+          "[slow]") {
+  int refused = 0;
+  size_t turn = 0, in_albedo = 0, masked = 0;
+  Pcg32 random(11);
+  for (const bool glass : {true, false, true})
+    for (const TransparencyMode mode :
+         {TransparencyMode::into_albedo, TransparencyMode::after_lights, TransparencyMode::none}) {
+      const Scene scene = scene_with_holes(random, glass, !glass || turn >= 6);
+      Pipeline pipeline = testing::random_pipeline(random);
+      pipeline.strategy = Strategy::deferred_loop;
+      pipeline.transparency.mode = mode;
+      const Capture capture = captured(scene, pipeline);
+      in_albedo += glass && mode == TransparencyMode::into_albedo;
+      masked += scene.materials[2].masked();
+      CAPTURE(turn, glass, int(mode));
+      refused += check_guesses(scene, pipeline, capture, turn);
+      refused += check_guesses(scene, pipeline, with_faults(capture), turn++ / 2);
+    }
+  CHECK(refused > 100);
+  CHECK(in_albedo > 0);
+  CHECK(masked > 0);
 }
 
 TEST_CASE("The profile inferred from one band of our own frames is that of the whole image") {

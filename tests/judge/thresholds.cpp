@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <initializer_list>
+#include <vector>
 
 #include "judge/stages/tally.h"
 #include "scenes/builtin/pcg32.h"
@@ -21,7 +24,7 @@ size_t left_out(const std::vector<NearThreshold>& stores) {
   std::sort(tried.begin(), tried.end());
   size_t least = stores.size();
   for (const float t : tried) {
-    const auto wrong = [t](const NearThreshold& s) { return s.above ? s.high < t : s.low > t; };
+    const auto wrong = [t](const NearThreshold& s) { return s.uppers != 0 ? s.high < t : s.low > t; };
     least = std::min(least, size_t(std::count_if(stores.begin(), stores.end(), wrong)));
   }
   return least;
@@ -29,7 +32,7 @@ size_t left_out(const std::vector<NearThreshold>& stores) {
 
 NearThreshold seen(float value, float error, bool above) {
   NearThreshold s;
-  s.low = value - error, s.high = value + error, s.above = above;
+  s.low = value - error, s.high = value + error, s.uppers = above ? 1 : 0;
   return s;
 }
 
@@ -45,7 +48,8 @@ TEST_CASE("Stores that no nondecreasing conversion makes are counted, whatever i
       stores.push_back(seen(value, error, value >= threshold));
     }
     CHECK(crossed_stores(stores) == 0);
-    for (NearThreshold& s : stores) s.above = s.above != (random.below(5) == 0);
+    for (NearThreshold& s : stores)
+      if (random.below(5) == 0) s.uppers = s.uppers != 0 ? 0 : 1;
     CAPTURE(round, stores.size(), threshold, error);
     CHECK(crossed_stores(stores) == double(left_out(stores)));
   }
@@ -53,13 +57,74 @@ TEST_CASE("Stores that no nondecreasing conversion makes are counted, whatever i
 
 TEST_CASE("Equal values count once, channels and codes apart, and what is added or the sum may be converted") {
   const NearThreshold above = seen(-0.05f, 0.001f, true), below = seen(0.05f, 0.001f, false);
-  CHECK(crossed_stores({above, below}) == 1);
-  CHECK(crossed_stores({above, above, above, below, below, below}) == 1);
+  const auto crossed = [](std::initializer_list<NearThreshold> stores) {
+    return crossed_stores({stores.begin(), stores.size()});
+  };
+  CHECK(crossed({above, below}) == 1);
+  CHECK(crossed({above, above, above, below, below, below}) == 1);
   NearThreshold other_channel = below, other_code = below, other_sum = below;
   other_channel.channel = 1, other_code.threshold = other_code.threshold_of_sum = 4, other_sum.threshold_of_sum = 4;
-  CHECK(crossed_stores({above, other_channel}) == 0);
-  CHECK(crossed_stores({above, other_code}) == 0);
-  CHECK(crossed_stores({above, other_sum}) == 0);
+  CHECK(crossed({above, other_channel}) == 0);
+  CHECK(crossed({above, other_code}) == 0);
+  CHECK(crossed({above, other_sum}) == 0);
+}
+
+namespace {
+
+/// What a pixel stores: sums of conversions at thresholds that `converts_sums` and the codes give, each off by `slip`
+/// at most.
+std::vector<NearThreshold> stored_sums(Pcg32& random, int pixels, bool converts_sums, double slip) {
+  std::vector<NearThreshold> stores;
+  const auto threshold = [](uint32_t code) { return 0.1 * std::sin(double(code) * 12.9); };
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    const size_t first = stores.size(), count = 1 + random.below(4);
+    uint32_t sum = random.below(20), nominal_sum = sum, uppers = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const double value = random.between(-0.12, 0.12);
+      NearThreshold s = seen(float(value), 1e-5f, false);
+      const uint32_t code = random.below(6);
+      s.threshold = uint16_t(code), s.threshold_of_sum = uint16_t(nominal_sum + code);
+      s.nominal_above = value >= 0;
+      const double moved = value - slip * random.between(0, 1);
+      const bool above = moved >= threshold(converts_sums ? sum + code : code);
+      uppers += above ? 1 : 0, sum += code + (above ? 1 : 0), nominal_sum += code + (s.nominal_above ? 1 : 0);
+      s.sum_of = uint8_t(count - i);
+      stores.push_back(s);
+    }
+    for (size_t i = first; i < stores.size(); ++i) stores[i].uppers = uint8_t(uppers);
+  }
+  return stores;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Sums of conversions that do not decrease are not crossed, and those that slip are, by whichever is converted") {
+  Pcg32 random(3);
+  for (const bool converts_sums : {false, true})
+    for (int round = 0; round < 50; ++round) {
+      CAPTURE(converts_sums, round);
+      CHECK(crossed_stores(stored_sums(random, 400, converts_sums, 0)) == 0);
+      CHECK(crossed_stores(stored_sums(random, 4000, converts_sums, 0.02)) > 20);
+    }
+}
+
+TEST_CASE("What other sums show of the thresholds tells which of a sum's conversions went up") {
+  // Two conversions of one code each: at code 0 the threshold is between -0.01 and 0.01, at code 1 it is not known.
+  NearThreshold low = seen(-0.01f, 0, false), high = seen(0.01f, 0, true), at_code_1 = seen(0.03f, 0, true);
+  at_code_1.threshold = at_code_1.threshold_of_sum = 1;
+  NearThreshold sure = seen(-0.05f, 0, false), doubtful = seen(0.05f, 0, false);
+  sure.sum_of = 2, sure.uppers = doubtful.uppers = 1;
+  doubtful.threshold = doubtful.threshold_of_sum = 1;
+  // So the second of the sum went up, at 0.05; a store below at 0.06 crosses it.
+  NearThreshold crossing = seen(0.06f, 0, false);
+  crossing.threshold = crossing.threshold_of_sum = 1;
+  CHECK(crossed_stores(std::array{low, high, sure, doubtful}) == 0);
+  CHECK(crossed_stores(std::array{low, high, sure, doubtful, crossing}) == 1);
+  CHECK(crossed_stores(std::array{sure, doubtful, crossing}) == 0);
+  // A sum that no outcome explains: both went up, and the first cannot have.
+  sure.uppers = doubtful.uppers = 2, at_code_1.uppers = 1;
+  CHECK(crossed_stores(std::array{low, high, sure, doubtful, at_code_1}) == 1);
 }
 
 TEST_CASE("A row with more choices than are kept keeps them from all over, whichever way they went") {
