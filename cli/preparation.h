@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/options.h"
+#include "scene_cache/cached_scene.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -13,6 +14,10 @@ void check_pipeline(const PipelineOptions& options);
 
 /// load_scene() with the pictures that files name, within the options' limits.
 Scene scene_of_options(const std::string& spec, const Limits& limits);
+
+/// scene_of_options() by way of the cache file in a folder, if one is given (scene_cache/).
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits,
+                                    const std::optional<std::string>& folder);
 
 /// Error(limit) where the frame, with what is in memory, is predicted to be over the memory cap. `more`: bytes that are
 /// taken besides the frame's.

@@ -24,6 +24,7 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
+#include "raster/clusters/clusters.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -140,8 +141,10 @@ std::string cube_map_text(glm::vec3 eye, std::string_view part) {
 /// The pictures that a run makes, one after the other, from one scene whose meshes are loaded and clustered once.
 class Pictures {
  public:
-  Pictures(const RenderOptions& options, Scene& scene, const Pipeline& pipeline)
-      : options_(options), scene_(scene), pipeline_(pipeline) {}
+  Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline)
+      : options_(options), scene_(cached.scene), pipeline_(pipeline) {
+    if (cached.clusters) prepared_.emplace(scene_, std::move(cached.clusters));
+  }
 
   /// Makes the picture, or the cube map, of one time.
   void at_time(double time, const std::vector<std::string>& paths) {
@@ -198,7 +201,7 @@ class Pictures {
   const RenderOptions& options_;
   Scene& scene_;
   const Pipeline& pipeline_;
-  std::optional<PreparedScene> prepared_;  // from the first picture on
+  std::optional<PreparedScene> prepared_;  // from the first picture on, or with the clusters of a cache file
   std::string documents_;
   std::set<std::string> said_;
 };
@@ -240,13 +243,15 @@ void render(const RenderOptions& options) {
     check_video_is_taken();
   else
     for (const std::string& path : options.outputs) check_output(path);
-  Scene scene = scene_of_options(options.scene, options.limits);
+  CachedScene cached = cached_scene_of_options(options.scene, options.limits, options.cache);
+  if (!cached.note.empty()) say_notes({cached.note});
+  Scene& scene = cached.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
   check_cube_map(options, pipeline);
   fit_lights_of_ours(scene, pipeline.light_model);
   check_memory(scene, pipeline, execution_of(options), planes_to_render(options),
                memory_besides_frame(options, pipeline));
-  Pictures pictures(options, scene, pipeline);
+  Pictures pictures(options, cached, pipeline);
   if (options.frames)
     render_frames(options, scene.timeline.fps, pictures);
   else

@@ -14,4 +14,11 @@ Scene scene_of_options(const std::string& spec, const Limits& limits) {
                     });
 }
 
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits,
+                                    const std::optional<std::string>& folder) {
+  const auto load = [&] { return scene_of_options(spec, limits); };
+  if (!folder) return {load(), nullptr, {}};
+  return cached_scene(*folder, spec, limits, load);
+}
+
 }  // namespace trueshade

@@ -95,6 +95,8 @@ void draw_tiles(const FrameWork& frame, const Progress& progress) {
 
 PreparedScene::PreparedScene(const Scene& scene)
     : scene_(&scene), clusters_(std::make_unique<ClusteredScene>(cluster_scene(scene))) {}
+PreparedScene::PreparedScene(const Scene& scene, std::unique_ptr<ClusteredScene> clusters)
+    : scene_(&scene), clusters_(std::move(clusters)) {}
 PreparedScene::~PreparedScene() = default;
 void PreparedScene::update() { cluster_posed_meshes(*scene_, *clusters_); }
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;

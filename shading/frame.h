@@ -88,6 +88,8 @@ struct ClusteredScene;
 class PreparedScene {
  public:
   explicit PreparedScene(const Scene& scene);
+  /// With the clusters of its meshes, where they are there already.
+  PreparedScene(const Scene& scene, std::unique_ptr<ClusteredScene> clusters);
   ~PreparedScene();
   PreparedScene(PreparedScene&&) noexcept;
 

@@ -119,8 +119,7 @@ void FileAside::take_name() {
   if (rename(name_.c_str(), path_.c_str()) != 0) fail_to(path_, "take this name", errno);
   name_.clear();
   const int folder = open(folder_of_path(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0)
-    return;  // a folder may be writable and not readable; its entry is then written when the system likes
+  if (folder < 0) return;  // a folder may be writable and not readable; its entry is then written when the system likes
   const int synced = fsync(folder) != 0 && errno != EINVAL ? errno : 0;
   close(folder);
   if (synced != 0) fail_to(path_, "write its folder to disk", synced);
