@@ -112,9 +112,6 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_profile(table, texts.profile);
   add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames);
   add_render_execution(table, options, texts);
-  add_value(table, "--cache", "FOLDER", options.cache,
-            "Keep the scene in a file there, which is mapped and not read the next time (docs/cache.md)")
-      .group = "Execution";
   add_limits(table, options.limits);
   table.examples = {
       {"trueshade render builtin:city -o city.png --hash", "A picture, and the hash that it has on every machine."},

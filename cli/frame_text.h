@@ -24,6 +24,7 @@ struct RenderedFrame {
   std::string command{};          ///< as it was given, for a report
   std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
   std::string cube_map{};         ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
+  double start_ms = 0.0;          ///< of the frame, since the process was started
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.

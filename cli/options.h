@@ -62,7 +62,6 @@ struct CubeMapOptions {
 
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
-  std::optional<std::string> cache;  ///< folder of cache files of scenes
   std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name(); - for raw video
   double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
@@ -159,7 +158,6 @@ struct CompareOptions : LimitedOptions {
   std::string reference, test;
   compare::CompareRules rules;
   bool judges = true;                ///< by the reference's scene, where it carries one and no criterion is given
-  std::optional<std::string> cache;  ///< folder of cache files of scenes
   std::vector<std::string> outputs;  ///< .png, .exr or .html; of folders one folder
   std::optional<std::string> junit;  ///< .xml
   bool accept = false;               ///< copy test pictures that do not pass over their references

@@ -27,9 +27,8 @@ Scene scene_of_options(const std::string& spec, const Limits& limits) {
   return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
 }
 
-CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits,
-                                    const std::optional<std::string>& folder) {
-  if (folder) throw left_out("it has no cache files");
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits) {
+  if (limits.cache) throw left_out("it has no cache files");
   return {scene_of_options(spec, limits), nullptr, {}};
 }
 

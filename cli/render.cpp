@@ -24,6 +24,7 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
+#include "core/threads/clock.h"
 #include "raster/clusters/clusters.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
@@ -54,6 +55,7 @@ std::vector<std::string> planes_to_render(const RenderOptions& options) {
 void draw(const RenderOptions& options, const PreparedScene& prepared, RenderedFrame& result) {
   {
     ProgressBar bar("rendering", "tiles");
+    result.start_ms = process_ms();
     result.frame = render_frame(prepared, result.pipeline, result.execution, planes_to_render(options),
                                 [&bar](int done, int total) { bar.show(done, total); });
   }
@@ -243,8 +245,7 @@ void render(const RenderOptions& options) {
     check_video_is_taken();
   else
     for (const std::string& path : options.outputs) check_output(path);
-  CachedScene cached = cached_scene_of_options(options.scene, options.limits, options.cache);
-  if (!cached.note.empty()) say_notes({cached.note});
+  CachedScene cached = cached_scene_of_options(options.scene, options.limits);
   Scene& scene = cached.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
   check_cube_map(options, pipeline);

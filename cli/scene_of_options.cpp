@@ -1,12 +1,14 @@
 // scene_of_options() of programs that read every kind of scene.
 #include "cli/activity.h"
+#include "cli/notes.h"
 #include "cli/preparation.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
+namespace {
 
-Scene scene_of_options(const std::string& spec, const Limits& limits) {
+Scene read_scene(const std::string& spec, const Limits& limits) {
   const Activity activity("reading " + printable(spec, Lines::one));
   return load_scene(spec, limits,
                     [&limits](std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
@@ -14,11 +16,20 @@ Scene scene_of_options(const std::string& spec, const Limits& limits) {
                     });
 }
 
-CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits,
-                                    const std::optional<std::string>& folder) {
-  const auto load = [&] { return scene_of_options(spec, limits); };
-  if (!folder) return {load(), nullptr, {}};
-  return cached_scene(*folder, spec, limits, load);
+}  // namespace
+
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits) {
+  if (!limits.cache) return {read_scene(spec, limits), nullptr, {}};
+  const Activity activity("reading " + printable(spec, Lines::one));  // or making the file
+  CachedScene cached = cached_scene(*limits.cache, spec, limits, [&] { return read_scene(spec, limits); });
+  if (!cached.note.empty()) say_notes({cached.note});
+  return cached;
+}
+
+Scene scene_of_options(const std::string& spec, const Limits& limits) {
+  CachedScene cached = cached_scene_of_options(spec, limits);
+  check_all(cached);
+  return std::move(cached.scene);
 }
 
 }  // namespace trueshade

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
@@ -11,7 +10,8 @@
 namespace trueshade {
 
 /// An array that owns its elements, in a std::vector, or shows elements that lie elsewhere: in a file that is mapped.
-/// What is shown can be read only, and copies of the array show it too. What reads an array is the same for both.
+/// Copies of such an array show the same elements. An array that is written owns its elements from then on. What reads
+/// an array is the same for both.
 template <class T, class Vector = std::vector<T>>
 class Array {
  public:
@@ -44,16 +44,16 @@ class Array {
   const T& front() const { return seen_.front(); }
   const T& back() const { return seen_.back(); }
 
-  // Of arrays that own their elements, as std::vector has them.
+  // As std::vector has them.
   T* data() { return vector().data(); }
   T& operator[](size_t i) { return vector()[i]; }
   T* begin() { return vector().data(); }
-  T* end() { return vector().data() + own_.size(); }
+  T* end() { return begin() + own_.size(); }
   T& front() { return vector().front(); }
   T& back() { return vector().back(); }
   size_t capacity() const { return own_.capacity(); }
   void reserve(size_t count) { vector().reserve(count), see(); }
-  void resize(size_t count, const T& value = T()) { vector().resize(count, value), see(); }
+  void resize(size_t count, const T& value = {}) { vector().resize(count, value), see(); }
   void assign(size_t count, const T& value) { vector().assign(count, value), see(); }
   template <class Iterator>
   requires(!std::is_integral_v<Iterator>) void assign(Iterator first, Iterator last) {
@@ -64,17 +64,17 @@ class Array {
   void clear() { *this = Array(); }
   template <class... From>  // as vector::insert() behind `place`
   void insert(const T* place, From... from) {
-    vector().insert(own_.begin() + (place - own_.data()), from...), see();
+    const auto at = place - seen_.data();
+    Vector& elements = vector();
+    elements.insert(elements.begin() + at, from...), see();
   }
-  void insert(const T* place, std::initializer_list<T> values) {
-    vector().insert(own_.begin() + (place - own_.data()), values), see();
-  }
+  void insert(const T* place, std::initializer_list<T> values) { insert(place, values.begin(), values.end()); }
 
   friend bool operator==(const Array& a, const Array& b) { return std::ranges::equal(a.seen_, b.seen_); }
 
  private:
   Vector& vector() {
-    assert(owned());
+    if (!owned()) *this = Array(Vector(seen_.begin(), seen_.end()));
     return own_;
   }
   void see() { seen_ = own_; }

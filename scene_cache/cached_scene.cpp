@@ -13,8 +13,8 @@
 #include "core/memory_cap.h"
 #include "core/sha256.h"
 #include "core/threads/parallel_for.h"
-#include "scene_cache/block_file.h"
 #include "scene_cache/checked_clusters.h"
+#include "scene_cache/checked_file.h"
 #include "scene_cache/origin.h"
 #include "scene_cache/scene_values.h"
 #include "scene_cache/tables.h"
@@ -62,7 +62,7 @@ void each_member(auto& visit, Same<CullingData> auto& value) {
 
 /// Puts the scene and its clusters into the file. A mesh is given up once it is there.
 void write_cache(const std::string& path, const SceneOrigin& origin, Scene& scene) {
-  BlockFileWriter file(path);
+  CheckedFileWriter file(path);
   TableWriter tables(file);
   tables(origin);
   const bool digested = scene.timeline.posed.empty() && !has_many_uv_sets(scene);
@@ -83,29 +83,8 @@ void write_cache(const std::string& path, const SceneOrigin& origin, Scene& scen
   file.finish(tables.bytes());
 }
 
-/// The arrays of a mesh that set_time() writes, in memory.
-template <class T, class Vector>
-void own(const BlockFile& file, Array<T, Vector>& array) {
-  if (array.owned()) return;
-  file.check(array.data(), array.size() * sizeof(T));
-  array = Array<T, Vector>(Vector(std::as_const(array).begin(), std::as_const(array).end()));
-}
-
-struct Owner {
-  const BlockFile& file;
-  template <class T>
-  void operator()(T& value) {
-    if constexpr (IsArray<T>::value)
-      own(file, value);
-    else if constexpr (IsStdArray<T>::value || IsVector<T>::value)
-      for (auto& element : value) (*this)(element);
-    else if constexpr (!std::is_trivially_copyable_v<T> && !std::is_same_v<T, std::string>)
-      each_member(*this, value);
-  }
-};
-
-/// Everything of a scene that is read as a whole, whatever the view is.
-void check_what_is_read_whole(const BlockFile& file, const CachedScene& cached) {
+/// Everything of a scene that is read as a whole, whatever the view is: without digests all of it.
+void check_what_is_read_whole(const CheckedFile& file, const CachedScene& cached) {
   if (!cached.scene.digests) return file.check_all();
   std::vector<std::span<const uint8_t>> parts;
   const auto add = [&parts](const auto& array) {
@@ -125,7 +104,7 @@ void check_what_is_read_whole(const BlockFile& file, const CachedScene& cached) 
 
 /// The scene in a cache file; nothing if there is none of this origin.
 std::optional<CachedScene> read_cache(const std::string& path, const std::string& spec, const SceneLimits& limits) try {
-  const std::shared_ptr<const BlockFile> file = BlockFile::open(path);
+  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path);
   if (!file) return std::nullopt;
   TableReader tables(file);
   const auto origin = tables.taken<SceneOrigin>();
@@ -147,10 +126,8 @@ std::optional<CachedScene> read_cache(const std::string& path, const std::string
   tables(scene);
   const auto digests = tables.taken<std::optional<SceneDigests>>();
   if (digests) scene.digests = std::make_shared<SceneDigests>(*digests);
-  Owner owned{*file};
-  for (const PosedMesh& posed : scene.timeline.posed)
-    owned(scene.meshes.at(posed.mesh)), owned(cached.clusters->meshes.at(posed.mesh));
   check_what_is_read_whole(*file, cached);
+  for (const FileState& made_of : origin.files) FilesRead::note(made_of.path);
   cached.clusters->source = std::make_shared<CheckedClusters>(file, scene.textures.size());
   return cached;
 } catch (const BadTables&) {
@@ -174,6 +151,10 @@ bool changed_lately(const SceneOrigin& origin, int64_t start_ns) {
 
 }  // namespace
 
+void check_all(const CachedScene& cached) {
+  if (cached.clusters && cached.clusters->source) cached.clusters->source->check_all();
+}
+
 CachedScene cached_scene(const std::string& folder, const std::string& spec, const SceneLimits& limits,
                          const std::function<Scene()>& load) {
   const FpScope fp;
@@ -184,13 +165,13 @@ CachedScene cached_scene(const std::string& folder, const std::string& spec, con
 
   const int64_t start_ns = now_ns();
   CachedScene loaded;
-  SceneOrigin origin{whole_spec, limits, {}};
+  SceneOrigin origin{whole_spec, limits, {}, {}};
   {
     const FilesRead files;
     loaded.scene = load();
     for (const std::string& file : files.paths()) origin.files.push_back(file_state(absolute_spec(file)));
   }
-  for (const std::string& file : program_files()) origin.files.push_back(file_state(file));
+  for (const std::string& file : program_files()) origin.program.push_back(file_state(file));
   if (changed_lately(origin, start_ns)) return loaded;
   try {
     write_cache(path, origin, loaded.scene);

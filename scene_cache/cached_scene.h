@@ -25,4 +25,7 @@ struct CachedScene {
 CachedScene cached_scene(const std::string& folder, const std::string& spec, const SceneLimits& limits,
                          const std::function<Scene()>& load);
 
+/// Checks all that a scene's file has, for what reads more than frames do. Error(io).
+void check_all(const CachedScene& cached);
+
 }  // namespace trueshade

@@ -3,17 +3,18 @@
 #include <utility>
 
 #include "raster/clusters/clusters.h"
-#include "scene_cache/block_file.h"
+#include "scene_cache/checked_file.h"
 
 namespace trueshade {
 
 /// Checks what a cluster is drawn with where it lies in the file; arrays in memory are left out.
 class CheckedClusters : public ClusterSource {
  public:
-  CheckedClusters(std::shared_ptr<const BlockFile> file, size_t textures)
+  CheckedClusters(std::shared_ptr<const CheckedFile> file, size_t textures)
       : file_(std::move(file)), texture_is_checked_(textures) {}
   void check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,
              const Cluster& cluster) const override;
+  void check_all() const override { file_->check_all(); }
 
  private:
   void check_texture(const Texture& texture, size_t index) const;
@@ -23,7 +24,7 @@ class CheckedClusters : public ClusterSource {
     if (!array.owned()) file_->check(array.data() + first, count * sizeof(T));
   }
 
-  std::shared_ptr<const BlockFile> file_;
+  std::shared_ptr<const CheckedFile> file_;
   mutable std::vector<std::atomic<bool>> texture_is_checked_;  ///< wholly
 };
 

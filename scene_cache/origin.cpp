@@ -40,8 +40,9 @@ std::vector<std::string> program_files() {
 }
 
 bool is_unchanged(const SceneOrigin& origin) {
-  return std::all_of(origin.files.begin(), origin.files.end(),
-                     [](const FileState& file) { return file_state(file.path) == file; });
+  const auto stands = [](const FileState& file) { return file_state(file.path) == file; };
+  return std::all_of(origin.files.begin(), origin.files.end(), stands) &&
+         std::all_of(origin.program.begin(), origin.program.end(), stands);
 }
 
 bool within(const SceneLimits& limits, const SceneLimits& other) {

@@ -20,9 +20,10 @@ FileState file_state(const std::string& path);
 
 /// What a scene was made of.
 struct SceneOrigin {
-  std::string spec;              ///< absolute, if it names a file
-  SceneLimits limits;            ///< which it kept
-  std::vector<FileState> files;  ///< all that were read; the program and its libraries
+  std::string spec;                ///< absolute, if it names a file
+  SceneLimits limits;              ///< which it kept
+  std::vector<FileState> files;    ///< all that were read, or looked for
+  std::vector<FileState> program;  ///< the program's file and those of its libraries
 };
 
 /// Of a scene file's name or `builtin:...`: the same for the same file from every folder.
@@ -31,7 +32,7 @@ std::string absolute_spec(const std::string& spec);
 /// The program's file and those of the libraries that it has loaded.
 std::vector<std::string> program_files();
 
-/// Whether none of the files has changed since.
+/// Whether none of its files has changed since.
 bool is_unchanged(const SceneOrigin& origin);
 
 /// Whether no limit is above the one of `other`.

@@ -127,8 +127,8 @@ void each_member(auto& visit, Same<FileState> auto& value) {
 }
 
 void each_member(auto& visit, Same<SceneOrigin> auto& value) {
-  auto& [spec, limits, files] = value;
-  each_of(visit, spec, limits, files);
+  auto& [spec, limits, files, program] = value;
+  each_of(visit, spec, limits, files, program);
 }
 
 void each_member(auto& visit, Same<SceneDigests> auto& value) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/array.h"
-#include "scene_cache/block_file.h"
+#include "scene_cache/checked_file.h"
 
 // Values as the bytes of tables, in the order in which they are handed over. What has no pointers is stored as it lies
 // in memory; strings, vectors and structs that hold such are stored member by member (scene_values.h). The elements of
@@ -35,7 +35,7 @@ struct IsStdArray<std::array<T, N>> : std::true_type {};
 /// Puts values into tables, and the elements of arrays into the file. Error(io).
 class TableWriter {
  public:
-  explicit TableWriter(BlockFileWriter& file) : file_(file) {}
+  explicit TableWriter(CheckedFileWriter& file) : file_(file) {}
 
   template <class T>
   void operator()(const T& value) {
@@ -70,7 +70,7 @@ class TableWriter {
     bytes_.insert(bytes_.end(), from, from + bytes);
   }
 
-  BlockFileWriter& file_;
+  CheckedFileWriter& file_;
   std::vector<uint8_t> bytes_;
 };
 
@@ -81,7 +81,7 @@ struct BadTables {};
 /// or name a place that the file does not have.
 class TableReader {
  public:
-  explicit TableReader(std::shared_ptr<const BlockFile> file) : file_(std::move(file)), left_(file_->tables()) {}
+  explicit TableReader(std::shared_ptr<const CheckedFile> file) : file_(std::move(file)), left_(file_->tables()) {}
 
   template <class T>
   void operator()(T& value) {
@@ -126,7 +126,7 @@ class TableReader {
     left_ = left_.subspan(bytes);
   }
 
-  std::shared_ptr<const BlockFile> file_;
+  std::shared_ptr<const CheckedFile> file_;
   std::span<const uint8_t> left_;
 };
 

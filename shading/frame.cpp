@@ -69,7 +69,8 @@ void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
   }
 }
 
-void draw_tiles(const FrameWork& frame, const Progress& progress) {
+/// `start`: of the frame, now_ms().
+void draw_tiles(const FrameWork& frame, double start, const Progress& progress) {
   const Execution& execution = frame.plan.execution;
   const std::vector<int> order = tile_order(frame.tables.bins, execution);
   std::vector<TileCounts> counts(order.size());
@@ -81,6 +82,7 @@ void draw_tiles(const FrameWork& frame, const Progress& progress) {
     draw_tile(frame, tile, of_tile);
     counts[size_t(tile)] = of_tile;
     const int finished = ++done;
+    if (finished == 1) frame.out.stats.first_tile_ms = now_ms() - start;
     if (!progress || finished % 16 != 0) return;
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
   });
@@ -138,7 +140,7 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
   stats.before_tiles_ms = now_ms() - start;
   stats.loops_before_tiles = log->loops();
   log.reset();
-  draw_tiles(work, progress);
+  draw_tiles(work, start, progress);
   tables.transforms = std::move(view.instances);
 
   stats.pixels = uint64_t(pipeline.width) * uint64_t(pipeline.height);

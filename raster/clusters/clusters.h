@@ -68,6 +68,7 @@ class ClusterSource {
   /// and the textures of the instance's material. Error(io) where they are damaged. May be called on any thread.
   virtual void check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,
                      const Cluster& cluster) const = 0;
+  virtual void check_all() const = 0;
 };
 
 struct ClusteredScene {

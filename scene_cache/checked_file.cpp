@@ -1,4 +1,4 @@
-#include "scene_cache/block_file.h"
+#include "scene_cache/checked_file.h"
 
 #include <fcntl.h>
 #include <libdeflate.h>
@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/memory_cap.h"
 #include "core/threads/parallel_for.h"
 
 namespace trueshade {
@@ -46,19 +47,19 @@ bool is_ours(const struct stat& status) {
 
 }  // namespace
 
-uint64_t BlockFileWriter::add(std::span<const uint8_t> array) {
+uint64_t CheckedFileWriter::add(std::span<const uint8_t> array) {
   pad(kAlignment);
   const uint64_t at = size_;
   append(array);
   return at;
 }
 
-void BlockFileWriter::finish(std::span<const uint8_t> tables) {
+void CheckedFileWriter::finish(std::span<const uint8_t> tables) {
   Footer footer;
   footer.tables = add(tables), footer.tables_bytes = tables.size();
   pad(kAlignment);
   footer.content = size_;
-  if (size_ % kBlockBytes != 0) checksums_.push_back(checksum_);
+  if (size_ % kSegmentBytes != 0) checksums_.push_back(checksum_);
   const std::span<const uint8_t> checksums = bytes_of(checksums_.data(), checksums_.size());
   footer.size = size_ + checksums.size() + sizeof footer;
   footer.checksum_of_checksums = libdeflate_crc32(0, checksums.data(), checksums.size());
@@ -69,30 +70,30 @@ void BlockFileWriter::finish(std::span<const uint8_t> tables) {
   file_.take_name();
 }
 
-void BlockFileWriter::append(std::span<const uint8_t> bytes) {
+void CheckedFileWriter::append(std::span<const uint8_t> bytes) {
   file_.write(bytes);
   while (!bytes.empty()) {
-    const size_t room = kBlockBytes - size_ % kBlockBytes, taken = std::min(room, bytes.size());
+    const size_t room = kSegmentBytes - size_ % kSegmentBytes, taken = std::min(room, bytes.size());
     checksum_ = libdeflate_crc32(checksum_, bytes.data(), taken);
     bytes = bytes.subspan(taken);
     size_ += taken;
-    if (size_ % kBlockBytes != 0) continue;
+    if (size_ % kSegmentBytes != 0) continue;
     checksums_.push_back(checksum_);
     checksum_ = 0;
   }
 }
 
-void BlockFileWriter::pad(size_t alignment) {
+void CheckedFileWriter::pad(size_t alignment) {
   constexpr uint8_t kZeros[kAlignment] = {};
   append({kZeros, (alignment - size_ % alignment) % alignment});
 }
 
-BlockFile::BlockFile(std::string path, const uint8_t* map, size_t size)
-    : path_(std::move(path)), map_(map), size_(size), checked_((size / kBlockBytes) / 64 + 1) {}
+CheckedFile::CheckedFile(std::string path, const uint8_t* map, size_t size)
+    : path_(std::move(path)), map_(map), size_(size), checked_((size / kSegmentBytes) / 64 + 1) {}
 
-BlockFile::~BlockFile() { munmap(const_cast<uint8_t*>(map_), size_); }
+CheckedFile::~CheckedFile() { munmap(const_cast<uint8_t*>(map_), size_); }
 
-std::shared_ptr<const BlockFile> BlockFile::open(const std::string& path) {
+std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return nullptr;
   struct stat status {};
@@ -101,59 +102,68 @@ std::shared_ptr<const BlockFile> BlockFile::open(const std::string& path) {
     map = mmap(nullptr, size_t(status.st_size), PROT_READ, MAP_SHARED, descriptor, 0);
   close(descriptor);
   if (map == MAP_FAILED) return nullptr;
-  const std::shared_ptr<BlockFile> file(new BlockFile(path, static_cast<const uint8_t*>(map), size_t(status.st_size)));
+  const std::shared_ptr<CheckedFile> file(
+      new CheckedFile(path, static_cast<const uint8_t*>(map), size_t(status.st_size)));
   return file->read_footer() ? file : nullptr;
 }
 
-bool BlockFile::read_footer() {
+bool CheckedFile::read_footer() {
   Footer footer;
   std::memcpy(&footer, map_ + size_ - sizeof footer, sizeof footer);
   if (footer.magic != kMagic || footer.format != kFormat || footer.checksum != checksum_of(footer) ||
       footer.size != size_ || footer.content > size_ || footer.content % kAlignment != 0)
     return false;
-  const size_t blocks = (footer.content + kBlockBytes - 1) / kBlockBytes;
-  if (size_ - footer.content != blocks * sizeof(uint32_t) + sizeof footer) return false;
+  const size_t segments = (footer.content + kSegmentBytes - 1) / kSegmentBytes;
+  if (size_ - footer.content != segments * sizeof(uint32_t) + sizeof footer) return false;
   content_ = footer.content;
   checksums_ = reinterpret_cast<const uint32_t*>(map_ + content_);
-  if (libdeflate_crc32(0, checksums_, blocks * sizeof(uint32_t)) != footer.checksum_of_checksums) return false;
+  if (libdeflate_crc32(0, checksums_, segments * sizeof(uint32_t)) != footer.checksum_of_checksums) return false;
   const auto tables = bytes_at(footer.tables, footer.tables_bytes);
   if (!tables || tables->empty()) return false;
-  const size_t last = (footer.tables + footer.tables_bytes - 1) / kBlockBytes;
-  for (size_t block = footer.tables / kBlockBytes; block <= last; ++block)
-    if (!is_intact(block)) return false;
+  const size_t last = (footer.tables + footer.tables_bytes - 1) / kSegmentBytes;
+  for (size_t segment = footer.tables / kSegmentBytes; segment <= last; ++segment)
+    if (!is_intact(segment)) return false;
   tables_ = *tables;
   return true;
 }
 
-std::optional<std::span<const uint8_t>> BlockFile::bytes_at(uint64_t offset, uint64_t bytes) const {
+std::optional<std::span<const uint8_t>> CheckedFile::bytes_at(uint64_t offset, uint64_t bytes) const {
   if (offset > content_ || bytes > content_ - offset) return std::nullopt;
   return std::span(map_ + offset, size_t(bytes));
 }
 
-void BlockFile::fetch(const void* first, size_t bytes) const {
-  const auto at = size_t(static_cast<const uint8_t*>(first) - map_), page = at / kBlockBytes * kBlockBytes;
+void CheckedFile::fetch(const void* first, size_t bytes) const {
+  const auto at = size_t(static_cast<const uint8_t*>(first) - map_), page = at / kSegmentBytes * kSegmentBytes;
   madvise(const_cast<uint8_t*>(map_) + page, bytes + (at - page), MADV_WILLNEED);  // a wish
 }
 
-bool BlockFile::is_intact(size_t block) const {
-  const size_t first = block * kBlockBytes;
-  return libdeflate_crc32(0, map_ + first, std::min(kBlockBytes, content_ - first)) == checksums_[block];
+bool CheckedFile::is_intact(size_t segment) const {
+  const size_t first = segment * kSegmentBytes;
+  return libdeflate_crc32(0, map_ + first, std::min(kSegmentBytes, content_ - first)) == checksums_[segment];
 }
 
-void BlockFile::check_all() const {
-  const size_t blocks = (content_ + kBlockBytes - 1) / kBlockBytes;
+void CheckedFile::check_all() const {
+  const size_t segments = (content_ + kSegmentBytes - 1) / kSegmentBytes;
   constexpr size_t kOfTask = 64;
-  parallel_for(int((blocks + kOfTask - 1) / kOfTask), 0, [&](int task) {
-    const size_t first = size_t(task) * kOfTask * kBlockBytes;
-    check(map_ + first, std::min(kOfTask * kBlockBytes, content_ - first));
+  parallel_for(int((segments + kOfTask - 1) / kOfTask), 0, [&](int task) {
+    const size_t first = size_t(task) * kOfTask * kSegmentBytes;
+    check(map_ + first, std::min(kOfTask * kSegmentBytes, content_ - first));
   });
 }
 
-void BlockFile::check_block(size_t block) const {
-  if (!is_intact(block))
-    throw Error(ErrorKind::io, path_, "the bytes from " + std::to_string(block * kBlockBytes) + " on are damaged",
+void CheckedFile::check_segment(size_t segment) const {
+  if (!is_intact(segment))
+    throw Error(ErrorKind::io, path_, "the bytes from " + std::to_string(segment * kSegmentBytes) + " on are damaged",
                 "remove the file; it is made anew");
-  checked_[block / 64].fetch_or(uint64_t(1) << (block % 64), std::memory_order_release);
+  checked_[segment / 64].fetch_or(uint64_t(1) << (segment % 64), std::memory_order_release);
+  constexpr size_t kNowAndThen = 512;  // segments
+  if (++checks_ % kNowAndThen == 0) stay_below_cap();
+}
+
+void CheckedFile::stay_below_cap() const {
+  if (resident_memory_with_files() <= memory_cap()) return;
+  for (std::atomic<uint64_t>& bits : checked_) bits.store(0, std::memory_order_release);
+  madvise(const_cast<uint8_t*>(map_), size_, MADV_DONTNEED);
 }
 
 }  // namespace trueshade
