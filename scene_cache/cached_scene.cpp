@@ -42,7 +42,7 @@ std::string cache_path(const std::string& folder, const std::string& spec) {
   std::string name = spec.substr(spec.rfind('/') + 1).substr(0, 64);
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '_') c = '_';
-  return folder + '/' + name + '-' + sha.hex().substr(0, 16) + ".cache";
+  return folder + (folder.ends_with('/') ? "" : "/") + name + '-' + sha.hex().substr(0, 16) + ".cache";
 }
 
 bool has_many_uv_sets(const Scene& scene) {

@@ -55,7 +55,7 @@ TEST_CASE("scene files with patterns, steps, grids and masks are drawn from thei
   const ScratchFolder folder;
   const std::string spec = folder.write("scene.json", R"({"version": 1, "camera": {"eye": [0, 2, 5]},
     "textures": [{"name": "squares", "pattern": {"type": "checker", "size": [64, 64]}}],
-    "materials": [{"name": "tiles", "color_map": {"texture": "squares"}, "alpha_cutoff": 0.5},
+    "materials": [{"name": "tiles", "color": [1, 1, 1], "color_map": {"texture": "squares"}, "alpha_cutoff": 0.5},
                   {"name": "glass", "color": [0.2, 0.4, 1], "alpha": 0.5}],
     "lights": [{"type": "point", "position": [2, 3, 2], "color": [9, 8, 7]}],
     "objects": [{"geometry": "plane", "material": "tiles", "scale": 4},
