@@ -9,6 +9,7 @@
 #include "cli/picture_encoding.h"
 #include "cli/pictures.h"
 #include "core/file_ending.h"
+#include "core/threads/clock.h"
 #include "shading/picture_region.h"
 
 namespace trueshade {
@@ -133,6 +134,11 @@ void BandedPicture::begin() {
 
 std::vector<uint8_t> BandedPicture::bytes_of(const DrawnBand& band) const {
   return bytes_of_band(band, streamed_ && !options_.json ? SentPlanes::no : SentPlanes::yes);
+}
+
+void BandedPicture::take(const DrawnBand& band) {
+  if (result_.start_ms == 0.0) result_.start_ms = process_ms();  // of bands, the first whole one is what counts
+  consumer_->take(band);
 }
 
 RenderedFrame& BandedPicture::finish() {

@@ -42,7 +42,7 @@ class BandedPicture {
   std::vector<uint8_t> bytes_of(const DrawnBand& band) const;
   DrawnBand band_of(int index, std::span<const uint8_t> bytes) const { return band_of_bytes(picture_, index, bytes); }
 
-  void take(const DrawnBand& band) { consumer_->take(band); }
+  void take(const DrawnBand& band);
   /// The picture, once all bands are taken. Of a streamed one the images have no texels, hashes are known, and the
   /// files are written.
   RenderedFrame& finish();

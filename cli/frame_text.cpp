@@ -98,6 +98,7 @@ std::vector<StatLine> stat_lines(const RenderedFrame& result) {
       count("gl_fragments_written", "  fragments written", s.gl.fragments_written),
       time("geometry_ms", "geometry, all threads [ms]", s.core_ms.geometry()),
       time("light_ms", "light, all threads [ms]", s.core_ms.light),
+      time("first_tile_ms", "from the start of the program to the first tile [ms]", result.start_ms + s.first_tile_ms),
       time("total_ms", "this frame, planes included [ms]", s.total_ms)};
   if (result.frame.view_scale > 0)
     lines.push_back(count("view_scale", "count at the top of the heat map", result.frame.view_scale));

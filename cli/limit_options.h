@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -7,9 +8,10 @@
 
 namespace trueshade {
 
-/// Limits that options set.
+/// Limits that options set, and where scenes are kept that were read.
 struct Limits : SceneLimits {
-  uint64_t memory = 0;  ///< bytes; 0: as memory_cap() has it
+  uint64_t memory = 0;               ///< bytes; 0: as memory_cap() has it
+  std::optional<std::string> cache;  ///< folder of cache files of scenes (scene_cache/)
 };
 
 /// An option of the group `Limits`.

@@ -119,12 +119,21 @@ void install_handlers() {
 /// Called before the initializers of the libraries, which may run out of memory as well.
 __attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = install_handlers;
 
+/// What reading a mapped file comes to when somebody has made the file shorter, or the disk fails.
+void end_at_lost_bytes(int) {
+  std::_Exit(say_error("--cache: a part of the cache file is no longer there (remove the file; it is made anew)",
+                       int(ErrorKind::io)));
+}
+
 void set_up(const Command& command) {
   std::visit(
       [](const auto& options) {
         if constexpr (requires { options.quiet; })
           if (options.quiet) be_quiet();
-        if constexpr (requires { options.limits; }) set_memory_cap(options.limits.memory);
+        if constexpr (requires { options.limits; }) {
+          set_memory_cap(options.limits.memory);
+          if (options.limits.cache) std::signal(SIGBUS, end_at_lost_bytes);
+        }
       },
       command);
 }

@@ -49,6 +49,10 @@ OptionRow& add_switch(CommandTable& table, const char* names, bool& on, std::str
 }
 
 void add_limits(CommandTable& table, Limits& limits) {
+  add_value(table, "--cache", "FOLDER", limits.cache,
+            "Keep the scene in a file of this folder, from where it comes in parts as they are needed the next time "
+            "(docs/cache.md)")
+      .group = "Limits";
   for (const LimitOption& limit : limit_options()) {
     const char* value_name = limit.unit == LimitOption::Unit::bytes ? "SIZE" : "COUNT";
     OptionRow row{.names = limit.name, .value_name = value_name, .help = help_of(limit), .group = "Limits"};

@@ -20,6 +20,7 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
+#include "core/threads/clock.h"
 
 namespace trueshade {
 namespace {
@@ -38,6 +39,7 @@ void draw(const RenderOptions& options, const PreparedScene& prepared, const Exe
           const ProgressSeen& seen, RenderedFrame& result) {
   {
     ProgressBar bar("rendering", "tiles");
+    result.start_ms = process_ms();
     result.frame =
         render_frame(prepared, result.pipeline, execution, planes_to_render(options), [&](int done, int total) {
           bar.show(done, total);

@@ -7,6 +7,8 @@
 #include "cli/banded_picture.h"
 #include "cli/options.h"
 #include "cli/picture_sink.h"
+#include "raster/clusters/clusters.h"
+#include "scene_cache/cached_scene.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 
@@ -23,8 +25,10 @@ std::vector<std::string> planes_to_render(const RenderOptions& options);
 class Pictures {
  public:
   /// `execution`: how they are drawn; documents tell of that of the options.
-  Pictures(const RenderOptions& options, Scene& scene, const Pipeline& pipeline, const Execution& execution)
-      : options_(options), scene_(scene), pipeline_(pipeline), execution_(execution) {}
+  Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline, const Execution& execution)
+      : options_(options), scene_(cached.scene), pipeline_(pipeline), execution_(execution) {
+    if (cached.clusters) prepared_.emplace(scene_, std::move(cached.clusters));
+  }
 
   /// Makes the picture, or the cube map, of a frame of the timeline, whose number goes into the names of the outputs;
   /// or with nothing that of the options' time.
@@ -49,7 +53,7 @@ class Pictures {
   Scene& scene_;
   const Pipeline& pipeline_;
   const Execution execution_;
-  std::optional<PreparedScene> prepared_;  // from the first picture on
+  std::optional<PreparedScene> prepared_;  // from the first picture on, or with the clusters of a cache file
   std::optional<BandedPicture> banded_;
 };
 

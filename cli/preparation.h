@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/options.h"
+#include "scene_cache/cached_scene.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -11,8 +12,12 @@ namespace trueshade {
 /// scene, which has no pipeline of its own, and the syntax of the pipeline file for any other. Throws as pipeline_of().
 void check_pipeline(const PipelineOptions& options);
 
-/// load_scene() with the pictures that files name, within the options' limits.
+/// load_scene() with the pictures that files name, within the options' limits, and by way of the cache file in
+/// limits.cache.
 Scene scene_of_options(const std::string& spec, const Limits& limits);
+
+/// The same for what draws frames alone, with the clusters of the cache file. Says why there is none.
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits);
 
 /// Error(limit) where the frame, with what is in memory, is predicted to be over the memory cap. `more`: bytes that are
 /// taken besides the frame's.

@@ -57,7 +57,9 @@ void check_outputs(const RenderOptions& options, const Ranks* ranks) {
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& options, const Execution& execution)
-    : scene(scene_of_options(options.scene, options.limits)), pipeline(pipeline_of(options, scene)) {
+    : cached(cached_scene_of_options(options.scene, options.limits)),
+      scene(cached.scene),
+      pipeline(pipeline_of(options, scene)) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.frames))
@@ -84,7 +86,7 @@ void render(const RenderOptions& options) {
     if (ranks->own() != 0) return;
   } else {
     SceneToRender of(options, execution_of(options));
-    Pictures pictures(options, of.scene, of.pipeline, execution_of(options));
+    Pictures pictures(options, of.cached, of.pipeline, execution_of(options));
     if (options.frames)
       render_frames(options, pictures, sink);
     else

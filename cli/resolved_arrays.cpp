@@ -79,13 +79,13 @@ std::string ResolvedArrays::in_file(std::string_view type, std::span<const size_
          ", \"offset\": " + std::to_string(bytes_) + "}";
 }
 
-std::string ResolvedArrays::streams(std::span<const std::vector<float>> streams) {
+std::string ResolvedArrays::streams(std::span<const FloatStream> streams) {
   const size_t shape[] = {streams.size(), streams[0].size()};
   if (place_ == Place::document)
     return nested(shape,
                   [&](std::string& out, size_t i) { append_float(out, streams[i / shape[1]][i % shape[1]]); });
   const std::string place = in_file("float32", shape);
-  for (const std::vector<float>& stream : streams) add_piece(bytes_of(std::span(stream)));
+  for (const FloatStream& stream : streams) add_piece(bytes_of(std::span(stream)));
   return place;
 }
 

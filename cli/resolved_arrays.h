@@ -23,7 +23,7 @@ class ResolvedArrays {
   explicit ResolvedArrays(Place place) : place_(place) {}
 
   // Each returns the JSON of an array: nested lists, or {"type": ..., "shape": [...], "offset": ...}, offset in bytes.
-  std::string streams(std::span<const std::vector<float>> streams);  ///< [streams, size of each]; of one size
+  std::string streams(std::span<const FloatStream> streams);  ///< [streams, size of each]; of one size
   std::string triangles(std::span<const uint32_t> indices);  ///< [n, 3]
   std::string points(std::vector<glm::vec3> points);         ///< [n, 3]; kept here
   /// Texels of one level, [height, width, 4]: uint8, uint16 (the bits of a half) or float32.

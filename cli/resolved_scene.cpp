@@ -123,7 +123,7 @@ std::string object_json(const Instance& instance, const InstanceTransform& trans
 }
 
 std::string mesh_json(const Mesh& mesh, ResolvedArrays& arrays) {
-  const auto optional = [&](std::span<const std::vector<float>> streams) {
+  const auto optional = [&](std::span<const FloatStream> streams) {
     return streams[0].empty() ? std::string("null") : arrays.streams(streams);
   };
   JsonObject json;

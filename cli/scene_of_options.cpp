@@ -1,17 +1,35 @@
 // scene_of_options() of programs that read every kind of scene.
 #include "cli/activity.h"
+#include "cli/notes.h"
 #include "cli/preparation.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
+namespace {
 
-Scene scene_of_options(const std::string& spec, const Limits& limits) {
+Scene read_scene(const std::string& spec, const Limits& limits) {
   const Activity activity("reading " + printable(spec, Lines::one));
   return load_scene(spec, limits,
                     [&limits](std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes) {
                       return decode_image(content, where, most_bytes, limits.expansion);
                     });
+}
+
+}  // namespace
+
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits) {
+  if (!limits.cache) return {read_scene(spec, limits), nullptr, {}};
+  const Activity activity("reading " + printable(spec, Lines::one));  // or making the file
+  CachedScene cached = cached_scene(*limits.cache, spec, limits, [&] { return read_scene(spec, limits); });
+  if (!cached.note.empty()) say_notes({cached.note});
+  return cached;
+}
+
+Scene scene_of_options(const std::string& spec, const Limits& limits) {
+  CachedScene cached = cached_scene_of_options(spec, limits);
+  check_all(cached);
+  return std::move(cached.scene);
 }
 
 }  // namespace trueshade

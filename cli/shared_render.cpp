@@ -87,7 +87,7 @@ class SharedRender {
     const Pipeline& pipeline = of_->pipeline;
     const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
     if (execution_.tile == 0) execution_.tile = tile_for(drawn.width, drawn.height, options_.execution.threads);
-    pictures_.emplace(options_, of_->scene, pipeline, execution_);
+    pictures_.emplace(options_, of_->cached, pipeline, execution_);
     identity_ = identity_of(options_, *of_);
     if (ranks_.own() == 0) activity_.emplace("rendering", Activity::Counts::by_hand);
     return by_bands() ? band_tasks(frame_at(0)) : frame_tasks();

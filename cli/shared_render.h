@@ -3,6 +3,7 @@
 #include "cli/options.h"
 #include "cli/picture_sink.h"
 #include "farm/ranks.h"
+#include "scene_cache/cached_scene.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -10,7 +11,10 @@ namespace trueshade {
 /// A scene that was loaded and checked, as `render` draws it. The constructor throws Error for all that it may lack.
 struct SceneToRender {
   SceneToRender(const RenderOptions& options, const Execution& execution);
-  Scene scene;
+  SceneToRender(const SceneToRender&) = delete;
+  SceneToRender& operator=(const SceneToRender&) = delete;
+  CachedScene cached;
+  Scene& scene;  ///< that of `cached`
   Pipeline pipeline;
 };
 

@@ -71,18 +71,37 @@ uint64_t memory_cap() {
 
 void set_memory_cap(uint64_t bytes) { cap = bytes; }
 
-uint64_t resident_memory() {
+namespace {
+
+struct ResidentPages {
+  uint64_t all = 0, of_files = 0;
+};
+
+ResidentPages resident_pages() {
+  ResidentPages pages;
   const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
+  if (file < 0) return pages;
   char text[128];
   const ssize_t size = read(file, text, sizeof text);
   close(file);
+  const char* at = text;
   const char* const end = text + std::max<ssize_t>(size, 0);
-  const char* const space = std::find(static_cast<const char*>(text), end, ' ');
-  uint64_t pages = 0;
-  if (space != end) std::from_chars(space + 1, end, pages);
-  return pages * uint64_t(sysconf(_SC_PAGESIZE));
+  for (uint64_t* const number : {static_cast<uint64_t*>(nullptr), &pages.all, &pages.of_files}) {
+    if (number != nullptr) std::from_chars(at, end, *number);
+    at = std::find(at, end, ' ');
+    at += at != end ? 1 : 0;
+  }
+  return pages;
 }
+
+}  // namespace
+
+uint64_t resident_memory() {
+  const ResidentPages pages = resident_pages();
+  return (pages.all - std::min(pages.all, pages.of_files)) * uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+uint64_t resident_memory_with_files() { return resident_pages().all * uint64_t(sysconf(_SC_PAGESIZE)); }
 
 void require_memory(uint64_t bytes, std::string_view where, std::string_view what) {
   constexpr uint64_t kUnasked = uint64_t(1) << 20;  // to ask what is resident takes 2 us, too long for small requests

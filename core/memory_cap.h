@@ -15,8 +15,10 @@ uint64_t available_memory();
 uint64_t memory_cap();
 void set_memory_cap(uint64_t bytes);
 
-/// Bytes of memory that the process uses (Linux, proc(5): the second number of /proc/self/statm).
+/// Bytes of memory that the process uses (Linux, proc(5): /proc/self/statm), without and with the parts of mapped files
+/// that are in memory. The system takes these back when it needs room.
 uint64_t resident_memory();
+uint64_t resident_memory_with_files();
 
 /// Is called before memory is taken. Throws Error(limit) that names --max-memory if resident_memory() plus `bytes` is
 /// over the limit. `what` names what needs the memory, such as "the picture".

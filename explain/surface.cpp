@@ -26,7 +26,7 @@ struct TriangleCorners {
   }
 
   /// A stream of the mesh at the corners; `missing` where the mesh has none.
-  std::array<float, 3> of(const std::vector<float>& stream, float missing) const {
+  std::array<float, 3> of(const FloatStream& stream, float missing) const {
     if (stream.empty()) return {missing, missing, missing};
     return {stream[index[0]], stream[index[1]], stream[index[2]]};
   }

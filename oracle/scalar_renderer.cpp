@@ -16,7 +16,7 @@ float affine(const std::array<float, 4>& row, float x, float y, float z) {
   return ((row[0] * x + row[1] * y) + row[2] * z) + row[3];
 }
 
-float component(const std::vector<float>& stream, uint32_t vertex, float absent) {
+float component(std::span<const float> stream, uint32_t vertex, float absent) {
   return stream.empty() ? absent : stream[vertex];
 }
 
@@ -157,7 +157,7 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
   frame.fragments.resize(size_t(frame.width) * size_t(frame.height));
   for (uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
     const Instance& drawn = scene.instances[instance];
-    const std::vector<uint32_t>& indices = scene.meshes[drawn.mesh].indices;
+    const std::span<const uint32_t> indices = scene.meshes[drawn.mesh].indices;
     const GeometryState faced = state_of(scene, drawn, state);
     const bool both_sides = scene.materials[drawn.material].double_sided;
     const size_t used = uv_index(1 + scene.meshes[drawn.mesh].more_uv.size());

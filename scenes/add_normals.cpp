@@ -1,6 +1,7 @@
 #include "scenes/add_normals.h"
 
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "core/fp_env.h"
 #include "scenes/trig.h"
@@ -32,8 +33,8 @@ void set_normal(Mesh& mesh, size_t vertex, const glm::dvec3& normal) {
 
 /// The streams with an element for each corner of each triangle.
 template <size_t N>
-void take_apart(std::array<std::vector<float>, N>& streams, const std::vector<uint32_t>& indices) {
-  for (std::vector<float>& stream : streams) {
+void take_apart(std::array<FloatStream, N>& streams, std::span<const uint32_t> indices) {
+  for (FloatStream& stream : streams) {
     if (stream.empty()) continue;
     std::vector<float> corners;
     corners.reserve(indices.size());

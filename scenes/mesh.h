@@ -5,21 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "core/array.h"
+
 namespace trueshade {
 
+/// One component of an attribute, a number a vertex. It may lie in a cache file (scene_cache/).
+using FloatStream = Array<float>;
+
 /// A set of texture coordinates, u and v.
-using UvStreams = std::array<std::vector<float>, 2>;
+using UvStreams = std::array<FloatStream, 2>;
 
 /// Indexed triangles, a stream per component (SoA). Positions and normals in object space; every stream has
 /// vertex_count() elements or, where marked optional, none. Normals are stored as given: unit length is not required.
 struct Mesh {
   std::string name;
-  std::array<std::vector<float>, 3> position;
-  std::array<std::vector<float>, 3> normal;
+  std::array<FloatStream, 3> position;
+  std::array<FloatStream, 3> normal;
   UvStreams uv;                             ///< optional; 0 where absent
   std::vector<UvStreams> more_uv{};         ///< the sets behind uv, each optional; fewer than kMaxUvSets
-  std::array<std::vector<float>, 4> color;  ///< optional RGBA, linear; 1 where absent
-  std::vector<uint32_t> indices;            ///< 3 a triangle, in submission order; front faces counter-clockwise
+  std::array<FloatStream, 4> color;         ///< optional RGBA, linear; 1 where absent
+  Array<uint32_t> indices;                  ///< 3 a triangle, in submission order; front faces counter-clockwise
   uint32_t pose = 0;                        ///< counts how often set_time() has moved the vertices
 
   size_t vertex_count() const { return position[0].size(); }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLargest = 1e18;
 
-using Streams = std::array<std::vector<float>, 3>;
+using Streams = std::array<FloatStream, 3>;
 
 glm::dvec3 at(const Streams& streams, size_t vertex) {
   return {double(streams[0][vertex]), double(streams[1][vertex]), double(streams[2][vertex])};

@@ -5,11 +5,13 @@
 #include <functional>
 #include <glm/mat4x3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
+#include "core/sha256.h"
 #include "scenes/camera.h"
 #include "scenes/light.h"
 #include "scenes/mesh.h"
@@ -72,6 +74,13 @@ struct Instance {
   bool mirrored = false;
 };
 
+/// What scene_hash() makes of a scene's meshes, and of its textures where they have many texels: these arrays, which may
+/// lie on disk, need not be read for it again.
+struct SceneDigests {
+  Sha256 meshes;  ///< fed with all of them
+  std::vector<std::string> textures;
+};
+
 /// Everything that is drawn, at one time: 0 where it was just loaded. Instances are drawn in order; lights are summed
 /// in order.
 struct Scene {
@@ -91,6 +100,7 @@ struct Scene {
   /// default_pipeline() in scenes/pipeline/presets.h.
   bool photometric = false;
   bool lights_of_ours = false;       ///< the file has no lights: lights of ours stand in
+  std::shared_ptr<const SceneDigests> digests{};  ///< null unless meshes and textures lie in a cache file (scene_cache/)
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
 
   uint64_t triangle_count() const;  ///< over all instances
@@ -123,6 +133,9 @@ void validate_moving(const Scene& scene, double time);
 /// no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an image file is
 /// refused. Errors: bad_input with file and place; limit; io for a file that cannot be read.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {});
+
+/// The digests of a scene without posed meshes, whose uv sets behind the first are absent.
+SceneDigests digests_of(const Scene& scene);
 
 /// SHA-256 over the loaded values (not over file bytes): meshes, materials, textures (decoded texels), instances,
 /// lights, camera, clear colour.

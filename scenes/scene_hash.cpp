@@ -193,6 +193,8 @@ class SceneHasher {
     if (camera.clip_from_world) add(*camera.clip_from_world);
   }
 
+  const Sha256& state() const { return sha_; }
+  void go_on_from(const Sha256& state) { sha_ = state; }
   void add_text(const std::string& text) { sha_.update(text.data(), text.size()); }
   std::string hex() { return sha_.hex(); }
 
@@ -222,11 +224,24 @@ std::vector<std::string> texture_digests(const Scene& scene) {
 
 }  // namespace
 
-std::string scene_hash(const Scene& scene) {
+SceneDigests digests_of(const Scene& scene) {
   const FpScope fp;
   SceneHasher hasher;
   hasher.count(scene.meshes.size());
   for (const Mesh& mesh : scene.meshes) hasher.add(mesh);
+  return {hasher.state(), has_many_texels(scene) ? texture_digests(scene) : std::vector<std::string>()};
+}
+
+std::string scene_hash(const Scene& scene) {
+  const FpScope fp;
+  const SceneDigests* const known = scene.digests.get();
+  SceneHasher hasher;
+  if (known != nullptr) {
+    hasher.go_on_from(known->meshes);
+  } else {
+    hasher.count(scene.meshes.size());
+    for (const Mesh& mesh : scene.meshes) hasher.add(mesh);
+  }
   hasher.count(scene.materials.size());
   for (const Material& material : scene.materials) hasher.add(material.base_color);
   hasher.count(scene.instances.size());
@@ -260,7 +275,8 @@ std::string scene_hash(const Scene& scene) {
   hasher.add(uint64_t(3) << 61);  // no count, and none of the above
   hasher.count(scene.textures.size());
   if (has_many_texels(scene))
-    for (const std::string& digest : texture_digests(scene)) hasher.add_text(digest);
+    for (const std::string& digest : known != nullptr ? known->textures : texture_digests(scene))
+      hasher.add_text(digest);
   else
     for (const Texture& texture : scene.textures) hasher.add(texture);
   for (const Material& material : scene.materials) hasher.add_maps(material);

@@ -21,8 +21,8 @@ constexpr std::array<float, 256> kOfCode = [] {
   return values;
 }();
 
-template <class T>
-void append(T value, std::vector<uint8_t>& bytes) {
+template <class T, class Bytes>
+void append(T value, Bytes& bytes) {
   const auto* first = reinterpret_cast<const uint8_t*>(&value);
   bytes.insert(bytes.end(), first, first + sizeof value);
 }
@@ -127,7 +127,10 @@ std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, in
   return value;
 }
 
-void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes) {
+namespace {
+
+template <class Bytes>
+void append_stored(TextureFormat format, const std::array<float, 4>& value, Bytes& bytes) {
   const FpScope fp;
   for (size_t c = 0; c < 4; ++c) {
     switch (format) {
@@ -145,6 +148,16 @@ void append_texel(TextureFormat format, const std::array<float, 4>& value, std::
         break;
     }
   }
+}
+
+}  // namespace
+
+void append_texel(TextureFormat format, const std::array<float, 4>& value, Array<uint8_t>& bytes) {
+  append_stored(format, value, bytes);
+}
+
+void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes) {
+  append_stored(format, value, bytes);
 }
 
 std::vector<uint8_t> float_texels_of_16_bits(std::span<const uint8_t> codes, CodeEncoding encoding) {

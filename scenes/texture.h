@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/array.h"
+
 // Textures as OpenGL knows them (GL 4.6 core, chapter 8): texels in levels, and how a lookup reads them.
 // docs/arithmetic.md section 13.
 namespace trueshade {
@@ -37,7 +39,7 @@ inline constexpr int kMaxTextureLevels = 15;                      ///< floor(log
 /// One level: rows without padding, the first at v = 0, each from u = 0 on; channels little-endian.
 struct TextureLevel {
   int width = 0, height = 0;
-  std::vector<uint8_t> bytes;
+  Array<uint8_t> bytes;  ///< may lie in a cache file (scene_cache/)
 };
 
 /// Level k measures max(1, floor(side / 2^k)); a chain may stop early, and lookups then stay in its last level.
@@ -72,6 +74,7 @@ struct TextureSlot {
 std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, int y);
 
 /// Appends a texel stored as `format` keeps it: unorm RNE(255 clamp(x)), sRGB the nearest code, half to nearest even.
+void append_texel(TextureFormat format, const std::array<float, 4>& value, Array<uint8_t>& bytes);
 void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes);
 
 /// Texels of rgba32f from codes of 16 bits a channel, little-endian: RN(k / 65535), or of sRGB the linear value rounded

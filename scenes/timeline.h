@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/mesh.h"
 #include "scenes/placement.h"
 
 // What of a scene moves, and how. Values of a time are a pure function of it: frames may be drawn in any order.
@@ -78,10 +79,10 @@ struct Skin {
 
 /// Vertices before they are posed. Streams of a target are optional, one delta a vertex.
 struct MorphTarget {
-  std::array<std::vector<float>, 3> position, normal;
+  std::array<FloatStream, 3> position, normal;
 };
 struct RestShape {
-  std::array<std::vector<float>, 3> position, normal;
+  std::array<FloatStream, 3> position, normal;
   bool flat_normals = false;         ///< normals are those of the posed triangles, which share no vertices
   std::vector<MorphTarget> targets;  ///< position + sum of weight * delta, in this order
   uint32_t influences = 0;           ///< joints a vertex; 0: no skin

@@ -40,8 +40,8 @@ bool within(const glm::vec3& v, float least, float most) {
 
 void check_mesh(const Mesh& mesh, const Part& part) {
   const size_t count = mesh.vertex_count();
-  const auto check = [&](std::span<const std::vector<float>> streams, bool optional, const char* name) {
-    for (const std::vector<float>& stream : streams) {
+  const auto check = [&](std::span<const FloatStream> streams, bool optional, const char* name) {
+    for (const FloatStream& stream : streams) {
       if (optional && streams[0].empty() && stream.empty()) continue;
       if (stream.size() != count) part.fail(std::string(name) + " streams differ in length", "one value a vertex");
       if (!all_within(stream, kMostReach))

@@ -70,7 +70,8 @@ void add_up(const std::vector<TileCounts>& tiles, FrameStats& stats) {
   }
 }
 
-void draw_tiles(const FrameWork& frame, const Progress& progress) {
+/// `start`: of the frame, now_ms().
+void draw_tiles(const FrameWork& frame, double start, const Progress& progress) {
   const Execution& execution = frame.plan.execution;
   const std::vector<int> order = tile_order(frame.tables.bins, execution);
   std::vector<TileCounts> counts(order.size());
@@ -82,6 +83,7 @@ void draw_tiles(const FrameWork& frame, const Progress& progress) {
     draw_tile(frame, tile, of_tile);
     counts[size_t(tile)] = of_tile;
     const int finished = ++done;
+    if (finished == 1) frame.out.stats.first_tile_ms = now_ms() - start;
     if (!progress || finished % 16 != 0) return;
     if (const std::unique_lock lock(reporting, std::try_to_lock); lock) progress(finished, int(order.size()));
   });
@@ -96,6 +98,8 @@ void draw_tiles(const FrameWork& frame, const Progress& progress) {
 
 PreparedScene::PreparedScene(const Scene& scene)
     : scene_(&scene), clusters_(std::make_unique<ClusteredScene>(cluster_scene(scene))) {}
+PreparedScene::PreparedScene(const Scene& scene, std::unique_ptr<ClusteredScene> clusters)
+    : scene_(&scene), clusters_(std::move(clusters)) {}
 PreparedScene::~PreparedScene() = default;
 void PreparedScene::update() { cluster_posed_meshes(*scene_, *clusters_); }
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
@@ -137,7 +141,7 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
   stats.before_tiles_ms = now_ms() - start;
   stats.loops_before_tiles = log->loops();
   log.reset();
-  draw_tiles(work, progress);
+  draw_tiles(work, start, progress);
   tables.transforms = std::move(view.instances);
 
   stats.pixels = drawn_pixels(pipeline, plan.execution.region);

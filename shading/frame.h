@@ -65,6 +65,7 @@ struct FrameStats {
   StageTimes core_ms;                            ///< of the tiles, summed over threads
   double total_ms = 0;                           ///< wall time of the frame
   double before_tiles_ms = 0;                    ///< wall time: view, bins, light tables
+  double first_tile_ms = 0;                      ///< wall time until a tile was finished
   std::vector<ParallelLoop> loops_before_tiles;  ///< the parts of that which threads share
   int tile = 0, threads = 0;                     ///< of the frame: pixels a side, and how many at work
   std::vector<StageTimes> tile_ms;               ///< each tile's, in the order they are started
@@ -91,6 +92,8 @@ struct ClusteredScene;
 class PreparedScene {
  public:
   explicit PreparedScene(const Scene& scene);
+  /// With the clusters of its meshes, where they are there already.
+  PreparedScene(const Scene& scene, std::unique_ptr<ClusteredScene> clusters);
   ~PreparedScene();
   PreparedScene(PreparedScene&&) noexcept;
 

@@ -36,9 +36,10 @@ uint64_t geometry_bytes(const Scene& scene) {
   uint64_t bytes = 0, largest = 0;
   std::vector<uint64_t> clusters;
   for (const Mesh& mesh : scene.meshes) {
+    clusters.push_back(clusters_of(mesh));
+    if (!mesh.indices.owned()) continue;  // its clusters lie in the cache file, too
     bytes += clustered_bytes(mesh);
     largest = std::max<uint64_t>(largest, mesh.vertex_count());
-    clusters.push_back(clusters_of(mesh));
   }
   bytes += largest * (sizeof(uint32_t) + sizeof(uint8_t));  // while clusters are made
   for (const Instance& instance : scene.instances)

@@ -23,7 +23,7 @@ done <tests/include_arrows.txt
 while read -r folder included where; do
   [[ -v arrows[$folder] ]] || { fail "$folder has no row in tests/include_arrows.txt" "$where"; continue; }
   [[ ${arrows[$folder]} == *" $included "* ]] || fail "$folder may not include from $included" "$where"
-done < <(sources core farm scenes raster shading oracle judge gl bench compare explain cli view | xargs grep -nE '^ *# *include "' |
+done < <(sources core farm scenes raster scene_cache shading bands oracle judge gl bench compare explain cli view | xargs grep -nE '^ *# *include "' |
   sed -nE 's|^(([^:]*)/[^/:]*:[0-9]+): *# *include "(([^"]*)/)?[^/"]*".*|\2 \4 \1|p')
 
 # unit FOLDER: the folder; of a `fast` or `bounded` folder that the folder above calls, the folder above.

@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "core/error.h"
+#include "core/image_files/file_aside.h"
 #include "core/image_files/file_place.h"
 #include "core/image_files/streamed_file.h"
 
@@ -31,7 +32,7 @@ GrowingFile::GrowingFile(const std::string& path, bool goes_on) : path_(path) {
   if (is_standard_output(path)) {
     stream_ = true;
     descriptor_ = dup(STDOUT_FILENO);
-    if (descriptor_ < 0) fail_to_write(path, "open", errno);
+    if (descriptor_ < 0) fail_to(path, "open", errno);
     return;
   }
   const Destination to = destination_of(path);
@@ -39,17 +40,17 @@ GrowingFile::GrowingFile(const std::string& path, bool goes_on) : path_(path) {
   path_ = to.path;
   if (stream_) {
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    if (descriptor_ < 0) fail_to_write(path, "open", errno);
+    if (descriptor_ < 0) fail_to(path, "open", errno);
     return;
   }
   part_ = path_ + ".part";
   descriptor_ = open(part_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | (goes_on ? 0 : O_CREAT), 0666);
-  if (descriptor_ < 0) fail_to_write(part_, goes_on ? "open" : "create", errno);
+  if (descriptor_ < 0) fail_to(part_, goes_on ? "open" : "create", errno);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw Error(ErrorKind::io, part_, "another process is writing it", "wait for its end, or choose another name");
-  if (!goes_on && ftruncate(descriptor_, 0) != 0) fail_to_write(part_, "create", errno);
+  if (!goes_on && ftruncate(descriptor_, 0) != 0) fail_to(part_, "create", errno);
   if (to.mode && fchmod(descriptor_, *to.mode) != 0 && errno != EPERM && errno != ENOTSUP)
-    fail_to_write(part_, "give it its mode", errno);
+    fail_to(part_, "give it its mode", errno);
 }
 
 GrowingFile::~GrowingFile() {
@@ -65,7 +66,7 @@ void GrowingFile::put(uint64_t at, std::span<const uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), off_t(at));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_to_write(part_, "write", errno);
+    if (written < 0) fail_to(part_, "write", errno);
     bytes = bytes.subspan(size_t(written));
     at += uint64_t(written);
   }
@@ -74,21 +75,21 @@ void GrowingFile::put(uint64_t at, std::span<const uint8_t> bytes) {
 void GrowingFile::cut(uint64_t size) {
   if (stream_) return;
   struct stat there {};
-  if (fstat(descriptor_, &there) != 0) fail_to_write(part_, "open", errno);
+  if (fstat(descriptor_, &there) != 0) fail_to(part_, "open", errno);
   if (uint64_t(there.st_size) < size)
     throw Error(ErrorKind::io, part_, "is shorter than it was left", "delete it to begin anew");
-  if (ftruncate(descriptor_, off_t(size)) != 0) fail_to_write(part_, "write", errno);
+  if (ftruncate(descriptor_, off_t(size)) != 0) fail_to(part_, "write", errno);
 }
 
 void GrowingFile::sync() {
-  if (!stream_ && fdatasync(descriptor_) != 0 && errno != EINVAL) fail_to_write(part_, "write to disk", errno);
+  if (!stream_ && fdatasync(descriptor_) != 0 && errno != EINVAL) fail_to(part_, "write to disk", errno);
 }
 
 void GrowingFile::finish() {
-  if (!stream_) move_to_place(descriptor_, part_, path_);
+  if (!stream_) take_place(descriptor_, part_, path_);
   const int closed = close(descriptor_);
   descriptor_ = -1;
-  if (closed != 0) fail_to_write(path_, "write", errno);
+  if (closed != 0) fail_to(path_, "write", errno);
 }
 
 }  // namespace trueshade

@@ -13,7 +13,7 @@ namespace {
 constexpr GLuint kPosition = 0, kNormal = 1, kColor = 2, kUv = 3, kInstance = 4, kIds = 15;  // as in vertex_text()
 constexpr size_t kLargeMesh = 3 * 1000;                                                      // indices an instance
 
-std::vector<uint32_t> rotated(const std::vector<uint32_t>& indices, int rotation) {
+std::vector<uint32_t> rotated(std::span<const uint32_t> indices, int rotation) {
   std::vector<uint32_t> out(indices.size());
   for (size_t i = 0; i < indices.size(); ++i) out[i] = indices[i - i % 3 + (i + size_t(rotation)) % 3];
   return out;
@@ -77,7 +77,7 @@ SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& shared, int rotation)
   if (mesh.has_color()) vertex_attribute(kColor, 4, 6, stride);
   if (mesh.has_uv()) vertex_attribute(kUv, 2, mesh.has_color() ? 10 : 6, stride);
   const std::vector<uint32_t> turned = rotation == 0 ? std::vector<uint32_t>{} : rotated(mesh.indices, rotation);
-  out.indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, std::span<const uint32_t>(rotation == 0 ? mesh.indices : turned));
+  out.indices = make_buffer(GL_ELEMENT_ARRAY_BUFFER, rotation == 0 ? std::span<const uint32_t>(mesh.indices) : turned);
   out.index_count = GLsizei(mesh.indices.size());
   return out;
 }

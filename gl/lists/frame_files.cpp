@@ -69,7 +69,7 @@ std::string picture_text(const ListedPicture& p, ShaderApi api) {
 class FileBytes {
  public:
   /// "offset" and "bytes" of a block, with zeros behind it up to `size`.
-  std::string added(const std::vector<uint8_t>& block, size_t size) {
+  std::string added(std::span<const uint8_t> block, size_t size) {
     bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment);
     const size_t offset = bytes_.size();
     bytes_.insert(bytes_.end(), block.begin(), block.end());

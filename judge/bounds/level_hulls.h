@@ -46,7 +46,7 @@ class LevelHulls {
       if (const auto found = codes_.find(key); found != codes_.end()) return found->second;
     }
     std::array<std::array<uint8_t, 256>, 4> seen{};
-    const std::vector<uint8_t>& bytes = texture.levels[level].bytes;
+    const Array<uint8_t>& bytes = texture.levels[level].bytes;
     for (size_t k = 0; k + 4 <= bytes.size(); k += 4)
       for (size_t c = 0; c < 4; ++c) seen[c][bytes[k + c]] = 1;
     auto codes = std::make_shared<Codes>();

@@ -59,7 +59,7 @@ std::shared_ptr<PythonScene> load(const py::object& spec_or_path, double time) {
 }
 
 template <size_t n>
-void take(std::array<std::vector<float>, n>& to, const py::object& array, const std::string& name) {
+void take(std::array<FloatStream, n>& to, const py::object& array, const std::string& name) {
   if (array.is_none()) return;
   std::vector<std::vector<float>> columns = columns_of(array, name, n);
   for (size_t c = 0; c < n; ++c) to[c] = std::move(columns[c]);
@@ -82,7 +82,7 @@ uint32_t add_mesh(PythonScene& to, const py::object& positions, const py::object
   take<3>(mesh.normal, normals, "normals");
   take<2>(mesh.uv, uv, "uv");
   take<4>(mesh.color, colors, "colors");
-  const auto check_count = [&](const std::vector<float>& stream, const char* what) {
+  const auto check_count = [&](const FloatStream& stream, const char* what) {
     if (!stream.empty() && stream.size() != mesh.vertex_count())
       throw bad_argument(
           what,

@@ -97,7 +97,7 @@ class Builder {
     out_.boxes.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
   }
 
-  void add_line(const std::vector<float>& from, size_t first) {
+  void add_line(const FloatStream& from, size_t first) {
     VertexLine line{};
     for (size_t k = 0; k < 16 && !from.empty(); ++k) line.value[k] = from[out_.vertex[first + k]];
     out_.surface.push_back(line);

@@ -2,8 +2,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/array.h"
 #include "core/huge_pages.h"
 #include "scenes/scene.h"
 
@@ -23,7 +25,7 @@ struct Cluster {
 
 /// Object-space boxes, a lane each; vectors may read on past the last.
 struct ClusterBoxes {
-  std::array<std::vector<float>, 3> center, half_size;  ///< half sizes rounded up
+  std::array<Array<float>, 3> center, half_size;  ///< half sizes rounded up
 };
 
 /// One component of an attribute, of 16 vertices.
@@ -31,16 +33,20 @@ struct alignas(64) VertexLine {
   float value[16];
 };
 
+/// An array that is read at scattered places. It may lie in a cache file (scene_cache/).
+template <class T>
+using HugeArray = Array<T, HugeVector<T>>;
+
 struct ClusteredMesh {
-  std::vector<Cluster> clusters;
-  ClusterBoxes boxes;                         ///< of each cluster, then of the mesh
-  std::array<HugeVector<float>, 3> position;  ///< object space, a cluster's vertices side by side
+  Array<Cluster> clusters;
+  ClusterBoxes boxes;                        ///< of each cluster, then of the mesh
+  std::array<HugeArray<float>, 3> position;  ///< object space, a cluster's vertices side by side
   /// Each 16 vertices have `surface_lines` lines side by side: normal x, y, z in object space and, if the mesh has
   /// colours, r, g, b, a. So the attributes of a cluster are read from one place in memory instead of from seven.
-  HugeVector<VertexLine> surface;
+  HugeArray<VertexLine> surface;
   int surface_lines;
-  HugeVector<uint32_t> vertex;                ///< the mesh's vertex that each of them is
-  std::array<HugeVector<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
+  HugeArray<uint32_t> vertex;                ///< the mesh's vertex that each of them is
+  std::array<HugeArray<uint8_t>, 3> corner;  ///< cluster-local vertex of each triangle's corner
   uint32_t pose = 0;                          ///< Mesh::pose of the vertices
 };
 
@@ -49,8 +55,25 @@ inline const VertexLine* surface_of(const ClusteredMesh& mesh, size_t vertex) {
   return mesh.surface.data() + vertex / 16 * size_t(mesh.surface_lines);
 }
 
+/// The number of a vertex in a line: 0 to 2 of the normal, 3 to 6 of the colour, which is 1 where there is none.
+inline float surface_value(const ClusteredMesh& mesh, size_t vertex, int line) {
+  return line < mesh.surface_lines ? surface_of(mesh, vertex)[line].value[vertex % 16] : 1.0f;
+}
+
+/// Checks what lies in a cache file (scene_cache/) before a frame reads it.
+class ClusterSource {
+ public:
+  virtual ~ClusterSource() = default;
+  /// Of a cluster of a mesh that `instance` draws: its vertices and triangles, the texture coordinates of its vertices,
+  /// and the textures of the instance's material. Error(io) where they are damaged. May be called on any thread.
+  virtual void check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,
+                     const Cluster& cluster) const = 0;
+  virtual void check_all() const = 0;
+};
+
 struct ClusteredScene {
-  std::vector<ClusteredMesh> meshes;  ///< one per Scene::meshes
+  std::vector<ClusteredMesh> meshes;              ///< one per Scene::meshes
+  std::shared_ptr<const ClusterSource> source{};  ///< null where all is in memory
 };
 
 ClusteredMesh cluster_mesh(const Mesh& mesh);

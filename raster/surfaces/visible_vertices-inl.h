@@ -20,9 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The values of some vertices; `absent` where the mesh has no such stream.
-inline void copy_stream(const std::vector<float>& from, const uint32_t* vertex, int count, float absent, float* to) {
-  if (from.empty()) return void(std::fill_n(to, count, absent));
+/// The values of some vertices; 0 where the mesh has no such stream.
+inline void copy_stream(const FloatStream& from, const uint32_t* vertex, int count, float* to) {
+  if (from.empty()) return void(std::fill_n(to, count, 0.0f));
   const float* value = from.data();
   for (int i = 0; i < count; ++i) to[i] = value[vertex[i]];
 }
@@ -35,12 +35,15 @@ inline void copy_attributes(const SurfaceTask& task, const Mesh& mesh, const Clu
   const int count = cluster.vertices;
   for (size_t c = 0; c < 3; ++c) {
     std::copy_n(&clusters.position[c][cluster.first_vertex], count, &work.stream[size_t(kPosition) + c][at]);
-    copy_stream(mesh.normal[c], vertex, count, 0.0f, &work.stream[size_t(kNormal) + c][at]);
   }
-  for (size_t c = 0; c < 4; ++c) copy_stream(mesh.color[c], vertex, count, 1.0f, &work.stream[size_t(kAlbedo) + c][at]);
+  for (int i = 0; i < count; ++i) {
+    const size_t of_cluster = cluster.first_vertex + size_t(i);
+    for (int c = 0; c < 3; ++c) work.stream[kNormal + c][at + size_t(i)] = surface_value(clusters, of_cluster, c);
+    for (int c = 0; c < 4; ++c) work.stream[kAlbedo + c][at + size_t(i)] = surface_value(clusters, of_cluster, 3 + c);
+  }
   for (int set = 0; set < task.in.view.maps.uv_sets && task.reads_uv; ++set)
     for (size_t c = 0; c < 2; ++c)
-      copy_stream(mesh.uv_set(size_t(set))[c], vertex, count, 0.0f, &work.stream[size_t(uv_stream(set)) + c][at]);
+      copy_stream(mesh.uv_set(size_t(set))[c], vertex, count, &work.stream[size_t(uv_stream(set)) + c][at]);
 }
 
 /// Transforms the vertices of a seen cluster, given by its position in the tile's list, into the 64 of a slot.

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "raster/clusters/clusters.h"
 #include "raster/textures/texture-inl.h"
 #include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/interpolate-inl.h"
@@ -29,13 +30,14 @@ struct AlphaTest {
   double value[kValues][3], u[3];  ///< of the piece drawn, canonical order
   double area, slope_x[3], slope_y[3];
 
-  /// Corners of the mesh's triangle, of the material that `maps` are of.
-  void set_source(const Mesh& mesh, const uint32_t corner[3], size_t provoking_corner) {
+  /// A triangle of the material that `maps` are of, its corners as vertices of the mesh's clusters.
+  void set_source(const Mesh& mesh, const ClusteredMesh& clusters, const size_t vertex[3], size_t provoking_corner) {
     const UvStreams& uv = mesh.uv_set(maps->color ? maps->color->uv_set : 0);
     for (size_t k = 0; k < 3; ++k) {
-      source[kU][k] = uv[0].empty() ? 0.0f : uv[0][corner[k]];
-      source[kV][k] = uv[1].empty() ? 0.0f : uv[1][corner[k]];
-      source[kAlpha][k] = mesh.has_color() ? mesh.color[3][corner[k]] : 1.0f;
+      const uint32_t corner = clusters.vertex[vertex[k]];
+      source[kU][k] = uv[0].empty() ? 0.0f : uv[0][corner];
+      source[kV][k] = uv[1].empty() ? 0.0f : uv[1][corner];
+      source[kAlpha][k] = surface_value(clusters, vertex[k], 6);
     }
     for (int i = 0; i < kValues; ++i) provoking[i] = source[i][provoking_corner];
   }

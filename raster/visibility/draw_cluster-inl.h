@@ -48,9 +48,8 @@ inline AlphaTest* alpha_test(const ListedCluster& c, AlphaTest& test) {
 }
 
 inline void set_source(const ListedCluster& c, const size_t corner[3], AlphaTest& test) {
-  uint32_t vertex[3];
-  for (size_t k = 0; k < 3; ++k) vertex[k] = c.mesh.vertex[c.cluster.first_vertex + corner[k]];
-  test.set_source(c.in.scene.meshes[c.instance.mesh], vertex, c.state.provoking == Provoking::last ? 2 : 0);
+  const size_t first = c.cluster.first_vertex, vertex[3] = {first + corner[0], first + corner[1], first + corner[2]};
+  test.set_source(c.in.scene.meshes[c.instance.mesh], c.mesh, vertex, c.state.provoking == Provoking::last ? 2 : 0);
 }
 
 /// Draws a triangle of which some vertex needs clipping.
@@ -113,6 +112,7 @@ void draw_cluster(const TileDraws& in, const TileRect& rect, const ListedDraw& d
   const VisibilityTile* const hiding = t.depth.may_come_nearer() ? nullptr : sink.hiding();
   if (hiding != nullptr && hidden_draw(*hiding, rect.size / kBlockSize, draw)) return;
   const ListedCluster c(in, rect, draw);
+  if (in.clusters.source != nullptr) in.clusters.source->check(in.scene, c.instance, c.mesh, c.cluster);
   AlphaTest* const masked = sink.masked_by(alpha_test(c, work.alpha));
   WindowVertices& v = work.vertices;
   window_vertices(c.mesh, c.cluster, c.transform, t, sample_origin(rect.x, rect.y), draw.no_clip, v);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kPatchVertices = 64, kPatchTriangles = 126;  // a cluster of the rasterizer
 
-glm::dvec3 vec(const std::array<std::vector<float>, 3>& streams, uint32_t vertex) {
+glm::dvec3 vec(const std::array<FloatStream, 3>& streams, uint32_t vertex) {
   return {streams[0][vertex], streams[1][vertex], streams[2][vertex]};
 }
 
@@ -101,8 +101,8 @@ class PatchGrower {
 };
 
 template <size_t N>
-void reorder(std::array<std::vector<float>, N>& streams, const std::vector<uint32_t>& old_of_new) {
-  for (std::vector<float>& stream : streams) {
+void reorder(std::array<FloatStream, N>& streams, const std::vector<uint32_t>& old_of_new) {
+  for (FloatStream& stream : streams) {
     if (stream.empty()) continue;
     std::vector<float> moved;
     moved.reserve(old_of_new.size());

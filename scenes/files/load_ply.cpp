@@ -160,7 +160,7 @@ class BinarySource {
 
 /// Where each property of a vertex goes: a stream of the mesh, or nowhere.
 struct Target {
-  std::vector<float>* stream = nullptr;
+  FloatStream* stream = nullptr;
   double scale = 1.0;  ///< the value is divided by it
   bool is_color = false;
 };
@@ -234,7 +234,7 @@ class Reader {
   /// Streams for a group of properties, all of which must be there; `required` or none.
   template <size_t N>
   bool assign(const Element& element, std::vector<Target>& targets, const std::array<std::string_view, N>& names,
-              std::array<std::vector<float>, N>& streams, bool required) {
+              std::array<FloatStream, N>& streams, bool required) {
     size_t found = 0;
     for (const std::string_view name : names) found += find(element, name) != nullptr;
     if (found == 0 && !required) return false;

@@ -24,6 +24,10 @@ class Bytes {
   void put(const std::vector<T>& values) {
     for (const T& value : values) put(value);
   }
+  template <typename T>
+  void put(const Array<T>& values) {
+    for (const T& value : values) put(value);
+  }
   void put(const Image& image) { put(image.texels); }
   void put(const Scene& scene);
   void put_light(const Light& light);  ///< field by field: between them lie bytes without a meaning

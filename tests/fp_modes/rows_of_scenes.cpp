@@ -97,6 +97,9 @@ void call_load(Bytes& out) {
 
 void call_hash(Bytes& out) {
   out.put(scene_hash(scene_of_all()));
+  Scene digested = scene_of_all();
+  digested.digests = std::make_shared<SceneDigests>(digests_of(digested));
+  out.put(scene_hash(digested));
   out.put(scene_of_all().triangle_count());
   for (const Material& material : scene_of_all().materials) {
     out.put(material.masked());
@@ -227,7 +230,7 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/transparency.h", "draws_transparent",
      [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},
     {"scenes/scene.h", "load_scene Image", call_load},
-    {"scenes/scene.h", "scene_hash triangle_count masked textured", call_hash},
+    {"scenes/scene.h", "scene_hash digests_of triangle_count masked textured", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
     {"scenes/scene.h", "set_time", call_set_time},
     {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},

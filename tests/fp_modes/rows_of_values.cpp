@@ -1,4 +1,5 @@
 // core/ and the values of a pipeline.
+#include "core/array.h"
 #include "core/blend_state.h"
 #include "core/error.h"
 #include "core/expansion.h"
@@ -160,11 +161,33 @@ void call_light_model(Bytes& out) {
   out.put(default_pipeline(scene).light_model.shininess);
 }
 
+void call_arrays(Bytes& out) {
+  const auto numbers = std::make_shared<const std::vector<float>>(std::vector<float>{1.5f, -0.0f, 3.25f});
+  const Array<float> shown(*numbers, numbers);
+  Array<float> owned = shown;
+  owned.reserve(8);
+  owned.push_back(owned.back()), owned.pop_back(), owned.resize(4);
+  owned.insert(owned.begin() + 1, {7.0f, 8.0f});
+  out.put(owned.capacity() >= 8);
+  for (const Array<float>& array : {shown, owned}) {
+    out.put(array.owned());
+    out.put(array.size());
+    for (const float number : array) out.put(number);
+    out.put(array.front());
+    out.put(*(array.data() + 1));
+  }
+  owned.assign(2, 0.5f);
+  out.put(owned == shown);
+  owned.clear();
+  out.put(owned.empty() && owned.begin() == owned.end());
+}
+
 void call_memory(Bytes& out) {
   set_memory_cap(0);
   out.put(available_memory());
   out.put(memory_cap());
   out.put(resident_memory() > 0);
+  out.put(resident_memory_with_files() > 0);
   out.put(least_group_limit("/nowhere", "/a", "memory.max"));
   require_memory(1, "here", "a byte");
 }
@@ -174,8 +197,14 @@ constexpr Row kRows[] = {
      [](Bytes& out) { out.put(Error(ErrorKind::io, "here", "a reason", "a remedy").kind()); }},
     {"core/expansion.h", "is_expanded",
      [](Bytes& out) { out.put(is_expanded(uint64_t(65) << 20, 1 << 19, kMostExpansion)); }},
-    {"core/memory_cap.h", "available_memory memory_cap set_memory_cap resident_memory require_memory least_group_limit",
+    {"core/memory_cap.h",
+     "available_memory memory_cap set_memory_cap resident_memory resident_memory_with_files require_memory "
+     "least_group_limit",
      call_memory},
+    {"core/array.h",
+     "Array owned size empty data begin end front back capacity reserve resize assign push_back pop_back clear insert "
+     "vector see",
+     call_arrays},
     {"scenes/scene_limits.h", "within_limit", [](Bytes& out) { out.put(within_limit(7, "bytes", "--max-file")); }},
     {"core/format.h", "info format_from_name packed bytes_per_texel srgb_channel largest_code small_float",
      call_formats},

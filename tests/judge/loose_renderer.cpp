@@ -79,7 +79,7 @@ class Drawing {
     for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
       if (apart_ && scene_.materials[scene_.instances[i].material].transparent != (pass != Pass::opaque)) continue;
       const Mesh& mesh = scene_.meshes[scene_.instances[i].mesh];
-      const std::vector<uint32_t>& indices = mesh.indices;
+      const std::span<const uint32_t> indices = mesh.indices;
       std::vector<LooseVertex> vertices;
       for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         vertices.push_back(vertex(scene_.instances[i], v));
@@ -197,7 +197,7 @@ class Drawing {
   void tangents(uint32_t instance, size_t t, float along[2][3]) {
     const Instance& drawn = scene_.instances[instance];
     const Mesh& mesh = scene_.meshes[drawn.mesh];
-    const auto change = [&](const std::vector<float>& stream, size_t i) {
+    const auto change = [&](const FloatStream& stream, size_t i) {
       return double(stream[mesh.indices[t + i]]) - double(stream[mesh.indices[t]]);
     };
     const double a1 = change(mesh.uv[0], 1), b1 = change(mesh.uv[1], 1), a2 = change(mesh.uv[0], 2),

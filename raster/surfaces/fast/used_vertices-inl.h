@@ -96,7 +96,7 @@ struct UsedVertices {
   }
 
   /// The same of a stream that the mesh keeps by its own vertices; 0 where it has none.
-  static void gather(const std::vector<float>& from, const uint32_t* vertex, uint64_t used, float* to) {
+  static void gather(const FloatStream& from, const uint32_t* vertex, uint64_t used, float* to) {
     const float* const value = from.data();
     for (; used != 0; used &= used - 1) *to++ = from.empty() ? 0.0f : value[vertex[std::countr_zero(used)]];
   }

@@ -90,21 +90,15 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon > 0 && uri[colon] == ':';
 }
 
-/// What FilesRead notes. One for the process, because the files of a scene are read on any thread.
-struct Notebook {
+/// The lists in which paths are noted now. One set for the process, because the files of a scene are read on any thread.
+struct Notebooks {
   std::mutex mutex;
-  bool open = false;
-  std::set<std::string> paths;
+  std::set<std::set<std::string>*> open;
 };
 
-Notebook& notebook() {
-  static Notebook only;
-  return only;
-}
-
-void note(const std::string& path) {
-  const std::lock_guard lock(notebook().mutex);
-  if (notebook().open) notebook().paths.insert(path);
+Notebooks& notebooks() {
+  static Notebooks all;
+  return all;
 }
 
 bool climbs_out(std::string_view path) {
@@ -125,23 +119,27 @@ bool climbs_out(std::string_view path) {
 }  // namespace
 
 FilesRead::FilesRead() {
-  const std::lock_guard lock(notebook().mutex);
-  notebook().open = true;
-  notebook().paths.clear();
+  const std::lock_guard lock(notebooks().mutex);
+  notebooks().open.insert(&paths_);
 }
 
 FilesRead::~FilesRead() {
-  const std::lock_guard lock(notebook().mutex);
-  notebook().open = false;
+  const std::lock_guard lock(notebooks().mutex);
+  notebooks().open.erase(&paths_);
 }
 
 std::vector<std::string> FilesRead::paths() const {
-  const std::lock_guard lock(notebook().mutex);
-  return {notebook().paths.begin(), notebook().paths.end()};
+  const std::lock_guard lock(notebooks().mutex);
+  return {paths_.begin(), paths_.end()};
+}
+
+void FilesRead::note(const std::string& path) {
+  const std::lock_guard lock(notebooks().mutex);
+  for (std::set<std::string>* const paths : notebooks().open) paths->insert(path);
 }
 
 Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view option) {
-  note(path);
+  FilesRead::note(path);
   const Descriptor file(open(path.c_str(), kOpenFlags));
   if (file.get() < 0) throw Error(ErrorKind::io, path, std::strerror(errno), "a file that exists and can be read");
   return content(file.get(), limit, path, option);
@@ -183,7 +181,7 @@ SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_
 SceneFolder::~SceneFolder() { close(folder_); }
 
 int SceneFolder::open_beneath(const std::string& relative, bool portable) const {
-  note(name_ + "/" + relative);
+  FilesRead::note(name_ + "/" + relative);
   if (!portable) {
     open_how how{};
     how.flags = uint64_t(kOpenFlags);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,7 +44,7 @@ class SceneFolder {
   int folder_ = -1;
 };
 
-/// For its lifetime notes the paths that read_user_file() and SceneFolder open, or fail to, on any thread. One at a time.
+/// For its lifetime notes the paths that read_user_file() and SceneFolder open, or fail to, on any thread.
 class FilesRead {
  public:
   FilesRead();
@@ -51,6 +52,12 @@ class FilesRead {
   FilesRead(const FilesRead&) = delete;
   FilesRead& operator=(const FilesRead&) = delete;
   std::vector<std::string> paths() const;  ///< sorted, each once
+
+  /// Notes a path that was read when the file was made that is read instead.
+  static void note(const std::string& path);
+
+ private:
+  std::set<std::string> paths_;
 };
 
 /// Content of a .gz file, all its members. Error(bad_input) for a broken stream; Error(limit) over limits.file_bytes, over

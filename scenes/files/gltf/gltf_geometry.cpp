@@ -10,8 +10,8 @@ namespace {
 
 /// Appends a stream, or `count` times `absent` where it is empty and others are not.
 template <size_t N>
-void append_streams(const std::array<std::vector<float>, N>& from, size_t count, float absent, size_t before,
-                    std::array<std::vector<float>, N>& to) {
+void append_streams(const std::array<FloatStream, N>& from, size_t count, float absent, size_t before,
+                    std::array<FloatStream, N>& to) {
   if (from[0].empty() && to[0].empty()) return;
   for (size_t k = 0; k < N; ++k) {
     to[k].resize(before, absent);

@@ -8,7 +8,7 @@ namespace trueshade::gltf {
 namespace {
 
 template <size_t N>
-void read_streams(Accessors& accessors, uint32_t accessor, std::array<std::vector<float>, N>& streams) {
+void read_streams(Accessors& accessors, uint32_t accessor, std::array<FloatStream, N>& streams) {
   if (accessor == kNone) return;
   const uint32_t components = components_of(accessors.at(accessor).shape);
   for (uint32_t k = 0; k < N && k < components; ++k) streams[k] = accessors.floats(accessor, k);
@@ -40,7 +40,7 @@ std::vector<uint32_t> read_corners(Accessors& accessors, const Primitive& primit
 }
 
 void check_colors(const Mesh& mesh, const Document& document, uint32_t accessor) {
-  for (const std::vector<float>& stream : mesh.color)
+  for (const FloatStream& stream : mesh.color)
     for (size_t v = 0; v < stream.size(); ++v)
       if (!(stream[v] >= 0.0f && stream[v] <= 1.0f))
         document.fail(pointer_to("accessors", accessor),
@@ -68,10 +68,10 @@ std::vector<uint32_t> triangles_of(Accessors& accessors, std::vector<uint32_t> c
 }
 
 /// `each` values an element, an element for each of `corners` in turn.
-template <typename T>
-void take_apart(std::vector<T>& values, const std::vector<uint32_t>& corners, size_t each = 1) {
+template <class Values>  // a vector or an Array
+void take_apart(Values& values, std::span<const uint32_t> corners, size_t each = 1) {
   if (values.empty()) return;
-  std::vector<T> out;
+  std::vector<typename Values::value_type> out;
   out.reserve(corners.size() * each);
   for (const uint32_t corner : corners)
     out.insert(out.end(), values.begin() + ptrdiff_t(corner * each), values.begin() + ptrdiff_t((corner + 1) * each));
@@ -131,7 +131,7 @@ void drop_unused_vertices(Mesh& mesh) {
   if (vertices < kFew) return;
   std::vector<uint32_t> place(vertices, 0);  // first whether a vertex is kept, then where
   for (const uint32_t index : mesh.indices) place[index] = 1;
-  for (const std::vector<float>& stream : mesh.position) {
+  for (const FloatStream& stream : mesh.position) {
     const auto [least, most] = std::minmax_element(stream.begin(), stream.end());
     place[size_t(least - stream.begin())] = place[size_t(most - stream.begin())] = 1;
   }
@@ -143,7 +143,7 @@ void drop_unused_vertices(Mesh& mesh) {
   }
   if (kept.size() >= vertices / 4) return;
   const auto keep = [&kept](auto& streams) {
-    for (std::vector<float>& stream : streams) take_apart(stream, kept);
+    for (FloatStream& stream : streams) take_apart(stream, kept);
   };
   keep(mesh.position), keep(mesh.normal), keep(mesh.uv), keep(mesh.color);
   for (auto& set : mesh.more_uv) keep(set);

@@ -22,7 +22,7 @@ std::vector<float> loaded(const std::vector<T>& values, bool normalized) {
   const Scene scene = load_gltf(asset.gltf(kQuantized + one_primitive(positions(0))));
   std::vector<float> out;
   for (size_t v = 0; v < 3; ++v)
-    for (size_t k = 0; k < 3; ++k) out.push_back(scene.meshes.at(0).position[k].at(v));
+    for (size_t k = 0; k < 3; ++k) out.push_back(scene.meshes.at(0).position[k][v]);
   return out;
 }
 

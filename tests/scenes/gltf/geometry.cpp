@@ -20,7 +20,7 @@ Asset rows(int vertices) {
   return asset;
 }
 
-std::vector<uint32_t> indices_of(int vertices, int mode, const std::vector<uint16_t>& indices = {}) {
+Array<uint32_t> indices_of(int vertices, int mode, const std::vector<uint16_t>& indices = {}) {
   Asset asset = rows(vertices);
   std::string rest = R"("attributes": {"POSITION": 0, "NORMAL": 1}, "mode": )" + std::to_string(mode);
   if (!indices.empty()) rest += R"(, "indices": )" + std::to_string(asset.accessor(indices, "SCALAR"));

@@ -109,7 +109,7 @@ double peer_value(const tinygltf::Model& model, int accessor, size_t element, si
 
 template <size_t N>
 void check_stream(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const char* name,
-                  const std::array<std::vector<float>, N>& streams) {
+                  const std::array<FloatStream, N>& streams) {
   const auto found = primitive.attributes.find(name);
   if (found == primitive.attributes.end()) return;
   INFO(name);

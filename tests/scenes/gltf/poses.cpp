@@ -13,7 +13,7 @@ const float kHalf = float(std::sqrt(0.5));
 
 glm::vec3 vertex(const Scene& scene, size_t mesh, size_t v) {
   const Mesh& m = scene.meshes.at(mesh);
-  return {m.position[0].at(v), m.position[1].at(v), m.position[2].at(v)};
+  return {m.position[0][v], m.position[1][v], m.position[2][v]};
 }
 
 double distance(const glm::vec3& a, const glm::vec3& b) {

@@ -56,7 +56,7 @@ std::string column(const std::vector<std::array<int, 4>>& texels) {
 }
 
 std::array<int, 4> texel(const Scene& scene, const TextureSlot& slot, size_t index) {
-  const std::vector<uint8_t>& bytes = scene.textures.at(size_t(slot.texture)).levels[0].bytes;
+  const Array<uint8_t>& bytes = scene.textures.at(size_t(slot.texture)).levels[0].bytes;
   return {bytes[4 * index], bytes[4 * index + 1], bytes[4 * index + 2], bytes[4 * index + 3]};
 }
 

@@ -35,7 +35,7 @@ uint32_t GlbBuilder::view(std::span<const uint8_t> bytes) {
                                 ",\"byteLength\":" + std::to_string(bytes.size()) + "}");
 }
 
-uint32_t GlbBuilder::accessor(std::span<const std::vector<float>> streams, bool with_bounds) {
+uint32_t GlbBuilder::accessor(std::span<const FloatStream> streams, bool with_bounds) {
   constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
   const size_t count = streams[0].size(), width = streams.size();
   std::vector<float> values(count * width);
@@ -45,7 +45,7 @@ uint32_t GlbBuilder::accessor(std::span<const std::vector<float>> streams, bool 
   std::string text = view_and_count(at, count, ",\"componentType\":5126,\"type\":\"") + kTypes[width] + '"';
   if (with_bounds) {
     std::vector<float> least, most;
-    for (const std::vector<float>& stream : streams) {
+    for (const FloatStream& stream : streams) {
       const auto [low, high] = std::minmax_element(stream.begin(), stream.end());
       least.push_back(*low), most.push_back(*high);
     }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/mesh.h"
+
 namespace trueshade::gltf {
 
 /// A GLB file in the making: its binary chunk, and the lists of its JSON by name.
@@ -17,7 +19,7 @@ class GlbBuilder {
 
   /// Index of a new accessor of one float or index a vertex and stream, in a view of its own. Bounds are those that
   /// POSITION needs.
-  uint32_t accessor(std::span<const std::vector<float>> streams, bool with_bounds);
+  uint32_t accessor(std::span<const FloatStream> streams, bool with_bounds);
   uint32_t accessor(std::span<const uint32_t> indices, size_t vertices);
 
   /// Index of a new accessor that has no data: pairs of zeros.

@@ -68,7 +68,7 @@ class MaterialWriter {
     const bool by_codes = bytes_per_texel(texture.format) == 4 && (texture.format == wanted || !roles_[index]);
     Image image(texture.levels[0].width, texture.levels[0].height, Format::rgba8);
     if (by_codes)
-      image.texels = texture.levels[0].bytes;
+      image.texels.assign(texture.levels[0].bytes.begin(), texture.levels[0].bytes.end());
     else
       image = picture_of(texture, wanted);
     TextureExtras extras;

@@ -10,14 +10,14 @@ namespace {
 
 /// COLOR_0 holds numbers from 0 to 1.
 bool fits_gltf(const Mesh& mesh) {
-  for (const std::vector<float>& stream : mesh.color)
+  for (const FloatStream& stream : mesh.color)
     for (const float x : stream)
       if (!(x >= 0.0f && x <= 1.0f)) return false;
   return true;
 }
 
-std::array<std::vector<float>, 4> clamped(std::array<std::vector<float>, 4> color) {
-  for (std::vector<float>& stream : color)
+std::array<FloatStream, 4> clamped(std::array<FloatStream, 4> color) {
+  for (FloatStream& stream : color)
     for (float& x : stream) x = std::clamp(x, 0.0f, 1.0f);
   return color;
 }
