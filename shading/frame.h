@@ -1,9 +1,7 @@
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +13,7 @@
 #include "core/threads/parallel_for.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
+#include "shading/output/extent.h"
 
 namespace trueshade {
 
@@ -106,16 +105,6 @@ class PreparedScene {
  private:
   const Scene* scene_;
   std::unique_ptr<ClusteredScene> clusters_;
-};
-
-/// The least and the largest of some values; none yet where the least is infinite.
-struct Extent {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-
-  void add(const Extent& other) {
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
-  }
 };
 
 /// Numbers of the whole picture that the pixels of all its regions depend on (shading/picture_region.h); each is as it

@@ -7,7 +7,7 @@
 #include "core/image.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
-#include "shading/frame.h"
+#include "shading/output/extent.h"
 
 namespace trueshade {
 
