@@ -14,6 +14,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/file_notes.h"
 #include "core/fp_env.h"
 #include "core/image_files/image_io.h"
 
@@ -207,6 +208,7 @@ void write_file(const std::string& path, const FilePieces& pieces) {
   if (to.mode) file.take_mode(*to.mode);
   file.write_all(pieces);
   file.take_name();
+  note_written(path, pieces);
 }
 
 void write_file(const std::string& path, std::span<const uint8_t> bytes) { write_file(path, FilePieces{{bytes}}); }
