@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "cli/commands.h"
+#include "cli/job_process.h"
 #include "cli/options.h"
 #include "cli/terminal.h"
 #include "core/error.h"
@@ -117,7 +118,8 @@ void set_up(const Command& command) {
       [](const auto& options) {
         if constexpr (requires { options.quiet; })
           if (options.quiet) be_quiet();
-        if constexpr (requires { options.limits; }) set_memory_cap(options.limits.memory);
+        if constexpr (requires { options.limits; })
+          if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
       },
       command);
 }
@@ -130,6 +132,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   try {
+    trueshade::become_job_process();
     const trueshade::Command command = trueshade::command_from_arguments(count, arguments);
     trueshade::set_up(command);
     return trueshade::execute(command);
