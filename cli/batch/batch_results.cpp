@@ -94,7 +94,7 @@ std::string BatchResults::verdict() const {
   const int all = count(), unchanged = count(JobState::unchanged), good = count(JobState::passed) + unchanged;
   std::string text = good == all ? (all == 1 ? "the job passed" : "all " + std::to_string(all) + " jobs passed")
                                  : std::to_string(good) + " of " + std::to_string(all) + " jobs passed";
-  if (unchanged > 0) text += ", " + std::to_string(unchanged) + " unchanged";
+  if (unchanged > 0) text += ", " + std::to_string(unchanged) + " of them unchanged";
   for (const JobState state : {JobState::failed, JobState::skipped})
     if (count(state) > 0) text += ", " + std::to_string(count(state)) + ' ' + std::string(name_of(state));
   return text;

@@ -17,7 +17,7 @@ struct BatchResults {
   int count(JobState state) const;
   int count() const;  ///< all that were chosen
   bool passed() const { return count(JobState::failed) + count(JobState::skipped) == 0; }
-  std::string verdict() const;  ///< `4 of 6 jobs passed, 1 failed, 1 skipped`
+  std::string verdict() const;  ///< `4 of 6 jobs passed, 3 of them unchanged, 1 failed, 1 skipped`
 };
 
 std::string results_text(const BatchResults& batch);   ///< a line that says how it went, and a table

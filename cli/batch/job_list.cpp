@@ -78,8 +78,20 @@ class ListReader {
       const auto* object = std::get_if<std::unique_ptr<json::Members>>(&words->value().is);
       if (object == nullptr) words->fail("this is no object", "an object of words, each with a list of strings");
       lists = object->get();
+      check_count(*words, *lists);
     }
     read_for(node, words ? &*words : nullptr, lists, 0, meanings);
+  }
+
+  /// Before jobs are made for all choices of all words.
+  void check_count(const json::Node& words, const json::Members& lists) const {
+    size_t made = 1;
+    for (const auto& [word, value] : lists) {
+      made *= json::Node(value, words, std::string_view(word)).array(1, kMostJobs).size();
+      if (list_.jobs.size() + made > kMostJobs)
+        words.fail("this makes more jobs than the limit", "at most " + std::to_string(kMostJobs) + " in a file",
+                   ErrorKind::limit);
+    }
   }
 
   /// A job for every choice of the words from `place` on; the last word changes first.
