@@ -20,10 +20,8 @@
 #include "core/threads/parallel_for.h"
 #include "scenes/files/content/scene_files.h"
 
-namespace trueshade {
+namespace trueshade::batch {
 namespace {
-
-using namespace batch;
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t ended_by = 0;
@@ -44,6 +42,7 @@ class EndsJobs {
       sigemptyset(&action.sa_mask);
       action.sa_flags = SA_RESTART;
       sigaction(kSignals[i], &action, &before_[i]);
+      if (before_[i].sa_handler == SIG_IGN) sigaction(kSignals[i], &before_[i], nullptr);  // as nohup has it
     }
   }
   ~EndsJobs() {
@@ -119,8 +118,12 @@ void write_reports(const BatchOptions& options, const BatchResults& results) {
 }
 
 }  // namespace
+}  // namespace trueshade::batch
+
+namespace trueshade {
 
 int run_batch(const BatchOptions& options) {
+  using namespace batch;
   const auto begin = std::chrono::steady_clock::now();
   const JobList list = read_jobs(options.file);
   const std::vector<bool> chosen = jobs_to_run(options, list);

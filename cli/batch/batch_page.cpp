@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostPictures = 200;
 constexpr int kPictureSide = 320;  // pixels
 
-std::string command_of(const Job& job) {
+std::string shell_command_of(const Job& job) {
   std::string command = "trueshade";
   for (const std::string& word : job.run) command += ' ' + for_shell(word);
   return command;
@@ -40,7 +40,7 @@ std::string row_of(const Job& job, const JobResult& result) {
         "<code title=\"" + escaped(result.hashes[i]) + "\">" + escaped(result.hashes[i].substr(7, 12)) + "</code> ";
   if (result.hashes.size() > 3) hashes += "and " + std::to_string(result.hashes.size() - 3) + " more";
   return "<tr>" + state_cell(result) + "<td><details" + (result.state == JobState::failed ? " open" : "") +
-         "><summary>" + escaped(job.name) + "</summary><code>" + escaped(command_of(job)) + "</code>" +
+         "><summary>" + escaped(job.name) + "</summary><code>" + escaped(shell_command_of(job)) + "</code>" +
          printed(result) + "</details><td class=number>" + seconds + "<td>" + hashes + "<td>" + escaped(result.reason) +
          '\n';
 }

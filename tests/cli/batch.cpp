@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -384,6 +386,30 @@ void end_at_random(int kills, int signal) {
       CHECK(contents(batch.folder.path(name.substr(4) + ".png")) ==
             contents(whole.folder.path(name.substr(4) + ".png")));
   }
+}
+
+TEST_CASE("Jobs end with their batch, however long they would take, and an ignored hang-up ends neither") {
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    const Batch batch;
+    batch.write(
+        {job("slow", {"render", "builtin:city,lights=100000", "--size", "8192x8192", "--threads", "1", "--hash"})});
+    const pid_t process = start(batch);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(works_in(batch.folder.path("")));
+    kill(process, signal);
+    CHECK(WTERMSIG(end_of(process)) == signal);
+    CHECK(soon([&batch] { return !works_in(batch.folder.path("")); }));
+  }
+  const Batch batch;
+  batch.write({job("a", drawing("builtin:cornell", "a.png"))});
+  std::signal(SIGHUP, SIG_IGN);
+  const pid_t process = start(batch);
+  std::signal(SIGHUP, SIG_DFL);
+  for (int i = 0; i < 20; ++i) {
+    kill(process, SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  }
+  CHECK(end_of(process) == 0);
 }
 
 TEST_CASE("A batch that is killed leaves no process, tears nothing, and is resumed") { end_at_random(4, SIGKILL); }
