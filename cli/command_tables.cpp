@@ -14,6 +14,7 @@ CommandTables::CommandTables() {
   tables_.push_back(view_table(view_, view_texts_));
   tables_.push_back(bench_table(bench_, bench_texts_));
   tables_.push_back(compare_table(compare_, compare_texts_));
+  tables_.push_back(batch_table(batch_, batch_texts_));
   tables_.push_back(man_table(man_));
   tables_.push_back(completion_table(completion_));
 }

@@ -16,6 +16,7 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts);
 CommandTable view_table(ViewOptions& options, ViewTexts& texts);
 CommandTable bench_table(BenchOptions& options, BenchTexts& texts);
 CommandTable compare_table(CompareOptions& options, CompareTexts& texts);
+CommandTable batch_table(BatchOptions& options, BatchTexts& texts);
 CommandTable man_table(ManOptions& options);
 CommandTable completion_table(CompletionOptions& options);
 
@@ -52,6 +53,8 @@ class CommandTables {
   BenchTexts bench_texts_;
   CompareOptions compare_;
   CompareTexts compare_texts_;
+  BatchOptions batch_;
+  BatchTexts batch_texts_;
   ManOptions man_;
   CompletionOptions completion_;
   std::vector<CommandTable> tables_;

@@ -23,6 +23,7 @@ void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
 void view(const ViewOptions& options);  ///< becomes another program, or throws
 int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
+int run_batch(const BatchOptions& options);           ///< `batch`; the exit code
 void write_man_pages(const ManOptions& options);
 void print_completion(const CompletionOptions& options);
 void print_version(const VersionOptions& options);

@@ -26,6 +26,7 @@ int execute(const Command& command) {
   if (const auto* options = std::get_if<BenchOptions>(&command)) bench(*options);
   if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
   if (const auto* options = std::get_if<CompareOptions>(&command)) return compare_pictures(*options);
+  if (const auto* options = std::get_if<BatchOptions>(&command)) return run_batch(*options);
   if (const auto* options = std::get_if<VersionOptions>(&command)) print_version(*options);
   if (const auto* options = std::get_if<ManOptions>(&command)) write_man_pages(*options);
   if (const auto* options = std::get_if<CompletionOptions>(&command)) print_completion(*options);

@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "cli/commands.h"
+#include "cli/job_process.h"
 #include "cli/options.h"
 #include "cli/shared_render.h"
 #include "cli/terminal.h"
@@ -131,7 +132,7 @@ void set_up(const Command& command) {
         if constexpr (requires { options.quiet; })
           if (options.quiet) be_quiet();
         if constexpr (requires { options.limits; }) {
-          set_memory_cap(options.limits.memory);
+          if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
           if (options.limits.cache) std::signal(SIGBUS, end_at_lost_bytes);
         }
       },
@@ -143,6 +144,7 @@ int run(int count, char** arguments) {
   const MpiStart start = mpi_start();
   const bool is_other = start.by_mpi && start.rank != 0;
   try {
+    become_job_process();
     const Command command = command_from_arguments(count, arguments);
     if (is_other && !is_shared(command)) return 0;  // rank 0 alone carries it out
     set_up(command);

@@ -57,6 +57,11 @@ struct CompareTexts {
   bool low = false, high = false, no_judge = false;
 };
 
+/// Of batch.
+struct BatchTexts {
+  std::optional<std::string> jobs, threads;
+};
+
 /// One file cannot hold two documents, and who wants two has mistyped a name: Error(usage).
 void check_named_once(const std::string& option, std::vector<std::string> files);
 
@@ -72,5 +77,6 @@ ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts);
 BenchOptions finished(BenchOptions options, const BenchTexts& texts);
 ViewOptions finished(ViewOptions options, const ViewTexts& texts);
 CompareOptions finished(CompareOptions options, const CompareTexts& texts);
+BatchOptions finished(BatchOptions options, const BatchTexts& texts);
 
 }  // namespace trueshade

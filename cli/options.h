@@ -168,6 +168,18 @@ struct CompareOptions : LimitedOptions {
   bool json = false;
 };
 
+/// `trueshade batch`: jobs of a file.
+struct BatchOptions : CommonOptions {
+  std::string file;                                     ///< .json (docs/batch.md)
+  bool resumes = false;                                 ///< goes on with what is not done or has changed
+  std::optional<std::string> only;                      ///< a pattern of names
+  std::optional<std::string> state;                     ///< the journal; nothing: `file` with .state behind it
+  std::optional<std::string> json_file, junit, report;  ///< files to write; JSON named - is printed
+  int jobs = 0;                                         ///< at once; 0: as many as there are cores for their threads
+  int threads = 0;                                      ///< of a job that does not say; 0: the cores, shared evenly
+  std::string command_line;                             ///< as it was given, for a shell
+};
+
 /// `trueshade --version`
 struct VersionOptions {
   bool json = false;
@@ -189,8 +201,8 @@ struct PrintText {
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions,
-                             ViewOptions, VersionOptions, ManOptions, CompletionOptions, PrintText>;
+                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, ViewOptions,
+                             BatchOptions, VersionOptions, ManOptions, CompletionOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

@@ -10,6 +10,7 @@
 #include "cli/accepting.h"
 #include "core/error.h"
 #include "core/file_ending.h"
+#include "core/file_notes.h"
 
 namespace trueshade {
 namespace {
@@ -24,29 +25,6 @@ bool has_picture_ending(const fs::path& path) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   return std::any_of(std::begin(kPictureEndings), std::end(kPictureEndings),
                      [&name](std::string_view ending) { return has_ending(name, ending); });
-}
-
-/// Relative names of the pictures in a folder and in those within; links to folders are not followed.
-std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over) {
-  std::set<std::string> names;
-  std::error_code failed;
-  std::set<fs::path> visited;  // links may lead back
-  fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, failed);
-  for (const fs::recursive_directory_iterator end; !failed && entry != end; entry.increment(failed)) {
-    std::error_code unknown;
-    if (entry->is_directory(unknown)) {
-      if (!visited.insert(fs::canonical(entry->path(), unknown)).second) entry.disable_recursion_pending();
-      continue;
-    }
-    if (has_picture_ending(entry->path()))
-      names.insert(entry->path().lexically_relative(folder).generic_string());
-    else
-      ++passed_over;
-  }
-  if (failed)
-    throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(),
-                failed == std::errc::no_such_file_or_directory ? "check the name" : "check the rights");
-  return names;
 }
 
 RowState state_of(compare::Outcome outcome) {
@@ -176,10 +154,34 @@ int FolderComparison::exit_code() const {
   return failures() > 0 ? 1 : 0;
 }
 
+std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over) {
+  std::set<std::string> names;
+  std::error_code failed;
+  std::set<fs::path> visited;  // links may lead back
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, failed);
+  for (const fs::recursive_directory_iterator end; !failed && entry != end; entry.increment(failed)) {
+    std::error_code unknown;
+    if (entry->is_directory(unknown)) {
+      if (!visited.insert(fs::canonical(entry->path(), unknown)).second) entry.disable_recursion_pending();
+      continue;
+    }
+    if (has_picture_ending(entry->path()))
+      names.insert(entry->path().lexically_relative(folder).generic_string());
+    else
+      ++passed_over;
+  }
+  if (failed)
+    throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(),
+                failed == std::errc::no_such_file_or_directory ? "check the name" : "check the rights");
+  return names;
+}
+
 FolderComparison compared_folders(const CompareOptions& options, const std::function<void(int, int)>& see) {
   FolderComparison folders{options.reference, options.test, {}, 0};
   const std::set<std::string> of_reference = pictures_in(options.reference, folders.passed_over),
                               of_test = pictures_in(options.test, folders.passed_over);
+  note_listed(options.reference, of_reference);
+  note_listed(options.test, of_test);
   std::set<std::string> names = of_reference;
   names.insert(of_test.begin(), of_test.end());
   if (names.empty())

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ struct FolderComparison {
   size_t failures() const;
   int exit_code() const;  ///< 0, 1, or that of the first picture that cannot be read
 };
+
+/// Relative names of the pictures in a folder and in those within; links to folders are not followed. Adds the number of
+/// files whose names do not end as a picture's to `passed_over`. Error(io): a folder that cannot be listed.
+std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over);
 
 /// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences into
 /// the folder of -o, as the options say. `see` is told how many of how many are done.

@@ -22,6 +22,7 @@ foreach(header
 endforeach()
 
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_SOURCE_DIR}/scenes/schemas/pipeline.schema.json
+              ${PROJECT_SOURCE_DIR}/cli/batch/jobs.schema.json
         DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
 
 install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir} COMPONENT dev)

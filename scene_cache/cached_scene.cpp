@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/file_notes.h"
 #include "core/fp_env.h"
 #include "core/memory_cap.h"
 #include "core/sha256.h"
@@ -127,7 +128,10 @@ std::optional<CachedScene> read_cache(const std::string& path, const std::string
   const auto digests = tables.taken<std::optional<SceneDigests>>();
   if (digests) scene.digests = std::make_shared<SceneDigests>(*digests);
   check_what_is_read_whole(*file, cached);
-  for (const FileState& made_of : origin.files) FilesRead::note(made_of.path);
+  for (const FileState& made_of : origin.files) {
+    FilesRead::note(made_of.path);
+    note_read_from_disk(made_of.path);
+  }
   cached.clusters->source = std::make_shared<CheckedClusters>(file, scene.textures.size());
   return cached;
 } catch (const BadTables&) {

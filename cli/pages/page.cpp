@@ -94,8 +94,8 @@ std::string grouped(const std::string& number) {
   return text;
 }
 
-Image reduced_picture(const Image& image) {
-  const int side = (std::max(image.width, image.height) + kLargestFigure - 1) / kLargestFigure;
+Image reduced_picture(const Image& image, int largest_side) {
+  const int side = (std::max(image.width, image.height) + largest_side - 1) / largest_side;
   if (side <= 1) return image;
   const bool is_float = info(image.format).number_class == NumberClass::floating;
   Image out((image.width + side - 1) / side, (image.height + side - 1) / side,

@@ -28,9 +28,9 @@ std::string grouped(const std::string& number);
 /// A picture of at most 960 pixels a side with its caption; larger images are reduced. `about` is HTML.
 std::string figure(const Image& image, const std::string& name, const std::string& about);
 
-/// The image, or a smaller one whose pixels are averages. rgba8 of fixed point, rgba32f of floats.
-Image reduced_picture(const Image& image);
 inline constexpr int kLargestFigure = 960;  ///< pixels of the larger side
+/// The image, or a smaller one whose pixels are averages. rgba8 of fixed point, rgba32f of floats.
+Image reduced_picture(const Image& image, int largest_side = kLargestFigure);
 
 /// Notes, a paragraph each; nothing where there are none.
 std::string notes_part(std::span<const std::string> lines);

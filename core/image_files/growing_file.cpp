@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "core/error.h"
+#include "core/file_notes.h"
 #include "core/image_files/file_aside.h"
 #include "core/image_files/file_place.h"
 #include "core/image_files/streamed_file.h"
@@ -87,6 +88,7 @@ void GrowingFile::sync() {
 
 void GrowingFile::finish() {
   if (!stream_) take_place(descriptor_, part_, path_);
+  if (!stream_) note_written_to_disk(path_);
   const int closed = close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail_to(path_, "write", errno);

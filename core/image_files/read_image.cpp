@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/file_notes.h"
 #include "core/fp_env.h"
 #include "core/image_files/channel_file.h"
 #include "core/image_files/exr_layout.h"
@@ -37,7 +38,11 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
     return {ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(errno), "check the name"};
   };
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe must not make us wait
-  if (descriptor < 0) throw fail("open it");
+  if (descriptor < 0) {
+    const Error failure = fail("open it");
+    note_read(path, kAbsent);
+    throw failure;
+  }
   const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* file) { close(*file); });
   struct stat status {};
   if (fstat(descriptor, &status) != 0) throw fail("read it");
@@ -54,6 +59,7 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
     if (got == 0) throw Error(ErrorKind::io, path, "it shrank while being read", "try again");
     done += size_t(got);
   }
+  note_read(path, bytes);
   return bytes;
 }
 

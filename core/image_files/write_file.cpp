@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <span>
 
+#include "core/file_notes.h"
 #include "core/fp_env.h"
 #include "core/image_files/file_aside.h"
 #include "core/image_files/file_place.h"
@@ -31,6 +32,7 @@ void write_file(const std::string& path, const FilePieces& pieces) {
   if (to.mode) file.take_mode(*to.mode);
   for (const std::span<const uint8_t> piece : pieces) file.write(piece);
   file.take_name();
+  note_written(path, pieces);
 }
 
 void write_file(const std::string& path, std::span<const uint8_t> bytes) { write_file(path, FilePieces{{bytes}}); }

@@ -6,14 +6,21 @@
 #include <thread>
 
 #include "core/fp_env.h"
+#include "core/threads/granted_threads.h"
 #include "core/threads/loop_watch.h"
 #include "core/threads/thread_pool.h"
 
 namespace trueshade {
 
+namespace {
+std::atomic<int> granted{0};
+}  // namespace
+
+void grant_threads(int threads) { granted = threads; }
+
 int thread_count(int requested) {
   static const int cores = std::max(1, int(std::thread::hardware_concurrency()));  // asking takes 2 us
-  return requested > 0 ? requested : cores;
+  return requested > 0 ? requested : granted > 0 ? int{granted} : cores;
 }
 
 namespace {

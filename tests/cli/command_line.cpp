@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kCommands[] = {"render",  "info",  "list",    "glsl", "export", "validate",  "shade",
-                                     "explain", "bench", "compare", "view", "man",    "completion"};
+                                     "explain", "bench", "compare", "view", "batch",  "man",  "completion"};
 
 std::string file_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

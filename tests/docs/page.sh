@@ -3,7 +3,7 @@
 #   sh      commands, a line each (a backslash at a line's end goes on); `# exit 3` states another exit code than 0
 #   text    after sh: lines that the commands before print, in this order; `...` stands for any text
 #   sh python   commands that need the Python module, which tests/docs/python_page.py runs in ./check python: left out
-#   json    a scene or a pipeline, which is drawn; ply, csv, cpp, python, bash: a file. Each is written under the name in `backticks`
+#   json    a scene or a pipeline, which is drawn, or jobs, which are not run; ply, csv, cpp, python, bash: a file. Each is written under the name in `backticks`
 #           that the line before the block gives last; a json without a name gets one, a cpp is left out.
 # The cpp blocks of pages with a cmake block are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is
 # not run.
@@ -110,7 +110,7 @@ write_file() {
   printf '%s\n' "$@" >"$work/page/$name"
   if [[ $ending == json && $* == *'"version"'* && $* =~ \"(objects|lights|camera)\" ]]; then
     run_line "$number" "trueshade render $name --size 32x32 --hash"
-  elif [[ $ending == json ]]; then
+  elif [[ $ending == json && $* != *'"jobs"'* ]]; then
     run_line "$number" "trueshade render builtin:cornell --size 32x32 --pipeline $name --hash"
   fi
 }

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/batch/job.h"
 #include "expect_error.h"
 #include "scenes/json/json_value.h"
 #include "scenes/pipeline/pipeline_json.h"
@@ -47,6 +48,7 @@ void check_agreement(const std::string& name, std::span<const json::ObjectKeys> 
 TEST_CASE("readers and schemas list the same keys") {
   check_agreement("schemas/pipeline.schema.json", pipeline_object_keys());
   check_agreement("schemas/scene.schema.json", scene_object_keys());
+  check_agreement("../cli/batch/jobs.schema.json", batch::job_object_keys());
 }
 
 /// Every key of every object has a description of its own: a sentence.
@@ -78,6 +80,7 @@ void check_descriptions(const std::string& name, size_t least) {
 TEST_CASE("every key of a schema has a description, with the default where there is one") {
   check_descriptions("schemas/pipeline.schema.json", 91);
   check_descriptions("schemas/scene.schema.json", 180);
+  check_descriptions("../cli/batch/jobs.schema.json", 11);
 }
 
 TEST_CASE("scene and pipeline files may name their schema, by a string") {

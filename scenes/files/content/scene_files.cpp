@@ -16,6 +16,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/file_notes.h"
 #include "core/memory_cap.h"
 
 namespace trueshade {
@@ -65,10 +66,14 @@ Bytes content(int fd, uint64_t limit, const std::string& where, std::string_view
   return bytes;
 }
 
-void check_opened(int fd, const std::string& place) {
-  if (fd < 0 && (errno == EXDEV || errno == ELOOP))
+/// `place` stands in errors, `path` in notes.
+void check_opened(int fd, const std::string& place, const std::string& path) {
+  if (fd >= 0) return;
+  const int error = errno;
+  note_read(path, kAbsent);
+  if (error == EXDEV || error == ELOOP)
     throw Error(ErrorKind::bad_input, place, "a link leads out of the scene's folder", "a file inside the folder");
-  if (fd < 0) throw Error(ErrorKind::io, place, std::strerror(errno), "a file that exists and can be read");
+  throw Error(ErrorKind::io, place, std::strerror(error), "a file that exists and can be read");
 }
 
 std::string folder_of(const std::string& path) {
@@ -141,8 +146,14 @@ void FilesRead::note(const std::string& path) {
 Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view option) {
   FilesRead::note(path);
   const Descriptor file(open(path.c_str(), kOpenFlags));
-  if (file.get() < 0) throw Error(ErrorKind::io, path, std::strerror(errno), "a file that exists and can be read");
-  return content(file.get(), limit, path, option);
+  if (file.get() < 0) {
+    const int error = errno;
+    note_read(path, kAbsent);
+    throw Error(ErrorKind::io, path, std::strerror(error), "a file that exists and can be read");
+  }
+  Bytes bytes = content(file.get(), limit, path, option);
+  note_read(path, bytes);
+  return bytes;
 }
 
 std::string relative_path_from_uri(std::string_view uri, std::string_view where) {
@@ -181,7 +192,7 @@ SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_
 SceneFolder::~SceneFolder() { close(folder_); }
 
 int SceneFolder::open_beneath(const std::string& relative, bool portable) const {
-  FilesRead::note(name_ + "/" + relative);
+  FilesRead::note(path_of(relative));
   if (!portable) {
     open_how how{};
     how.flags = uint64_t(kOpenFlags);
@@ -193,7 +204,7 @@ int SceneFolder::open_beneath(const std::string& relative, bool portable) const 
     const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr), &std::free);
     return real ? std::string(real.get()) : std::string();
   };
-  const std::string folder = resolved(name_), file = resolved(name_ + "/" + relative);
+  const std::string folder = resolved(name_), file = resolved(path_of(relative));
   if (folder.empty() || file.empty()) return -1;
   if (!file.starts_with(folder == "/" ? folder : folder + "/")) {
     errno = EXDEV;
@@ -205,15 +216,18 @@ int SceneFolder::open_beneath(const std::string& relative, bool portable) const 
 Bytes SceneFolder::read(const std::string& relative, uint64_t limit, std::string_view where, bool portable) const {
   const Descriptor file(open_beneath(relative, portable));
   const std::string place = std::string(where) + ": " + relative;
-  check_opened(file.get(), place);
-  return content(file.get(), limit, place, "--max-file");
+  check_opened(file.get(), place, path_of(relative));
+  Bytes bytes = content(file.get(), limit, place, "--max-file");
+  note_read(path_of(relative), bytes);
+  return bytes;
 }
 
 void SceneFolder::check(const std::string& relative, uint64_t limit, std::string_view where) const {
   const Descriptor file(open_beneath(relative, false));
   const std::string place = std::string(where) + ": " + relative;
-  check_opened(file.get(), place);
+  check_opened(file.get(), place, path_of(relative));
   checked_size(file.get(), limit, place, "--max-file");
+  note_read(path_of(relative), kThere);
 }
 
 }  // namespace trueshade

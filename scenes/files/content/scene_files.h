@@ -40,6 +40,7 @@ class SceneFolder {
 
  private:
   int open_beneath(const std::string& relative, bool portable) const;
+  std::string path_of(const std::string& relative) const { return name_ + "/" + relative; }
   std::string name_;
   int folder_ = -1;
 };

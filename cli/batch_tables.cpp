@@ -1,0 +1,49 @@
+// The table of the command that runs other commands: batch.
+#include "cli/command_tables.h"
+#include "cli/option_values.h"
+#include "core/file_ending.h"
+
+namespace trueshade {
+
+CommandTable batch_table(BatchOptions& options, BatchTexts& texts) {
+  CommandTable table{"batch", "Run many renders, validations and comparisons, and say what became of each"};
+  add_value(table, "JOBS", "FILE", options.file, "Jobs, .json (docs/batch.md); their paths are relative to its folder")
+      .is_required = true;
+  table.open_group = "Jobs";
+  add_switch(table, "--resume", options.resumes,
+             "Leave out jobs that passed in an earlier run and whose calls, input and output files are as they were");
+  add_value(table, "--only", "PATTERN", options.only,
+            "Run jobs with names like this, with * and ?, and those that they are after");
+  add_value(table, "--state", "FILE", options.state,
+            "Where finished jobs are noted for --resume; without it JOBS with .state behind it");
+  table.open_group = "Output";
+  add_value(table, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the table");
+  add_value(table, "--junit", "FILE", options.junit, "JUnit XML to write, .xml, for CI services");
+  add_value(table, "-o,--report", "FILE", options.report, "Report to write, .html");
+  add_quiet(table, options, "Print the verdict alone; say neither progress nor which files were written");
+  table.open_group = "Execution";
+  add_value(table, "--jobs", "COUNT", texts.jobs, "Jobs at once, 0 for as many as there are cores for their threads");
+  add_value(table, "--threads", "COUNT", texts.threads,
+            "Threads of a job that does not say its own, 0 for the cores shared evenly; never changes a pixel");
+  table.details =
+      "Every job is a process of its own; one that fails ends no other, but those that are after it are skipped.\n"
+      "Exit codes: 0 all jobs passed, 1 some did not; others as for trueshade.";
+  table.examples = {{"trueshade batch jobs.json --resume --report jobs.html", "What is not done yet, and a page."}};
+  table.see_also = {"render", "validate", "compare"};
+  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  return table;
+}
+
+BatchOptions finished(BatchOptions options, const BatchTexts& texts) {
+  constexpr int kMost = 1024;
+  if (options.file.empty()) throw usage("JOBS", "'' is no name of a file", "name one");
+  if (texts.jobs) options.jobs = integer_in("--jobs", *texts.jobs, 0, kMost);
+  if (texts.threads) options.threads = integer_in("--threads", *texts.threads, 0, kMost);
+  if (options.junit && !has_ending(*options.junit, ".xml"))
+    throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
+  if (options.report && !has_ending(*options.report, ".html"))
+    throw usage("--report", "'" + *options.report + "' does not end like a page", "end the name in .html");
+  return options;
+}
+
+}  // namespace trueshade
