@@ -79,7 +79,7 @@ struct Batch {
   }
 };
 
-TEST_CASE("Jobs run after those that they are after; one that fails ends no other, and those after it are skipped") {
+TEST_CASE("Jobs run after those that they are after, and one that fails ends no other but those after it") {
   const Batch batch;
   batch.write({job("compare", {"compare", "one.png", "two.png"}, {"draw-*"}),
                job("draw-one", drawing("builtin:cornell", "one.png")),
