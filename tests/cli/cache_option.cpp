@@ -36,7 +36,7 @@ void write_models(const ScratchFolder& folder) {
                             "vt 0 1\nusemtl shown\nf 1/1 2/2 3/3 4/4\nf 4/4 3/3 5/2\n");
   folder.write("scene.json", R"({"version": 1, "camera": {"eye": [0, 2, 6]},
     "lights": [{"type": "point", "position": [1, 4, 3], "color": [20, 20, 20]}],
-    "objects": [{"geometry": "model.obj"}, {"geometry": "rabbit", "position": [2, 0, 0], "color": [1, 0.5, 0.2]}]})");
+    "objects": [{"geometry": "model.obj"}, {"mesh": "rabbit", "position": [2, 0, 0], "color": [1, 0.5, 0.2]}]})");
   REQUIRE(run_command({"export", "scene.json", "-o", "model.glb"}, plain).exit_code == 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
@@ -104,9 +104,9 @@ TEST_CASE("processes that make one cache file at once draw one picture") {
 
 TEST_CASE("a cache file that becomes shorter while frames are drawn ends the command in one line") {
   const ScratchFolder folder;
-  const Arguments draw = {"render", "builtin:atrium", "--size", "96x64", "--cache", "kept"};
+  const Arguments draw = {"render", "builtin:atrium", "--size", "96x64", "--hash", "--cache", "kept"};
   output_of(draw, folder);
-  const Outcome cut = run_command(with(draw, {"--frames", "0-100000", "--hash"}), folder.path(""),
+  const Outcome cut = run_command(with(draw, {"--frames", "0-100000"}), folder.path(""),
                                   "{ (sleep 0.5; truncate -s 4096 kept/*) & }");
   CAPTURE(cut.err);
   CHECK(cut.exit_code == 5);
