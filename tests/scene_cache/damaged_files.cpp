@@ -64,7 +64,8 @@ TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture") {
     content[at] = char(content[at] ^ (1 << at % 8));
     damage.draw(content);
   };
-  for (size_t segment = 0; segment < segments; ++segment) flip(segment * kSegmentBytes + segment * 1237 % kSegmentBytes);
+  for (size_t segment = 0; segment < segments; ++segment)
+    flip(segment * kSegmentBytes + segment * 1237 % kSegmentBytes);
   CHECK(damage.tally.refused > 10);
   damage.tally = {};
   const size_t checksums_and_footer = 4 * (segments + 1) + 56;
