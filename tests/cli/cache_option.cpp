@@ -43,7 +43,7 @@ void write_models(const ScratchFolder& folder) {
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
-TEST_CASE("OBJ, GLB, scene files and built-in scenes are drawn from cache files as without") {
+TEST_CASE("models, scene files and built-in scenes are drawn from cache files as without") {
   const ScratchFolder folder;
   write_models(folder);
   for (const char* scene : {"model.obj", "model.glb", "scene.json", "builtin:atrium"}) {

@@ -55,7 +55,7 @@ class Damage {
   int loads_ = 0;
 };
 
-TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture") {
+TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture", "[slow]") {
   Damage damage;
   const size_t size = damage.whole().size(), segments = size / kSegmentBytes;
   REQUIRE(segments > 40);
