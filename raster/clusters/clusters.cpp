@@ -14,14 +14,12 @@ namespace {
 class Builder {
  public:
   explicit Builder(const Mesh& mesh) : mesh_(mesh), seen_in_(mesh.vertex_count(), 0), local_(mesh.vertex_count()) {
-    out_.surface_lines = mesh.has_color() ? 7 : 3;
-    out_.pose = mesh.pose;
     const size_t triangles = mesh.triangle_count();
     for (auto& stream : out_.corner) stream.reserve(triangles + kCornerSlack);
     const size_t vertices = mesh.vertex_count() + mesh.vertex_count() / 2;  // some are in several clusters
     out_.vertex.reserve(vertices);
     for (auto& stream : out_.position) stream.reserve(vertices);
-    out_.surface.reserve(vertices / 16 * size_t(out_.surface_lines));
+    out_.surface.reserve(vertices / 16 * size_t(surface_lines()));
   }
 
   ClusteredMesh build() {
@@ -36,12 +34,23 @@ class Builder {
     finish();
     for (size_t c = 0; c < 3; ++c) add_box(c, least_[c], greatest_[c]);
     for (auto& stream : out_.corner) stream.resize(stream.size() + kCornerSlack);
-    for (auto* ends : {&out_.boxes.center, &out_.boxes.half_size})
+    for (auto* ends : {&out_.center, &out_.half_size})
       for (auto& stream : *ends) stream.resize(stream.size() + kBoxSlack);
-    return std::move(out_);
+    ClusteredMesh mesh;
+    mesh.clusters = std::move(out_.clusters);
+    for (size_t c = 0; c < 3; ++c) {
+      mesh.boxes.center[c] = std::move(out_.center[c]), mesh.boxes.half_size[c] = std::move(out_.half_size[c]);
+      mesh.position[c] = std::move(out_.position[c]), mesh.corner[c] = std::move(out_.corner[c]);
+    }
+    mesh.surface = std::move(out_.surface), mesh.surface_lines = surface_lines();
+    mesh.vertex = std::move(out_.vertex);
+    mesh.pose = mesh_.pose;
+    return mesh;
   }
 
  private:
+  int surface_lines() const { return mesh_.has_color() ? 7 : 3; }
+
   int added(const uint32_t* corner) const {
     int count = 0;
     for (int i = 0; i < 3; ++i) {
@@ -93,8 +102,8 @@ class Builder {
 
   void add_box(size_t axis, float low, float high) {
     const float center = low * 0.5f + high * 0.5f, half = std::max(high - center, center - low);
-    out_.boxes.center[axis].push_back(center);
-    out_.boxes.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
+    out_.center[axis].push_back(center);
+    out_.half_size[axis].push_back(half + std::abs(half) * 0x1p-22f + std::numeric_limits<float>::min());
   }
 
   void add_line(const FloatStream& from, size_t first) {
@@ -126,7 +135,14 @@ class Builder {
   }
 
   const Mesh& mesh_;
-  ClusteredMesh out_;
+  struct {  // of ClusteredMesh; vectors, because elements are added one by one
+    std::vector<Cluster> clusters;
+    std::array<std::vector<float>, 3> center, half_size;
+    std::array<HugeVector<float>, 3> position;
+    HugeVector<VertexLine> surface;
+    HugeVector<uint32_t> vertex;
+    std::array<HugeVector<uint8_t>, 3> corner;
+  } out_;
   static constexpr size_t kBoxSlack = 16;
   static constexpr int kFewTriangles = 8;  ///< of a cluster that a far triangle may still join
   static constexpr double kFar = 1.25;     ///< times the sum of a box's sides

@@ -55,7 +55,7 @@ class Damage {
   int loads_ = 0;
 };
 
-TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture") {
+TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture", "[slow]") {
   Damage damage;
   const size_t size = damage.whole().size(), segments = size / kSegmentBytes;
   REQUIRE(segments > 40);
@@ -64,7 +64,8 @@ TEST_CASE("a byte that is wrong anywhere in a cache file changes no picture") {
     content[at] = char(content[at] ^ (1 << at % 8));
     damage.draw(content);
   };
-  for (size_t segment = 0; segment < segments; ++segment) flip(segment * kSegmentBytes + segment * 1237 % kSegmentBytes);
+  for (size_t segment = 0; segment < segments; ++segment)
+    flip(segment * kSegmentBytes + segment * 1237 % kSegmentBytes);
   CHECK(damage.tally.refused > 10);
   damage.tally = {};
   const size_t checksums_and_footer = 4 * (segments + 1) + 56;

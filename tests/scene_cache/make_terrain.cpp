@@ -73,7 +73,8 @@ int main(int count, char** arguments) {
       const std::string name = "patch" + std::to_string(pz) + '_' + std::to_string(px) + ".ply";
       const std::vector<char> file = patch(px, pz, uint32_t(quads));
       if (!write_file(folder + name, file.data(), file.size())) return 1;
-      objects += (objects.empty() ? "" : ",\n") + std::string(R"({"geometry": ")") + name + R"(", "color": [0.6, 0.5, 0.4]})";
+      objects +=
+          (objects.empty() ? "" : ",\n") + std::string(R"({"geometry": ")") + name + R"(", "color": [0.6, 0.5, 0.4]})";
     }
   char camera[256];
   const double n = patches;

@@ -12,8 +12,9 @@ namespace trueshade {
 namespace {
 
 std::string triangle(const char* x) {
-  return std::string("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n") +
+  return std::string(
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n") +
          x + " 0 0\n0 1 0\n3 0 1 2\n";
 }
 
@@ -64,7 +65,8 @@ TEST_CASE("scenes of one name in two folders, and one scene by two names, have f
   const std::string hash_a = cached_hash(cache.path(""), a, loads), hash_b = cached_hash(cache.path(""), b, loads);
   CHECK(hash_a == plain_hash(a));
   CHECK(hash_b == plain_hash(b));
-  CHECK(cached_hash(cache.path(""), "builtin:city", loads) != cached_hash(cache.path(""), "builtin:city,seed=2", loads));
+  CHECK(cached_hash(cache.path(""), "builtin:city", loads) !=
+        cached_hash(cache.path(""), "builtin:city,seed=2", loads));
   CHECK(cache.entries().size() == 4);
   CHECK(loads == 4);
 }

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Draws a terrain without a cache file, where it makes one, and from it, and fails where a hash, the memory or the time to
+# Draws a terrain without a cache file, where it makes one, and from it. Fails where a hash, the memory or the time to
 # the first tile is not as it should be.
 # Usage: terrain.sh TRUESHADE MAKE_TERRAIN PEAK_MEMORY PATCHES QUADS MOST_MIB MOST_MS
 # Terrains above 10 million triangles are not drawn without a cache file, which takes more memory.

@@ -44,7 +44,7 @@ void clearer(Scene& s, Pipeline&) {
 void triangle_lost(Scene& s, Pipeline&) {
   for (Instance& i : s.instances)
     if (glass(s, i)) {
-      std::vector<uint32_t>& indices = s.meshes[i.mesh].indices;
+      Array<uint32_t>& indices = s.meshes[i.mesh].indices;
       if (indices.size() > 3) indices.resize(indices.size() - 3);
       return;
     }

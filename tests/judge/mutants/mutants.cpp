@@ -153,7 +153,7 @@ void triangle_dropped(Scene& s, Pipeline& p) {
     for (const PossibleSurface& c : list)
       if (c.certain && (front == nullptr || c.middle < front->middle)) front = &c;
     if (front == nullptr) continue;
-    std::vector<uint32_t>& indices = s.meshes[s.instances[front->instance].mesh].indices;
+    Array<uint32_t>& indices = s.meshes[s.instances[front->instance].mesh].indices;
     const auto at = indices.begin() + 3 * std::ptrdiff_t(front->triangle);
     indices.erase(at, at + 3);
     return;
