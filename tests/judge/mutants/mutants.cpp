@@ -154,8 +154,10 @@ void triangle_dropped(Scene& s, Pipeline& p) {
       if (c.certain && (front == nullptr || c.middle < front->middle)) front = &c;
     if (front == nullptr) continue;
     Array<uint32_t>& indices = s.meshes[s.instances[front->instance].mesh].indices;
-    const auto at = indices.begin() + 3 * std::ptrdiff_t(front->triangle);
-    indices.erase(at, at + 3);
+    std::vector<uint32_t> rest(indices.begin(), indices.end());
+    const auto at = rest.begin() + 3 * std::ptrdiff_t(front->triangle);
+    rest.erase(at, at + 3);
+    indices = std::move(rest);
     return;
   }
 }
