@@ -137,7 +137,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"preset": "nonesuch"})",
        "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual lecture light-volumes "
        "light-volumes-literal redsdk)"},
-      {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 65536)"},
+      {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 1048576)"},
       {R"({"width": 1048577})", "p.json: /width: found 1048577"},
       {R"({"width": 1.5})", "p.json: /width: found 1.5"},
       {R"({"width": "800"})", "p.json: /width: found \"800\""},
@@ -212,7 +212,7 @@ std::string invalid(const Change& change) {
 
 TEST_CASE("pipelines out of range are named by field") {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 65536");
+  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 1048576");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.height = 1048577; }), "height: 1048577");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.target = Format::r32ui; }), "target: r32ui");
   CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }),
