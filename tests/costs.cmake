@@ -82,14 +82,11 @@ set_tests_properties(
   "shading:every built-in scene has one hash over pairs of all ways to draw it"
   PROPERTIES COST 32)
 set_tests_properties(
-  "judge:llvmpipe's own wrong frames are rejected, under its profile too"
   "gl:llvmpipe draws every preset in every strategy as we do, within two codes of a target that rounds light by light"
   "judge:Maps, ten-bit normals, mixed extents and glass by llvmpipe are explained under every preset and strategy"
-  "judge:llvmpipe's own wrong glass is rejected, under its profile too"
   "raster:A million pairs of triangles hit no pixel twice along their edge and miss none"
   PROPERTIES COST 20)
 set_tests_properties(
-  "judge:llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too"
   "judge:Wrong maps, ten-bit normals and extents are rejected, right ones explained"
   "diagnosis:Ten faults planted in three scenes are convicted and named first, by the plane that is wrong"
   "judge:Violations asked beside a looser judgement are those of a judgement of its own"

@@ -84,12 +84,14 @@ void write_bytes(int descriptor, const std::string& path, std::span<const uint8_
   }
 }
 
-void take_place(int descriptor, const std::string& from, const std::string& to) {
-  if (fsync(descriptor) != 0 && errno != EINVAL) fail_to(to, "write to disk", errno);
+void put_on_disk(int descriptor, const std::string& path) {
+  if (fsync(descriptor) != 0 && errno != EINVAL) fail_to(path, "write to disk", errno);
+}
+
+void take_place(const std::string& from, const std::string& to) {
   if (rename(from.c_str(), to.c_str()) != 0) fail_to(to, "take this name", errno);
   const int folder = open(folder_of_path(to).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0)
-    return;  // a folder may be writable and not readable; its entry is then written when the system likes
+  if (folder < 0) return;  // a folder may be writable and not readable; its entry is then written when the system likes
   const int synced = fsync(folder) != 0 && errno != EINVAL ? errno : 0;
   close(folder);
   if (synced != 0) fail_to(to, "write its folder to disk", synced);
@@ -122,8 +124,9 @@ void FileAside::take_mode(mode_t mode) {
 }
 
 void FileAside::take_name() {
+  put_on_disk(descriptor_, path_);  // before it has a name, which a process that is killed would leave behind
   if (name_.empty()) give_name();
-  take_place(descriptor_, name_, path_);
+  take_place(name_, path_);
   name_.clear();
   const int closed = close(descriptor_);
   descriptor_ = -1;

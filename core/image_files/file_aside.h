@@ -27,9 +27,12 @@ class FileAside {
   int descriptor_ = -1;
 };
 
-/// Gives the file at `from`, which is open as `descriptor`, the name `to`. Both are on disk then, and a crash leaves the
-/// file that was there or this one. Error(io).
-void take_place(int descriptor, const std::string& from, const std::string& to);
+/// Brings the content of an open file to disk. Error(io) naming `path`.
+void put_on_disk(int descriptor, const std::string& path);
+
+/// Gives the file at `from`, whose content is on disk, the name `to`: a crash leaves the file that was there or this one.
+/// Error(io).
+void take_place(const std::string& from, const std::string& to);
 
 /// Writes all of the bytes. `path` stands in errors.
 void write_bytes(int descriptor, const std::string& path, std::span<const uint8_t> bytes);

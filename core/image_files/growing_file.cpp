@@ -87,8 +87,11 @@ void GrowingFile::sync() {
 }
 
 void GrowingFile::finish() {
-  if (!stream_) take_place(descriptor_, part_, path_);
-  if (!stream_) note_written_to_disk(path_);
+  if (!stream_) {
+    put_on_disk(descriptor_, part_);
+    take_place(part_, path_);
+    note_written_to_disk(path_);
+  }
   const int closed = close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail_to(path_, "write", errno);

@@ -12,6 +12,7 @@
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene_limits.h"
+#include "shading/output/extent.h"
 #include "tests/fp_modes/rows.h"
 
 namespace trueshade {
@@ -83,7 +84,30 @@ void call_names(Bytes& out) {
 void call_sha(Bytes& out) {
   Sha256 sha;
   sha.update("abc", 3);
+  Sha256 other;
+  out.put(int(other.resume(sha.progress())));
+  out.put(sha.progress());
   out.put(sha.hex());
+  out.put(other.hex());
+}
+
+void call_extents(Bytes& out) {
+  Extent extent;
+  extent.add({0.1, 0.3});
+  extent.add({-1e-320, 0.2});
+  out.put(extent.least);
+  out.put(extent.most);
+}
+
+void call_regions(Bytes& out) {
+  Pipeline p;
+  p.width = 65537;
+  const PictureRegion part{3, 5, 70, 9}, outside{3, 5, 70000, 9};
+  out.put(int(part.whole()));
+  out.put(drawn_region(p, part).width);
+  out.put(drawn_pixels(p, {}));
+  out.put_error([&] { validate_region(p, outside); });
+  out.put_error([&] { validate_drawn_size(p, {}); });
 }
 
 void call_simd(Bytes& out) {
@@ -216,7 +240,7 @@ constexpr Row kRows[] = {
      }},
     {"core/image.h", "image_hash", [](Bytes& out) { out.put(image_hash(floats())); }},
     {"core/numeric_profile.h", "profile_name profile_from_name", call_names},
-    {"core/sha256.h", "Sha256 update hex", call_sha},
+    {"core/sha256.h", "Sha256 update hex progress resume", call_sha},
     {"core/simd/simd_target.h", "simd_targets built_simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
@@ -224,7 +248,9 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes", call_pipeline},
     {"scenes/pipeline/pipeline.h", "validate", call_refusals},
+    {"scenes/pipeline/pipeline.h", "whole drawn_region drawn_pixels validate_region validate_drawn_size", call_regions},
     {"scenes/pipeline/post_chain.h", "active", call_post_chain},
+    {"shading/output/extent.h", "add", call_extents},
 };
 
 }  // namespace

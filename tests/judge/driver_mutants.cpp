@@ -76,7 +76,7 @@ TEST_CASE("llvmpipe's own wrong blends are rejected light by light, under its pr
   testing::try_blend_mutants(profiles_of(*context), driver.renderer(), driver.steps());
 }
 
-TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too", "[slow]") {
+TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too", "[long]") {
   const GlContext* context = testing::opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   Driver driver(*context);
@@ -87,7 +87,7 @@ TEST_CASE("llvmpipe's own wrong frames are rejected, under its profile too", "[s
   // Under one preset all tries are needed: alpha from elsewhere shows on three scenes alone.
   testing::try_mutants(profiles_of(*context), driver.renderer(), 1, kSame, kInside, testing::Tries::all);
 }
-TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too", "[slow]") {
+TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected, under its profile too", "[long]") {
   try_maps(testing::Tries::third);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("llvmpipe's own wrong maps, ten-bit normals and extents are rejected o
   try_maps(testing::Tries::all);
 }
 
-TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too", "[slow]") {
+TEST_CASE("llvmpipe's own wrong glass is rejected, under its profile too", "[long]") {
   try_glass(testing::Tries::half);
 }
 
