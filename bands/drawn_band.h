@@ -18,7 +18,8 @@ struct DrawnBand {
 /// Draws a band and encodes it. The pixels are the picture's, whatever the height of bands.
 DrawnBand draw_band(const LargePicture& picture, int index);
 
-/// A band as bytes, to be sent: with `planes` also the planes' pixels, which nobody needs but for hashes of them.
+/// A band as bytes, to be sent to another process. With SentPlanes::yes the pixels of the planes are among them; files
+/// need none, because `of_files` holds the planes already, but hashes of planes do.
 enum class SentPlanes : uint8_t { no, yes };
 std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes);
 /// The part of these bytes that is the same wherever the band was drawn.

@@ -17,7 +17,7 @@ std::string read_text(const std::string& path) {
   return text.str();
 }
 
-/// The name that the note is kept by; empty where a file is a stream, which nobody can go on with.
+/// The file of the note. Empty where a file is a stream: its bytes are gone, so a later run cannot continue it.
 std::string note_path_of(const std::vector<std::string>& files) {
   for (const std::string& file : files)
     if (part_name(file).empty()) return {};

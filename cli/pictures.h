@@ -24,7 +24,7 @@ std::vector<std::string> planes_to_render(const RenderOptions& options);
 /// Borrows all.
 class Pictures {
  public:
-  /// `execution`: how they are drawn; documents tell of that of the options.
+  /// `execution`: how the pictures are drawn. The JSON documents state the execution of the options instead.
   Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline, const Execution& execution)
       : options_(options), scene_(cached.scene), pipeline_(pipeline), execution_(execution) {
     if (cached.clusters) prepared_.emplace(scene_, std::move(cached.clusters));

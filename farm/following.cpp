@@ -86,7 +86,7 @@ void Following::talk() {
     if (worked_) break;
     if (!all_done_) continue;
     if (ended == Clock::time_point{}) ended = now;
-    if (now - ended > rules_.lost_after) {  // a task that nobody waits for does not end
+    if (now - ended > rules_.lost_after) {  // rank 0 has ended the run, and this rank's task goes on
       ranks_.leave(0);
       std::_Exit(0);
     }

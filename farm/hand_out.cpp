@@ -23,7 +23,7 @@ std::optional<int> HandOut::next_for(int rank, Clock::time_point now) {
   return task;
 }
 
-/// The lowest task that nobody has, if the window has room for it.
+/// The task of the lowest number that no rank holds; nothing where the window has no room for it.
 std::optional<int> HandOut::fresh() {
   if (!given_back_.empty()) return given_back_.extract(given_back_.begin()).value();  // was within the window before
   const int room_from = rules_.in_any_order ? taken_ : first_untaken_;

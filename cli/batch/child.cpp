@@ -106,7 +106,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes;
 };
 
-/// In a process group of its own, which Ctrl-C does not reach: who waits for it ends it.
+/// The child has a process group of its own. Ctrl-C does not reach that group, so run_child() ends the child.
 pid_t spawn(const ChildStart& start, const ChildPipes& pipes) {
   SpawnSettings settings;
   posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

@@ -31,7 +31,7 @@ class Journal {
   std::unordered_map<std::string, ResultLine> lines_;  // by name
 };
 
-/// This program: its version, its commit, and the hash of its file.
+/// The text that identifies the running program: its version, its commit, and the hash of its executable file.
 std::string program_identity();
 
 }  // namespace trueshade::batch

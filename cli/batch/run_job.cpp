@@ -21,7 +21,7 @@ std::string line_behind(const std::string& text, std::string_view begin) {
   return {};
 }
 
-/// What a command says of its failure: its error, or the verdict of a judge.
+/// The reason why a job failed, from what its command printed: the line of its error, or the verdict of a judge.
 std::string words_of_failure(const ChildEnd& end) {
   const std::string error = line_behind(end.err, "trueshade: error: ");
   if (!error.empty()) return error;

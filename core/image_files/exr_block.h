@@ -10,7 +10,7 @@
 namespace trueshade {
 
 /// Compresses rows of a picture and its planes as an EXR stores them: ZIP (Academy Software Foundation, "Technical
-/// Introduction to OpenEXR"), in memory of its own. One thread at a time.
+/// Introduction to OpenEXR"). Each writer keeps its own buffers; one thread at a time uses a writer.
 class ExrBlockWriter {
  public:
   ExrBlockWriter(std::span<const ExrChannel> channels, int most_rows);
