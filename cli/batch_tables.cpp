@@ -22,9 +22,11 @@ CommandTable batch_table(BatchOptions& options, BatchTexts& texts) {
   add_value(table, "-o,--report", "FILE", options.report, "Report to write, .html");
   add_quiet(table, options, "Print the verdict alone; say neither progress nor which files were written");
   table.open_group = "Execution";
-  add_value(table, "--jobs", "COUNT", texts.jobs, "Jobs at once, 0 for as many as there are cores for their threads");
+  add_value(table, "--jobs", "COUNT", texts.jobs,
+            "Jobs at once, of each process that MPI has started; 0 for as many as there are cores for their threads");
   add_value(table, "--threads", "COUNT", texts.threads,
             "Threads of a job that does not say its own, 0 for the cores shared evenly; never changes a pixel");
+  add_sharing(table, options.sharing, texts.lost_after);
   table.details =
       "Every job is a process of its own; one that fails ends no other, but those that are after it are skipped.\n"
       "Exit codes: 0 all jobs passed, 1 some did not; others as for trueshade.";
@@ -39,6 +41,7 @@ BatchOptions finished(BatchOptions options, const BatchTexts& texts) {
   if (options.file.empty()) throw usage("JOBS", "'' is no name of a file", "name one");
   if (texts.jobs) options.jobs = integer_in("--jobs", *texts.jobs, 0, kMost);
   if (texts.threads) options.threads = integer_in("--threads", *texts.threads, 0, kMost);
+  if (texts.lost_after) options.sharing.lost_after = lost_after_from_text(*texts.lost_after);
   if (options.junit && !has_ending(*options.junit, ".xml"))
     throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
   if (options.report && !has_ending(*options.report, ".html"))

@@ -71,6 +71,8 @@ void add_strategy(CommandTable& table, std::optional<std::string>& strategy);
 void add_profile(CommandTable& table, std::optional<std::string>& profile);
 void add_simd(CommandTable& table, std::string& simd, const std::string& help);
 /// Files of planes, under a heading of their own. `gbuffer`: the name of the option or argument of these files.
+/// How ranks that MPI has started share the work of a command; opens a group.
+void add_sharing(CommandTable& table, SharingRules& sharing, std::optional<std::string>& lost_after);
 void add_capture(CommandTable& table, CaptureOptions& options, const char* gbuffer, const char* help);
 
 }  // namespace trueshade

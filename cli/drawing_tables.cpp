@@ -93,16 +93,17 @@ void add_render_execution(CommandTable& table, RenderOptions& options, RenderTex
              "Try every light on every pixel; never changes a pixel");
 }
 
-void add_sharing(CommandTable& table, RenderOptions& options, RenderTexts& texts) {
-  table.open_group = "Frames shared by MPI (docs/farm.md)";
-  add_value(table, "--lost-after", "SECONDS", texts.lost_after,
-            "A process that was not heard for so long is lost, 1 to 86400 (60)");
-  add_switch(table, "--continue-without-lost", options.sharing.continue_without_lost,
-             "Give frames of a process that is lost, that fails or that has another scene to the others; else the run "
-             "ends with an error");
-}
-
 }  // namespace
+
+void add_sharing(CommandTable& table, SharingRules& sharing, std::optional<std::string>& lost_after) {
+  table.open_group = "Work shared by MPI (docs/farm.md)";
+  add_value(table, "--lost-after", "SECONDS", lost_after,
+            "A process that was not heard for so long is lost, 1 to 86400 (60)");
+  add_switch(
+      table, "--continue-without-lost", sharing.continue_without_lost,
+      "Give the work of a process that is lost, that fails or that has another scene or list to the others; else "
+      "the run ends with an error");
+}
 
 CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   CommandTable table{"render", "Draw a scene"};
@@ -127,7 +128,7 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_profile(table, texts.profile);
   add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames);
   add_render_execution(table, options, texts);
-  add_sharing(table, options, texts);
+  add_sharing(table, options.sharing, texts.lost_after);
   add_limits(table, options.limits);
   table.examples = {
       {"trueshade render builtin:city -o city.png --hash", "A picture, and the hash that it has on every machine."},

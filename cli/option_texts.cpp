@@ -114,8 +114,7 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.cube_map) options.cube_map = {cube_eye_from_text(*texts.cube_map), texts.cube_cross};
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
-  if (texts.lost_after)
-    options.sharing.lost_after = std::chrono::seconds(integer_in("--lost-after", *texts.lost_after, 1, 86400));
+  if (texts.lost_after) options.sharing.lost_after = lost_after_from_text(*texts.lost_after);
   options.execution.light_culling = !texts.no_light_culling;
   options.execution.count_as_gl = options.stats || options.json;
   check_preset(options.preset);

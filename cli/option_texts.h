@@ -59,7 +59,7 @@ struct CompareTexts {
 
 /// Of batch.
 struct BatchTexts {
-  std::optional<std::string> jobs, threads;
+  std::optional<std::string> jobs, threads, lost_after;
 };
 
 /// One file cannot hold two documents, and who wants two has mistyped a name: Error(usage).

@@ -58,6 +58,10 @@ Size size_from_text(const std::string& text, int most) {
   return {int(*width), int(*height)};
 }
 
+std::chrono::seconds lost_after_from_text(const std::string& text) {
+  return std::chrono::seconds(integer_in("--lost-after", text, 1, 86400));
+}
+
 PictureRegion region_from_text(const std::string& text) {
   const size_t after_x = text.find(','), after_y = text.find(',', after_x + 1), cross = text.find('x');
   const bool separated = after_x != std::string::npos && after_y != std::string::npos && cross != std::string::npos;

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ namespace trueshade {
 int integer_in(const std::string& option, const std::string& text, int least, int most);
 int tile_from_text(const std::string& option, const std::string& text);
 Size size_from_text(const std::string& text, int most = kMostDrawnSide);
+std::chrono::seconds lost_after_from_text(const std::string& text);  ///< of --lost-after
 PictureRegion region_from_text(const std::string& text);  ///< of `X,Y,WxH`
 double time_from_text(const std::string& text);
 /// Above 0 and at most 0.01.

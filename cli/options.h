@@ -72,7 +72,7 @@ struct RenderOptions : PipelineOptions {
   std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
   std::string simd = "best";          ///< stays alive for execution.simd, see execution_of()
   Execution execution;
-  SharingRules sharing;  ///< of frames, by ranks that MPI has started
+  SharingRules sharing;  ///< of frames and bands, by ranks that MPI has started
   bool hash = false, stats = false, json = false;
   bool resume = false;  ///< a large picture goes on where an earlier process has stopped
 };
@@ -177,6 +177,7 @@ struct BatchOptions : CommonOptions {
   std::optional<std::string> json_file, junit, report;  ///< files to write; JSON named - is printed
   int jobs = 0;                                         ///< at once; 0: as many as there are cores for their threads
   int threads = 0;                                      ///< of a job that does not say; 0: the cores, shared evenly
+  SharingRules sharing;                                 ///< of jobs, by ranks that MPI has started
   std::string command_line;                             ///< as it was given, for a shell
 };
 

@@ -73,7 +73,7 @@ SceneToRender::SceneToRender(const RenderOptions& options, const Execution& exec
 
 bool is_shared(const Command& command) {
   const auto* const options = std::get_if<RenderOptions>(&command);
-  return options != nullptr && is_shared(*options);
+  return std::holds_alternative<BatchOptions>(command) || (options != nullptr && is_shared(*options));
 }
 
 void render(const RenderOptions& options) {

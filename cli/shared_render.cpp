@@ -75,6 +75,17 @@ int shared_band_rows(const RenderOptions& options, const Pipeline& pipeline, int
   return whole(drawn.height / (kBandsOfRank * ranks), kLeast);
 }
 
+std::vector<uint8_t> bytes_of(int number) {
+  std::vector<uint8_t> bytes(sizeof number);
+  std::memcpy(bytes.data(), &number, sizeof number);
+  return bytes;
+}
+int number_of(std::span<const uint8_t> bytes) {
+  int number = 0;
+  if (bytes.size() == sizeof number) std::memcpy(&number, bytes.data(), sizeof number);
+  return number;
+}
+
 /// What each rank draws.
 class SharedRender {
  public:
@@ -102,16 +113,10 @@ class SharedRender {
     SharedTasks tasks;
     tasks.count = picture.bands();
     tasks.identity = identity_;
-    tasks.told.assign(kTold, 0);
-    const int rows = picture.rows_done();
-    std::memcpy(tasks.told.data(), &rows, kTold);
-    tasks.hear = [&picture](std::span<const uint8_t> told) {
-      int done = 0;
-      if (told.size() == kTold) std::memcpy(&done, told.data(), kTold);
-      picture.set_rows_done(done);
-    };
-    tasks.run = [&picture](int band, const Wanted& wanted) {
+    tasks.brief = [rows = picture.rows_done()](int) { return bytes_of(rows); };
+    tasks.run = [&picture](int band, std::span<const uint8_t> rows_done, const Wanted& wanted) {
       wanted.check();
+      picture.set_rows_done(number_of(rows_done));
       return picture.bytes_of(picture.draw(band));
     };
     tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
@@ -129,15 +134,13 @@ class SharedRender {
   bool by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
 
  private:
-  static constexpr size_t kTold = sizeof(int);  ///< rows that are done
-
   int frames() const { return options_.frames->last - options_.frames->first + 1; }
 
   SharedTasks frame_tasks() {
     SharedTasks tasks;
     tasks.count = frames();
     tasks.identity = identity_;
-    tasks.run = [this](int task, const Wanted& wanted) {
+    tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
       PackedPictures packed;
       pictures_->picture(frame_at(task), packed, [&wanted] { wanted.check(); });
       return packed.bytes();

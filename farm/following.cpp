@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "core/error.h"
 #include "farm/failures.h"
@@ -28,7 +30,7 @@ void Following::work(const std::function<SharedTasks()>& prepare) {
   std::optional<SharedTasks> tasks;
   try {
     tasks = prepare();
-    RankSays hello{.what = RankSays::What::hello};
+    RankSays hello{.what = RankSays::What::hello, .number = tasks->at_once};
     for (const auto& [name, value] : tasks->identity) hello.words.insert(hello.words.end(), {name, value});
     tell(std::move(hello));
   } catch (...) {
@@ -41,24 +43,42 @@ void Following::work(const std::function<SharedTasks()>& prepare) {
 }
 
 void Following::do_tasks(const SharedTasks& tasks) {
-  for (bool is_first = true;; is_first = false) {
-    int task = 0;
-    {
-      Lock lock(mutex_);
-      changed_.wait(lock, [this] { return all_done_ || !to_do_.empty(); });
-      if (all_done_) return;
-      task = to_do_.front();
-      to_do_.pop_front();
-    }
-    try {
-      if (is_first && tasks.hear) tasks.hear(told_);  // which is the same with every task
-      tell({.what = RankSays::What::result, .number = task, .bytes = tasks.run(task, wanted_)});
-    } catch (const Withdrawn&) {
-      return;
-    } catch (...) {
-      return tell_failure(task);
-    }
+  {
+    const Lock lock(mutex_);
+    if (all_done_) return;
+    stop_ = tasks.stop;
   }
+  const auto work = [&] {
+    while (do_task(tasks)) {
+    }
+  };
+  std::vector<std::thread> others;
+  try {
+    for (int i = 1; i < tasks.at_once; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Those there are do all of it.
+  }
+  work();
+  for (std::thread& other : others) other.join();
+}
+
+bool Following::do_task(const SharedTasks& tasks) {
+  RankSays task;
+  {
+    Lock lock(mutex_);
+    changed_.wait(lock, [this] { return all_done_ || !to_do_.empty(); });
+    if (all_done_) return false;
+    task = std::move(to_do_.front());
+    to_do_.pop_front();
+  }
+  try {
+    tell({.what = RankSays::What::result, .number = task.number, .bytes = tasks.run(task.number, task.bytes, wanted_)});
+    return true;
+  } catch (const Withdrawn&) {
+  } catch (...) {
+    tell_failure(task.number);
+  }
+  return false;
 }
 
 void Following::talk() {
@@ -79,9 +99,7 @@ void Following::talk() {
       lost_ = std::make_exception_ptr(Error(ErrorKind::io, "rank 0 on " + ranks_.host(0),
                                             "it is lost, and the run with it", "what it has written is kept"));
       ranks_.forget(0);
-      all_done_ = true;
-      wanted_.withdraw();
-      changed_.notify_all();
+      end();
     }
     if (worked_) break;
     if (!all_done_) continue;
@@ -96,15 +114,14 @@ void Following::talk() {
 
 /// Under the lock.
 void Following::hear(const RankMessage& message) {
-  const std::optional<RankSays> says = unpacked(message.bytes);
+  std::optional<RankSays> says = unpacked(message.bytes);
   if (!says) {
     lost_ = std::make_exception_ptr(Error(ErrorKind::bad_input, "rank 0 on " + ranks_.host(0), "it speaks otherwise",
                                           "start the same version of Trueshade everywhere"));
   } else if (says->round != round_) {
     return;
   } else if (says->what == RankSays::What::work) {
-    to_do_.push_back(says->number);
-    told_ = says->bytes;
+    to_do_.push_back(std::move(*says));
   } else if (says->what == RankSays::What::end) {
     for (const int32_t rank : says->numbers)
       if (rank != ranks_.own()) ranks_.forget(rank);
@@ -112,10 +129,14 @@ void Following::hear(const RankMessage& message) {
   rank_0_is_here_ = true;
   for (const RankSays& waiting : untold_) ranks_.send(0, packed(waiting));
   untold_.clear();
-  if (!says || says->what == RankSays::What::end) {
-    all_done_ = true;
-    wanted_.withdraw();
-  }
+  if (!says || says->what == RankSays::What::end) end();
+  changed_.notify_all();
+}
+
+void Following::end() {
+  all_done_ = true;
+  wanted_.withdraw();
+  if (const auto stop = std::exchange(stop_, {})) stop();
   changed_.notify_all();
 }
 

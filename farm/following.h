@@ -13,7 +13,7 @@
 
 namespace trueshade {
 
-/// Two threads: the caller's makes the tasks and does them, the other one talks to rank 0.
+/// The caller's thread makes the tasks and does them, with others where it does several at once. One talks to rank 0.
 class Following {
  public:
   Following(Ranks& ranks, const SharingRules& rules, uint32_t round);
@@ -32,6 +32,8 @@ class Following {
   void tell(RankSays says);
   void tell_failure(int task);  // of the exception that is being handled
   void do_tasks(const SharedTasks& tasks);
+  bool do_task(const SharedTasks& tasks);  // false: there is nothing more to do
+  void end();                              // under the lock
 
   Ranks& ranks_;
   const SharingRules rules_;
@@ -39,9 +41,9 @@ class Following {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<int> to_do_;
-  std::vector<uint8_t> told_;     // SharedTasks::told, from the first task on
+  std::deque<RankSays> to_do_;
   std::vector<RankSays> untold_;  // until rank 0 is in the same round
+  std::function<void()> stop_;    // SharedTasks::stop
   bool rank_0_is_here_ = false, all_done_ = false, worked_ = false;
   std::exception_ptr lost_;
   Wanted wanted_;

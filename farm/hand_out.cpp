@@ -1,34 +1,56 @@
 #include "farm/hand_out.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace trueshade {
 
-HandOut::HandOut(const Rules& rules) : rules_(rules), tasks_(size_t(rules.tasks)), held_(size_t(rules.ranks), 0) {}
+HandOut::HandOut(const Rules& rules, const std::vector<std::vector<int>>& after)
+    : rules_(rules), tasks_(size_t(rules.tasks)), ranks_(size_t(rules.ranks)) {
+  for (size_t task = 0; task < after.size(); ++task) {
+    tasks_[task].waits_for = int(after[task].size());
+    for (const int other : after[task]) tasks_[size_t(other)].next.push_back(int(task));
+  }
+  for (int task = 0; task < rules_.tasks; ++task)
+    if (tasks_[size_t(task)].waits_for == 0) free_.push(task);
+}
+
+void HandOut::let_have(int rank, int at_work, int ahead) {
+  ranks_[size_t(rank)].at_work = at_work, ranks_[size_t(rank)].ahead = ahead;
+}
 
 std::optional<int> HandOut::next_for(int rank, Clock::time_point now) {
-  int& held = held_[size_t(rank)];
-  const int left = rules_.tasks - next_ + int(given_back_.size());
+  Rank& to = ranks_[size_t(rank)];
   // A task waits at a rank only where enough are left for the others.
-  if (held >= rules_.ahead || (held > 0 && left <= rules_.ranks)) return {};
+  const int most = to.at_work + (int(free_.size()) > rules_.ranks ? to.ahead : 0);
+  if (to.held >= most) return {};
   std::optional<int> task = fresh();
-  if (!task && held == 0) task = slow_one(rank, now);
+  if (!task && to.held == 0) task = slow_one(rank, now);
   if (!task) return {};
   Task& chosen = tasks_[size_t(*task)];
   chosen.holders.push_back({rank, now});
   if (++chosen.times > 1) ++twice_;
   at_work_.insert(*task);
-  ++held;
+  ++to.held;
   return task;
 }
 
-/// The task of the lowest number that no rank holds; nothing where the window has no room for it.
+/// The free task of the lowest number; nothing where the window has no room for it.
 std::optional<int> HandOut::fresh() {
-  if (!given_back_.empty()) return given_back_.extract(given_back_.begin()).value();  // was within the window before
-  const int room_from = rules_.in_any_order ? taken_ : first_untaken_;
-  if (next_ == rules_.tasks || next_ - room_from >= rules_.window) return {};
-  return next_++;
+  if (free_.empty()) return {};
+  const int task = free_.top();
+  const bool had_room = tasks_[size_t(task)].times > 0;
+  const int before_it = rules_.in_any_order ? begun_ - taken_ : task - first_untaken_;
+  if (!had_room && before_it >= window()) return {};
+  free_.pop();
+  if (!had_room) ++begun_;
+  return task;
+}
+
+int HandOut::window() const {
+  if (rules_.window > 0) return rules_.window;
+  int at_once = 0;
+  for (const Rank& rank : ranks_) at_once += std::max(rank.at_work, 1);
+  return 4 * at_once;
 }
 
 /// The lowest task that one other rank has for long already.
@@ -49,29 +71,56 @@ bool HandOut::came(int task, int rank, Clock::time_point now) {
       std::find_if(done.holders.begin(), done.holders.end(), [rank](const Holder& h) { return h.rank == rank; });
   if (holder != done.holders.end()) {
     if (!done.done) spent_ += now - holder->since, ++measured_;
-    --held_[size_t(rank)];
+    --ranks_[size_t(rank)].held;
     done.holders.erase(holder);
   }
   at_work_.erase(task);
-  given_back_.erase(task);
   return !std::exchange(done.done, true);
 }
 
 void HandOut::taken(int task) {
-  tasks_[size_t(task)].taken = true;
   ++taken_;
-  while (first_untaken_ < rules_.tasks && tasks_[size_t(first_untaken_)].taken) ++first_untaken_;
+  settle(task);
+  for (const int next : tasks_[size_t(task)].next)
+    if (--tasks_[size_t(next)].waits_for == 0 && !tasks_[size_t(next)].settled) free_.push(next);
+}
+
+std::vector<std::pair<int, int>> HandOut::taken_and_closed(int task) {
+  ++taken_;
+  settle(task);
+  std::vector<std::pair<int, int>> left_out{{task, task}};
+  for (size_t i = 0; i < left_out.size(); ++i) {
+    const int before = left_out[i].first;
+    for (const int next : tasks_[size_t(before)].next) {
+      if (tasks_[size_t(next)].settled) continue;
+      settle(next);
+      left_out.emplace_back(next, before);
+    }
+  }
+  left_out.erase(left_out.begin());
+  return left_out;
+}
+
+void HandOut::settle(int task) {
+  tasks_[size_t(task)].settled = true;
+  ++settled_;
+  while (first_untaken_ < rules_.tasks && tasks_[size_t(first_untaken_)].settled) ++first_untaken_;
 }
 
 void HandOut::lose(int rank) {
-  for (int task = 0; task < next_; ++task) {
-    Task& lost = tasks_[size_t(task)];
-    if (std::erase_if(lost.holders, [rank](const Holder& h) { return h.rank == rank; }) == 0) continue;
-    if (lost.done || !lost.holders.empty()) continue;
-    at_work_.erase(task);
-    given_back_.insert(task);
+  for (auto at = at_work_.begin(); at != at_work_.end();) {
+    std::vector<Holder>& holders = tasks_[size_t(*at)].holders;
+    const auto none_left = [&] {
+      return std::erase_if(holders, [rank](const Holder& h) { return h.rank == rank; }) > 0 && holders.empty();
+    };
+    if (!none_left()) {
+      ++at;
+      continue;
+    }
+    free_.push(*at);
+    at = at_work_.erase(at);
   }
-  held_[size_t(rank)] = 0;
+  ranks_[size_t(rank)] = {};
 }
 
 }  // namespace trueshade

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <stdexcept>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/sha256.h"
@@ -37,29 +38,35 @@ Leading::Leading(Ranks& ranks, const SharingRules& rules, uint32_t round)
     : ranks_(ranks), rules_(rules), round_(round), others_(size_t(ranks.count())) {
   for (Other& other : others_) other.heard = Clock::now();
   report_.tasks_of_rank.resize(others_.size());
-  answering_ = std::thread([this] { answer(); });
+  if (ranks_.count() > 1) answering_ = std::thread([this] { answer(); });
 }
 
 Leading::~Leading() {
-  if (answering_.joinable()) end_within(std::min(kPatience, rules_.lost_after));
+  if (!ending_) end_within(std::min(kPatience, rules_.lost_after));
 }
 
 void Leading::begin(const SharedTasks& tasks) {
   const Lock lock(mutex_);
   tasks_ = &tasks;
   const int ranks = ranks_.count();
-  const int window = rules_.window > 0 ? rules_.window : 4 * ranks;
-  hand_out_.emplace(
-      HandOut::Rules{tasks.count, ranks, std::max(rules_.ahead, 1), window, rules_.slow_after, tasks.in_any_order});
+  hand_out_.emplace(HandOut::Rules{tasks.count, ranks, rules_.window, rules_.slow_after, tasks.in_any_order},
+                    tasks.after);
+  let_have(0, tasks.at_once);
   for (int rank = 1; rank < ranks; ++rank)
     if (others_[size_t(rank)].hello) meet(rank);
   hand_out();
-  working_ = std::thread([this] { work(); });
+  try {
+    for (int i = 0; i < tasks.at_once; ++i) working_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    if (working_.empty()) throw;  // else those there are do all of it
+  }
 }
 
 std::optional<Leading::Result> Leading::next_result() {
   Lock lock(mutex_);
-  const auto next = [this] { return tasks_->in_any_order ? waiting_.begin() : waiting_.find(next_to_take_); };
+  const auto next = [this] {
+    return tasks_->in_any_order ? waiting_.begin() : waiting_.find(hand_out_->first_untaken());
+  };
   changed_.wait(lock, [&] { return failure_ || hand_out_->all_taken() || next() != waiting_.end(); });
   const auto found = next();
   if (found != waiting_.end()) {  // what came before a failure is kept
@@ -72,11 +79,18 @@ std::optional<Leading::Result> Leading::next_result() {
 }
 
 void Leading::taken(int task) {
-  const Lock lock(mutex_);
-  hand_out_->taken(task);
-  next_to_take_ = task + 1;
-  hand_out();
-  changed_.notify_all();
+  const bool opens = !tasks_->opens || tasks_->opens(task);
+  std::vector<std::pair<int, int>> left_out;
+  {
+    const Lock lock(mutex_);
+    if (opens)
+      hand_out_->taken(task);
+    else
+      left_out = hand_out_->taken_and_closed(task);
+    hand_out();
+    changed_.notify_all();
+  }
+  for (const auto& [next, because] : left_out) tasks_->leave_out(next, because);
 }
 
 SharingReport Leading::end() {
@@ -91,14 +105,15 @@ void Leading::end_within(Milliseconds patience) {
     ending_ = true;
     given_up_ = Clock::now() + patience;
     own_wanted_.withdraw();
+    if (tasks_ != nullptr && tasks_->stop) tasks_->stop();
     RankSays end{.what = RankSays::What::end, .round = round_};
     for (int rank = 1; rank < ranks_.count(); ++rank)
       if (others_[size_t(rank)].phase == Phase::lost) end.numbers.push_back(rank);
     for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, packed(end));
     changed_.notify_all();
   }
-  answering_.join();
-  if (working_.joinable()) working_.join();
+  if (answering_.joinable()) answering_.join();
+  for (std::thread& working : working_) working.join();
 }
 
 void Leading::answer() {
@@ -127,28 +142,32 @@ void Leading::answer() {
 }
 
 void Leading::work() {
-  while (true) {
-    std::optional<int> task;
-    {
-      Lock lock(mutex_);
-      // Time alone makes a task slow, so this thread looks for itself now and then.
-      changed_.wait_for(lock, kLook, [&] {
-        return ending_ || failure_ || hand_out_->all_taken() || (task = hand_out_->next_for(0, Clock::now()));
-      });
-      if (!task && (ending_ || failure_ || hand_out_->all_taken())) return;
+  try {
+    while (work_once()) {
     }
-    if (!task) continue;
-    try {
-      std::vector<uint8_t> bytes = tasks_->run(*task, own_wanted_);
-      const Lock lock(mutex_);
-      hear_result(0, *task, std::move(bytes));
-    } catch (const Withdrawn&) {
-      return;
-    } catch (...) {
-      const Lock lock(mutex_);
-      return fail(std::current_exception());
-    }
+  } catch (const Withdrawn&) {
+  } catch (...) {
+    const Lock lock(mutex_);
+    fail(std::current_exception());
   }
+}
+
+/// Waits for a task and does it; false where there is nothing more to do.
+bool Leading::work_once() {
+  std::optional<int> task;
+  std::vector<uint8_t> brief;
+  {
+    Lock lock(mutex_);
+    // Time alone makes a task slow, so this thread looks for itself now and then.
+    while (!ending_ && !failure_ && !hand_out_->all_taken() && !(task = hand_out_->next_for(0, Clock::now())))
+      changed_.wait_for(lock, kLook);
+    if (!task) return false;
+    brief = brief_of(*task);
+  }
+  std::vector<uint8_t> bytes = tasks_->run(*task, brief, own_wanted_);
+  const Lock lock(mutex_);
+  hear_result(0, *task, std::move(bytes));
+  return true;
 }
 
 void Leading::hear(const RankMessage& message) {
@@ -194,6 +213,11 @@ void Leading::meet(int rank) {
   }
   if (!difference.empty()) return leave_out(rank, ErrorKind::bad_input, difference, kSameEverywhere);
   other.phase = Phase::ready;
+  let_have(rank, other.hello->number);
+}
+
+void Leading::let_have(int rank, int at_once) {
+  if (rules_.ranks == 0 || rank < rules_.ranks) hand_out_->let_have(rank, std::max(at_once, 1), rules_.ahead);
 }
 
 void Leading::hear_result(int rank, int task, std::vector<uint8_t> bytes) {
@@ -256,8 +280,12 @@ void Leading::hand_out() {
     if (others_[size_t(rank)].phase != Phase::ready) continue;
     while (const std::optional<int> task = hand_out_->next_for(rank, Clock::now()))
       ranks_.send(rank,
-                  packed({.what = RankSays::What::work, .round = round_, .number = *task, .bytes = tasks_->told}));
+                  packed({.what = RankSays::What::work, .round = round_, .number = *task, .bytes = brief_of(*task)}));
   }
+}
+
+std::vector<uint8_t> Leading::brief_of(int task) const {
+  return tasks_->brief ? tasks_->brief(task) : std::vector<uint8_t>();
 }
 
 void Leading::beat() {

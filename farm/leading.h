@@ -17,8 +17,8 @@
 
 namespace trueshade {
 
-/// Three threads: the caller's makes the tasks and takes results; one answers the other ranks from construction to
-/// end(); one does tasks of rank 0's own.
+/// The caller's thread makes the tasks and takes results. One answers the other ranks, if there are any, from
+/// construction to end(). As many as SharedTasks::at_once do tasks of rank 0's own.
 class Leading {
  public:
   Leading(Ranks& ranks, const SharingRules& rules, uint32_t round);
@@ -35,6 +35,7 @@ class Leading {
   };
   /// The next result for SharedTasks::take; nothing after the last. Throws what has ended the run.
   std::optional<Result> next_result();
+  /// Tells what is after the task that it is taken, or that it is left out (SharedTasks::opens).
   void taken(int task);
 
   /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost.
@@ -51,7 +52,8 @@ class Leading {
   using Lock = std::unique_lock<std::mutex>;
 
   void answer();  // the second thread
-  void work();    // the third
+  void work();    // the others
+  bool work_once();
 
   void end_within(std::chrono::milliseconds patience);
 
@@ -62,7 +64,9 @@ class Leading {
   void look_for_losses();
   void lose(int rank, const std::string& how);
   void leave_out(int rank, ErrorKind kind, const std::string& why, const std::string& remedy);
+  void let_have(int rank, int at_once);
   void hand_out();
+  std::vector<uint8_t> brief_of(int task) const;
   void beat();
   bool all_left() const;
   void fail(std::exception_ptr failure);
@@ -80,14 +84,14 @@ class Leading {
   std::optional<HandOut> hand_out_;
   std::map<int, std::vector<uint8_t>> waiting_;  // results that are not taken yet
   std::map<int, std::string> hashes_;            // of same parts, of tasks that were handed out twice
-  int next_to_take_ = 0;
   std::exception_ptr failure_;
   bool ending_ = false;
   HandOut::Clock::time_point given_up_{};  // when the others are waited for no longer, once it is ending
   HandOut::Clock::time_point last_beat_{};
   SharingReport report_;
   Wanted own_wanted_;
-  std::thread answering_, working_;
+  std::thread answering_;
+  std::vector<std::thread> working_;
 };
 
 }  // namespace trueshade

@@ -14,8 +14,8 @@ namespace trueshade {
 struct RankSays {
   enum class What : uint8_t {
     beat,     ///< that it is there
-    hello,    ///< to rank 0: it is ready; words: names and values of the identity, in turn
-    work,     ///< from rank 0: number: a task; bytes: SharedTasks::told
+    hello,    ///< to rank 0: it is ready; words: names and values of the identity, in turn; number: tasks at once
+    work,     ///< from rank 0: number: a task; bytes: its brief
     result,   ///< to rank 0: number: the task; bytes
     failure,  ///< to rank 0: number: the task, or -1 before there were any; kind; words: the text
     end,      ///< from rank 0: nothing is left to do; numbers: ranks that are lost

@@ -34,13 +34,19 @@ struct SharedTasks {
   /// `{"pipeline", json}`, `{"frames", "0-99"}`. Bytes are compared; the values are shown in full up to 64 characters.
   std::vector<std::pair<std::string, std::string>> identity;
 
-  /// Of rank 0: what the others have to know before their first task, and cannot know by themselves.
-  std::vector<uint8_t> told;
-  /// On the other ranks: receives that, once, before the first task. Throws as `run`.
-  std::function<void(std::span<const uint8_t> told)> hear;
+  /// Tasks that each task is after: it is handed out when their results are taken. Empty: nothing is after anything.
+  /// Without circles, and with `in_any_order` alone.
+  std::vector<std::vector<int>> after;
 
-  /// Does a task; on any rank, one at a time in a process, on one thread. An exception of it ends the run.
-  std::function<std::vector<uint8_t>(int task, const Wanted& wanted)> run;
+  /// On rank 0, under a lock: what it alone knows of a task that it hands out. Not set: nothing.
+  std::function<std::vector<uint8_t>(int task)> brief;
+
+  /// Does a task; on any rank, by `at_once` threads of a process. An exception of it ends the run.
+  std::function<std::vector<uint8_t>(int task, std::span<const uint8_t> brief, const Wanted& wanted)> run;
+  int at_once = 1;  ///< tasks that this process does at a time, each on a thread of its own
+
+  /// Called once, on any thread, when no result of this process is wanted any more; for tasks that cannot look.
+  std::function<void()> stop;
 
   /// The part of a result that is the same whoever did the task, in a result that holds times as well; not set: all.
   std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
@@ -50,13 +56,20 @@ struct SharedTasks {
   std::function<void(int task, std::vector<uint8_t> result)> take;
   /// Takes results in the order that they come in instead: `take` is called once for each task, in any order.
   bool in_any_order = false;
+
+  /// After take(): whether tasks that are after this one are to be done. If not, they, and those that are after them,
+  /// are left out: neither run nor taken. Not set: they are.
+  std::function<bool(int task)> opens;
+  /// Told of each task that is left out, and of the one before it because of which it is.
+  std::function<void(int task, int because)> leave_out;
 };
 
 struct SharingRules {
   std::chrono::milliseconds lost_after{60000};  ///< a rank that was not heard for so long is lost
   bool continue_without_lost = false;           ///< gives tasks of lost ranks to others; else a loss is an Error
-  int ahead = 2;   ///< tasks that a rank has at a time, at least 1: one at work, and others that wait for it
-  int window = 0;  ///< results that wait for one before them, and tasks at work; 0: 4 for each rank
+  int ahead = 1;                                ///< tasks that wait at a rank besides those that it is at work on
+  int window = 0;  ///< results that wait for one before them, and tasks at work; 0: 4 for each that ranks do at once
+  int ranks = 0;   ///< that tasks are handed out to, from rank 0 on; 0: all
   std::chrono::milliseconds slow_after{2000};  ///< no task is handed out a second time earlier than that
 };
 

@@ -1,24 +1,18 @@
 // The command `batch`.
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
-#include <system_error>
 
 #include "cli/batch/batch_results.h"
+#include "cli/batch/batch_run.h"
 #include "cli/batch/child.h"
-#include "cli/batch/job_commands.h"
-#include "cli/batch/journal.h"
-#include "cli/batch/schedule.h"
 #include "cli/commands.h"
-#include "cli/progress_bar.h"
+#include "cli/notes.h"
+#include "cli/terminal.h"
 #include "cli/written_files.h"
-#include "core/error.h"
 #include "core/image_files/image_io.h"
-#include "core/memory_cap.h"
-#include "core/threads/parallel_for.h"
-#include "scenes/files/content/scene_files.h"
+#include "farm/lone_rank.h"
+#include "farm/process_ranks.h"
 
 namespace trueshade::batch {
 namespace {
@@ -55,35 +49,6 @@ class EndsJobs {
   struct sigaction before_[std::size(kSignals)];
 };
 
-JobList read_jobs(const std::string& file) {
-  const SceneLimits limits;
-  const std::vector<uint8_t> bytes = read_user_file(file, limits.json_bytes, "");
-  JobList list = job_list_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
-  check_commands(list);
-  return list;
-}
-
-std::vector<bool> jobs_to_run(const BatchOptions& options, const JobList& list) {
-  const std::vector<bool> chosen = chosen_jobs(list, options.only.value_or("*"));
-  if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
-    throw Error(ErrorKind::usage, "--only", "no job has a name like '" + *options.only + "'",
-                "give a name, or a pattern of * and ?");
-  return chosen;
-}
-
-/// Cores and memory are shared evenly among the jobs that run at once.
-RunRules rules_of(const BatchOptions& options, const std::string& folder, int jobs) {
-  const int cores = thread_count(0);
-  RunRules rules;
-  rules.resumes = options.resumes;
-  rules.at_once = options.jobs > 0 ? options.jobs : options.threads > 0 ? std::max(1, cores / options.threads) : cores;
-  rules.at_once = std::min(rules.at_once, jobs);
-  rules.place.folder = folder;
-  rules.place.threads = options.threads > 0 ? options.threads : std::max(1, cores / rules.at_once);
-  rules.place.memory = memory_cap() / uint64_t(rules.at_once);
-  return rules;
-}
-
 void write_report(const std::string& path, const std::string& text) {
   write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
@@ -117,6 +82,20 @@ void write_reports(const BatchOptions& options, const BatchResults& results) {
   std::abort();  // not reached: the default of these signals ends the process
 }
 
+/// Runs the jobs; the ranks that were lost meanwhile.
+std::vector<std::string> shared(BatchRun& run, const BatchOptions& options, Ranks& ranks) {
+  SharingRules rules = options.sharing;
+  rules.ahead = 0;                                 // a job that waits at a rank may be free to run at another
+  rules.slow_after = std::chrono::hours(1 << 16);  // two processes would write the same files
+  const EndsJobs ends_jobs;
+  try {
+    return share_tasks(ranks, rules, [&run] { return run.tasks(); }).lost;
+  } catch (...) {
+    if (ended_by == 0 || ranks.own() != 0) throw;
+  }
+  end_by_signal(run.done(), run.count());
+}
+
 }  // namespace
 }  // namespace trueshade::batch
 
@@ -125,26 +104,17 @@ namespace trueshade {
 int run_batch(const BatchOptions& options) {
   using namespace batch;
   const auto begin = std::chrono::steady_clock::now();
-  const JobList list = read_jobs(options.file);
-  const std::vector<bool> chosen = jobs_to_run(options, list);
-  const int count = int(std::count(chosen.begin(), chosen.end(), true));
-  for (const auto& path : {options.json_file, options.junit, options.report})
-    if (path && *path != "-") check_writable(*path);
-  const std::string folder = std::filesystem::absolute(options.file).parent_path().string();
-  Journal journal(options.state.value_or(options.file + ".state"), program_identity(), options.resumes);
-  std::vector<JobResult> results;
-  {
-    const EndsJobs ends_jobs;
-    ProgressBar bar("running", "jobs");
-    int done = 0;
-    results = run_jobs(list, chosen, rules_of(options, folder, count), journal, [&](int now, int all) {
-      done = now;
-      bar.show(now, all);
-    });
-    if (ended_by != 0) end_by_signal(done, count);
-  }
+  LoneRank alone;
+  Ranks* const joined = process_ranks();
+  Ranks& ranks = joined != nullptr ? *joined : alone;
+  if (ranks.own() != 0) be_quiet();
+  BatchRun run(options, ranks);
+  const std::vector<std::string> lost = shared(run, options, ranks);
+  if (ranks.own() != 0) return 0;
+  for (const std::string& rank : lost) say_notes({rank + "; its jobs were done by others"});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const BatchResults all{list, results, chosen, folder, seconds, "trueshade" + options.command_line};
+  const BatchResults all{run.list(),   run.results(), run.chosen(),
+                         run.folder(), seconds,       "trueshade" + options.command_line};
   write_reports(options, all);
   return all.passed() ? 0 : 1;
 }

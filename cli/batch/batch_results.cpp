@@ -58,6 +58,7 @@ std::string json_of_job(const Job& job, const JobResult& result) {
       .put("signal", result.signal)
       .put("seconds", result.seconds)
       .put("core_seconds", result.core_seconds)
+      .put("host", result.host)
       .put_raw("hashes", json_of_texts(result.hashes))
       .put_raw("read", json_of_files(result, FileNote::Kind::read))
       .put_raw("wrote", json_of_files(result, FileNote::Kind::wrote))

@@ -71,6 +71,7 @@ std::string line_of(const Job& job, const JobResult& result, const std::string& 
       .put("out", result.out)
       .put("err", result.err)
       .put_raw("files", json_of(result.files))
+      .put("host", result.host)
       .text();
 }
 
@@ -91,6 +92,7 @@ ResultLine result_from_line(std::string_view line, std::string_view where) {
   result.out = root.member("out").string();
   result.err = root.member("err").string();
   result.files = files_from(root.member("files"));
+  result.host = root.member("host").string();
   return read;
 }
 

@@ -33,6 +33,7 @@ struct JobResult {
   std::vector<std::string> hashes;           ///< that it printed
   std::string out, err;                      ///< what it printed, cut in the middle where it is long
   std::vector<FileNote> files;               ///< sorted
+  std::string host;                          ///< name of the machine that ran it
 
   bool passed() const { return state == JobState::passed || state == JobState::unchanged; }
 };

@@ -1,11 +1,12 @@
 #!/bin/bash
-# `render` under mpirun against one process, byte by byte. Usage: mpi.sh TRUESHADE MODE
+# `render` and `batch` under mpirun against one process, byte by byte. Usage: mpi.sh TRUESHADE MODE
 #   frames       scenes by 2, 3, 4 and 8 ranks; SIMD targets that differ; what is not shared
 #   all_frames   every built-in scene by 1, 2, 3, 4 and 8 ranks
 #   faults       a rank is killed, is stopped; rank 0 is killed; the disk is full; another scene; no module
 #   bands        one picture by 2, 3, 4 and 8 ranks: strategies, SIMD targets, a region, a view, a large picture
 #   all_bands    every built-in scene and strategy by 1, 2, 3, 4 and 8 ranks
 #   resumed N    kills a rank that draws a large picture at N random times; --resume ends with the same files
+#   batch        a list of jobs by 2, 3 and 4 ranks; a rank that is killed; a list that differs
 #   killed N     kills a rank at N random times: what is there is whole, and --continue-without-lost ends with all
 set -euo pipefail
 trueshade=$(realpath "$1")
@@ -200,6 +201,65 @@ all_bands() {
       for count in 1 2 3 4 8; do same "$count" "builtin:$scene" "${picture[@]}" --strategy "$strategy"; done
     done
   done
+}
+
+# jobs COUNT: COUNT jobs that draw, as many that read what was drawn, one that fails and one after it.
+jobs() {
+  local i list=""
+  for ((i = 0; i < $1; ++i)); do
+    list+="{\"name\": \"draw$i\", \"run\": [\"render\", \"builtin:city,seed=$i\", \"--size\", \"64x48\", \"--hash\", \"-o\", \"$i.png\"]},"
+    list+="{\"name\": \"read$i\", \"after\": [\"draw$i\"], \"run\": [\"info\", \"$i.png\"]},"
+  done
+  list+='{"name": "none", "run": ["info", "there_is_none.png"]}, {"name": "after", "after": ["none"], "run": ["info", "builtin:red"]}'
+  echo "{\"jobs\": [$list]}"
+}
+
+# without_clock FILE: the rows of a table of jobs without their seconds, which are the same whoever ran them.
+without_clock() { sed -E 's/^([a-z]+ +)[0-9.]+ +/\1/' "$1"; }
+
+batch() {
+  local count status
+  mkdir one
+  jobs 12 >one/jobs.json
+  status=0
+  "$trueshade" batch one/jobs.json -q >/dev/null || status=$?
+  [[ $status == 1 ]] || die "one process: $status"
+  (cd one && "$trueshade" batch jobs.json --state none.state --json all.json >out 2>err) || true
+  for count in 2 3 4; do
+    rm -rf many
+    mkdir many
+    cp one/jobs.json many
+    status=0
+    (cd many && mpi -n "$count" "$trueshade" batch jobs.json --json all.json >out 2>err) || status=$?
+    [[ $status == 1 ]] || die "$count ranks: $status, $(<many/err)"
+    diff <(without_clock one/out) <(without_clock many/out) || die "$count ranks: another table"
+    diff -r -x '*.state' -x out -x err -x '*.json' one many || die "$count ranks: other files"
+    (cd many && mpi -n "$count" "$trueshade" batch jobs.json --resume -q >out 2>err) || true
+    [[ $(<many/out) == *"24 of 26 jobs passed, 24 of them unchanged, 1 failed, 1 skipped"* ]] ||
+      die "$count ranks resumed: $(<many/out)"
+  done
+
+  # A rank is killed: its jobs are done by others.
+  rm -rf many
+  mkdir many
+  jobs 40 >many/jobs.json
+  status=0
+  (cd many && mpi --enable-recovery -n 3 "$trueshade" batch "$work/many/jobs.json" --continue-without-lost -q >out 2>err) &
+  local job=$! process=""
+  until [[ -e many/5.png ]] || ! kill -0 "$job" 2>/dev/null; do sleep 0.02; done
+  for process in $(pgrep -f "^$trueshade batch .*many/jobs.json"); do
+    [[ $(tr '\0' '\n' 2>/dev/null </proc/"$process"/environ | sed -n 's/^OMPI_COMM_WORLD_RANK=//p') == 1 ]] && kill -KILL "$process"
+  done
+  wait "$job" || true
+  [[ $(<many/out) == *"80 of 82 jobs passed, 1 failed, 1 skipped"* ]] || die "a killed rank: $(<many/out) $(<many/err)"
+
+  # A rank reads another list.
+  jobs 3 >other.json
+  mkdir -p a b
+  cp one/jobs.json a && cp other.json b/jobs.json
+  status=0
+  mpi -n 1 --wdir "$work/a" "$trueshade" batch jobs.json : -n 1 --wdir "$work/b" "$trueshade" batch jobs.json >out 2>err || status=$?
+  [[ $status == 3 && $(<err) == *"rank 1 on "*": its list of jobs is '"* ]] || die "another list: $status, $(<err)"
 }
 
 resumed() {

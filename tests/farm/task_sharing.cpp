@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -39,6 +40,12 @@ struct Run {
   std::function<std::string(int rank)> scene = [](int) { return "the same"; };
   std::function<void(int task)> take = [](int) {};
   bool in_any_order = false;
+  std::vector<std::vector<int>> after{};
+  std::function<bool(int task)> opens{};
+  std::function<void(int task, int because)> leave_out{};
+  std::function<Bytes(int task)> brief{};
+  std::function<int(int rank)> at_once = [](int) { return 1; };
+  std::function<void()> stop{};
 };
 
 SharedTasks tasks_of(const Run& how, int rank, Outcome& outcome) {
@@ -46,13 +53,19 @@ SharedTasks tasks_of(const Run& how, int rank, Outcome& outcome) {
   SharedTasks tasks;
   tasks.count = how.tasks;
   tasks.identity = {{"scene", how.scene(rank)}};
-  tasks.run = [&how, rank](int task, const Wanted& wanted) { return how.run(rank, task, wanted); };
+  tasks.run = [&how, rank](int task, std::span<const uint8_t> brief, const Wanted& wanted) {
+    if (Bytes(brief.begin(), brief.end()) != (how.brief ? how.brief(task) : Bytes()))
+      throw std::runtime_error("another brief");  // as an error, because Catch2 is of one thread
+    return how.run(rank, task, wanted);
+  };
   tasks.take = [&how, &outcome](int task, Bytes result) {
     CHECK(result == result_of(task));
     how.take(task);
     outcome.taken.push_back(task);
   };
   tasks.in_any_order = how.in_any_order;
+  tasks.after = how.after, tasks.opens = how.opens, tasks.leave_out = how.leave_out;
+  tasks.brief = how.brief, tasks.stop = how.stop, tasks.at_once = how.at_once(rank);
   return tasks;
 }
 
@@ -148,6 +161,116 @@ TEST_CASE("several lists follow each other, though ranks are through at differen
     });
   for (int round = 0; round < 4; ++round) CHECK(shared_by(network, 0, run).taken == all_tasks(12));
   for (std::thread& other : others) other.join();
+}
+
+/// Ten tasks in three chains, and what was seen of them.
+struct Chains {
+  Run run{.tasks = 10};
+  std::mutex mutex;
+  std::vector<bool> taken = std::vector<bool>(10);
+  std::vector<std::pair<int, int>> left_out;
+  int too_early = 0;
+
+  Chains() {
+    run.in_any_order = true;
+    run.after = {{}, {0}, {1}, {}, {3}, {3, 0}, {4, 5}, {}, {7, 6}, {2}};
+    run.run = [this](int, int task, const Wanted& wanted) {
+      {
+        const std::lock_guard lock(mutex);
+        for (const int other : run.after[size_t(task)]) too_early += !taken[size_t(other)];
+      }
+      work_for(5ms, wanted);
+      return result_of(task);
+    };
+    run.take = [this](int task) {
+      const std::lock_guard lock(mutex);
+      taken[size_t(task)] = true;
+    };
+    run.leave_out = [this](int task, int because) { left_out.emplace_back(task, because); };
+  }
+};
+
+TEST_CASE("a task begins when the results of those that it is after are taken") {
+  for (int ranks = 1; ranks <= 4; ++ranks)
+    for (const int at_once : {1, 3}) {
+      Chains chains;
+      chains.run.at_once = [at_once](int) { return at_once; };
+      const Outcome outcome = shared(ranks, chains.run);
+      INFO(ranks << " ranks, " << at_once << " at once: " << outcome.error);
+      CHECK(outcome.taken.size() == 10);
+      CHECK(chains.too_early == 0);
+      CHECK(chains.left_out.empty());
+    }
+}
+
+TEST_CASE("what is after a task that closes is left out, once, and the rest is done") {
+  for (int ranks = 1; ranks <= 3; ++ranks) {
+    Chains chains;
+    chains.run.opens = [](int task) { return task != 3; };
+    Outcome outcome = shared(ranks, chains.run);
+    std::sort(outcome.taken.begin(), outcome.taken.end());
+    CHECK(outcome.taken == std::vector<int>{0, 1, 2, 3, 7, 9});
+    CHECK(chains.left_out == std::vector<std::pair<int, int>>{{4, 3}, {5, 3}, {6, 4}, {8, 6}});
+    CHECK(chains.too_early == 0);
+  }
+}
+
+TEST_CASE("tasks that wait for those of a lost rank are done once these are done by others") {
+  LocalNetwork network(3);
+  Chains chains;
+  chains.run.rules.continue_without_lost = true;
+  const auto run = chains.run.run;
+  chains.run.run = [&](int rank, int task, const Wanted& wanted) {
+    if (rank == 1 && task != 0) network.lose(1, true);
+    return run(rank, task, wanted);
+  };
+  const Outcome outcome = shared(network, chains.run);
+  CHECK(outcome.error.empty());
+  CHECK(outcome.taken.size() == 10);
+  CHECK(chains.too_early == 0);
+}
+
+TEST_CASE("each rank does as many tasks at a time as it says") {
+  std::atomic<int> at_work[3]{}, most[3]{};
+  Run run{.tasks = 60, .in_any_order = true};
+  run.rules.ahead = 0;
+  run.at_once = [](int rank) { return 1 + 2 * rank; };
+  run.run = [&](int rank, int task, const Wanted& wanted) {
+    const int now = ++at_work[rank];
+    for (int seen = most[rank]; now > seen && !most[rank].compare_exchange_weak(seen, now);) {
+    }
+    work_for(10ms, wanted);
+    --at_work[rank];
+    return result_of(task);
+  };
+  CHECK(shared(3, run).taken.size() == 60);
+  for (int rank = 0; rank < 3; ++rank) CHECK(most[rank] == 1 + 2 * rank);
+}
+
+TEST_CASE("a brief of rank 0 comes with its task, and ranks beyond those that are asked for get none") {
+  Run run{.tasks = 40};
+  run.brief = [](int task) { return Bytes(3, uint8_t(task)); };
+  run.rules.ranks = 2;
+  const Outcome outcome = shared(4, run);  // tasks_of() compares the briefs
+  CHECK(outcome.error.empty());
+  CHECK(outcome.taken == all_tasks(40));
+  CHECK(outcome.report.tasks_of_rank[2] + outcome.report.tasks_of_rank[3] == 0);
+}
+
+TEST_CASE("tasks that cannot look whether they are wanted are stopped, once a rank, when the run fails") {
+  std::atomic<int> stops{0};
+  Run run;
+  run.at_once = [](int) { return 2; };
+  run.run = [&](int rank, int task, const Wanted&) -> Bytes {
+    if (rank == 0 && task > 1) throw Error(ErrorKind::limit, "a", "b", "c");
+    for (int i = 0; i < 2000 && task > 1 && stops == 0; ++i) std::this_thread::sleep_for(5ms);
+    return result_of(task);
+  };
+  run.stop = [&] { ++stops; };
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(shared(2, run).error == "a: b (c)");
+  CHECK(stops == 2);
+  CHECK(std::chrono::steady_clock::now() - begin < 5000ms);
 }
 
 TEST_CASE("a rank that is lost at any task ends the run in one error that names it, and what was taken stays") {

@@ -1,0 +1,31 @@
+#pragma once
+#include <unistd.h>
+
+#include <thread>
+
+#include "farm/ranks.h"
+
+namespace trueshade {
+
+/// A process that works with no other.
+class LoneRank : public Ranks {
+ public:
+  int own() const override { return 0; }
+  int count() const override { return 1; }
+  std::string host(int) const override {
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    return name;
+  }
+  int on_this_machine() const override { return 1; }
+  void send(int, std::vector<uint8_t>) override {}
+  std::optional<RankMessage> receive(std::chrono::milliseconds timeout) override {
+    std::this_thread::sleep_for(timeout);
+    return {};
+  }
+  bool has_ended(int) const override { return false; }
+  void forget(int) override {}
+  void leave(int) override {}
+};
+
+}  // namespace trueshade
