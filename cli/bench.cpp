@@ -181,6 +181,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
 }  // namespace
 
 void bench(const BenchOptions& options) {
+  if (options.ranks) return bench_ranks(options);
   for (const std::string& peer : options.against)
     if (is_gl(peer)) designs_from_text(peer);
   const bool json_printed = options.json_file == "-";
@@ -198,7 +199,8 @@ void bench(const BenchOptions& options) {
     result.scenes.push_back(measured(options, spec, result.execution));
     say_notes(result.scenes.back().notes.lines);
     if (!json_printed)
-      print((result.scenes.size() == 1 ? bench_heading(result) : "") + bench_text(result.scenes.back(), result));
+      print((result.scenes.size() == 1 ? bench_heading(result.machine, result.simd, result.threads) : "") +
+            bench_text(result.scenes.back(), result));
   }
   if (options.report) {
     const SceneTime& first = result.scenes.front();

@@ -83,7 +83,9 @@ double million_pixels_per_s(const SceneTime& scene);
 /// A scene of small triangles is as fast as its triangles are, one of large ones as its pixels are: both rates.
 std::string rate_text(const SceneTime& scene);
 
-std::string bench_heading(const BenchResult& bench);  ///< the machine and the execution, a line each
+/// The machine, and what draws on it, in a line.
+std::string bench_heading(const Machine& machine, const std::string& simd, int threads);
+std::string machine_json(const Machine& machine);
 std::string bench_text(const SceneTime& scene, const BenchResult& bench);  ///< one scene's lines
 std::string bench_json(const BenchResult& bench);
 std::string bench_page(const BenchResult& bench);

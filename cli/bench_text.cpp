@@ -173,10 +173,14 @@ double SceneTime::scheduled_speedup(int cores) const {
   return ms_on(1) / ms_on(cores);
 }
 
-std::string bench_heading(const BenchResult& b) {
-  return b.machine.cpu + ", " + std::to_string(b.machine.cores) + " cores at " +
-         formatted(b.machine.clock_ghz, "%.2f") + " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + b.simd +
-         ", " + std::to_string(b.threads) + (b.threads == 1 ? " thread\n" : " threads\n");
+std::string bench_heading(const Machine& machine, const std::string& simd, int threads) {
+  return machine.cpu + ", " + std::to_string(machine.cores) + " cores at " + formatted(machine.clock_ghz, "%.2f") +
+         " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + simd + ", " + std::to_string(threads) +
+         (threads == 1 ? " thread\n" : " threads\n");
+}
+
+std::string machine_json(const Machine& machine) {
+  return JsonObject().put("cpu", machine.cpu).put("cores", machine.cores).put("clock_ghz", machine.clock_ghz).text();
 }
 
 std::string bench_text(const SceneTime& s, const BenchResult& bench) {
@@ -219,10 +223,8 @@ std::string bench_json(const BenchResult& bench) {
     scaling.add_raw(
         JsonObject().put("title", curve.title).put("axis", curve.axis).put_raw("points", points.text()).text());
   }
-  JsonObject machine;
-  machine.put("cpu", bench.machine.cpu).put("cores", bench.machine.cores).put("clock_ghz", bench.machine.clock_ghz);
   JsonObject json;
-  json.put("version", kVersion).put("commit", kCommit).put_raw("machine", machine.text());
+  json.put("version", kVersion).put("commit", kCommit).put_raw("machine", machine_json(bench.machine));
   json.put("threads", bench.threads).put("simd", bench.simd);
   json.put_raw("scenes", scenes.text());
   return json.put_raw("scaling", scaling.text()).text() + '\n';

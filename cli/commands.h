@@ -19,6 +19,7 @@ void print_list(const ListOptions& options);
 void write_glsl(const GlslFilesOptions& options);
 void export_scene(const ExportOptions& options);
 void bench(const BenchOptions& options);
+void bench_ranks(const BenchOptions& options);  ///< `bench --ranks`; on every rank
 void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
 void view(const ViewOptions& options);  ///< becomes another program, or throws

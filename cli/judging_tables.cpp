@@ -133,6 +133,12 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_switch(
       table, "--moving", options.moving,
       "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
+  add_switch(
+      table, "--ranks", options.ranks,
+      "Measure instead how drawing into a file scales with the processes that MPI has started, and with machines "
+      "by a model (docs/farm.md)");
+  add_value(table, "--frames", "FIRST-LAST", texts.frames,
+            "With --ranks share frames of the timeline, not bands of one picture");
   add_size(table, texts.size);
   add_layers(table, options);
   add_strategy(table, texts.strategy);

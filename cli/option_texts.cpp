@@ -243,8 +243,13 @@ ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
 }
 
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
-  if (options.scenes.empty()) options.scenes = {"builtin:city", "builtin:rabbits", "builtin:sphere", "builtin:red"};
-  if (texts.size) options.size = size_from_text(*texts.size);
+  if (options.scenes.empty()) {
+    options.scenes = {"builtin:city"};
+    if (!options.ranks)
+      options.scenes.insert(options.scenes.end(), {"builtin:rabbits", "builtin:sphere", "builtin:red"});
+  }
+  if (texts.size) options.size = size_from_text(*texts.size, options.ranks ? kMostPictureSide : kMostDrawnSide);
+  if (texts.frames) options.frames = frames_from_text(*texts.frames);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
   if (texts.against) options.against = peers_from_text(*texts.against);
@@ -253,6 +258,12 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   check_simd("--simd", options.simd);
   if (options.report && !has_ending(*options.report, ".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
+  for (const auto& [name, is_given] : {std::pair{"--against", !options.against.empty()},
+                                       {"--moving", options.moving},
+                                       {"-o", options.report.has_value()}})
+    if (options.ranks && is_given) throw usage(name, "--ranks measures nothing of it", "leave one of them out");
+  if (options.frames && !options.ranks)
+    throw usage("--frames", "bench draws one picture again and again", "add --ranks, or leave it out");
   if (options.report && options.json_file) check_named_once("--json", {*options.report, *options.json_file});
   return options;
 }

@@ -42,7 +42,7 @@ struct ExplainTexts {
 
 /// Of bench.
 struct BenchTexts {
-  std::optional<std::string> size, strategy, threads, against;
+  std::optional<std::string> size, strategy, threads, against, frames;
 };
 
 /// Of view.
@@ -52,8 +52,8 @@ struct ViewTexts {
 
 /// Of compare.
 struct CompareTexts {
-  std::optional<std::string> difference, ulp, pixels, delta, psnr, flip, flip_median, ppd, mapper, exposures, color_space,
-      threads;
+  std::optional<std::string> difference, ulp, pixels, delta, psnr, flip, flip_median, ppd, mapper, exposures,
+      color_space, threads;
   bool low = false, high = false, no_judge = false;
 };
 

@@ -73,7 +73,9 @@ SceneToRender::SceneToRender(const RenderOptions& options, const Execution& exec
 
 bool is_shared(const Command& command) {
   const auto* const options = std::get_if<RenderOptions>(&command);
-  return std::holds_alternative<BatchOptions>(command) || (options != nullptr && is_shared(*options));
+  const auto* const measured = std::get_if<BenchOptions>(&command);
+  return (options != nullptr && is_shared(*options)) || (measured != nullptr && measured->ranks) ||
+         std::holds_alternative<BatchOptions>(command);
 }
 
 void render(const RenderOptions& options) {

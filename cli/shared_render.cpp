@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 #include <utility>
 
-#include "cli/activity.h"
 #include "cli/notes.h"
 #include "cli/option_values.h"
-#include "cli/pictures.h"
 #include "cli/terminal.h"
 #include "cli/version.h"
 #include "core/file_ending.h"
 #include "core/standard_input.h"
 #include "core/threads/parallel_for.h"
-#include "farm/task_sharing.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -64,15 +60,17 @@ std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions
   return identity;
 }
 
-/// Rows of a band, the same on every rank: of large pictures some 16 million pixels; of others as many as give each
-/// rank a few.
+/// Rows of a band, the same on every rank: as many as give each rank a few bands, and of large pictures some 16 million
+/// pixels at most.
 int shared_band_rows(const RenderOptions& options, const Pipeline& pipeline, int ranks) {
   constexpr int64_t kPixels = int64_t(1) << 24;
   constexpr int kBandsOfRank = 4, kLeast = 16;
   const PictureRegion drawn = drawn_region(pipeline, options.execution.region);
-  const auto whole = [](int64_t rows, int unit) { return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit; };
-  if (is_streamed(options, pipeline)) return whole(std::min<int64_t>(kPixels / drawn.width, drawn.height), kStripRows);
-  return whole(drawn.height / (kBandsOfRank * ranks), kLeast);
+  const bool streamed = is_streamed(options, pipeline);
+  int64_t rows = drawn.height / (kBandsOfRank * ranks);
+  if (streamed) rows = std::min(rows, kPixels / drawn.width);
+  const int unit = streamed ? kStripRows : kLeast;
+  return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit;
 }
 
 std::vector<uint8_t> bytes_of(int number) {
@@ -86,84 +84,76 @@ int number_of(std::span<const uint8_t> bytes) {
   return number;
 }
 
-/// What each rank draws.
-class SharedRender {
- public:
-  SharedRender(const RenderOptions& options, Ranks& ranks, PictureSink& sink)
-      : options_(options), ranks_(ranks), sink_(sink), execution_(shared_execution(options, ranks)) {}
-
-  /// The first tasks: a sequence, or the bands of the first picture.
-  SharedTasks first_tasks() {
-    of_.emplace(options_, execution_);
-    const Pipeline& pipeline = of_->pipeline;
-    const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
-    if (execution_.tile == 0) execution_.tile = tile_for(drawn.width, drawn.height, options_.execution.threads);
-    pictures_.emplace(options_, of_->cached, pipeline, execution_);
-    identity_ = identity_of(options_, *of_);
-    if (ranks_.own() == 0) activity_.emplace("rendering", Activity::Counts::by_hand);
-    return by_bands() ? band_tasks(frame_at(0)) : frame_tasks();
-  }
-
-  /// Whether tasks are bands of a picture, and there is another picture than the first `done`.
-  bool goes_on(int done) const { return by_bands() && options_.frames && done < frames(); }
-
-  SharedTasks band_tasks(std::optional<int> frame) {
-    BandedPicture& picture = pictures_->in_bands(frame, shared_band_rows(options_, of_->pipeline, ranks_.count()));
-    if (ranks_.own() == 0) picture.begin();
-    SharedTasks tasks;
-    tasks.count = picture.bands();
-    tasks.identity = identity_;
-    tasks.brief = [rows = picture.rows_done()](int) { return bytes_of(rows); };
-    tasks.run = [&picture](int band, std::span<const uint8_t> rows_done, const Wanted& wanted) {
-      wanted.check();
-      picture.set_rows_done(number_of(rows_done));
-      return picture.bytes_of(picture.draw(band));
-    };
-    tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
-    tasks.take = [this, &picture](int band, const std::vector<uint8_t>& bytes) {
-      picture.take(picture.band_of(band, bytes));
-      activity_->show(band + 1, picture.bands(), "bands");
-    };
-    return tasks;
-  }
-
-  void hand_out_bands(std::optional<int> frame) { pictures_->hand_out_bands(frame, sink_); }
-  std::optional<int> frame_at(int index) const {
-    return options_.frames ? std::optional(options_.frames->first + index) : std::nullopt;
-  }
-  bool by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
-
- private:
-  int frames() const { return options_.frames->last - options_.frames->first + 1; }
-
-  SharedTasks frame_tasks() {
-    SharedTasks tasks;
-    tasks.count = frames();
-    tasks.identity = identity_;
-    tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
-      PackedPictures packed;
-      pictures_->picture(frame_at(task), packed, [&wanted] { wanted.check(); });
-      return packed.bytes();
-    };
-    tasks.same_part = part_without_times;
-    tasks.take = [this](int task, const std::vector<uint8_t>& result) {
-      replay(result, sink_);
-      activity_->show(task + 1, frames(), "frames");
-    };
-    return tasks;
-  }
-
-  const RenderOptions& options_;
-  Ranks& ranks_;
-  PictureSink& sink_;
-  Execution execution_;
-  std::optional<SceneToRender> of_;
-  std::optional<Pictures> pictures_;
-  std::vector<std::pair<std::string, std::string>> identity_;
-  std::optional<Activity> activity_;  // of rank 0
-};
-
 }  // namespace
+
+SharedRender::SharedRender(const RenderOptions& options, Ranks& ranks, PictureSink& sink, int for_ranks)
+    : options_(options),
+      for_ranks_(for_ranks > 0 ? for_ranks : ranks.count()),
+      leads_(ranks.own() == 0),
+      sink_(sink),
+      execution_(shared_execution(options, ranks)) {}
+
+SharedTasks SharedRender::first_tasks() {
+  of_.emplace(options_, execution_);
+  const Pipeline& pipeline = of_->pipeline;
+  const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
+  if (execution_.tile == 0) execution_.tile = tile_for(drawn.width, drawn.height, options_.execution.threads);
+  pictures_.emplace(options_, of_->cached, pipeline, execution_);
+  identity_ = identity_of(options_, *of_);
+  if (leads_) activity_.emplace("rendering", Activity::Counts::by_hand);
+  return by_bands() ? band_tasks(0) : frame_tasks();
+}
+
+SharedTasks SharedRender::band_tasks(int index) {
+  BandedPicture& picture = pictures_->in_bands(frame_at(index), shared_band_rows(options_, of_->pipeline, for_ranks_));
+  if (leads_) picture.begin();
+  SharedTasks tasks;
+  tasks.count = picture.bands();
+  tasks.identity = identity_;
+  tasks.brief = [rows = picture.rows_done()](int) { return bytes_of(rows); };
+  tasks.run = [&picture](int band, std::span<const uint8_t> rows_done, const Wanted& wanted) {
+    wanted.check();
+    picture.set_rows_done(number_of(rows_done));
+    return picture.bytes_of(picture.draw(band));
+  };
+  tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
+  tasks.take = [this, &picture](int band, const std::vector<uint8_t>& bytes) {
+    picture.take(picture.band_of(band, bytes));
+    activity_->show(band + 1, picture.bands(), "bands");
+  };
+  return tasks;
+}
+
+SharedTasks SharedRender::frame_tasks() {
+  SharedTasks tasks;
+  tasks.count = frames();
+  tasks.identity = identity_;
+  tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
+    PackedPictures packed;
+    pictures_->picture(frame_at(task), packed, [&wanted] { wanted.check(); });
+    return packed.bytes();
+  };
+  tasks.same_part = part_without_times;
+  tasks.take = [this](int task, const std::vector<uint8_t>& result) {
+    replay(result, sink_);
+    activity_->show(task + 1, frames(), "frames");
+  };
+  return tasks;
+}
+
+bool SharedRender::goes_on(int done) const { return by_bands() && options_.frames && done < frames(); }
+
+void SharedRender::finish(int index) {
+  if (leads_ && by_bands()) pictures_->hand_out_bands(frame_at(index), sink_);
+}
+
+int SharedRender::frames() const { return options_.frames->last - options_.frames->first + 1; }
+
+std::optional<int> SharedRender::frame_at(int index) const {
+  return options_.frames ? std::optional(options_.frames->first + index) : std::nullopt;
+}
+
+bool SharedRender::by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
 
 bool is_shared(const RenderOptions& options) {
   if (options.frames) return true;
@@ -181,9 +171,9 @@ void render_shared(const RenderOptions& options, Ranks& ranks, PictureSink& sink
   SharingReport report = share_tasks(ranks, options.sharing, [&render] { return render.first_tasks(); });
   for (int done = 1;; ++done) {
     lost.insert(lost.end(), report.lost.begin(), report.lost.end());
-    if (ranks.own() == 0 && render.by_bands()) render.hand_out_bands(render.frame_at(done - 1));
+    render.finish(done - 1);
     if (!render.goes_on(done)) break;
-    report = share_tasks(ranks, options.sharing, [&] { return render.band_tasks(render.frame_at(done)); });
+    report = share_tasks(ranks, options.sharing, [&] { return render.band_tasks(done); });
   }
   for (const std::string& rank : lost) say_notes({rank + "; its work was done by others"});
 }

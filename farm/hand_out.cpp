@@ -5,7 +5,10 @@
 namespace trueshade {
 
 HandOut::HandOut(const Rules& rules, const std::vector<std::vector<int>>& after)
-    : rules_(rules), tasks_(size_t(rules.tasks)), ranks_(size_t(rules.ranks)) {
+    : rules_(rules),
+      tasks_(size_t(rules.tasks)),
+      ranks_(size_t(rules.ranks)),
+      window_(rules.window > 0 ? rules.window : 4 * rules.ranks) {
   for (size_t task = 0; task < after.size(); ++task) {
     tasks_[task].waits_for = int(after[task].size());
     for (const int other : after[task]) tasks_[size_t(other)].next.push_back(int(task));
@@ -16,6 +19,7 @@ HandOut::HandOut(const Rules& rules, const std::vector<std::vector<int>>& after)
 
 void HandOut::let_have(int rank, int at_work, int ahead) {
   ranks_[size_t(rank)].at_work = at_work, ranks_[size_t(rank)].ahead = ahead;
+  if (rules_.window == 0) window_ += 4 * (at_work - 1);
 }
 
 std::optional<int> HandOut::next_for(int rank, Clock::time_point now) {
@@ -40,17 +44,10 @@ std::optional<int> HandOut::fresh() {
   const int task = free_.top();
   const bool had_room = tasks_[size_t(task)].times > 0;
   const int before_it = rules_.in_any_order ? begun_ - taken_ : task - first_untaken_;
-  if (!had_room && before_it >= window()) return {};
+  if (!had_room && before_it >= window_) return {};
   free_.pop();
   if (!had_room) ++begun_;
   return task;
-}
-
-int HandOut::window() const {
-  if (rules_.window > 0) return rules_.window;
-  int at_once = 0;
-  for (const Rank& rank : ranks_) at_once += std::max(rank.at_work, 1);
-  return 4 * at_once;
 }
 
 /// The lowest task that one other rank has for long already.

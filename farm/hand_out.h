@@ -62,7 +62,6 @@ class HandOut {
   };
 
   std::optional<int> fresh();
-  int window() const;
   std::optional<int> slow_one(int rank, Clock::time_point now) const;
   void settle(int task);
 
@@ -71,6 +70,7 @@ class HandOut {
   std::vector<Rank> ranks_;
   std::priority_queue<int, std::vector<int>, std::greater<>> free_;  // tasks that nobody has and that wait for none
   std::set<int> at_work_;                                            // handed out and not done
+  int window_ = 0;
   int first_untaken_ = 0, begun_ = 0, taken_ = 0, settled_ = 0, twice_ = 0, measured_ = 0;
   std::chrono::duration<double> spent_{0};  // on all results that came first
 };

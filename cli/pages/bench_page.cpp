@@ -112,8 +112,8 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
 }  // namespace
 
 std::string bench_page(const BenchResult& bench) {
-  std::string html =
-      page_head("Benchmark") + heading_part("Benchmark") + "<p class=quiet>" + escaped(bench_heading(bench)) + "</p>\n";
+  std::string html = page_head("Benchmark") + heading_part("Benchmark") + "<p class=quiet>" +
+                     escaped(bench_heading(bench.machine, bench.simd, bench.threads)) + "</p>\n";
   html +=
       "<h2>Time a frame</h2>\n<p class=quiet>All that is in a chart was drawn in turn in one run, after the picture "
       "was checked.</p>\n<div class=charts>\n";
