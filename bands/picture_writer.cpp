@@ -5,11 +5,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "bands/progress_note.h"
 #include "core/sha256.h"
 
 namespace trueshade {
 namespace {
+
+constexpr const char* kTorn = "the note of an earlier run is torn";
 
 std::string read_text(const std::string& path) {
   std::ostringstream text;
@@ -40,7 +41,7 @@ PictureWriter::PictureWriter(const LargePicture& picture, const std::string& ide
       plane_hashes_(picture.aovs.size()),
       between_notes_(between_notes),
       noted_(std::chrono::steady_clock::now()) {
-  if (resume == Resume::yes && go_on()) return;
+  if (resume != Resume::no && go_on(resume)) return;
   if (!note_path_.empty()) unlink(note_path_.c_str());  // it is of parts that are overwritten now
   for (const std::string& file : picture.files)
     files_.push_back(std::make_unique<StreamedFile>(file, picture.streamed(file)));
@@ -48,18 +49,11 @@ PictureWriter::PictureWriter(const LargePicture& picture, const std::string& ide
 
 PictureWriter::~PictureWriter() = default;
 
-bool PictureWriter::go_on() {
-  if (note_path_.empty()) return false;
+bool PictureWriter::go_on(Resume resume) {
+  if (note_path_.empty() || access(note_path_.c_str(), F_OK) != 0) return false;
   const std::optional<ProgressNote> note = note_of(read_text(note_path_));
-  bool whole = note && note->identity == identity_ && note->files.size() == picture_.files.size() &&
-               note->planes.size() == plane_hashes_.size() && hash_.resume(note->hash) &&
-               set_counts(note->counts, counts_);
-  for (size_t i = 0; whole && i < plane_hashes_.size(); ++i) whole = plane_hashes_[i].resume(note->planes[i]);
-  for (const std::string& file : picture_.files) whole = whole && access(part_name(file).c_str(), F_OK) == 0;
-  if (!whole) {
-    hash_ = {}, plane_hashes_.assign(picture_.aovs.size(), {}), counts_ = {};
-    return false;
-  }
+  why_anew_ = note ? take_over(*note, resume) : kTorn;
+  if (!why_anew_.empty()) return false;
   for (size_t i = 0; i < picture_.files.size(); ++i)
     files_.push_back(
         std::make_unique<StreamedFile>(picture_.files[i], picture_.streamed(picture_.files[i]), &note->files[i]));
@@ -67,12 +61,29 @@ bool PictureWriter::go_on() {
   return true;
 }
 
+/// Takes hashes and counts of a note, or returns why the picture cannot go on from it, and changes nothing.
+std::string PictureWriter::take_over(const ProgressNote& note, Resume resume) {
+  if (note.identity != identity_ || note.files.size() != picture_.files.size())
+    return "the note of an earlier run is of another picture";
+  for (const std::string& file : picture_.files)
+    if (access(part_name(file).c_str(), F_OK) != 0) return part_name(file) + " is gone";
+  const bool has_plane_hashes = note.planes.size() == picture_.aovs.size();
+  if (!has_plane_hashes && resume == Resume::with_plane_hashes)
+    return "the hashes of planes are asked for, and the earlier run has kept none";
+  ImageHash hash;
+  std::vector<ImageHash> plane_hashes(note.planes.size());
+  FrameStats counts;
+  bool whole = (has_plane_hashes || note.planes.empty()) && hash.resume(note.hash) && set_counts(note.counts, counts);
+  for (size_t i = 0; whole && i < plane_hashes.size(); ++i) whole = plane_hashes[i].resume(note.planes[i]);
+  if (!whole) return kTorn;
+  hash_ = hash, plane_hashes_ = std::move(plane_hashes), counts_ = std::move(counts);
+  return {};
+}
+
 void PictureWriter::take(const DrawnBand& band) {
   hash_.add(band.color);
-  if (band.planes.size() == plane_hashes_.size())
-    for (size_t i = 0; i < plane_hashes_.size(); ++i) plane_hashes_[i].add(band.planes[i]);
-  else
-    plane_hashes_.clear();
+  if (band.planes.size() < plane_hashes_.size()) plane_hashes_.clear();
+  for (size_t i = 0; i < plane_hashes_.size(); ++i) plane_hashes_[i].add(band.planes[i]);
   add_counts(band.counts, counts_);
   for (size_t i = 0; i < files_.size(); ++i) files_[i]->append(band.of_files[i]);
   rows_done_ += band.color.height;

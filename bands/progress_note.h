@@ -13,7 +13,7 @@ struct ProgressNote {
   std::string identity;              ///< SHA-256 of all that may change a byte of the files
   int rows = 0;                      ///< done, from the top
   std::string hash;                  ///< ImageHash::progress() of the picture
-  std::vector<std::string> planes;   ///< of each plane
+  std::vector<std::string> planes;   ///< of each plane, or empty: a band came without its planes
   std::vector<StreamedState> files;  ///< of each file
   std::vector<uint64_t> counts;      ///< of FrameStats, see counts_of()
 };

@@ -45,6 +45,7 @@ class BandsIntoFiles : public BandConsumer {
       : picture_(picture), writer_(picture, identity_of(picture), resume) {}
 
   int rows_done() const override { return writer_.rows_done(); }
+  const std::string& why_anew() const { return writer_.why_anew(); }
   void take(const DrawnBand& band) override { writer_.take(band); }
   void finish(RenderedFrame& result) override {
     PictureWriter::Finished finished = writer_.finish();
@@ -125,11 +126,14 @@ void BandedPicture::begin() {
     consumer_ = std::make_unique<BandsIntoMemory>(picture_);
     return;
   }
-  consumer_ = std::make_unique<BandsIntoFiles>(picture_, options_.resume ? Resume::yes : Resume::no);
-  picture_.rows_done = consumer_->rows_done();
-  if (options_.resume && picture_.rows_done > 0)
+  const Resume resume = !options_.resume ? Resume::no : options_.json ? Resume::with_plane_hashes : Resume::yes;
+  auto files = std::make_unique<BandsIntoFiles>(picture_, resume);
+  picture_.rows_done = files->rows_done();
+  if (picture_.rows_done > 0)
     say_notes(
         {"The picture goes on after " + std::to_string(picture_.rows_done) + " rows that an earlier run has drawn"});
+  if (!files->why_anew().empty()) say_notes({"The picture begins anew, because " + files->why_anew()});
+  consumer_ = std::move(files);
 }
 
 std::vector<uint8_t> BandedPicture::bytes_of(const DrawnBand& band) const {

@@ -17,39 +17,47 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
-/// `230 ms (110 to 400)`
+/// `12.3 s`, `230 ms`
+std::string time_text(double seconds) {
+  return seconds >= 1 ? line("%.4g s", seconds) : line("%.3g ms", 1e3 * seconds);
+}
+
+/// `230 ms to draw (110 ms to 1.4 s)`
 std::string drawn_in(const std::vector<TaskCost>& tasks, double draw_s) {
   const auto [least, most] = std::minmax_element(
       tasks.begin(), tasks.end(), [](const TaskCost& a, const TaskCost& b) { return a.draw_s < b.draw_s; });
-  return line("%.3g ms to draw (%.3g to %.3g)", 1e3 * draw_s / double(tasks.size()), 1e3 * least->draw_s,
-              1e3 * most->draw_s);
+  return time_text(draw_s / double(tasks.size())) + " to draw (" + time_text(least->draw_s) + " to " +
+         time_text(most->draw_s) + ')';
 }
 
 std::string costs_text(const TaskCosts& costs, const char* unit) {
   double bytes = 0;
   for (const TaskCost& task : costs.tasks) bytes += double(task.bytes);
   const double count = double(costs.tasks.size());
-  return line("  %5zu %-7s %s, %.3g MB to send, %.3g ms to take\n", costs.tasks.size(), unit,
-              drawn_in(costs.tasks, costs.draw_s()).c_str(), 1e-6 * bytes / count, 1e3 * costs.take_s() / count);
+  return line("  %5zu %-7s ", costs.tasks.size(), unit) + drawn_in(costs.tasks, costs.draw_s()) + ", " +
+         line("%.3g MB to send, ", 1e-6 * bytes / count) + time_text(costs.take_s() / count) + " to take\n";
+}
+
+std::string threads_text(int threads) {
+  return ", each of " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
 std::string here_text(const RanksTime& scene) {
   std::string text =
-      line("  processes here, each of %d thread%s\n", scene.threads_of_rank, scene.threads_of_rank == 1 ? "" : "s") +
-      "   count      time   speedup     model\n";
+      "  processes here" + threads_text(scene.threads_of_rank) + '\n' + "   count       time  speedup      model\n";
   for (const RanksTime::Measured& measured : scene.here)
-    text += line("  %6d %7.4g s %8.2fx %7.4g s\n", measured.ranks, measured.seconds,
-                 scene.here.front().seconds / measured.seconds, measured.model_s);
+    text += line("  %6d %10s %7.2fx %10s\n", measured.ranks, time_text(measured.seconds).c_str(),
+                 scene.here.front().seconds / measured.seconds, time_text(measured.model_s).c_str());
   return text;
 }
 
-std::string table_text(const RanksTime& scene) {
-  std::string text = "   count      time   speedup  efficiency    serial   of time  receiving  tasks\n";
+std::string table_text(const RanksTime& scene, const char* unit) {
+  std::string text = line("   count       time   speedup  efficiency     serial  of time  receiving  %6s\n", unit);
   for (const RanksTime::Row& row : scene.table) {
     const double speedup = scene.table.front().seconds / row.seconds;
-    text += line("  %6d %7.4g s %8.1fx %9.0f %% %7.3g s %7.0f %% %8.2g s %6d\n", row.machines, row.seconds, speedup,
-                 100 * speedup / row.machines, row.serial_s, 100 * row.serial_s / row.seconds, row.estimate.receiving_s,
-                 row.tasks);
+    text += line("  %6d %10s %8.1fx %9.1f %% %10s %6.0f %% %10s  %6d\n", row.machines, time_text(row.seconds).c_str(),
+                 speedup, 100 * speedup / row.machines, time_text(row.serial_s).c_str(),
+                 100 * row.serial_s / row.seconds, time_text(row.estimate.receiving_s).c_str(), row.tasks);
   }
   return text;
 }
@@ -57,17 +65,14 @@ std::string table_text(const RanksTime& scene) {
 std::string scene_text(const RanksTime& scene, const RanksResult& result) {
   const char* const unit = scene.by_bands ? "bands" : "frames";
   std::string text = '\n' + scene.scene + "  " + scene.picture + '\n';
-  text += line("  once          %.3g ms to start, %.3g ms to end the file\n", 1e3 * scene.coarse.start_s,
-               1e3 * scene.coarse.finish_s);
+  text += "  once          " + time_text(scene.coarse.start_s) + " to start, " + time_text(scene.coarse.finish_s) +
+          " to end the file\n";
   text += costs_text(scene.coarse, unit);
-  if (scene.fine.tasks.size() != scene.coarse.tasks.size()) {
-    text += costs_text(scene.fine, unit);
-    text += line("  a band        %.3g ms by itself\n", 1e3 * scene.band_s);
-  }
-  text += here_text(scene);
-  text += line("  machines like this one, each of %d thread%s, by the model: %g Gbit/s, %g us\n", result.threads,
-               result.threads == 1 ? "" : "s", 8e-9 * result.network.bytes_per_s, 1e6 * result.network.latency_s);
-  return text + table_text(scene);
+  if (scene.fine.tasks.size() != scene.coarse.tasks.size())
+    text += costs_text(scene.fine, unit) + "  a band        " + time_text(scene.band_s) + " by itself\n";
+  text += here_text(scene) + "  machines like this one" + threads_text(result.threads) +
+          line(", by the model: %g Gbit/s, %g us\n", 8e-9 * result.network.bytes_per_s, 1e6 * result.network.latency_s);
+  return text + table_text(scene, unit);
 }
 
 std::string json_of(const TaskCosts& costs) {

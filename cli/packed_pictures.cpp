@@ -1,56 +1,23 @@
 // Items of PackedPictures: number in the order, kind, two texts, bytes. Those whose content holds times stand apart
 // from the others, which are the same wherever a picture is drawn.
-#include <cstring>
-
 #include "cli/picture_sink.h"
+#include "core/error.h"
 
 namespace trueshade {
 namespace {
 
+Error bad_picture() {
+  return {ErrorKind::bad_input, "picture", "another process has sent what is no picture",
+          "run the same version everywhere"};
+}
+
 enum class Kind : uint8_t { file, timed_file, written, video, text, timed_text, document, note };
 
-void put_number(std::vector<uint8_t>& to, uint64_t number) {
-  const auto* const bytes = reinterpret_cast<const uint8_t*>(&number);
-  to.insert(to.end(), bytes, bytes + sizeof number);
-}
-
-void put_text(std::vector<uint8_t>& to, const std::string& text) {
-  put_number(to, text.size());
-  to.insert(to.end(), text.begin(), text.end());
-}
-
-/// Of bytes that PackedPictures has made.
-class Taking {
- public:
-  explicit Taking(std::span<const uint8_t> rest) : rest_(rest) {}
-  bool any() const { return !rest_.empty(); }
-  uint64_t number() {
-    uint64_t value = 0;
-    std::memcpy(&value, rest_.data(), sizeof value);
-    rest_ = rest_.subspan(sizeof value);
-    return value;
-  }
-  uint64_t next_number() const { return Taking(rest_).number(); }
-  std::span<const uint8_t> bytes() {
-    const size_t size = number();
-    const std::span<const uint8_t> taken = rest_.first(size);
-    rest_ = rest_.subspan(size);
-    return taken;
-  }
-  std::string text() {
-    const std::span<const uint8_t> taken = bytes();
-    return {taken.begin(), taken.end()};
-  }
-
- private:
-  std::span<const uint8_t> rest_;
-};
-
-void replay_item(Taking& from, PictureSink& sink) {
-  from.number();
-  const auto kind = Kind(from.number());
+void replay_item(ByteReader& from, PictureSink& sink) {
+  from.number<uint64_t>();
+  const auto kind = from.enumerator(Kind::note);
   const std::string first = from.text(), second = from.text();
-  const std::span<const uint8_t> bytes = from.bytes();
+  const std::span<const uint8_t> bytes = from.run();
   switch (kind) {
     case Kind::file:
     case Kind::timed_file:
@@ -74,15 +41,12 @@ void replay_item(Taking& from, PictureSink& sink) {
 
 void PackedPictures::put(bool is_timed, uint8_t kind, const std::string& first, const std::string& second,
                          const EncodedFile& file) {
-  std::vector<uint8_t>& part = is_timed ? timed_ : same_;
-  put_number(part, items_++);
-  put_number(part, kind);
-  put_text(part, first);
-  put_text(part, second);
-  uint64_t size = 0;
-  for (const std::vector<uint8_t>& piece : file) size += piece.size();
-  put_number(part, size);
-  for (const std::vector<uint8_t>& piece : file) part.insert(part.end(), piece.begin(), piece.end());
+  ByteWriter& part = is_timed ? timed_ : same_;
+  part.number(items_++);
+  part.number(kind);
+  part.text(first);
+  part.text(second);
+  part.run(file);
 }
 
 void PackedPictures::file(const std::string& path, EncodedFile file, const std::string& about, bool is_timed) {
@@ -98,23 +62,27 @@ void PackedPictures::document(const std::string& json) { put(true, uint8_t(Kind:
 void PackedPictures::note(const std::string& line) { put(false, uint8_t(Kind::note), line, {}, {}); }
 
 std::vector<uint8_t> PackedPictures::bytes() const {
-  std::vector<uint8_t> all;
-  all.reserve(sizeof(uint64_t) + same_.size() + timed_.size());
-  put_number(all, same_.size());
-  all.insert(all.end(), same_.begin(), same_.end());
-  all.insert(all.end(), timed_.begin(), timed_.end());
-  return all;
+  ByteWriter all;
+  all.reserve(2 * sizeof(uint64_t) + same_.bytes().size() + timed_.bytes().size());
+  all.run(same_.bytes());
+  all.run(timed_.bytes());
+  return all.take();
 }
 
-std::span<const uint8_t> part_without_times(std::span<const uint8_t> packed) { return Taking(packed).bytes(); }
+std::span<const uint8_t> part_without_times(std::span<const uint8_t> packed) try {
+  return ByteReader(packed).run();
+} catch (const BadBytes&) {
+  throw bad_picture();
+}
 
-void replay(std::span<const uint8_t> packed, PictureSink& sink) {
-  Taking same(part_without_times(packed));
-  Taking timed(packed.subspan(sizeof(uint64_t) + part_without_times(packed).size()));
-  while (same.any() || timed.any()) {
-    const bool is_same = !timed.any() || (same.any() && same.next_number() < timed.next_number());
-    replay_item(is_same ? same : timed, sink);
-  }
+void replay(std::span<const uint8_t> packed, PictureSink& sink) try {
+  ByteReader all(packed);
+  ByteReader same(all.run()), timed(all.run());
+  all.end();
+  const auto number = [](ByteReader of) { return of.at_end() ? UINT64_MAX : of.number<uint64_t>(); };
+  while (!same.at_end() || !timed.at_end()) replay_item(number(same) < number(timed) ? same : timed, sink);
+} catch (const BadBytes&) {
+  throw bad_picture();
 }
 
 }  // namespace trueshade

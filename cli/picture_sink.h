@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options.h"
+#include "core/byte_stream.h"
 
 namespace trueshade {
 
@@ -63,13 +64,13 @@ class PackedPictures : public PictureSink {
  private:
   void put(bool is_timed, uint8_t kind, const std::string& first, const std::string& second, const EncodedFile& file);
 
-  std::vector<uint8_t> same_, timed_;  // items with their numbers in the order; the second hold times
-  uint32_t items_ = 0;
+  ByteWriter same_, timed_;  // items with their numbers in the order; the second hold times
+  uint64_t items_ = 0;
 };
 
 /// The part of PackedPictures::bytes() that is the same wherever it is made; `packed` is such bytes.
 std::span<const uint8_t> part_without_times(std::span<const uint8_t> packed);
-/// Calls the sink as PackedPictures was called.
+/// Calls the sink as PackedPictures was called. Error(bad_input) for bytes that PackedPictures has not made.
 void replay(std::span<const uint8_t> packed, PictureSink& sink);
 
 }  // namespace trueshade

@@ -17,6 +17,11 @@ std::string content(const std::string& path) {
   return text.str();
 }
 
+/// What another process sends of a band where nobody asks for hashes of planes.
+DrawnBand without_planes(const LargePicture& picture, int index) {
+  return band_of_bytes(picture, index, bytes_of_band(draw_band(picture, index), SentPlanes::no));
+}
+
 /// Draws bands until `stop` of them are done, or all; whether it has finished.
 bool go_on(LargePicture picture, const std::string& identity, Resume resume, int stop, int& rows_before) {
   PictureWriter writer(picture, identity, resume, std::chrono::seconds(0));
@@ -91,6 +96,52 @@ TEST_CASE("A picture begins anew where what is there is not of it, torn, or part
   REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
   std::filesystem::resize_file(picture.files[0] + ".part", 50);
   CHECK_THROWS_AS(go_on(picture, "same", Resume::yes, -1, before), Error);
+}
+
+TEST_CASE("A picture whose bands came without planes goes on, unless the hashes of planes are asked for", "[bands]") {
+  const Scene scene = builtin_scene("sphere");
+  const PreparedScene prepared(scene);
+  const ScratchFolder folder;
+  LargePicture picture = city_picture(prepared, 100, 300);
+  picture.aovs = {"depth", "albedo"};
+  picture.files = {folder.path("a.exr")};
+  using Finished = PictureWriter::Finished;
+  /// Each letter a band: `p` with planes, `-` without. Finishes the picture after its last band.
+  const auto draw = [&](Resume resume, const std::string& bands, int rows_before) -> std::optional<Finished> {
+    INFO(bands << " after " << rows_before);
+    picture.rows_done = 0;
+    PictureWriter writer(picture, "same", resume, std::chrono::seconds(0));
+    picture.rows_done = writer.rows_done();
+    CHECK(writer.rows_done() == rows_before);
+    CHECK(writer.why_anew().empty() == (resume == Resume::no || rows_before > 0));
+    for (size_t i = 0; i < bands.size(); ++i)
+      writer.take(bands[i] == 'p' ? draw_band(picture, int(i)) : without_planes(picture, int(i)));
+    return int(bands.size()) == picture.bands() ? std::optional(writer.finish()) : std::nullopt;
+  };
+  const auto whole = draw(Resume::no, "ppppp", 0);
+  REQUIRE(whole);
+  REQUIRE(whole->plane_hashes.size() == 2);
+  const std::string exr = content(picture.files[0]);
+  /// The same picture, begun by one run and ended by another.
+  const auto both = [&](const char* begun, Resume resume, const char* ended, int rows_before, bool has_plane_hashes) {
+    INFO(begun << ' ' << ended);
+    CHECK_FALSE(draw(Resume::no, begun, 0));
+    const auto resumed = draw(resume, ended, rows_before);
+    REQUIRE(resumed);
+    CHECK(resumed->hash == whole->hash);
+    CHECK(resumed->plane_hashes == (has_plane_hashes ? whole->plane_hashes : std::vector<std::string>()));
+    CHECK(counts_of(resumed->counts).size() == counts_of(whole->counts).size());
+    CHECK(resumed->counts.pixels == whole->counts.pixels);
+    CHECK((content(picture.files[0]) == exr));
+    CHECK(folder.entries() == std::vector<std::string>{"a.exr"});
+  };
+  both("pp", Resume::with_plane_hashes, "ppp", 128, true);
+  both("pp", Resume::yes, "ppp", 128, true);
+  both("pp", Resume::yes, "-pp", 128, false);
+  both("--", Resume::yes, "ppp", 128, false);
+  both("p-", Resume::yes, "---", 128, false);
+  both("--", Resume::with_plane_hashes, "ppppp", 0, true);
+  both("p-", Resume::with_plane_hashes, "ppppp", 0, true);
 }
 
 TEST_CASE("Two processes do not write one part", "[bands]") {

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$1"
 status=0
-sources=(core scenes raster shading oracle judge gl cli bench tests cmake scripts)
+sources=(core scenes raster shading scene_cache bands farm explain compare view oracle judge gl cli bench tests cmake scripts)
 check() {  # PAGE NAME CANDIDATES...: one of the candidates is a file or a folder
   local page=$1 name=$2 candidate
   shift 2

@@ -5,7 +5,8 @@
 #   faults       a rank is killed, is stopped; rank 0 is killed; the disk is full; another scene; no module
 #   bands        one picture by 2, 3, 4 and 8 ranks: strategies, SIMD targets, a region, a view, a large picture
 #   all_bands    every built-in scene and strategy by 1, 2, 3, 4 and 8 ranks
-#   resumed N    kills a rank that draws a large picture at N random times; --resume ends with the same files
+#   resumed N    kills a rank that draws a large picture at N random times; --resume ends with the same files,
+#                and goes on without the hashes of planes that ranks do not send
 #   batch        a list of jobs by 2, 3 and 4 ranks; a rank that is killed; a list that differs
 #   killed N     kills a rank at N random times: what is there is whole, and --continue-without-lost ends with all
 set -euo pipefail
@@ -262,7 +263,29 @@ batch() {
   [[ $status == 3 && $(<err) == *"rank 1 on "*": its list of jobs is '"* ]] || die "another list: $status, $(<err)"
 }
 
+# A picture with planes that ranks have begun goes on, but not where --json asks for the hashes of planes.
+planes_resumed() {
+  local large=(builtin:lecture --size 17000x5000 --aov depth --hash)
+  rm -rf whole hit
+  mkdir whole hit
+  "$trueshade" render "${large[@]}" -o whole/a.exr -q >whole/out
+  mpi -n 3 "$trueshade" render "${large[@]}" -o "$work/hit/a.exr" -q >/dev/null 2>&1 &
+  until [[ -e hit/a.exr.progress ]] || ! kill -0 $! 2>/dev/null; do sleep 0.02; done
+  kill -KILL $(ranks_of hit | sed 's/ .*//') || die "no rank is left to be killed: $(ls -A hit)"
+  wait $! || true
+  cp -r hit begun
+  "$trueshade" render "${large[@]}" -o "$work/hit/a.exr" --resume >hit.out 2>hit.err || die "$(<hit.err)"
+  [[ $(<hit.err) == *"The picture goes on after "* ]] || die "it did not go on: $(<hit.err)"
+  cmp whole/out hit.out && cmp whole/a.exr hit/a.exr || die "planes: another picture"
+  cp begun/* hit
+  "$trueshade" render "${large[@]}" -o "$work/hit/a.exr" --resume --json >hit.out 2>hit.err || die "$(<hit.err)"
+  [[ $(<hit.err) == *"The picture begins anew, because the hashes of planes "* ]] || die "no reason: $(<hit.err)"
+  cmp whole/a.exr hit/a.exr || die "planes: another picture with --json"
+}
+
 resumed() {
+  planes_resumed
+  rm -rf whole begun
   local i rank after status went_on=0 large=(builtin:lecture --size 17000x20000 --hash -q)
   mkdir whole
   "$trueshade" render "${large[@]}" -o whole/a.png -o whole/a.exr >whole/out

@@ -482,8 +482,12 @@ TEST_CASE("messages come back as they were, and bytes that are none are told") {
   const std::optional<RankSays> back = unpacked(bytes);
   REQUIRE(back);
   CHECK(packed(*back) == bytes);
-  for (size_t size = 0; size + says.bytes.size() < bytes.size(); ++size)
-    CHECK_FALSE(unpacked(std::span(bytes).first(size)));
+  for (size_t size = 0; size < bytes.size(); ++size) CHECK_FALSE(unpacked(std::span(bytes).first(size)));
+  Bytes longer = bytes, of_another_version = bytes;
+  longer.push_back(0);
+  of_another_version[3] ^= 3;  // the digit of `TRs2`
+  CHECK_FALSE(unpacked(longer));
+  CHECK_FALSE(unpacked(of_another_version));
   std::mt19937 random(5);
   for (int i = 0; i < 20000; ++i) {
     Bytes hostile = bytes;
