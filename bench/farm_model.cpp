@@ -75,7 +75,7 @@ class Simulation {
     const int task = machine.waiting.front();
     machine.waiting.pop_front();
     machine.draws = true;
-    machine.late_s = 0;
+    machine.late_s = number == 0 && takes_ ? (taken_at_ - now_) / cores_ : 0.0;
     machine.drawing_s += tasks_[size_t(task)].draw_s;
     events_.push({now_ + tasks_[size_t(task)].draw_s, &Simulation::has_drawn, number, task});
   }
@@ -113,8 +113,9 @@ class Simulation {
     takes_ = true;
     const double seconds = tasks_[size_t(next)].take_s;
     result_.taking_s += seconds;
-    machines_[0].late_s += machines_[0].draws ? seconds / cores_ : 0.0;
-    events_.push({now_ + seconds, &Simulation::has_taken, 0, next});
+    taken_at_ = now_ + seconds;
+    if (machines_[0].draws) machines_[0].late_s += seconds / cores_;
+    events_.push({taken_at_, &Simulation::has_taken, 0, next});
   }
 
   void has_taken(const Event& event) {
@@ -131,7 +132,7 @@ class Simulation {
   std::vector<Machine> machines_;
   std::vector<bool> arrived_;
   std::priority_queue<Event> events_;
-  double now_ = 0, link_free_ = 0;
+  double now_ = 0, link_free_ = 0, taken_at_ = 0;
   bool takes_ = false;
   FarmEstimate result_;
 };

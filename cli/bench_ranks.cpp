@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -36,7 +37,8 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "trueshade-bench-XXXXXX").string();
+    const char* const folder = std::getenv("TMPDIR");
+    std::string path = std::string(folder != nullptr ? folder : "/tmp") + "/trueshade-bench-XXXXXX";
     if (mkdtemp(path.data()) == nullptr)
       throw Error(ErrorKind::io, path, "cannot make a folder there", "set TMPDIR to one that can be written");
     path_ = path;

@@ -235,8 +235,45 @@ TEST_CASE("The whole command stays below the memory that five and eight million 
   CHECK(most_mb("builtin:red") < 600.0);
 }
 
+TEST_CASE("bench --ranks measures the bands of the picture that render draws, and models machines by them") {
+  const ScratchFolder folder;
+  const std::vector<std::string> picture{"builtin:circle,lights=3", "--size", "200x333"};
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--frames", "2-4"}}) {
+    std::vector<std::string> bench{"bench", "--ranks", "--json", "b.json"}, render{"render", "--hash"};
+    for (const auto* words : {&picture, &more}) {
+      bench.insert(bench.end(), words->begin(), words->end());
+      render.insert(render.end(), words->begin(), words->end());
+    }
+    const Outcome outcome = run_command(bench, folder.path(""), "export TMPDIR=$PWD");
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const auto scene = nlohmann::json::parse(contents(folder.path("b.json")))["scenes"][0];
+    CHECK(scene["hash"] == run_command(render, folder.path("")).out);
+    CHECK(scene["unit"] == (more.empty() ? "band" : "frame"));
+    CHECK(scene["costs"]["tasks"].size() == (more.empty() ? 4 : 3));  // bands of at least 16 rows
+    CHECK(scene["costs_of_finest"]["tasks"].size() == (more.empty() ? 21 : 3));
+    REQUIRE(scene["here"].size() == 1);
+    CHECK(scene["here"][0]["ranks"] == 1);
+    CHECK(scene["here"][0]["seconds"] > 0.0);
+    REQUIRE(scene["machines"].size() == 6);
+    CHECK(scene["machines"][0]["machines"] == 1);
+    CHECK(scene["machines"][5]["machines"] == 1024);
+    for (const auto& row : scene["machines"]) CHECK(row["seconds"] >= row["serial_s"]);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path("")), {}) == 1);  // b.json
+  }
+}
+
 TEST_CASE("bench refuses what it cannot do, in one line") {
   const ScratchFolder folder;
+  check_refused(run_command({"bench", "--ranks", "--against", "gl"}), 2, "--against");
+  check_refused(run_command({"bench", "--ranks", "--moving"}), 2, "--moving");
+  check_refused(run_command({"bench", "--ranks", "-o", "x.html"}), 2, "-o");
+  check_refused(run_command({"bench", "--frames", "0-3"}), 2, "--frames");
+  check_refused(run_command({"bench", "--ranks", "--frames", "3-0"}), 2, "--frames");
+  check_refused(run_command({"bench", "--ranks", "--frames", "0-1", "--size", "17000x16", "builtin:red"}), 2,
+                "--frames");
+  check_refused(run_command({"bench", "--ranks", "builtin:red"}, folder.path(""), "export TMPDIR=$PWD/none"), 5,
+                "TMPDIR");
   check_refused(run_command({"bench", "--against", "vulkan"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,"}), 2, "no peer");
   check_refused(run_command({"bench", "--against", "gl,gl"}), 2, "twice");

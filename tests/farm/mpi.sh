@@ -8,6 +8,7 @@
 #   resumed N    kills a rank that draws a large picture at N random times; --resume ends with the same files,
 #                and goes on without the hashes of planes that ranks do not send
 #   batch        a list of jobs by 2, 3 and 4 ranks; a rank that is killed; a list that differs
+#   bench        `bench --ranks` by 4 ranks
 #   killed N     kills a rank at N random times: what is there is whole, and --continue-without-lost ends with all
 set -euo pipefail
 trueshade=$(realpath "$1")
@@ -261,6 +262,14 @@ batch() {
   status=0
   mpi -n 1 --wdir "$work/a" "$trueshade" batch jobs.json : -n 1 --wdir "$work/b" "$trueshade" batch jobs.json >out 2>err || status=$?
   [[ $status == 3 && $(<err) == *"rank 1 on "*": its list of jobs is '"* ]] || die "another list: $status, $(<err)"
+}
+
+bench() {
+  mpi -n 4 "$trueshade" bench --ranks builtin:lecture --size 320x240 --json bands.json >out 2>err || die "bands: $(<err)"
+  mpi -n 3 "$trueshade" bench --ranks builtin:lecture --size 64x48 --frames 1-9 --json - >frames.json 2>err || die "frames: $(<err)"
+  [[ $(grep -o '"ranks": [0-9]*' bands.json | tr '\n' ' ') == '"ranks": 1 "ranks": 2 "ranks": 4 ' ]] || die "$(<bands.json)"
+  [[ $(grep -o '"ranks": [0-9]*' frames.json | tr '\n' ' ') == '"ranks": 1 "ranks": 2 "ranks": 3 ' ]] || die "$(<frames.json)"
+  [[ $(wc -l <frames.json) == 1 && $(ls) == $'bands.json\nerr\nframes.json\nout' ]] || die "$(ls)"
 }
 
 # A picture with planes that ranks have begun goes on, but not where --json asks for the hashes of planes.
