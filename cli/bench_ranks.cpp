@@ -113,7 +113,7 @@ class RanksBench {
     share_tasks(ranks_, rules, [&] {
       if (ranks_.own() == 0 && result_.coarse.tasks.empty()) measure_costs();
       SharedTasks tasks = render.first_tasks();
-      tasks.identity.clear();  // one command, of one machine
+      std::erase_if(tasks.identity, [](const auto& entry) { return entry.first == "output"; });  // another folder
       begin = Clock::now();
       return tasks;
     });
@@ -182,16 +182,16 @@ class RanksBench {
     return grouped(result_.fine.tasks, int(most / wanted), result_.band_s);
   }
 
-  /// Ranks share this machine's cores: each draws slower by the threads that it lacks, and by the cores that threads
-  /// lack. Where a core is left, taking results costs drawing nothing.
+  /// Ranks share the cores of their machine: each draws slower by the threads that it lacks, and by the cores that
+  /// threads lack. Where a core is left, taking results costs drawing nothing.
   double model_here(int count) {
-    const int cores = thread_count(0);
+    const int cores = thread_count(0), together = std::min(count, ranks_.on_this_machine());
     int& own_threads = result_.threads_of_rank;
     own_threads = render_.execution.threads > 0 ? threads() : std::max(1, cores / ranks_.on_this_machine());
     std::vector<TaskCost> tasks = tasks_for(count);
-    const double slower = double(threads()) / own_threads * std::max(1.0, double(count) * own_threads / cores);
+    const double slower = double(threads()) / own_threads * std::max(1.0, double(together) * own_threads / cores);
     for (TaskCost& task : tasks) task.draw_s *= slower;
-    const int shared_with_drawing = count * own_threads < cores ? kAnyNumber : own_threads;
+    const int shared_with_drawing = together * own_threads < cores ? kAnyNumber : own_threads;
     return farm_estimate(tasks, count, shared_with_drawing, {}).seconds + result_.coarse.finish_s;
   }
 

@@ -26,14 +26,14 @@ std::vector<TaskCost> grouped(const std::vector<TaskCost>& bands, int group, dou
 /// One scene, measured.
 struct RanksTime {
   std::string scene;
-  std::string picture;  ///< `65536x65536 pixels, deferred-loop` and the frames
+  std::string picture;  ///< `65536x65536, deferred-loop, PNG and hash`
   bool by_bands = true;
   TaskCosts coarse, fine;  ///< bands for one rank, and for the most machines of the table; of frames both are the same
   double band_s = 0;       ///< what a band costs by itself, from the difference between the two
 
   struct Measured {
     int ranks;
-    double seconds;  ///< from the first task to the end of the file, on this machine
+    double seconds;  ///< from the first task to the end of the file
     double model_s;
   };
   std::vector<Measured> here;

@@ -44,7 +44,7 @@ std::string threads_text(int threads) {
 
 std::string here_text(const RanksTime& scene) {
   std::string text =
-      "  processes here" + threads_text(scene.threads_of_rank) + '\n' + "   count       time  speedup      model\n";
+      "  processes" + threads_text(scene.threads_of_rank) + '\n' + "   count       time  speedup      model\n";
   for (const RanksTime::Measured& measured : scene.here)
     text += line("  %6d %10s %7.2fx %10s\n", measured.ranks, time_text(measured.seconds).c_str(),
                  scene.here.front().seconds / measured.seconds, time_text(measured.model_s).c_str());
