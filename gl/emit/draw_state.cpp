@@ -143,8 +143,8 @@ bool has_gl_clip_space(const GeometryState& g) {
   return g.clip_origin == ClipOrigin::lower_left && g.clip_depth == ClipDepth::negative_one_to_one;
 }
 
-std::string clip_control_call(const GeometryState& g) {
-  return std::string("glClipControl(") +
+std::string clip_control_call(ShaderApi api, const GeometryState& g) {
+  return std::string(api == ShaderApi::es31 ? "glClipControlEXT(" : "glClipControl(") +
          (g.clip_origin == ClipOrigin::upper_left ? "GL_UPPER_LEFT, " : "GL_LOWER_LEFT, ") +
          (g.clip_depth == ClipDepth::zero_to_one ? "GL_ZERO_TO_ONE)" : "GL_NEGATIVE_ONE_TO_ONE)");
 }
@@ -162,7 +162,7 @@ std::vector<std::string> window_calls(ShaderApi api, const DrawState& state) {
   if (!es || g.depth_clamp) lines.push_back(std::string(g.depth_clamp ? "glEnable" : "glDisable") + "(GL_DEPTH_CLAMP)");
   add(lines, {culling_call(g.cull_face),
               std::string("glFrontFace(") + (g.front_face == FrontFace::ccw ? "GL_CCW)" : "GL_CW)")});
-  if (api == ShaderApi::gl || !has_gl_clip_space(g)) lines.push_back(clip_control_call(g));
+  if (api == ShaderApi::gl || !has_gl_clip_space(g)) lines.push_back(clip_control_call(api, g));
   lines.push_back(std::string(g.polygon_offset_factor != 0 || g.polygon_offset_units != 0 ? "glEnable" : "glDisable") +
                   "(GL_POLYGON_OFFSET_FILL); glPolygonOffset(" + glsl_float(g.polygon_offset_factor) + ", " +
                   glsl_float(g.polygon_offset_units) + ")");
@@ -200,9 +200,8 @@ std::string vulkan_blend(const BlendState& b) {
   constexpr const char* kBits[] = {"R", "G", "B", "A"};
   for (size_t c = 0; c < 4; ++c)
     if (b.mask[c]) mask += kBits[c];
-  std::string text = std::string("{\"blendEnable\": ") + json_bool(b.enabled);
-  if (b.enabled) text += ", " + vulkan_term("color", b.rgb) + ", " + vulkan_term("alpha", b.alpha);
-  return text + ", \"colorWriteMask\": " + quoted(mask) + "}";
+  return std::string("{\"blendEnable\": ") + json_bool(b.enabled) + ", " + vulkan_term("color", b.rgb) + ", " +
+         vulkan_term("alpha", b.alpha) + ", \"colorWriteMask\": " + quoted(mask) + "}";
 }
 
 }  // namespace
@@ -246,7 +245,7 @@ std::vector<std::string> gl_calls(ShaderApi api, const DrawState& state, int att
   return lines;
 }
 
-std::string vulkan_state(const DrawState& state, int attachments) {
+std::string vulkan_state(const DrawState& state, const std::vector<Format>& attachments) {
   const GeometryState& g = state.geometry;
   const Viewport& v = state.viewport;
   const bool down = g.clip_origin == ClipOrigin::upper_left,
@@ -256,10 +255,11 @@ std::string vulkan_state(const DrawState& state, int attachments) {
   // Rows are OpenGL's, so that y grows as there, and Vulkan's areas have the other sign.
   const bool clockwise = (g.front_face == FrontFace::ccw) != down;
   std::string blends;
-  for (int i = 0; i < attachments; ++i) {
-    BlendState none;
-    none.mask = {};
-    blends += (i == 0 ? "" : ", ") + vulkan_blend(state.only < 0 || state.only == i ? state.blend : none);
+  for (int i = 0; i < int(attachments.size()); ++i) {
+    BlendState blend = state.blend;
+    if (info(attachments[size_t(i)]).number_class == NumberClass::integer) blend.enabled = false;
+    if (state.only >= 0 && state.only != i) blend.enabled = false, blend.mask = {};
+    blends += (i == 0 ? "" : ", ") + vulkan_blend(blend);
   }
   std::string constants;
   for (size_t c = 0; c < 4; ++c) constants += (c == 0 ? "" : ", ") + glsl_float(state.blend.constant[c]);

@@ -30,8 +30,9 @@ DrawState image_state(int width, int height);
 std::vector<std::string> gl_calls(ShaderApi api, const DrawState& state, int attachments);
 
 /// Fields of Vulkan's create infos, as a JSON object: those of a graphics pipeline, and its viewport. Pictures have
-/// their rows as in OpenGL, the first one the window's lowest.
-std::string vulkan_state(const DrawState& state, int attachments);
+/// their rows as in OpenGL, the first one the window's lowest. `attachments`: their formats; integers are never
+/// blended.
+std::string vulkan_state(const DrawState& state, const std::vector<Format>& attachments);
 
 /// What the formats are called: GL_RGBA8, VK_FORMAT_R8G8B8A8_UNORM.
 std::string format_name(ShaderApi api, Format format);

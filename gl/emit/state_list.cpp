@@ -140,9 +140,9 @@ std::string light_layout(const LightModel& model) {
 }
 
 /// The state of a draw.
-std::string state_text(ShaderApi api, const DrawState& state, int attachments) {
+std::string state_text(ShaderApi api, const DrawState& state, const std::vector<Format>& attachments) {
   if (api == ShaderApi::vulkan) return vulkan_state(state, attachments);
-  return strings_of(gl_calls(api, state, attachments));
+  return strings_of(gl_calls(api, state, int(attachments.size())));
 }
 
 /// What a draw is of: a word, and what it means.
@@ -194,7 +194,8 @@ std::string drawn_lights_text(const PlannedDraw& draw, const LightVolumes& volum
                    extents_text(volumes);
 }
 
-std::string draw_entry(const PlannedDraw& draw, const Pipeline& pipeline, ShaderApi api, int attachments) {
+std::string draw_entry(const PlannedDraw& draw, const Pipeline& pipeline, ShaderApi api,
+                       const std::vector<Format>& attachments) {
   return "{\"shaders\": [" + quoted(draw.vert) + ", " + quoted(draw.frag) +
          "], \"geometry\": " + quoted(geometry_text(draw)) +
          ", \"of\": " + quoted(drawn_lights_text(draw, pipeline.light_volumes)) +
@@ -254,7 +255,9 @@ ShaderTexts shader_files(const Pipeline& pipeline, const GlslOptions& options, S
 std::string state_list(const Pipeline& asked, const GlslOptions& options, ShaderApi api) {
   const Pipeline pipeline = drawn_pipeline(asked);
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
-  const int attached = int(planes.size());
+  std::vector<Format> attached;
+  for (const GlslPlane& plane : planes) attached.push_back(plane.format);
+  const Format target = renderable(pipeline.target, options.rgb16f);
   const ShaderTexts shaders = gl_shader_files(asked, options);
   std::string pipeline_text = pipeline_json(pipeline);
   while (!pipeline_text.empty() && pipeline_text.back() == '\n') pipeline_text.pop_back();
@@ -262,10 +265,11 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options, Shader
     return "  " + quoted(key) + ": " + value + ",\n";
   };
   std::vector<std::string> lights, glass;
-  for (const PlannedDraw& draw : light_draws(pipeline, options)) lights.push_back(draw_entry(draw, pipeline, api, 1));
+  for (const PlannedDraw& draw : light_draws(pipeline, options))
+    lights.push_back(draw_entry(draw, pipeline, api, {target}));
   if (const std::optional<PlannedDraw> draw = glass_draw(pipeline, options); draw && options.transparent)
-    glass.push_back(draw_entry(*draw, pipeline, api, draw->lights == DrawnLights::none ? attached : 1));
-  const Format target = renderable(pipeline.target, options.rgb16f);
+    glass.push_back(
+        draw_entry(*draw, pipeline, api, draw->lights == DrawnLights::none ? attached : std::vector<Format>{target}));
   return entry("api", quoted(std::string(kShaderApiNames[size_t(api)]))) + entry("pipeline", pipeline_text) +
          entry("geometry_shaders", "[\"geometry.vert\", \"geometry.frag\"]") +
          entry("geometry_attachments", attachments(planes, api)) +

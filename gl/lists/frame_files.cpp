@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/json_number.h"
+#include "gl/lists/api_numbers.h"
 
 namespace trueshade::oracle {
 
@@ -22,17 +23,16 @@ std::string joined_members(char open, const std::vector<std::string>& members, c
 std::string member(const std::string& name, const std::string& value) { return quoted(name) + ": " + value; }
 std::string member(const std::string& name, size_t value) { return member(name, std::to_string(value)); }
 
-std::string number_text(double value) {
-  if (!std::isfinite(value)) return std::string(json_of_nonfinite(value));
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+/// With a point or an exponent, as whole numbers have none.
+std::string float_text(double value) {
+  return std::isfinite(value) ? glsl_float(float(value)) : std::string(json_of_nonfinite(value));
 }
 
 template <typename Numbers>
-std::string numbers_text(const Numbers& numbers) {
+std::string numbers_text(const Numbers& numbers, bool whole) {
   std::string text;
-  for (const auto value : numbers) text += (text.empty() ? "" : ", ") + number_text(double(value));
+  for (const auto value : numbers)
+    text += (text.empty() ? "" : ", ") + (whole ? std::to_string(int64_t(value)) : float_text(double(value)));
   return '[' + text + ']';
 }
 
@@ -56,12 +56,79 @@ std::vector<std::string> capture_channels(const ListedPicture& picture) {
   return names;
 }
 
+std::string size_text(size_t width, size_t height) {
+  return '[' + std::to_string(width) + ", " + std::to_string(height) + ']';
+}
+
+/// Two words for glTexImage2D or glReadPixels: a format and a type.
+std::vector<std::string> pixel_words(Format format) {
+  switch (format) {
+    case Format::rgba8:
+    case Format::srgb8_a8:
+      return {"GL_RGBA", "GL_UNSIGNED_BYTE"};
+    case Format::rgb10_a2:
+      return {"GL_RGBA", "GL_UNSIGNED_INT_2_10_10_10_REV"};
+    case Format::rgba16:
+      return {"GL_RGBA", "GL_UNSIGNED_SHORT"};
+    case Format::rgb16f:
+      return {"GL_RGB", "GL_HALF_FLOAT"};
+    case Format::r11g11b10f:
+    case Format::rgb32f:
+      return {"GL_RGB", "GL_FLOAT"};
+    case Format::rgba16f:
+      return {"GL_RGBA", "GL_HALF_FLOAT"};
+    case Format::rgba32f:
+      return {"GL_RGBA", "GL_FLOAT"};
+    case Format::rg32f:
+      return {"GL_RG", "GL_FLOAT"};
+    case Format::r32ui:
+      return {"GL_RED_INTEGER", "GL_UNSIGNED_INT"};
+    case Format::d32f:
+      return {"GL_DEPTH_COMPONENT", "GL_FLOAT"};
+    case Format::d24:
+      return {"GL_DEPTH_COMPONENT", "GL_UNSIGNED_INT"};
+    case Format::d16:
+      return {"GL_DEPTH_COMPONENT", "GL_UNSIGNED_SHORT"};
+  }
+  return {};
+}
+
+bool is_depth(Format format) { return format == Format::d32f || format == Format::d24 || format == Format::d16; }
+
+/// How a picture's texels are read back, as every driver allows it: OpenGL converts them, Vulkan copies them.
+std::vector<std::string> read_members(Format format, ShaderApi api) {
+  const auto read = [](const std::vector<std::string>& words, std::string_view layout) {
+    return std::vector<std::string>{member("read", names_text(words)), member("layout", quoted(std::string(layout)))};
+  };
+  if (api == ShaderApi::vulkan) return {member("layout", quoted(std::string(info(format).name)))};
+  if (is_depth(format) && api == ShaderApi::es31)  // NV_read_depth converts nothing
+    return read(pixel_words(format), format == Format::d24 ? "d32" : info(format).name);
+  if (is_depth(format)) return read({"GL_DEPTH_COMPONENT", "GL_FLOAT"}, "d32f");
+  if (info(format).number_class == NumberClass::integer)
+    return read({"GL_RGBA_INTEGER", "GL_UNSIGNED_INT"}, "rgba32ui");
+  if (info(format).number_class == NumberClass::floating) return read({"GL_RGBA", "GL_FLOAT"}, "rgba32f");
+  return read(pixel_words(format), info(format).name);
+}
+
+/// What glTexImage2D and glTexParameter are told of a picture, or of texels in rows, beside its format.
+std::string only_fetched(Format format) {
+  return member("pixels", names_text(pixel_words(format))) +
+         R"(, "sampler": {"GL_TEXTURE_MIN_FILTER": "GL_NEAREST", "GL_TEXTURE_MAG_FILTER": "GL_NEAREST"})";
+}
+
 std::string picture_text(const ListedPicture& p, ShaderApi api) {
-  std::vector<std::string> members{
-      member("name", quoted(p.name)), member("format", quoted(format_name(api, p.format))),
-      member("size", '[' + std::to_string(p.width) + ", " + std::to_string(p.height) + ']'),
-      member("clear", numbers_text(p.clear))};
-  if (!p.plane.empty()) members.push_back(member("capture", names_text(capture_channels(p))));
+  const bool whole = info(p.format).number_class == NumberClass::integer;
+  std::vector<std::string> members{member("name", quoted(p.name)), member("format", quoted(format_name(api, p.format))),
+                                   member("size", size_text(size_t(p.width), size_t(p.height))),
+                                   member("clear", numbers_text(p.clear, whole))};
+  members.push_back(
+      api == ShaderApi::vulkan
+          ? member("aspect", quoted(is_depth(p.format) ? "VK_IMAGE_ASPECT_DEPTH_BIT" : "VK_IMAGE_ASPECT_COLOR_BIT"))
+          : only_fetched(p.format));
+  if (!p.plane.empty()) {
+    members.push_back(member("capture", names_text(capture_channels(p))));
+    for (const std::string& text : read_members(p.format, api)) members.push_back(text);
+  }
   return joined_members('{', members, " ");
 }
 
@@ -87,12 +154,14 @@ std::string buffer_text(const ListedBuffer& b, ShaderApi api, FileBytes& file) {
                   "{" + file.added(b.bytes, b.bytes.size()) + ", " + member("texels", b.bytes.size() / kTexel) + "}");
   const size_t rows = (b.bytes.size() + kRow - 1) / kRow;
   return member(b.name, "{" + file.added(b.bytes, rows * kRow) + ", " +
-                            member("size", "[" + std::to_string(kTexelRow) + ", " + std::to_string(rows) + "]") + "}");
+                            member("size", size_text(size_t(kTexelRow), rows)) + ", " +
+                            member("format", quoted(format_name(api, Format::rgba32f))) + ", " +
+                            only_fetched(Format::rgba32f) + "}");
 }
 
-std::string texture_format_name(ShaderApi api, TextureFormat format) {
+Format format_of(TextureFormat format) {
   constexpr Format kFormats[] = {Format::rgba8, Format::srgb8_a8, Format::rgba16f, Format::rgba32f};
-  return format_name(api, kFormats[size_t(format)]);
+  return kFormats[size_t(format)];
 }
 
 std::string capitals(std::string_view text) {
@@ -101,50 +170,99 @@ std::string capitals(std::string_view text) {
   return out;
 }
 
-std::string sampler_text(const Sampler& s, ShaderApi api) {
-  const bool vulkan = api == ShaderApi::vulkan;
-  const auto wrap = [&](Wrap w) {
-    if (!vulkan && api == ShaderApi::es31 && w >= Wrap::clamp_to_border)
-      throw Error(ErrorKind::usage, "--api es31", "OpenGL ES 3.1 has no " + std::string(kWrapNames[size_t(w)]),
-                  "choose another API");
-    const std::string name = capitals(kWrapNames[size_t(w)]);
-    return quoted(vulkan ? "VK_SAMPLER_ADDRESS_MODE_" +
-                               (w == Wrap::mirror_clamp_to_edge ? std::string("MIRROR_CLAMP_TO_EDGE") : name)
-                         : "GL_" + name);
-  };
-  std::vector<std::string> members{
-      member("wrap", "[" + wrap(s.wrap[0]) + ", " + wrap(s.wrap[1]) + "]"),
-      member("mag_filter", quoted((vulkan ? "VK_FILTER_" : "GL_") + capitals(kFilterNames[size_t(s.mag_filter)])))};
-  const std::string min = capitals(kFilterNames[size_t(s.min_filter)]),
-                    mip = capitals(kMipFilterNames[size_t(s.mip_filter)]);
-  const bool levels = s.mip_filter != MipFilter::none;
-  if (vulkan) members.push_back(member("mipmap_mode", levels ? quoted("VK_SAMPLER_MIPMAP_MODE_" + mip) : "null"));
-  members.push_back(member(
-      "min_filter", quoted(vulkan ? "VK_FILTER_" + min : "GL_" + min + (levels ? "_MIPMAP_" + mip : std::string()))));
-  for (const auto& [name, value] :
-       {std::pair("lod_bias", s.lod_bias), std::pair("lod_min", s.lod_min), std::pair("lod_max", s.lod_max)})
-    members.push_back(member(name, number_text(double(value))));
+std::string border_numbers(const Sampler& s) {
   const float border[] = {s.border.x, s.border.y, s.border.z, s.border.w};
-  members.push_back(member("border", numbers_text(border)));
+  return numbers_text(border, false);
+}
+
+/// Parameters of glTexParameter, complete for a texture of so many levels.
+std::string gl_sampler(const Sampler& s, size_t levels, ShaderApi api) {
+  const auto refuse = [&](const std::string& what) {
+    if (api == ShaderApi::es31)
+      throw Error(ErrorKind::usage, "--api es31", "OpenGL ES 3.1 has no " + what, "choose another API");
+  };
+  const auto word = [](std::string_view name) { return quoted("GL_" + capitals(name)); };
+  for (const Wrap wrap : s.wrap)
+    if (wrap >= Wrap::clamp_to_border) refuse(std::string(kWrapNames[size_t(wrap)]));
+  const std::string mip =
+      s.mip_filter == MipFilter::none ? std::string() : "_MIPMAP_" + capitals(kMipFilterNames[size_t(s.mip_filter)]);
+  std::vector<std::string> members{
+      member("GL_TEXTURE_WRAP_S", word(kWrapNames[size_t(s.wrap[0])])),
+      member("GL_TEXTURE_WRAP_T", word(kWrapNames[size_t(s.wrap[1])])),
+      member("GL_TEXTURE_MAG_FILTER", word(kFilterNames[size_t(s.mag_filter)])),
+      member("GL_TEXTURE_MIN_FILTER", quoted("GL_" + capitals(kFilterNames[size_t(s.min_filter)]) + mip)),
+      member("GL_TEXTURE_MIN_LOD", float_text(double(s.lod_min))),
+      member("GL_TEXTURE_MAX_LOD", float_text(double(s.lod_max))),
+      member("GL_TEXTURE_MAX_LEVEL", levels - 1)};
+  if (s.lod_bias != 0.0f) {
+    refuse("lod_bias of a sampler");
+    members.push_back(member("GL_TEXTURE_LOD_BIAS", float_text(double(s.lod_bias))));
+  }
+  if (s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border)
+    members.push_back(member("GL_TEXTURE_BORDER_COLOR", border_numbers(s)));
   return joined_members('{', members, " ");
 }
 
-std::string texture_text(const ListedTexture& t, ShaderApi api, FileBytes& file) {
-  std::vector<std::string> levels;
-  for (const TextureLevel& level : t.texture.levels)
-    levels.push_back("{" +
-                     member("size", "[" + std::to_string(level.width) + ", " + std::to_string(level.height) + "]") +
-                     ", " + file.added(level.bytes, level.bytes.size()) + "}");
-  return member(t.name, "{" + member("format", quoted(texture_format_name(api, t.texture.format))) + ", " +
-                            member("sampler", sampler_text(t.sampler, api)) + ", " +
-                            member("levels", joined_members('[', levels, "")) + "}");
+/// One of the three borders that every device of Vulkan has.
+std::string vulkan_border(const Sampler& s) {
+  const std::string name = "VK_BORDER_COLOR_FLOAT_";
+  const bool read = s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border;
+  if (!read || s.border == glm::vec4(0.0f)) return quoted(name + "TRANSPARENT_BLACK");
+  if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return quoted(name + "OPAQUE_BLACK");
+  if (s.border == glm::vec4(1.0f)) return quoted(name + "OPAQUE_WHITE");
+  throw Error(ErrorKind::usage, "--api vulkan", "a texture's border is no colour that Vulkan has",
+              "choose another API");
 }
 
-std::string attribute_text(const ListedAttribute& a) {
+/// Members of VkSamplerCreateInfo. Without a filter between levels the first level alone is read, magnified or not, as
+/// Vulkan's manual has it of GL_LINEAR and GL_NEAREST.
+std::string vulkan_sampler(const Sampler& s, size_t levels) {
+  const auto filter = [](Filter f) { return quoted("VK_FILTER_" + capitals(kFilterNames[size_t(f)])); };
+  const auto address = [](Wrap w) {
+    return quoted("VK_SAMPLER_ADDRESS_MODE_" +
+                  (w == Wrap::mirror_clamp_to_edge ? "MIRROR_CLAMP_TO_EDGE" : capitals(kWrapNames[size_t(w)])));
+  };
+  const bool none = s.mip_filter == MipFilter::none;
+  const float most = none ? 0.25f : std::min(std::max(s.lod_max, 0.0f), float(levels)),
+              least = none ? 0.0f : std::min(std::max(s.lod_min, 0.0f), most);
+  const std::string mip = s.mip_filter == MipFilter::linear ? "LINEAR" : "NEAREST";
+  return joined_members(
+      '{',
+      {member("magFilter", filter(s.mag_filter)), member("minFilter", filter(s.min_filter)),
+       member("mipmapMode", quoted("VK_SAMPLER_MIPMAP_MODE_" + mip)), member("addressModeU", address(s.wrap[0])),
+       member("addressModeV", address(s.wrap[1])), member("mipLodBias", float_text(double(s.lod_bias))),
+       member("minLod", float_text(double(least))), member("maxLod", float_text(double(most))),
+       member("borderColor", vulkan_border(s))},
+      " ");
+}
+
+std::string texture_text(const ListedTexture& t, ShaderApi api, FileBytes& file) {
+  const size_t count = t.texture.levels.size();
+  const Format format = format_of(t.texture.format);
+  std::vector<std::string> members{member("format", quoted(format_name(api, format)))}, levels;
+  for (const TextureLevel& level : t.texture.levels)
+    levels.push_back("{" + member("size", size_text(size_t(level.width), size_t(level.height))) + ", " +
+                     file.added(level.bytes, level.bytes.size()) + "}");
+  if (api != ShaderApi::vulkan) members.push_back(member("pixels", names_text(pixel_words(format))));
+  members.push_back(member(
+      "sampler", api == ShaderApi::vulkan ? vulkan_sampler(t.sampler, count) : gl_sampler(t.sampler, count, api)));
+  members.push_back(member("levels", joined_members('[', levels, "")));
+  return member(t.name, joined_members('{', members, " "));
+}
+
+/// Vulkan has one word for components and type.
+std::string vulkan_attribute_format(const ListedAttribute& a) {
+  constexpr const char* kFloats[] = {"R32", "R32G32", "R32G32B32", "R32G32B32A32"};
+  return std::string("VK_FORMAT_") + kFloats[a.components - 1] + (a.integers ? "_UINT" : "_SFLOAT");
+}
+
+std::string attribute_text(const ListedAttribute& a, ShaderApi api) {
   return joined_members(
       '{',
       {member("location", size_t(a.location)), member("name", quoted(a.name)),
-       member("components", size_t(a.components)), member("type", quoted(a.integers ? "uint" : "float")),
+       api == ShaderApi::vulkan ? member("format", quoted(vulkan_attribute_format(a)))
+                                : member("components", size_t(a.components)) + ", " +
+                                      member("type", quoted(a.integers ? "GL_UNSIGNED_INT" : "GL_FLOAT")),
        member("of", quoted(a.per_instance ? "instances" : "vertices")), member("offset", size_t(a.offset)),
        member("stride", size_t(a.stride))},
       " ");
@@ -153,7 +271,8 @@ std::string attribute_text(const ListedAttribute& a) {
 /// Uniforms and samplers of one stage of a pass: of all those that its shader reads.
 class StageTexts {
  public:
-  StageTexts(const ListedPass& pass, ShaderStage stage, const std::string& text, ShaderApi api) {
+  /// `unit`: OpenGL's texture unit of the stage's first sampler.
+  StageTexts(const ListedPass& pass, ShaderStage stage, const std::string& text, ShaderApi api, size_t unit) {
     const ShaderInterface shader = interface_of(text);
     const std::vector<BlockMember> block = block_of(shader);
     bytes_ = block_bytes(block);
@@ -161,7 +280,8 @@ class StageTexts {
     for (const BlockMember& m : block) {
       std::vector<std::string> members{member("type", quoted(type_text(m.variable)))};
       for (const NamedValue& value : pass.uniforms)
-        if (value.name == m.variable.name) members.push_back(member("value", numbers_text(value.numbers)));
+        if (value.name == m.variable.name)
+          members.push_back(member("value", numbers_text(value.numbers, is_integer(m.variable.type))));
       if (api == ShaderApi::vulkan)
         members.push_back(member("stage", quoted(name)) + ", " + member("offset", size_t(m.offset)));
       uniforms_.push_back(member(m.variable.name, joined_members('{', members, " ")));
@@ -171,9 +291,9 @@ class StageTexts {
       std::vector<std::string> members{member("type", quoted(v.type))};
       for (const ListedBinding& b : pass.bindings)
         if (b.sampler == v.name) members.push_back(member("reads", quoted(b.source)));
-      if (api == ShaderApi::vulkan)
-        members.push_back(member("stage", quoted(name)) + ", " +
-                          member("binding", size_t(sampler_binding(stage, shader, v.name))));
+      members.push_back(api == ShaderApi::vulkan ? member("stage", quoted(name)) + ", " +
+                                                       member("binding", size_t(sampler_binding(stage, shader, v.name)))
+                                                 : member("unit", unit + samplers_.size()));
       samplers_.push_back(member(v.name, joined_members('{', members, " ")));
     }
   }
@@ -186,7 +306,7 @@ class StageTexts {
   }
 };
 
-std::string draw_text(const ListedDraw& d, const std::vector<std::string>& read) {
+std::string draw_text(const ListedDraw& d, const std::vector<ShaderVariable>& read) {
   std::vector<std::string> members;
   const auto place = [](const std::string& buffer, size_t offset) {
     return '[' + quoted(buffer) + ", " + std::to_string(offset) + ']';
@@ -196,15 +316,29 @@ std::string draw_text(const ListedDraw& d, const std::vector<std::string>& read)
   if (!d.indices.empty()) members.push_back(member("indices", quoted(d.indices)));
   members.push_back(member("count", size_t(d.count)));
   members.push_back(member("instance_count", size_t(d.instance_count)));
-  const auto is_read = [&](const std::string& name) { return std::find(read.begin(), read.end(), name) != read.end(); };
   std::vector<std::string> uniforms, samplers;
-  for (const NamedValue& value : d.uniforms)
-    if (is_read(value.name)) uniforms.push_back(member(value.name, numbers_text(value.numbers)));
-  for (const ListedBinding& b : d.bindings)
-    if (is_read(b.sampler)) samplers.push_back(member(b.sampler, quoted(b.source)));
+  for (const ShaderVariable& v : read) {
+    for (const NamedValue& value : d.uniforms)
+      if (value.name == v.name) uniforms.push_back(member(v.name, numbers_text(value.numbers, is_integer(v.type))));
+    for (const ListedBinding& b : d.bindings)
+      if (b.sampler == v.name) samplers.push_back(member(v.name, quoted(b.source)));
+  }
   members.push_back(member("uniforms", joined_members('{', uniforms, "")));
   members.push_back(member("samplers", joined_members('{', samplers, "")));
   return joined_members('{', members, " ");
+}
+
+std::string topology_name(ShaderApi api, bool strip) {
+  if (api == ShaderApi::vulkan)
+    return quoted(strip ? "VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP" : "VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST");
+  return quoted(strip ? "GL_TRIANGLE_STRIP" : "GL_TRIANGLES");
+}
+
+std::string constants_text(ShaderApi api) {
+  std::string text;
+  for (const ApiNumber& constant : api_numbers(api))
+    text += (text.empty() ? "" : ", ") + member(std::string(constant.name), constant.number);
+  return '{' + text + '}';
 }
 
 std::string pass_text(const FrameList& list, const ListedPass& pass, ShaderApi api) {
@@ -212,14 +346,20 @@ std::string pass_text(const FrameList& list, const ListedPass& pass, ShaderApi a
     return std::find_if(list.shaders.begin(), list.shaders.end(), [&](const auto& s) { return s.first == name; })
         ->second;
   };
-  const StageTexts vertex(pass, ShaderStage::vertex, text_of(pass.vert), api),
-      fragment(pass, ShaderStage::fragment, text_of(pass.frag), api);
-  std::vector<std::string> uniforms = vertex.uniforms_, samplers = vertex.samplers_, attributes, draws, read;
+  const StageTexts vertex(pass, ShaderStage::vertex, text_of(pass.vert), api, 0),
+      fragment(pass, ShaderStage::fragment, text_of(pass.frag), api, vertex.samplers_.size());
+  std::vector<std::string> uniforms = vertex.uniforms_, samplers = vertex.samplers_, attributes, draws;
+  std::vector<ShaderVariable> read;
+  std::vector<Format> formats;
   uniforms.insert(uniforms.end(), fragment.uniforms_.begin(), fragment.uniforms_.end());
   samplers.insert(samplers.end(), fragment.samplers_.begin(), fragment.samplers_.end());
   for (const std::string& file : {pass.vert, pass.frag})
-    for (const ShaderVariable& v : interface_of(text_of(file)).uniforms) read.push_back(v.name);
-  for (const ListedAttribute& a : pass.attributes) attributes.push_back(attribute_text(a));
+    for (const ShaderVariable& v : interface_of(text_of(file)).uniforms)
+      if (std::find(read.begin(), read.end(), v) == read.end()) read.push_back(v);
+  for (const std::string& name : pass.colors)
+    for (const ListedPicture& p : list.pictures)
+      if (p.name == name) formats.push_back(p.format);
+  for (const ListedAttribute& a : pass.attributes) attributes.push_back(attribute_text(a, api));
   for (const ListedDraw& d : pass.draws) draws.push_back(draw_text(d, read));
   std::vector<std::string> members{
       member("name", quoted(pass.name)),
@@ -227,9 +367,9 @@ std::string pass_text(const FrameList& list, const ListedPass& pass, ShaderApi a
       member("colors", names_text(pass.colors)),
       member("depth", pass.depth.empty() ? "null" : quoted(pass.depth)),
       member("clears", names_text(pass.cleared)),
-      member("state", api == ShaderApi::vulkan ? vulkan_state(pass.state, int(pass.colors.size()))
+      member("state", api == ShaderApi::vulkan ? vulkan_state(pass.state, formats)
                                                : strings_of(gl_calls(api, pass.state, int(pass.colors.size())))),
-      member("topology", quoted(pass.strip ? "triangle_strip" : "triangles")),
+      member("topology", topology_name(api, pass.strip)),
       member("attributes", joined_members('[', attributes, "\n      ")),
       member("uniforms", joined_members('{', uniforms, "\n      ")),
       member("samplers", joined_members('{', samplers, "\n      "))};
@@ -252,7 +392,8 @@ FrameFiles frame_files(const FrameList& list, ShaderApi api, const std::string& 
   return {"  " + member("file", quoted(file)) + ",\n  " + member("pictures", joined_members('[', pictures, "\n    ")) +
               ",\n  " + member("buffers", joined_members('{', buffers, "\n    ")) + ",\n  " +
               member("textures", joined_members('{', textures, "\n    ")) + ",\n  " +
-              member("passes", joined_members('[', passes, "\n    ")),
+              member("passes", joined_members('[', passes, "\n    ")) + ",\n  " +
+              member("constants", constants_text(api)),
           std::move(bytes.bytes_)};
 }
 

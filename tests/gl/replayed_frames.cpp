@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
@@ -82,6 +83,13 @@ TEST_CASE("The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged
   }
 }
 
+TEST_CASE("Frames of 16-bit depths in another clip space, replayed, are judged without a violation") {
+  const ScratchFolder folder;
+  folder.write("p.json", R"({"geometry": {"clip_depth": "zero_to_one", "depth_format": "d16"}})");
+  for (const char* api : {"gl", "es31", "vulkan"})
+    check_explained({kCity, "many-lights", "deferred-loop", "--pipeline '" + folder.path("p.json") + "'"}, api);
+}
+
 TEST_CASE("Every preset and strategy, replayed from its files, is judged without a violation", "[long]") {
   for (const char* api : {"gl33", "es31", "vulkan"})
     for (const char* scene : {kCity, "builtin:lecture,lights=4"})
@@ -121,6 +129,45 @@ TEST_CASE("A scene's files name what the shaders read and nothing else") {
     const std::string name = line.get<std::string>().substr(0, line.get<std::string>().find(':'));
     CHECK(texts.find(name) != std::string::npos);
     CHECK(name != "view_axis");
+  }
+}
+
+TEST_CASE("Samplers that an API has not are refused, and no other") {
+  const auto code = [](const std::string& sampler, const char* api) {
+    const ScratchFolder folder;
+    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
+    folder.write("s.json", R"({"version": 1, "textures": [{"name": "t", "pattern": {"type": "checker", "size": [8, 8],
+        "cells": [2, 2], "colors": [[1, 1, 1], [0, 0, 0]]}}],
+        "materials": [{"name": "m", "color": [1, 1, 1], "color_map": {"texture": "t", )" +
+                               sampler + R"(}}], "objects": [{"geometry": "m.obj", "material": "m"}],
+        "lights": [{"type": "point", "position": [0, 0, 1], "color": [1, 1, 1], "range": 2}]})");
+    return exit_code_of(std::string("'") + TRUESHADE_COMMAND + "' glsl '" + folder.path("s.json") +
+                        "' --size 8x8 --preset many-lights --api " + api + " -o '" + folder.path("out") +
+                        "' 2> /dev/null > /dev/null");
+  };
+  const std::string red = R"("wrap": ["clamp_to_border", "repeat"], "border": [1, 0, 0, 1])";
+  CHECK(code(red, "gl33") == 0);
+  CHECK(code(red, "es31") == 2);
+  CHECK(code(red, "vulkan") == 2);
+  CHECK(code(R"("wrap": "repeat", "border": [1, 0, 0, 1])", "vulkan") == 0);  // which no lookup reads
+  CHECK(code(R"("lod_bias": 0.5)", "gl33") == 0);
+  CHECK(code(R"("lod_bias": 0.5)", "es31") == 2);
+}
+
+TEST_CASE("A frame's files give the number of each name of an API in them") {
+  for (const char* api : {"gl", "gl33", "es31", "vulkan"}) {
+    const ScratchFolder folder;
+    REQUIRE(written({"builtin:lecture,lights=4", "light-volumes", "deferred-volumes", ""}, api, folder));
+    const json frame = json::parse(std::ifstream(folder.path("state.json")));
+    std::string text;
+    for (const char* member : {"pictures", "buffers", "textures", "passes"}) text += frame[member].dump();
+    const std::regex name("(GL|VK)_[A-Z0-9a-z_]+");
+    int names = 0;
+    for (std::sregex_iterator i(text.begin(), text.end(), name), end; i != end; ++i, ++names) {
+      INFO(api << ": " << i->str());
+      CHECK(frame["constants"].contains(i->str()));
+    }
+    CHECK(names > 20);
   }
 }
 
