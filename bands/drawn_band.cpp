@@ -51,12 +51,11 @@ void copy_texels(const Image& from, int x, Image& to) {
   for (int y = 0; y < from.height; ++y) std::memcpy(to.texel(0, y) + at, from.texel(0, y), from.row_bytes());
 }
 
-Image read_texels(Format format, const PictureRegion& band, ByteReader& in) {
-  Image image(band.width, band.height, format);
+std::span<const uint8_t> read_texels(Format format, const PictureRegion& band, ByteReader& in) {
   const std::span<const uint8_t> texels = in.run();
-  if (texels.size() != image.texels.size()) throw BadBytes();
-  std::copy(texels.begin(), texels.end(), image.texels.begin());
-  return image;
+  if (texels.size() != size_t(band.width) * size_t(band.height) * size_t(info(format).bytes_per_texel()))
+    throw BadBytes();
+  return texels;
 }
 
 void write_rows(const EncodedRows& rows, ByteWriter& out) {
@@ -106,7 +105,9 @@ DrawnBand draw_band(const LargePicture& picture, int index) {
   const PictureRegion band = picture.band(index);
   const int most = kMostDrawnSide / (picture.pipeline.post.active() ? picture.pipeline.post.samples : 1);
   DrawnBand out;
+  out.rows = band.height;
   const std::vector<Format> formats = picture.planes();
+  Image color;
   std::vector<NamedImage> planes;
   for (int x = 0; x < band.width; x += most) {
     Execution execution = picture.execution;
@@ -114,32 +115,47 @@ DrawnBand draw_band(const LargePicture& picture, int index) {
     Frame part = render_frame(picture.scene, picture.pipeline, execution, picture.aovs, {}, &picture.constants);
     add_counts(part.stats, out.counts);
     if (execution.region.width == band.width) {
-      out.color = std::move(part.color), planes = std::move(part.aovs);
+      color = std::move(part.color), planes = std::move(part.aovs);
       break;
     }
     if (x == 0) {
-      out.color = Image(band.width, band.height, picture.color());
+      color = Image(band.width, band.height, picture.color());
       for (size_t i = 0; i < formats.size(); ++i)
         planes.push_back({picture.aovs[i], Image(band.width, band.height, formats[i])});
     }
-    copy_texels(part.color, x, out.color);
+    copy_texels(part.color, x, color);
     for (size_t i = 0; i < planes.size(); ++i) copy_texels(part.aovs[i].image, x, planes[i].image);
   }
   for (const std::string& file : picture.files) {
     const StreamedPicture streamed = picture.streamed(file);
     const std::span<const NamedImage> of_file(planes.data(), streamed.planes.size());
-    out.of_files.push_back(encoded_rows(file, streamed, picture.first_row(index), out.color, of_file));
+    out.of_files.push_back(encoded_rows(file, streamed, picture.first_row(index), color, of_file));
   }
-  for (NamedImage& plane : planes) out.planes.push_back(std::move(plane.image));
+  out.color = out.bytes.emplace_back(std::move(color.texels));
+  for (NamedImage& plane : planes) out.planes.push_back(out.bytes.emplace_back(std::move(plane.image.texels)));
   return out;
 }
 
+namespace {
+
+/// More than bytes_of_band() needs by what is beside pixels and files.
+size_t bytes_of_pixels_and_files(const DrawnBand& band) {
+  constexpr size_t kRest = 1 << 16;
+  size_t bytes = kRest;
+  for (const std::vector<uint8_t>& pixels : band.bytes) bytes += pixels.size();
+  for (const EncodedRows& rows : band.of_files) bytes += size_t(rows.bytes);
+  return bytes;
+}
+
+}  // namespace
+
 std::vector<uint8_t> bytes_of_band(const DrawnBand& band, SentPlanes planes) {
   ByteWriter out;
+  out.reserve(bytes_of_pixels_and_files(band));
   out.number(uint8_t(planes));
-  out.run(band.color.texels);
+  out.run(band.color);
   if (planes == SentPlanes::yes)
-    for (const Image& plane : band.planes) out.run(plane.texels);
+    for (const std::span<const uint8_t> plane : band.planes) out.run(plane);
   for (const EncodedRows& rows : band.of_files) write_rows(rows, out);
   for (const uint64_t word : counts_of(band.counts)) out.number(word);
   return out.take();
@@ -150,10 +166,11 @@ std::span<const uint8_t> part_of_band_without_times(std::span<const uint8_t> byt
   return bytes.first(bytes.size() - std::min(bytes.size(), counts));
 }
 
-DrawnBand band_of_bytes(const LargePicture& picture, int index, std::span<const uint8_t> bytes) try {
-  ByteReader in(bytes);
+DrawnBand band_of_bytes(const LargePicture& picture, int index, std::vector<uint8_t> bytes) try {
   const PictureRegion region = picture.band(index);
   DrawnBand band;
+  ByteReader in(band.bytes.emplace_back(std::move(bytes)));
+  band.rows = region.height;
   const SentPlanes planes = in.enumerator(SentPlanes::yes);
   band.color = read_texels(picture.color(), region, in);
   if (planes == SentPlanes::yes)

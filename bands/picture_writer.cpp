@@ -81,12 +81,13 @@ std::string PictureWriter::take_over(const ProgressNote& note, Resume resume) {
 }
 
 void PictureWriter::take(const DrawnBand& band) {
-  hash_.add(band.color);
+  hash_.add(picture_.color(), band.color);
   if (band.planes.size() < plane_hashes_.size()) plane_hashes_.clear();
-  for (size_t i = 0; i < plane_hashes_.size(); ++i) plane_hashes_[i].add(band.planes[i]);
+  const std::vector<Format> formats = picture_.planes();
+  for (size_t i = 0; i < plane_hashes_.size(); ++i) plane_hashes_[i].add(formats[i], band.planes[i]);
   add_counts(band.counts, counts_);
   for (size_t i = 0; i < files_.size(); ++i) files_[i]->append(band.of_files[i]);
-  rows_done_ += band.color.height;
+  rows_done_ += band.rows;
   if (rows_done_ < picture_.drawn().height && std::chrono::steady_clock::now() - noted_ >= between_notes_) keep_note();
 }
 

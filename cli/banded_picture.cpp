@@ -80,14 +80,14 @@ class BandsIntoMemory : public BandConsumer {
   void take(const DrawnBand& band) override {
     copy(band.color, frame_.color);
     for (size_t i = 0; i < band.planes.size(); ++i) copy(band.planes[i], frame_.aovs[i].image);
-    rows_ += band.color.height;
+    rows_ += band.rows;
     add_counts(band.counts, frame_.stats);
   }
   void finish(RenderedFrame& result) override { result.frame = std::move(frame_); }
 
  private:
-  void copy(const Image& rows, Image& to) const {
-    std::memcpy(to.texel(0, rows_), rows.texels.data(), rows.texels.size());
+  void copy(std::span<const uint8_t> texels, Image& to) const {
+    std::memcpy(to.texel(0, rows_), texels.data(), texels.size());
   }
 
   const LargePicture& picture_;

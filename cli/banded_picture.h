@@ -2,6 +2,7 @@
 // One picture of `render` that is drawn in bands, by this process or by several.
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bands/drawn_band.h"
@@ -40,7 +41,9 @@ class BandedPicture {
   int bands() const { return picture_.bands(); }
   DrawnBand draw(int band) const { return draw_band(picture_, band); }
   std::vector<uint8_t> bytes_of(const DrawnBand& band) const;
-  DrawnBand band_of(int index, std::span<const uint8_t> bytes) const { return band_of_bytes(picture_, index, bytes); }
+  DrawnBand band_of(int index, std::vector<uint8_t> bytes) const {
+    return band_of_bytes(picture_, index, std::move(bytes));
+  }
 
   void take(const DrawnBand& band);
   /// The picture, once all bands are taken. Of a streamed one the images have no texels, hashes are known, and the

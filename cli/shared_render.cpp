@@ -117,8 +117,8 @@ SharedTasks SharedRender::band_tasks(int index) {
     return picture.bytes_of(picture.draw(band));
   };
   tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
-  tasks.take = [this, &picture](int band, const std::vector<uint8_t>& bytes) {
-    picture.take(picture.band_of(band, bytes));
+  tasks.take = [this, &picture](int band, std::vector<uint8_t> bytes) {
+    picture.take(picture.band_of(band, std::move(bytes)));
     activity_->show(band + 1, picture.bands(), "bands");
   };
   return tasks;

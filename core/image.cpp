@@ -125,14 +125,14 @@ double value_of_code(const FormatInfo& layout, int channel, uint32_t code) {
   }
 }
 
-void ImageHash::add(const Image& image) {
+void ImageHash::add(Format format, std::span<const uint8_t> texels) {
   const FpScope fp;
-  const FormatInfo layout = info(image.format);
-  if (layout.number_class != NumberClass::floating) return hash_.update(image.texels.data(), image.texels.size());
+  const FormatInfo layout = info(format);
+  if (layout.number_class != NumberClass::floating) return hash_.update(texels.data(), texels.size());
   std::vector<uint8_t> chunk;
-  for (size_t done = 0; done < image.texels.size(); done += chunk.size()) {
-    const size_t size = std::min(kChunkBytes, image.texels.size() - done);
-    chunk.assign(image.texels.data() + done, image.texels.data() + done + size);
+  for (size_t done = 0; done < texels.size(); done += chunk.size()) {
+    const size_t size = std::min(kChunkBytes, texels.size() - done);
+    chunk.assign(texels.data() + done, texels.data() + done + size);
     if (layout.packed())
       make_packed_nans_one(chunk.data(), size);
     else if (layout.bytes_per_channel == 2)

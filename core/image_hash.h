@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,9 @@ namespace trueshade {
 /// image_hash() of a picture whose rows come some at a time, from the top.
 class ImageHash {
  public:
-  void add(const Image& rows);  ///< of one format
-  std::string hex();            ///< call once, last
+  void add(const Image& rows) { add(rows.format, rows.texels); }  ///< of one format
+  void add(Format format, std::span<const uint8_t> texels);
+  std::string hex();  ///< call once, last
   std::string progress() const { return hash_.progress(); }
   bool resume(std::string_view progress) { return hash_.resume(progress); }
 
