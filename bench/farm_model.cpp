@@ -21,7 +21,7 @@ class Simulation {
       : tasks_(tasks),
         cores_(cores),
         network_(network),
-        hand_out_({int(tasks.size()), machines, 0, std::chrono::hours(1 << 16), false}, {}),
+        hand_out_({int(tasks.size()), machines, 0, HandOut::kNever, false}, {}),
         machines_(size_t(machines)),
         arrived_(tasks.size(), false) {
     for (int machine = 0; machine < machines; ++machine) hand_out_.let_have(machine, 1, SharingRules().ahead);
@@ -55,9 +55,15 @@ class Simulation {
   };
 
   void hand_out() {
-    for (int machine = 0; machine < int(machines_.size()); ++machine)
+    for (int machine = 1; machine < int(machines_.size()); ++machine)
       while (const auto task = hand_out_.next_for(machine, Clock::time_point{}))
-        events_.push({now_ + (machine == 0 ? 0 : message_s(0)), &Simulation::gets, machine, *task});
+        events_.push({now_ + message_s(0), &Simulation::gets, machine, *task});
+    Machine& own = machines_[0];  // rank 0 takes a task of its own when it has none
+    if (own.draws || !own.waiting.empty()) return;
+    if (const auto task = hand_out_.next_for(0, Clock::time_point{})) {
+      own.waiting.push_back(*task);
+      begin(0);
+    }
   }
 
   double message_s(uint64_t bytes) const {

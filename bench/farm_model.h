@@ -8,7 +8,7 @@ namespace trueshade {
 struct TaskCost {
   double draw_s;   ///< by the machine that draws it: also encoding
   uint64_t bytes;  ///< of its result, as it is sent
-  double take_s;   ///< by rank 0: hashing, writing
+  double take_s;   ///< by rank 0: unpacking, hashing, writing
 };
 
 struct Network {

@@ -10,7 +10,6 @@
 #include "cli/pictures.h"
 #include "core/file_ending.h"
 #include "core/threads/clock.h"
-#include "shading/picture_region.h"
 
 namespace trueshade {
 namespace {
@@ -109,9 +108,6 @@ BandedPicture::BandedPicture(const RenderOptions& options, const PreparedScene& 
       streamed_(trueshade::is_streamed(options, result.pipeline)),
       result_(std::move(result)),
       picture_{scene, result_.pipeline, execution, planes_to_render(options), {}, {}, {}, {}} {
-  if (has_constants(picture_.pipeline))
-    picture_.constants = picture_constants(scene, picture_.pipeline, picture_.execution);
-  result_.frame.view_scale = picture_.constants.view_scale;
   if (streamed_) {
     picture_.files = files;
     picture_.metadata = metadata_without_hash(result_);
@@ -119,6 +115,11 @@ BandedPicture::BandedPicture(const RenderOptions& options, const PreparedScene& 
     picture_.file_options.threads = execution.threads;
   }
   picture_.rows = rows != 0 ? rows : band_rows(picture_);
+}
+
+void BandedPicture::set_constants(const PictureConstants& constants) {
+  picture_.constants = constants;
+  result_.frame.view_scale = constants.view_scale;
 }
 
 void BandedPicture::begin() {

@@ -30,6 +30,9 @@ class BandedPicture {
   BandedPicture(const RenderOptions& options, const PreparedScene& scene, const Execution& execution,
                 RenderedFrame result, const std::vector<std::string>& files, int band_rows);
 
+  /// Before anything else where has_constants().
+  void set_constants(const PictureConstants& constants);
+
   BandedPicture(const BandedPicture&) = delete;
   BandedPicture& operator=(const BandedPicture&) = delete;
 

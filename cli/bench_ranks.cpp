@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -20,7 +21,9 @@
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/threads/parallel_for.h"
+#include "farm/hand_out.h"
 #include "farm/lone_rank.h"
+#include "farm/messages.h"
 #include "farm/process_ranks.h"
 
 namespace trueshade {
@@ -93,36 +96,58 @@ class RanksBench {
   }
 
   RanksTime run() {
-    std::vector<int> counts;
-    for (int count = 1; count < ranks_.count(); count *= 2) counts.push_back(count);
-    counts.push_back(ranks_.count());
-    for (const int count : counts) measure(count);
+    share_tasks(ranks_, rules_of(1), [&] {  // the others load nothing meanwhile
+      if (ranks_.own() == 0) measure_costs();
+      SharedTasks none;
+      none.is_last = false;
+      return none;
+    });
+    for (const int count : counts())
+      if (!measure(count)) break;
     if (ranks_.own() == 0) make_table();
     return std::move(result_);
   }
 
  private:
-  /// Every rank calls it; the first `count` draw. Rank 0 measures costs before the first time, while the others wait.
-  void measure(int count) {
-    SharingRules rules = render_.sharing;
+  /// Of ranks that draw together: 1, 2, 4 and so on, and all.
+  std::vector<int> counts() const {
+    std::vector<int> counts;
+    for (int count = 1; count < ranks_.count(); count *= 2) counts.push_back(count);
+    counts.push_back(ranks_.count());
+    return counts;
+  }
+
+  static SharingRules rules_of(int count) {
+    SharingRules rules;
     rules.ranks = count;
-    rules.slow_after = std::chrono::hours(1 << 16);
+    rules.slow_after = HandOut::kNever;
+    return rules;
+  }
+
+  /// Every rank calls it; the first `count` draw. Returns whether all is well.
+  bool measure(int count) {
     WrittenPictures pictures(folder_ ? folder_->path() : "");
     SharedRender render(render_, ranks_, pictures, count);
-    Clock::time_point begin;
-    share_tasks(ranks_, rules, [&] {
-      if (ranks_.own() == 0 && result_.coarse.tasks.empty()) measure_costs();
-      SharedTasks tasks = render.first_tasks();
-      std::erase_if(tasks.identity, [](const auto& entry) { return entry.first == "output"; });  // another folder
-      begin = Clock::now();
-      return tasks;
-    });
-    render.finish(0);
-    if (ranks_.own() != 0) return;
-    const double seconds = seconds_since(begin);
+    std::optional<Clock::time_point> begin;
+    bool is_last = false;
+    while (!is_last) {
+      const SharingReport report = share_tasks(ranks_, rules_of(count), [&] {
+        SharedTasks tasks = render.next_tasks();
+        is_last = tasks.is_last;
+        tasks.is_last = false;  // other counts, other scenes
+        std::erase_if(tasks.identity, [](const auto& entry) { return entry.first == "output"; });  // another folder
+        if (!begin) begin = Clock::now();
+        return tasks;
+      });
+      if (!report.goes_on) return false;
+      render.end_round();
+    }
+    if (ranks_.own() != 0) return true;
+    const double seconds = seconds_since(*begin);
     if (pictures.hashes() != result_.coarse.hash)
       throw std::runtime_error("bench --ranks: " + std::to_string(count) + " ranks drew another picture than one");
     result_.here.push_back({count, seconds, model_here(count)});
+    return true;
   }
 
   void measure_costs() {
@@ -137,26 +162,43 @@ class RanksBench {
     TaskCosts costs;
     LoneRank alone;
     WrittenPictures pictures(folder_->path());
-    Wanted wanted;
     auto begin = Clock::now();
     SharedRender render(render_, alone, pictures, for_ranks);
-    const SharedTasks tasks = render.first_tasks();
-    costs.start_s = seconds_since(begin);
-    describe(render);
-    for (int task = 0; task < tasks.count; ++task) {
+    for (bool is_first = true, is_last = false; !is_last; is_first = false) {
+      const SharedTasks tasks = render.next_tasks();
+      if (is_first) costs.start_s = seconds_since(begin);
+      is_last = tasks.is_last;
+      describe(render);
+      do_in_turn(tasks, costs.tasks);
       begin = Clock::now();
-      std::vector<uint8_t> bytes = tasks.run(task, tasks.brief ? tasks.brief(task) : std::vector<uint8_t>(), wanted);
-      TaskCost cost{seconds_since(begin), bytes.size(), 0.0};
-      begin = Clock::now();
-      tasks.take(task, std::move(bytes));
-      cost.take_s = seconds_since(begin);
-      costs.tasks.push_back(cost);
+      render.end_round();
+      costs.finish_s = seconds_since(begin);
     }
-    begin = Clock::now();
-    render.finish(0);
-    costs.finish_s = seconds_since(begin);
+    if (result_.by_bands) keep_rows(render);
     costs.hash = pictures.hashes();
     return costs;
+  }
+
+  void keep_rows(const SharedRender& render) {
+    for (const int machines : kMachines) rows_for_[machines] = render.band_rows(machines);
+    for (const int count : counts()) rows_for_[count] = render.band_rows(count);
+  }
+
+  static void do_in_turn(const SharedTasks& tasks, std::vector<TaskCost>& costs) {
+    const Wanted wanted;
+    const auto run = [&](int task) {
+      return tasks.run(task, tasks.brief ? tasks.brief(task) : std::vector<uint8_t>(), wanted);
+    };
+    if (tasks.count > 0) run(0);  // caches and pages are cold
+    for (int task = 0; task < tasks.count; ++task) {
+      auto begin = Clock::now();
+      const std::vector<uint8_t> message = packed({.what = RankSays::What::result, .number = task, .bytes = run(task)});
+      TaskCost cost{seconds_since(begin), message.size(), 0.0};
+      begin = Clock::now();
+      tasks.take(task, std::move(unpacked(message)->bytes));
+      cost.take_s = seconds_since(begin);
+      costs.push_back(cost);
+    }
   }
 
   void describe(const SharedRender& render) {
@@ -174,12 +216,11 @@ class RanksBench {
 
   int threads() const { return thread_count(render_.execution.threads); }
 
+  /// In bands as that many ranks would have them.
   std::vector<TaskCost> tasks_for(int machines) const {
     if (!result_.by_bands) return result_.coarse.tasks;
-    // As many bands as that many ranks would have, and no fewer than one rank has.
-    const size_t least = result_.coarse.tasks.size(), most = result_.fine.tasks.size();
-    const size_t wanted = std::clamp(size_t(machines) * 4, least, most);
-    return grouped(result_.fine.tasks, int(most / wanted), result_.band_s);
+    const int finest = rows_for_.at(std::end(kMachines)[-1]);
+    return grouped(result_.fine.tasks, std::max(1, rows_for_.at(machines) / finest), result_.band_s);
   }
 
   /// Ranks share the cores of their machine: each draws slower by the threads that it lacks, and by the cores that
@@ -199,9 +240,8 @@ class RanksBench {
     for (const int machines : kMachines) {
       const std::vector<TaskCost> tasks = tasks_for(machines);
       RanksTime::Row row{machines, int(tasks.size()), farm_estimate(tasks, machines, threads(), {}), 0.0, 0.0};
-      const double once = result_.coarse.start_s + result_.coarse.finish_s;
-      row.seconds = once + row.estimate.seconds;
-      row.serial_s = once + row.estimate.taking_s;
+      row.serial_s = row.estimate.taking_s + result_.coarse.finish_s;
+      row.seconds = result_.start_s() + row.estimate.seconds + result_.coarse.finish_s;
       result_.table.push_back(row);
     }
   }
@@ -209,6 +249,7 @@ class RanksBench {
   Ranks& ranks_;
   RenderOptions render_;
   std::unique_ptr<TemporaryFolder> folder_;
+  std::map<int, int> rows_for_;  // of a band, by ranks
   RanksTime result_;
 };
 
@@ -239,11 +280,11 @@ std::vector<TaskCost> grouped(const std::vector<TaskCost>& bands, int group, dou
 }
 
 void bench_ranks(const BenchOptions& options) {
+  if (options.json_file && *options.json_file != "-" && mpi_start().rank == 0) check_writable(*options.json_file);
   LoneRank alone;
   Ranks* const joined = process_ranks();
   Ranks& ranks = joined != nullptr ? *joined : alone;
   if (ranks.own() != 0) be_quiet();
-  if (ranks.own() == 0 && options.json_file && *options.json_file != "-") check_writable(*options.json_file);
   RanksResult result;
   result.machine = this_machine();
   result.threads = thread_count(options.execution.threads);

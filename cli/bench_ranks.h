@@ -1,5 +1,6 @@
 #pragma once
 // `bench --ranks`: how drawing scales with processes and machines.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,11 @@ struct RanksTime {
     int machines, tasks;
     FarmEstimate estimate;
     double seconds;   ///< with start and finish
-    double serial_s;  ///< start, rank 0's taking, finish
+    double serial_s;  ///< rank 0's taking, and finish
   };
   std::vector<Row> table;  ///< of machines like this one
+
+  double start_s() const { return std::min(coarse.start_s, fine.start_s); }
 };
 
 struct RanksResult {

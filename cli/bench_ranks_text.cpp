@@ -19,7 +19,7 @@ std::string line(const char* format, Values... values) {
 
 /// `12.3 s`, `230 ms`
 std::string time_text(double seconds) {
-  return seconds >= 1 ? line("%.4g s", seconds) : line("%.3g ms", 1e3 * seconds);
+  return seconds >= 0.9995 ? line("%.4g s", seconds) : line("%.3g ms", 1e3 * seconds);
 }
 
 /// `230 ms to draw (110 ms to 1.4 s)`
@@ -52,7 +52,7 @@ std::string here_text(const RanksTime& scene) {
 }
 
 std::string table_text(const RanksTime& scene, const char* unit) {
-  std::string text = line("   count       time   speedup  efficiency     serial  of time  receiving  %6s\n", unit);
+  std::string text = line("   count       time   speedup  efficiency     rank 0  of time  receiving  %6s\n", unit);
   for (const RanksTime::Row& row : scene.table) {
     const double speedup = scene.table.front().seconds / row.seconds;
     text += line("  %6d %10s %8.1fx %9.1f %% %10s %6.0f %% %10s  %6d\n", row.machines, time_text(row.seconds).c_str(),
@@ -65,11 +65,11 @@ std::string table_text(const RanksTime& scene, const char* unit) {
 std::string scene_text(const RanksTime& scene, const RanksResult& result) {
   const char* const unit = scene.by_bands ? "bands" : "frames";
   std::string text = '\n' + scene.scene + "  " + scene.picture + '\n';
-  text += "  once          " + time_text(scene.coarse.start_s) + " to start, " + time_text(scene.coarse.finish_s) +
+  text += "  once          " + time_text(scene.start_s()) + " to start, " + time_text(scene.coarse.finish_s) +
           " to end the file\n";
   text += costs_text(scene.coarse, unit);
   if (scene.fine.tasks.size() != scene.coarse.tasks.size())
-    text += costs_text(scene.fine, unit) + "  a band        " + time_text(scene.band_s) + " by itself\n";
+    text += costs_text(scene.fine, unit) + "  a band        " + time_text(scene.band_s) + " however few its rows\n";
   text += here_text(scene) + "  machines like this one" + threads_text(result.threads) +
           line(", by the model: %g Gbit/s, %g us\n", 8e-9 * result.network.bytes_per_s, 1e6 * result.network.latency_s);
   return text + table_text(scene, unit);
@@ -130,6 +130,7 @@ std::string ranks_json(const RanksResult& result) {
   for (const RanksTime& scene : result.scenes) scenes.add_raw(json_of(scene));
   JsonObject network;
   network.put("bytes_per_s", result.network.bytes_per_s).put("latency_s", result.network.latency_s);
+  network.put("look_s", result.network.look_s);
   return JsonObject()
              .put("version", kVersion)
              .put("commit", kCommit)

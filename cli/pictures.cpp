@@ -189,6 +189,7 @@ double Pictures::time_of(std::optional<int> frame) const {
 void Pictures::picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen) {
   if (!is_streamed(options_, pipeline_)) return at_time(time_of(frame), outputs_of(frame), sink, seen);
   BandedPicture& banded = in_bands(frame, 0);
+  if (has_constants(pipeline_)) banded.set_constants(picture_constants(*prepared_, pipeline_, execution_));
   banded.begin();
   Activity activity("rendering", Activity::Counts::by_hand);
   for (int band = 0; band < banded.bands(); ++band) {
@@ -196,6 +197,11 @@ void Pictures::picture(std::optional<int> frame, PictureSink& sink, const Progre
     activity.show(band + 1, banded.bands(), "bands");
   }
   hand_out_bands(frame, sink);
+}
+
+PictureMeasurement Pictures::measurement(std::optional<int> frame) {
+  go_to(time_of(frame));
+  return {*prepared_, pipeline_};
 }
 
 BandedPicture& Pictures::in_bands(std::optional<int> frame, int band_rows) {

@@ -11,6 +11,7 @@
 #include "scene_cache/cached_scene.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
+#include "shading/picture_region.h"
 
 namespace trueshade {
 
@@ -38,8 +39,10 @@ class Pictures {
   std::vector<std::string> outputs_of(std::optional<int> frame) const;
   /// Seconds.
   double time_of(std::optional<int> frame) const;
+  /// Of a picture that has_constants(), the scene brought to its time, before in_bands().
+  PictureMeasurement measurement(std::optional<int> frame);
   /// A picture that is not drawn yet, the scene brought to its time. `band_rows`: as BandedPicture has it. It lives
-  /// until the next call.
+  /// until the next call. Where has_constants() it wants to be told them.
   BandedPicture& in_bands(std::optional<int> frame, int band_rows);
   /// Hands out that picture, all of whose bands are taken.
   void hand_out_bands(std::optional<int> frame, PictureSink& sink);

@@ -42,11 +42,11 @@ void check_cube_map(const RenderOptions& options, const Pipeline& pipeline) {
                 "add --size NxN");
 }
 
-/// `ranks`: rank 0 writes, and standard output goes through mpirun, which looks like a terminal to it.
-void check_outputs(const RenderOptions& options, const Ranks* ranks) {
-  if (ranks != nullptr) {
+/// Where work is shared rank 0 writes, and standard output goes through mpirun, which looks like a terminal to it.
+void check_outputs(const RenderOptions& options, const MpiStart& start) {
+  if (start.by_mpi) {
     for (const std::string& path : options.outputs)
-      if (ranks->own() == 0 && !is_standard_output(path)) check_writable(path);
+      if (start.rank == 0 && !is_standard_output(path)) check_writable(path);
   } else if (options.raw_video) {
     check_video_is_taken();
   } else {
@@ -79,9 +79,10 @@ bool is_shared(const Command& command) {
 }
 
 void render(const RenderOptions& options) {
-  Ranks* const ranks = is_shared(options) ? process_ranks() : nullptr;
   check_pipeline(options);
-  check_outputs(options, ranks);
+  const bool shared = is_shared(options);
+  check_outputs(options, shared ? mpi_start() : MpiStart{});  // before ranks join, who wait for each other at their end
+  Ranks* const ranks = shared ? process_ranks() : nullptr;
   PrintedPictures sink(options);
   if (ranks != nullptr) {
     render_shared(options, *ranks, sink);

@@ -1,13 +1,13 @@
 #include "cli/shared_render.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "cli/notes.h"
 #include "cli/option_values.h"
 #include "cli/terminal.h"
 #include "cli/version.h"
+#include "core/byte_stream.h"
 #include "core/file_ending.h"
 #include "core/standard_input.h"
 #include "core/threads/parallel_for.h"
@@ -60,28 +60,56 @@ std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions
   return identity;
 }
 
-/// Rows of a band, the same on every rank: as many as give each rank a few bands, and of large pictures some 16 million
-/// pixels at most.
-int shared_band_rows(const RenderOptions& options, const Pipeline& pipeline, int ranks) {
-  constexpr int64_t kPixels = int64_t(1) << 24;
-  constexpr int kBandsOfRank = 4, kLeast = 16;
-  const PictureRegion drawn = drawn_region(pipeline, options.execution.region);
-  const bool streamed = is_streamed(options, pipeline);
-  int64_t rows = drawn.height / (kBandsOfRank * ranks);
-  if (streamed) rows = std::min(rows, kPixels / drawn.width);
-  const int unit = streamed ? kStripRows : kLeast;
-  return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit;
+/// What rank 0 tells of a picture with each of its bands.
+struct BandBrief {
+  int rows_done;
+  PictureConstants constants;
+};
+
+template <class Stream, class Extents>
+void for_each_extent(Stream& stream, Extents& extents) {
+  for (auto& extent : extents) stream(extent.least), stream(extent.most);
 }
 
-std::vector<uint8_t> bytes_of(int number) {
-  std::vector<uint8_t> bytes(sizeof number);
-  std::memcpy(bytes.data(), &number, sizeof number);
-  return bytes;
+std::vector<uint8_t> bytes_of(const BandBrief& brief) {
+  ByteWriter out;
+  out.number(brief.rows_done);
+  out.number(brief.constants.view_scale);
+  out.number(brief.constants.logarithmic_mean);
+  const auto write = [&out](double value) { out.number(value); };
+  for_each_extent(write, brief.constants.extents);
+  return out.take();
 }
-int number_of(std::span<const uint8_t> bytes) {
-  int number = 0;
-  if (bytes.size() == sizeof number) std::memcpy(&number, bytes.data(), sizeof number);
-  return number;
+
+BandBrief band_brief_of(std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  BandBrief brief{in.number<int>(), {}};
+  brief.constants.view_scale = in.number<uint32_t>();
+  brief.constants.logarithmic_mean = in.number<double>();
+  const auto read = [&in](double& value) { value = in.number<double>(); };
+  for_each_extent(read, brief.constants.extents);
+  return brief;
+}
+
+std::vector<uint8_t> bytes_of(const MeasuredRows& rows) {
+  ByteWriter out;
+  out.number(uint64_t(rows.logarithms.size()));
+  for (const double row : rows.logarithms) out.number(row);
+  out.number(rows.view_scale);
+  const auto write = [&out](double value) { out.number(value); };
+  for_each_extent(write, rows.extents);
+  return out.take();
+}
+
+MeasuredRows measured_rows_of(std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  MeasuredRows rows;
+  rows.logarithms.resize(in.count(sizeof(double)));
+  for (double& row : rows.logarithms) row = in.number<double>();
+  rows.view_scale = in.number<uint32_t>();
+  const auto read = [&in](double& value) { value = in.number<double>(); };
+  for_each_extent(read, rows.extents);
+  return rows;
 }
 
 }  // namespace
@@ -93,7 +121,7 @@ SharedRender::SharedRender(const RenderOptions& options, Ranks& ranks, PictureSi
       sink_(sink),
       execution_(shared_execution(options, ranks)) {}
 
-SharedTasks SharedRender::first_tasks() {
+void SharedRender::load() {
   of_.emplace(options_, execution_);
   const Pipeline& pipeline = of_->pipeline;
   const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
@@ -101,19 +129,64 @@ SharedTasks SharedRender::first_tasks() {
   pictures_.emplace(options_, of_->cached, pipeline, execution_);
   identity_ = identity_of(options_, *of_);
   if (leads_) activity_.emplace("rendering", Activity::Counts::by_hand);
-  return by_bands() ? band_tasks(0) : frame_tasks();
 }
 
-SharedTasks SharedRender::band_tasks(int index) {
-  BandedPicture& picture = pictures_->in_bands(frame_at(index), shared_band_rows(options_, of_->pipeline, for_ranks_));
+SharedTasks SharedRender::next_tasks() {
+  if (!of_) load();
+  if (!by_bands()) return frame_tasks();
+  return has_constants(of_->pipeline) && !constants_ ? measuring_tasks() : band_tasks();
+}
+
+SharedTasks SharedRender::frame_tasks() {
+  SharedTasks tasks;
+  tasks.count = options_.frames->last - options_.frames->first + 1;
+  tasks.identity = identity_;
+  tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
+    PackedPictures packed;
+    pictures_->picture(options_.frames->first + task, packed, [&wanted] { wanted.check(); });
+    return packed.bytes();
+  };
+  tasks.same_part = part_without_times;
+  tasks.take = [this, count = tasks.count](int task, const std::vector<uint8_t>& result) {
+    replay(result, sink_);
+    activity_->show(task + 1, count, "frames");
+  };
+  return tasks;
+}
+
+SharedTasks SharedRender::measuring_tasks() {
+  PictureMeasurement& measurement = measurement_.emplace(pictures_->measurement(frame()));
+  SharedTasks tasks;
+  tasks.count = measurement.parts();
+  tasks.is_last = false;
+  tasks.identity = identity_;
+  tasks.run = [this, &measurement](int part, std::span<const uint8_t>, const Wanted& wanted) {
+    wanted.check();
+    return bytes_of(measurement.measure(part, execution_));
+  };
+  tasks.take = [this, &measurement](int part, const std::vector<uint8_t>& bytes) {
+    measurement.add(measured_rows_of(bytes));
+    activity_->show(part + 1, measurement.parts(), "parts measured");
+  };
+  return tasks;
+}
+
+SharedTasks SharedRender::band_tasks() {
+  BandedPicture& picture = pictures_->in_bands(frame(), band_rows(for_ranks_));
+  if (constants_) picture.set_constants(*constants_);
   if (leads_) picture.begin();
   SharedTasks tasks;
   tasks.count = picture.bands();
+  tasks.is_last = done_ + 1 == pictures();
   tasks.identity = identity_;
-  tasks.brief = [rows = picture.rows_done()](int) { return bytes_of(rows); };
-  tasks.run = [&picture](int band, std::span<const uint8_t> rows_done, const Wanted& wanted) {
+  tasks.brief = [told = bytes_of(BandBrief{picture.rows_done(), constants_.value_or(PictureConstants())})](int) {
+    return told;
+  };
+  tasks.run = [&picture](int band, std::span<const uint8_t> told, const Wanted& wanted) {
     wanted.check();
-    picture.set_rows_done(number_of(rows_done));
+    const BandBrief brief = band_brief_of(told);
+    picture.set_rows_done(brief.rows_done);
+    picture.set_constants(brief.constants);
     return picture.bytes_of(picture.draw(band));
   };
   tasks.same_part = [](std::span<const uint8_t> band) { return part_of_band_without_times(band); };
@@ -124,33 +197,37 @@ SharedTasks SharedRender::band_tasks(int index) {
   return tasks;
 }
 
-SharedTasks SharedRender::frame_tasks() {
-  SharedTasks tasks;
-  tasks.count = frames();
-  tasks.identity = identity_;
-  tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
-    PackedPictures packed;
-    pictures_->picture(frame_at(task), packed, [&wanted] { wanted.check(); });
-    return packed.bytes();
-  };
-  tasks.same_part = part_without_times;
-  tasks.take = [this](int task, const std::vector<uint8_t>& result) {
-    replay(result, sink_);
-    activity_->show(task + 1, frames(), "frames");
-  };
-  return tasks;
+void SharedRender::end_round() {
+  if (!of_) return;  // nothing was loaded, which rank 0 knows
+  if (measurement_) {
+    constants_ = leads_ ? measurement_->constants() : PictureConstants();  // others are told with their bands
+    measurement_.reset();
+    return;
+  }
+  if (by_bands() && leads_) pictures_->hand_out_bands(frame(), sink_);
+  constants_.reset();
+  ++done_;
 }
 
-bool SharedRender::goes_on(int done) const { return by_bands() && options_.frames && done < frames(); }
-
-void SharedRender::finish(int index) {
-  if (leads_ && by_bands()) pictures_->hand_out_bands(frame_at(index), sink_);
+/// That are made one after the other; the frames of a sequence are one round.
+int SharedRender::pictures() const {
+  return options_.frames && by_bands() ? options_.frames->last - options_.frames->first + 1 : 1;
 }
 
-int SharedRender::frames() const { return options_.frames->last - options_.frames->first + 1; }
+std::optional<int> SharedRender::frame() const {
+  return options_.frames ? std::optional(options_.frames->first + done_) : std::nullopt;
+}
 
-std::optional<int> SharedRender::frame_at(int index) const {
-  return options_.frames ? std::optional(options_.frames->first + index) : std::nullopt;
+int SharedRender::band_rows(int ranks) const {
+  constexpr int64_t kPixels = int64_t(1) << 24;
+  constexpr int kBandsOfRank = 4, kLeast = 16;
+  const Pipeline& pipeline = of_->pipeline;
+  const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
+  const bool streamed = is_streamed(options_, pipeline);
+  int64_t rows = drawn.height / (kBandsOfRank * ranks);
+  if (streamed) rows = std::min(rows, kPixels / drawn.width);
+  const int unit = streamed ? kStripRows : kLeast;
+  return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit;
 }
 
 bool SharedRender::by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
@@ -168,12 +245,12 @@ void render_shared(const RenderOptions& options, Ranks& ranks, PictureSink& sink
   if (ranks.own() != 0) be_quiet();
   std::vector<std::string> lost;
   SharedRender render(options, ranks, sink);
-  SharingReport report = share_tasks(ranks, options.sharing, [&render] { return render.first_tasks(); });
-  for (int done = 1;; ++done) {
+  bool goes_on = true;
+  while (goes_on) {
+    const SharingReport report = share_tasks(ranks, options.sharing, [&render] { return render.next_tasks(); });
     lost.insert(lost.end(), report.lost.begin(), report.lost.end());
-    render.finish(done - 1);
-    if (!render.goes_on(done)) break;
-    report = share_tasks(ranks, options.sharing, [&] { return render.band_tasks(done); });
+    goes_on = report.goes_on;
+    render.end_round();
   }
   for (const std::string& rank : lost) say_notes({rank + "; its work was done by others"});
 }

@@ -38,21 +38,25 @@ class SharedRender {
   /// `for_ranks`: how many the bands are made for; 0: all.
   SharedRender(const RenderOptions& options, Ranks& ranks, PictureSink& sink, int for_ranks = 0);
 
-  /// Loads the scene. The frames, or the bands of the first picture. Errors as SceneToRender has them.
-  SharedTasks first_tasks();
-  /// Whether there is another picture in bands than the first `done`; and its bands.
-  bool goes_on(int done) const;
-  SharedTasks band_tasks(int index);
-  /// On rank 0: hands out a picture all of whose bands are taken. Of frames there is nothing left to do.
-  void finish(int index);
+  /// For share_tasks(), round after round until SharedTasks::is_last: the frames; or of each picture in bands what is
+  /// measured of the whole picture, if anything is, then the bands. Loads the scene first. Errors as SceneToRender has
+  /// them.
+  SharedTasks next_tasks();
+  void end_round();  ///< after share_tasks(): on rank 0 hands out a picture whose bands are all taken
 
   bool by_bands() const;  ///< known once there are tasks
+  /// Rows of a band where so many ranks share the picture: a few bands for each, at most 16 million pixels of a large
+  /// picture; the same on every rank.
+  int band_rows(int ranks) const;
   const Pipeline& pipeline() const { return of_->pipeline; }
 
  private:
+  void load();
   SharedTasks frame_tasks();
-  int frames() const;
-  std::optional<int> frame_at(int index) const;
+  SharedTasks measuring_tasks();
+  SharedTasks band_tasks();
+  int pictures() const;
+  std::optional<int> frame() const;  ///< that is in bands now
 
   const RenderOptions& options_;
   const int for_ranks_;
@@ -62,7 +66,10 @@ class SharedRender {
   std::optional<SceneToRender> of_;
   std::optional<Pictures> pictures_;
   std::vector<std::pair<std::string, std::string>> identity_;
-  std::optional<Activity> activity_;  // of rank 0
+  std::optional<PictureMeasurement> measurement_;  // while a round measures
+  std::optional<PictureConstants> constants_;      // of the picture at hand, once it is measured; known to rank 0
+  int done_ = 0;                                   // pictures in bands, or 1 once the frames are done
+  std::optional<Activity> activity_;               // of rank 0
 };
 
 /// Called by every rank: shares a SharedRender. Errors as share_tasks() and SceneToRender have them; Error(usage): a

@@ -26,7 +26,7 @@ Following::~Following() {
   talking_.join();
 }
 
-void Following::work(const std::function<SharedTasks()>& prepare) {
+bool Following::work(const std::function<SharedTasks()>& prepare) {
   std::optional<SharedTasks> tasks;
   try {
     tasks = prepare();
@@ -40,6 +40,7 @@ void Following::work(const std::function<SharedTasks()>& prepare) {
   Lock lock(mutex_);
   changed_.wait(lock, [this] { return all_done_; });
   if (lost_) std::rethrow_exception(lost_);
+  return goes_on_;
 }
 
 void Following::do_tasks(const SharedTasks& tasks) {
@@ -84,7 +85,8 @@ bool Following::do_task(const SharedTasks& tasks) {
 void Following::talk() {
   Clock::time_point heard = Clock::now(), told{}, ended{};
   while (true) {
-    const std::optional<RankMessage> message = ranks_.receive(std::chrono::milliseconds(50));
+    const bool ends = ended != Clock::time_point{};  // then the caller soon has done its last task
+    const std::optional<RankMessage> message = ranks_.receive(std::chrono::milliseconds(ends ? 2 : 50));
     const Clock::time_point now = Clock::now();
     const Lock lock(mutex_);
     if (message && message->from == 0) {
@@ -125,6 +127,7 @@ void Following::hear(const RankMessage& message) {
   } else if (says->what == RankSays::What::end) {
     for (const int32_t rank : says->numbers)
       if (rank != ranks_.own()) ranks_.forget(rank);
+    goes_on_ = says->number == 1;
   }
   rank_0_is_here_ = true;
   for (const RankSays& waiting : untold_) ranks_.send(0, packed(waiting));

@@ -21,8 +21,9 @@ class Following {
   Following(const Following&) = delete;
   Following& operator=(const Following&) = delete;
 
-  /// Does what rank 0 hands out, until it says that all is done. Error(io) where rank 0 is lost.
-  void work(const std::function<SharedTasks()>& prepare);
+  /// Does what rank 0 hands out, until it says that all is done. Returns whether another round follows. Error(io) where
+  /// rank 0 is lost.
+  bool work(const std::function<SharedTasks()>& prepare);
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -44,7 +45,7 @@ class Following {
   std::deque<RankSays> to_do_;
   std::vector<RankSays> untold_;  // until rank 0 is in the same round
   std::function<void()> stop_;    // SharedTasks::stop
-  bool rank_0_is_here_ = false, all_done_ = false, worked_ = false;
+  bool rank_0_is_here_ = false, all_done_ = false, goes_on_ = false, worked_ = false;
   std::exception_ptr lost_;
   Wanted wanted_;
   std::thread talking_;

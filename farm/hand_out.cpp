@@ -52,6 +52,7 @@ std::optional<int> HandOut::fresh() {
 
 /// The lowest task that one other rank has for long already.
 std::optional<int> HandOut::slow_one(int rank, Clock::time_point now) const {
+  if (rules_.slow_after >= kNever) return {};
   const auto mean =
       measured_ == 0 ? Clock::duration::zero() : std::chrono::duration_cast<Clock::duration>(spent_ / measured_);
   const Clock::duration slow = std::max<Clock::duration>(rules_.slow_after, 2 * mean);

@@ -14,6 +14,7 @@ namespace trueshade {
 class HandOut {
  public:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::hours kNever{1 << 16};  ///< of slow_after: no task is handed out twice
   struct Rules {
     int tasks, ranks;
     int window;  ///< as SharingRules has it

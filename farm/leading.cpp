@@ -36,13 +36,20 @@ std::string shown(const std::string& value) {
 
 Leading::Leading(Ranks& ranks, const SharingRules& rules, uint32_t round)
     : ranks_(ranks), rules_(rules), round_(round), others_(size_t(ranks.count())) {
-  for (Other& other : others_) other.heard = Clock::now();
+  for (int rank = 0; rank < ranks_.count(); ++rank) {
+    Other& other = others_[size_t(rank)];
+    other.heard = Clock::now();
+    if (ranks_.is_forgotten(rank))
+      other.phase = Phase::lost, other.left = true;
+    else if (ranks_.is_excluded(rank))
+      other.phase = Phase::left_out;
+  }
   report_.tasks_of_rank.resize(others_.size());
   if (ranks_.count() > 1) answering_ = std::thread([this] { answer(); });
 }
 
 Leading::~Leading() {
-  if (!ending_) end_within(std::min(kPatience, rules_.lost_after));
+  if (!ending_) end_within(std::min(kPatience, rules_.lost_after), false);
 }
 
 void Leading::begin(const SharedTasks& tasks) {
@@ -94,19 +101,20 @@ void Leading::taken(int task) {
 }
 
 SharingReport Leading::end() {
-  end_within(rules_.lost_after);
+  report_.goes_on = !tasks_->is_last;
+  end_within(rules_.lost_after, report_.goes_on);
   report_.handed_out_twice = hand_out_->handed_out_twice();
   return report_;
 }
 
-void Leading::end_within(Milliseconds patience) {
+void Leading::end_within(Milliseconds patience, bool goes_on) {
   {
     const Lock lock(mutex_);
     ending_ = true;
     given_up_ = Clock::now() + patience;
     own_wanted_.withdraw();
     if (tasks_ != nullptr && tasks_->stop) tasks_->stop();
-    RankSays end{.what = RankSays::What::end, .round = round_};
+    RankSays end{.what = RankSays::What::end, .round = round_, .number = goes_on ? 1 : 0};
     for (int rank = 1; rank < ranks_.count(); ++rank)
       if (others_[size_t(rank)].phase == Phase::lost) end.numbers.push_back(rank);
     for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, packed(end));
@@ -119,16 +127,19 @@ void Leading::end_within(Milliseconds patience) {
 void Leading::answer() {
   Clock::time_point looked{};
   while (true) {
-    std::optional<RankMessage> message = ranks_.receive(kLook);
+    const std::optional<RankMessage> message = ranks_.receive(kLook);
+    std::optional<RankSays> says;
+    if (message) says = unpacked(message->bytes);  // copies much, so before the lock
     const Lock lock(mutex_);
     try {
-      if (message) hear(*message);
+      if (message) hear(message->from, std::move(says));
       const Clock::time_point now = Clock::now();
       if (now - looked >= kLook) {
         looked = now;
         beat();
         look_for_losses();
         if (hand_out_) hand_out();  // tasks may have become slow ones
+        if (!ending_ && tasks_ != nullptr && tasks_->check) tasks_->check();
       }
     } catch (...) {  // memory
       fail(std::current_exception());
@@ -158,9 +169,12 @@ bool Leading::work_once() {
   std::vector<uint8_t> brief;
   {
     Lock lock(mutex_);
+    if (!ending_ && tasks_->check) tasks_->check();
     // Time alone makes a task slow, so this thread looks for itself now and then.
-    while (!ending_ && !failure_ && !hand_out_->all_taken() && !(task = hand_out_->next_for(0, Clock::now())))
+    while (!ending_ && !failure_ && !hand_out_->all_taken() && !(task = hand_out_->next_for(0, Clock::now()))) {
       changed_.wait_for(lock, kLook);
+      if (!ending_ && tasks_->check) tasks_->check();
+    }
     if (!task) return false;
     brief = brief_of(*task);
   }
@@ -170,11 +184,9 @@ bool Leading::work_once() {
   return true;
 }
 
-void Leading::hear(const RankMessage& message) {
-  const int rank = message.from;
+void Leading::hear(int rank, std::optional<RankSays> says) {
   Other& other = others_[size_t(rank)];
   other.heard = Clock::now();
-  std::optional<RankSays> says = unpacked(message.bytes);
   if (!says) {
     if (other.phase != Phase::left_out)
       leave_out(rank, ErrorKind::bad_input, "it speaks otherwise", "start the same version of Trueshade everywhere");
@@ -266,6 +278,7 @@ void Leading::lose(int rank, const std::string& how) {
 /// Its tasks are for others, if the run goes on at all.
 void Leading::leave_out(int rank, ErrorKind kind, const std::string& why, const std::string& remedy) {
   others_[size_t(rank)].phase = Phase::left_out;
+  ranks_.exclude(rank);
   if (!rules_.continue_without_lost) return fail(std::make_exception_ptr(Error(kind, name_of(rank), why, remedy)));
   report_.lost.push_back(name_of(rank) + ": " + why);
   if (!hand_out_) return;

@@ -55,10 +55,10 @@ class Leading {
   void work();    // the others
   bool work_once();
 
-  void end_within(std::chrono::milliseconds patience);
+  void end_within(std::chrono::milliseconds patience, bool goes_on);
 
   // These are called under the lock.
-  void hear(const RankMessage& message);
+  void hear(int rank, std::optional<RankSays> says);  // nothing: what it said is of another version
   void meet(int rank);
   void hear_result(int rank, int task, std::vector<uint8_t> bytes);
   void look_for_losses();

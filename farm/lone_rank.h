@@ -25,6 +25,7 @@ class LoneRank : public Ranks {
   }
   bool has_ended(int) const override { return false; }
   void forget(int) override {}
+  bool is_forgotten(int) const override { return false; }
   void leave(int) override {}
 };
 

@@ -18,7 +18,7 @@ struct RankSays {
     work,     ///< from rank 0: number: a task; bytes: its brief
     result,   ///< to rank 0: number: the task; bytes
     failure,  ///< to rank 0: number: the task, or -1 before there were any; kind; words: the text
-    end,      ///< from rank 0: nothing is left to do; numbers: ranks that are lost
+    end,      ///< from rank 0: nothing is left to do; numbers: ranks that are lost; number: 1: another round follows
     bye,      ///< to rank 0: it has seen the end
   };
   What what;

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ class Ranks {
 
   /// From now on that rank is lost: nothing is sent to it, what it sent is dropped, and leave() does not wait for it.
   virtual void forget(int rank) = 0;
+  virtual bool is_forgotten(int rank) const = 0;
 
   /// The last call, by every rank: sends what waits, and waits for some seconds until the others that are not forgotten
   /// leave too. Where rank 0 has forgotten some it ends all processes, and this call may not return. `exit_code`: of
@@ -45,8 +47,13 @@ class Ranks {
 
   uint32_t next_round() { return rounds_++; }  ///< counts calls of share_tasks(), from 0
 
+  /// Gives a rank that is still there no more tasks, now and in later rounds.
+  void exclude(int rank) { excluded_.insert(rank); }
+  bool is_excluded(int rank) const { return excluded_.contains(rank); }
+
  private:
   uint32_t rounds_ = 0;
+  std::set<int> excluded_;
 };
 
 }  // namespace trueshade

@@ -28,8 +28,9 @@ void Wanted::check() const {
 SharingReport share_tasks(Ranks& ranks, const SharingRules& rules, const std::function<SharedTasks()>& prepare) {
   const uint32_t round = ranks.next_round();
   if (ranks.own() == 0) return lead(ranks, rules, prepare, round);
-  Following(ranks, rules, round).work(prepare);
-  return {};
+  SharingReport report;
+  report.goes_on = Following(ranks, rules, round).work(prepare);
+  return report;
 }
 
 }  // namespace trueshade

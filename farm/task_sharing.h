@@ -47,6 +47,10 @@ struct SharedTasks {
 
   /// Called once, on any thread, when no result of this process is wanted any more; for tasks that cannot look.
   std::function<void()> stop;
+  /// On rank 0, some times a second while there are results to come, on any thread: what it throws ends the run.
+  std::function<void()> check;
+
+  bool is_last = true;  ///< no other call of share_tasks() follows; that of rank 0 counts
 
   /// The part of a result that is the same whoever did the task, in a result that holds times as well; not set: all.
   std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
@@ -70,22 +74,24 @@ struct SharingRules {
   int ahead = 1;                                ///< tasks that wait at a rank besides those that it is at work on
   int window = 0;  ///< results that wait for one before them, and tasks at work; 0: 4 for each that ranks do at once
   int ranks = 0;   ///< that tasks are handed out to, from rank 0 on; 0: all
-  std::chrono::milliseconds slow_after{2000};  ///< no task is handed out a second time earlier than that
+  /// No task is handed out a second time earlier; HandOut::kNever: none is at all.
+  std::chrono::milliseconds slow_after{2000};
 };
 
-/// What rank 0 tells of a run that is complete.
+/// What rank 0 tells of a run that is complete; other ranks know `goes_on` alone.
 struct SharingReport {
   std::vector<int> tasks_of_rank;  ///< results of each rank that counted
   std::vector<std::string> lost;   ///< sentences on ranks that were left out: `rank 2 on node7: ...`
   int handed_out_twice = 0;
+  bool goes_on = false;  ///< on every rank: all is done, and another call follows; false where the run has failed
 };
 
 /// Shares tasks among all ranks; each calls it. `prepare` makes the tasks (it loads the scene, say) while heartbeats go
 /// on; then each rank says who it is (version, commit, identity), and rank 0 hands tasks out to whoever is free, itself
 /// included. At the end of the list, and where one result holds up all others, idle ranks do tasks of slow ones again:
 /// the first result counts, and another one must be equal.
-/// Returns on rank 0 when the last result is taken, elsewhere (with an empty report) when rank 0 says that all is done.
-/// May be called several times in a process, by all ranks in the same order.
+/// Returns on rank 0 when the last result is taken, elsewhere when rank 0 says that all is done.
+/// May be called several times in a process, by all ranks, as long as the report says that it goes on.
 /// Throws on rank 0: what `take`, its own `prepare` and its own `run` throw; Error of the kind and text of what another
 /// rank's `prepare` or `run` threw, with `rank N on HOST: ` before it; Error(io) for a lost rank; Error(bad_input) for
 /// a rank that differs; std::logic_error for two results of a task that differ. Then the others return in order, and

@@ -42,89 +42,30 @@ int reach_of(const PostChain& post) {
   return bloom + (post.edge_filter ? kEdgeReach : 0);
 }
 
-/// Parts of the picture that are measured one after the other: some rows, and where these are long, a part of them.
-class Parts {
- public:
-  explicit Parts(const Pipeline& pipeline)
-      : pipeline_(pipeline),
-        width_(std::min(pipeline.width, kMostDrawnSide / pipeline.post.samples)),
-        rows_(std::clamp(kPixels / width_, kLeastRows, pipeline.height)) {}
+constexpr int kPixelsOfPart = 1 << 22;  // that are measured at a time
 
-  int columns() const { return (pipeline_.width + width_ - 1) / width_; }
-  int bands() const { return (pipeline_.height + rows_ - 1) / rows_; }
-  int count() const { return columns() * bands(); }
-  /// The i-th, from the left, then from the top.
-  PictureRegion operator[](int i) const {
-    const int x = i % columns() * width_, y = i / columns() * rows_;
-    return {x, y, std::min(width_, pipeline_.width - x), std::min(rows_, pipeline_.height - y)};
-  }
-
- private:
-  static constexpr int kPixels = 1 << 22, kLeastRows = 1;
-  const Pipeline& pipeline_;
-  int width_, rows_;
-};
-
-std::array<Extent, 3> measured_extents(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution,
-                                       const Progress& progress) {
-  const std::vector<std::string> planes = planes_of_view(pipeline.view);
-  Pipeline shown = pipeline;
-  shown.view = ImageView::albedo;  // any without extents, and not lit
-  const Parts parts(pipeline);
-  std::array<Extent, 3> extents;
-  for (int i = 0; i < parts.count(); ++i) {
-    Execution of_part = execution;
-    of_part.region = parts[i];
-    const Frame frame = render_frame(scene, shown, of_part, planes);
-    const std::array<Extent, 3> more = view_extents(pipeline.view, execution.threads, frame.aovs);
-    for (size_t c = 0; c < 3; ++c) extents[c].add(more[c]);
-    if (progress) progress(i + 1, parts.count());
-  }
-  return extents;
+bool maps_tones(const Pipeline& pipeline) {
+  return pipeline.view == ImageView::lit && pipeline.post.tone_map == PostChain::ToneMap::reinhard;
 }
 
-uint32_t measured_scale(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution,
-                        const Progress& progress) {
-  const std::string plane(heat_plane(pipeline.view));
-  Pipeline counted = pipeline;
-  counted.view = ImageView::albedo;  // any that is no heat map, and not lit
-  const Parts parts(pipeline);
-  uint32_t scale = 1;
-  for (int i = 0; i < parts.count(); ++i) {
-    Execution of_part = execution;
-    of_part.region = parts[i];
-    const Frame frame = render_frame(scene, counted, of_part, {&plane, 1});
-    scale = std::max(scale, heat_scale(frame.aovs[0].image));
-    if (progress) progress(i + 1, parts.count());
-  }
-  return scale;
-}
-
-double measured_mean(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution,
-                     const Progress& progress) {
+/// Adds the logarithms of a part of some rows to their sums, from the left.
+void add_logarithms(const PreparedScene& scene, const Pipeline& pipeline, const Execution& of_part,
+                    std::vector<double>& rows) {
   Pipeline before = pipeline;  // the chain up to the tones
   before.post.tone_map = PostChain::ToneMap::none;
   before.post.encode = PostChain::Encode::linear;
   before.post.edge_filter = false;
   before.post.output = Format::rgba32f;
-  const Parts parts(pipeline);
-  LogarithmicMean mean(pipeline.post.log_offset);
-  std::vector<double> rows;
-  for (int i = 0; i < parts.count(); ++i) {
-    const PictureRegion part = parts[i];
-    if (part.x == 0) rows.assign(size_t(part.height), 0.0);
-    Execution of_part = execution;
-    of_part.region = part;
-    const Frame frame = render_frame(scene, before, of_part);
-    mean.add_to_rows(picture_of(frame.color), rows);
-    if (part.x + part.width == pipeline.width) mean.add(rows);
-    if (progress) progress(i + 1, parts.count());
-  }
-  return mean.of(uint64_t(pipeline.width) * uint64_t(pipeline.height));
+  const Frame frame = render_frame(scene, before, of_part);
+  LogarithmicMean(pipeline.post.log_offset).add_to_rows(picture_of(frame.color), rows);
 }
 
-bool maps_tones(const Pipeline& pipeline) {
-  return pipeline.view == ImageView::lit && pipeline.post.tone_map == PostChain::ToneMap::reinhard;
+/// Planes of a part, under a view that shows none of the numbers that are measured and is not lit.
+std::vector<NamedImage> planes_of_part(const PreparedScene& scene, const Pipeline& pipeline, const Execution& of_part,
+                                       std::span<const std::string> names) {
+  Pipeline shown = pipeline;
+  shown.view = ImageView::albedo;
+  return render_frame(scene, shown, of_part, names).aovs;
 }
 
 }  // namespace
@@ -151,14 +92,68 @@ bool has_constants(const Pipeline& pipeline) {
   return maps_tones(pipeline) || !heat_plane(pipeline.view).empty() || shows_extents(pipeline.view);
 }
 
-PictureConstants picture_constants(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution,
-                                   const Progress& progress) {
+PictureMeasurement::PictureMeasurement(const PreparedScene& scene, const Pipeline& pipeline)
+    : scene_(scene),
+      pipeline_(pipeline),
+      width_(std::min(pipeline.width, kMostDrawnSide / pipeline.post.samples)),
+      rows_(std::clamp(kPixelsOfPart / width_, 1, pipeline.height)),
+      logarithms_(pipeline.post.log_offset) {
+  if (!heat_plane(pipeline.view).empty()) constants_.view_scale = 1;
+}
+
+int PictureMeasurement::parts() const { return (pipeline_.height + rows_ - 1) / rows_; }
+
+/// Of a part, from the left: where rows are long, more than one.
+std::vector<PictureRegion> PictureMeasurement::regions(int part) const {
+  const int y = part * rows_, rows = std::min(rows_, pipeline_.height - y);
+  std::vector<PictureRegion> regions;
+  for (int x = 0; x < pipeline_.width; x += width_)
+    regions.push_back({x, y, std::min(width_, pipeline_.width - x), rows});
+  return regions;
+}
+
+MeasuredRows PictureMeasurement::measure(int part, const Execution& execution) const {
   const FpScope fp;
-  PictureConstants constants;
-  if (maps_tones(pipeline)) constants.logarithmic_mean = measured_mean(scene, pipeline, execution, progress);
-  if (!heat_plane(pipeline.view).empty()) constants.view_scale = measured_scale(scene, pipeline, execution, progress);
-  if (shows_extents(pipeline.view)) constants.extents = measured_extents(scene, pipeline, execution, progress);
+  MeasuredRows measured;
+  for (const PictureRegion& region : regions(part)) {
+    Execution of_part = execution;
+    of_part.region = region;
+    if (maps_tones(pipeline_)) {
+      measured.logarithms.resize(size_t(region.height), 0.0);
+      add_logarithms(scene_, pipeline_, of_part, measured.logarithms);
+    }
+    if (const std::string plane(heat_plane(pipeline_.view)); !plane.empty()) {
+      const auto planes = planes_of_part(scene_, pipeline_, of_part, {&plane, 1});
+      measured.view_scale = std::max(measured.view_scale, heat_scale(planes[0].image));
+    }
+    if (shows_extents(pipeline_.view)) {
+      const auto planes = planes_of_part(scene_, pipeline_, of_part, planes_of_view(pipeline_.view));
+      const std::array<Extent, 3> more = view_extents(pipeline_.view, execution.threads, planes);
+      for (size_t c = 0; c < 3; ++c) measured.extents[c].add(more[c]);
+    }
+  }
+  return measured;
+}
+
+void PictureMeasurement::add(const MeasuredRows& rows) {
+  const FpScope fp;
+  logarithms_.add(rows.logarithms);
+  if (!heat_plane(pipeline_.view).empty()) constants_.view_scale = std::max(constants_.view_scale, rows.view_scale);
+  for (size_t c = 0; c < 3; ++c) constants_.extents[c].add(rows.extents[c]);
+}
+
+PictureConstants PictureMeasurement::constants() const {
+  const FpScope fp;
+  PictureConstants constants = constants_;
+  if (maps_tones(pipeline_))
+    constants.logarithmic_mean = logarithms_.of(uint64_t(pipeline_.width) * uint64_t(pipeline_.height));
   return constants;
+}
+
+PictureConstants picture_constants(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution) {
+  PictureMeasurement measurement(scene, pipeline);
+  for (int part = 0; part < measurement.parts(); ++part) measurement.add(measurement.measure(part, execution));
+  return measurement.constants();
 }
 
 }  // namespace trueshade

@@ -1,9 +1,12 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "shading/frame.h"
+#include "shading/output/post.h"
 
 namespace trueshade {
 
@@ -19,8 +22,35 @@ Image part_of(Image from, const PictureRegion& drawn, const PictureRegion& part)
 /// Whether a region's pixels depend on a number that only the whole picture tells: see PictureConstants.
 bool has_constants(const Pipeline& pipeline);
 
-/// Draws the whole picture, some rows at a time, and keeps these numbers of it alone. Error as render_frame().
-PictureConstants picture_constants(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution,
-                                   const Progress& progress = {});
+/// What some rows of a picture add to its PictureConstants.
+struct MeasuredRows {
+  std::vector<double> logarithms;   ///< of each row the sum of its pixels'; empty where no tones are mapped
+  uint32_t view_scale = 1;          ///< of these rows alone
+  std::array<Extent, 3> extents{};  ///< of these rows alone
+};
+
+/// Finds PictureConstants some rows at a time. To measure rows takes as long as to draw them, and any process may do
+/// it: the numbers are the same, bit for bit. Borrows scene and pipeline, which has_constants().
+class PictureMeasurement {
+ public:
+  PictureMeasurement(const PreparedScene& scene, const Pipeline& pipeline);
+
+  int parts() const;
+  MeasuredRows measure(int part, const Execution& execution) const;  ///< counts from the top; Error as render_frame()
+  void add(const MeasuredRows& rows);                                ///< all parts in turn
+  PictureConstants constants() const;                                ///< of a picture whose parts are all added
+
+ private:
+  std::vector<PictureRegion> regions(int part) const;
+
+  const PreparedScene& scene_;
+  const Pipeline& pipeline_;
+  const int width_, rows_;  // of a region that is drawn at a time
+  LogarithmicMean logarithms_;
+  PictureConstants constants_;
+};
+
+/// Measures all parts in turn.
+PictureConstants picture_constants(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution);
 
 }  // namespace trueshade

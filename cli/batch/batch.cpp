@@ -2,6 +2,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include "cli/batch/batch_results.h"
 #include "cli/batch/batch_run.h"
@@ -10,7 +11,9 @@
 #include "cli/notes.h"
 #include "cli/terminal.h"
 #include "cli/written_files.h"
+#include "core/error.h"
 #include "core/image_files/image_io.h"
+#include "farm/hand_out.h"
 #include "farm/lone_rank.h"
 #include "farm/process_ranks.h"
 
@@ -85,15 +88,25 @@ void write_reports(const BatchOptions& options, const BatchResults& results) {
 /// Runs the jobs; the ranks that were lost meanwhile.
 std::vector<std::string> shared(BatchRun& run, const BatchOptions& options, Ranks& ranks) {
   SharingRules rules = options.sharing;
-  rules.ahead = 0;                                 // a job that waits at a rank may be free to run at another
-  rules.slow_after = std::chrono::hours(1 << 16);  // two processes would write the same files
-  const EndsJobs ends_jobs;
+  rules.ahead = 0;                     // a job that waits at a rank may be free to run at another
+  rules.slow_after = HandOut::kNever;  // two processes would write the same files
+  std::optional<EndsJobs> ends_jobs;   // from when the list is read
+  std::vector<std::string> lost;
   try {
-    return share_tasks(ranks, rules, [&run] { return run.tasks(); }).lost;
+    const auto tasks_of_list = [&] {
+      SharedTasks tasks = run.tasks();
+      ends_jobs.emplace();
+      tasks.check = [] {
+        if (ended_by != 0) throw Error(ErrorKind::io, "batch", "a signal has ended it", "--resume goes on");
+      };
+      return tasks;
+    };
+    lost = share_tasks(ranks, rules, tasks_of_list).lost;
   } catch (...) {
     if (ended_by == 0 || ranks.own() != 0) throw;
   }
-  end_by_signal(run.done(), run.count());
+  if (ended_by != 0 && ranks.own() == 0) end_by_signal(run.done(), run.count());
+  return lost;
 }
 
 }  // namespace

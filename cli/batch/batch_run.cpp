@@ -6,7 +6,6 @@
 
 #include "cli/batch/child.h"
 #include "cli/batch/job_commands.h"
-#include "cli/version.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
@@ -48,10 +47,8 @@ SharedTasks BatchRun::tasks() {
   }
   SharedTasks tasks;
   tasks.count = count();
-  tasks.identity = {{"version", kVersion},
-                    {"commit", kCommit},
-                    {"list of jobs", list_hash_},
-                    {"choice of jobs", options_.only.value_or("*")}};
+  tasks.identity = {
+      {"program", program_}, {"list of jobs", list_hash_}, {"choice of jobs", options_.only.value_or("*")}};
   tasks.after = after();
   tasks.in_any_order = true;
   tasks.at_once = at_once_;
@@ -59,7 +56,7 @@ SharedTasks BatchRun::tasks() {
   tasks.run = [this](int task, std::span<const uint8_t> before, const Wanted&) { return run(task, before); };
   tasks.stop = stop_children;
   tasks.take = [this](int task, const std::vector<uint8_t>& line) { take(task, line); };
-  tasks.opens = [this](int task) { return result_of(task).passed(); };
+  tasks.opens = [this](int task) { return result_of(task).state != JobState::failed; };
   tasks.leave_out = [this](int task, int because) {
     const bool failed = result_of(because).state == JobState::failed;
     result_of(task).reason = "it is after " + job_of(because).name + ", which " + (failed ? "failed" : "was skipped");
@@ -116,6 +113,7 @@ std::vector<uint8_t> BatchRun::line_before(int task) const {
 std::vector<uint8_t> BatchRun::run(int task, std::span<const uint8_t> line_before) {
   const Job& job = job_of(task);
   JobResult result;
+  if (children_stopped()) return bytes_of(line_of(job, result, program_));  // a signal came
   if (!line_before.empty()) result = result_of_bytes(line_before);
   if (!line_before.empty() && hashes_.are_those_of(result, folder_)) {
     result.state = JobState::unchanged;
@@ -130,8 +128,7 @@ std::vector<uint8_t> BatchRun::run(int task, std::span<const uint8_t> line_befor
 
 void BatchRun::take(int task, const std::vector<uint8_t>& line) {
   JobResult result = result_of_bytes(line);
-  if (result.state == JobState::skipped)  // never of a job that has ended
-    throw Error(ErrorKind::io, "batch", "a signal has ended it", "--resume goes on with what is not done");
+  if (result.state == JobState::skipped) return;  // a signal ended it, and will end the run
   if (result.state != JobState::unchanged) journal_->add(job_of(task), result);
   result_of(task) = std::move(result);
   count_one();

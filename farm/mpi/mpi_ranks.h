@@ -31,6 +31,7 @@ class MpiRanks : public Ranks {
   std::optional<RankMessage> receive(std::chrono::milliseconds timeout) override;
   bool has_ended(int rank) const override;
   void forget(int rank) override;
+  bool is_forgotten(int rank) const override { return members_[size_t(rank)].forgotten; }
   void leave(int exit_code) override;
 
  private:

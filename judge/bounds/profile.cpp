@@ -88,7 +88,8 @@ std::optional<Profile> profile_named(std::string_view name) {
 }
 
 std::string text(const StoreRule& rule) {
-  std::string codes = rule.mesa_codes         ? "codes as llvmpipe's"
+  std::string codes = rule.intel_estimates    ? "codes as llvmpipe's on Intel"
+                      : rule.mesa_codes       ? "codes as llvmpipe's"
                       : rule.code_reach > 0.5 ? "codes within 0.6"
                                               : "codes to nearest";
   if (rule.sums_in_floats) codes += ", sums kept in floats";

@@ -51,6 +51,7 @@ struct StoreRule {
   bool mesa_codes = false;             ///< llvmpipe's codes of sRGB and of ten bits, and its blending
   bool sums_in_floats = false;         ///< what is blended is rounded once, when the target is read (softpipe)
   HalfStore half = HalfStore::either;  ///< either: not known yet
+  bool intel_estimates = false;        ///< of mesa_codes: sRGB by the estimates of Intel's CPUs; else by AMD's
   bool operator==(const StoreRule&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/llvmpipe_srgb.h"
+#include "judge/legal/intel_srgb.h"
 
 namespace trueshade::oracle {
 
@@ -94,21 +95,26 @@ LegalTexel unorm(const Range& r, double largest, const Profile& profile) {
   return t;
 }
 
-/// The first step of llvmpipe's encoding that lies beyond x.
-size_t step_after(double x) {
-  const auto& start = kLlvmpipeSrgb.start;
+/// How llvmpipe encodes sRGB on the CPU that a profile supposes.
+const LlvmpipeSrgb& llvmpipe_srgb(const Profile& profile) {
+  return profile.likely.intel_estimates ? kIntelSrgb : kLlvmpipeSrgb;
+}
+
+/// The first step of the encoding that lies beyond x.
+size_t step_after(const LlvmpipeSrgb& table, double x) {
+  const auto& start = table.start;
   return size_t(std::upper_bound(start.begin(), start.end(), float(std::clamp(x, 0.0, 1.0))) - start.begin());
 }
 
 /// The code that llvmpipe draws, and the chance of another: its steps are close together, some of them downward.
-void set_llvmpipe_code(LegalTexel& t, const Range& r) {
-  const auto code = [](size_t step) { return double(kLlvmpipeSrgb.code[step]); };
-  t.nominal = code(step_after(r.value));
+void set_llvmpipe_code(LegalTexel& t, const Range& r, const LlvmpipeSrgb& table) {
+  const auto code = [&table](size_t step) { return double(table.code[step]); };
+  t.nominal = code(step_after(table, r.value));
   const double low = std::clamp(r.low, 0.0, 1.0), high = std::clamp(r.high, 0.0, 1.0);
   if (!(low < high)) return;
   double other = 0, side = 0, from = low;
-  for (size_t step = step_after(low); from < high; ++step) {
-    const double to = std::min(high, double(kLlvmpipeSrgb.start[step])), apart = code(step) - t.nominal;
+  for (size_t step = step_after(table, low); from < high; ++step) {
+    const double to = std::min(high, double(table.start[step])), apart = code(step) - t.nominal;
     if (apart != 0) other += to - from, side += apart > 0 ? to - from : from - to;
     from = to;
   }
@@ -127,7 +133,7 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
   t.nominal = std::nearbyint(value);
   set_reach(t, std::max(0.0, low - slack), std::min(255.0, high + slack), profile.srgb_reach, 255);
   if (profile.blend == BlendRule::mesa_codes) {
-    set_llvmpipe_code(t, r);
+    set_llvmpipe_code(t, r, llvmpipe_srgb(profile));
     return t;
   }
   set_code_chance(t, {value, low, high}, profile);
@@ -184,9 +190,10 @@ Range cleared_range(double color, Format format, int channel, const Profile& pro
   double c = color;
   if (layout.srgb_channel(channel) && profile.blend == BlendRule::mesa_codes) {
     const int code = llvmpipe_cleared_srgb8(float(std::clamp(color, 0.0, 1.0)));
+    const LlvmpipeSrgb& table = llvmpipe_srgb(profile);
     for (size_t step = 0; step + 1 < LlvmpipeSrgb::kSize; ++step)  // what is drawn with that code
-      if (kLlvmpipeSrgb.code[step] == code) {
-        c = step == 0 ? 0.0 : double(kLlvmpipeSrgb.start[step - 1]);
+      if (table.code[step] == code) {
+        c = step == 0 ? 0.0 : double(table.start[step - 1]);
         break;
       }
   }

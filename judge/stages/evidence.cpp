@@ -7,6 +7,8 @@ namespace trueshade::oracle {
 
 namespace {
 
+constexpr StoreRule kIntelCodes{0.5, true, false, HalfStore::either, true};
+
 /// The rules that are known, the likeliest first, as far as the profile leaves them open.
 std::vector<StoreRule> other_rules(const StoreRule& stated, const Profile& profile) {
   std::vector<StoreRule> rules;
@@ -14,10 +16,13 @@ std::vector<StoreRule> other_rules(const StoreRule& stated, const Profile& profi
   const bool open_codes = profile.unorm_reach == 1.0 && profile.blend == BlendRule::any_precision;
   for (const HalfStore half : {stated.half, other_half}) {
     if (half != stated.half && profile.half != HalfStore::either) continue;
-    for (const StoreRule& codes : {StoreRule{}, StoreRule{0.6}, StoreRule{0.5, true}, StoreRule{0.5, false, true}}) {
+    for (const StoreRule& codes :
+         {StoreRule{}, StoreRule{0.6}, StoreRule{0.5, true}, kIntelCodes, StoreRule{0.5, false, true}}) {
       StoreRule rule = codes;
       rule.half = half;
-      const bool same_codes = StoreRule{rule.code_reach, rule.mesa_codes, rule.sums_in_floats, stated.half} == stated;
+      const StoreRule same_codes_rule{rule.code_reach, rule.mesa_codes, rule.sums_in_floats, stated.half,
+                                      stated.intel_estimates};
+      const bool same_codes = same_codes_rule == stated;
       if (!open_codes && !same_codes) continue;
       if (!(rule == stated)) rules.push_back(rule);
     }

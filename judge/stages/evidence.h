@@ -18,8 +18,8 @@ struct Evidence {
 };
 
 /// Holds a stage to the stated rule and, where that fails, to the other rules that are known and that the profile
-/// allows: nearest codes, within 0.6 (D3D11.3), llvmpipe's, sums kept in floats (softpipe); halves toward zero and to
-/// nearest. A stage with violations is not tried again: its pixels convict it.
+/// allows: nearest codes, within 0.6 (D3D11.3), llvmpipe's with the estimates of AMD's and of Intel's CPUs, sums kept in
+/// floats (softpipe); halves toward zero and to nearest. A stage with violations is not tried again: its pixels convict it.
 ///   judge: the same stage by another profile
 Evidence evidence_of(const StageVerdict& stated, const std::function<StageVerdict(const Profile&)>& judge,
                      const Profile& profile, double least_chance);

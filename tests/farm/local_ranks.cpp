@@ -49,6 +49,10 @@ class LocalRank : public Ranks {
     const std::lock_guard lock(network_.mutex_);
     forgotten_.insert(rank);
   }
+  bool is_forgotten(int rank) const override {
+    const std::lock_guard lock(network_.mutex_);
+    return forgotten_.contains(rank);
+  }
   void leave(int) override {}
 
  private:

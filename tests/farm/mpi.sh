@@ -182,7 +182,12 @@ bands() {
   for i in "${!strategies[@]}"; do
     same "${counts[i]}" "builtin:${scenes[i]}" "${picture[@]}" --strategy "${strategies[i]}"
   done
+  # What is measured of the whole picture before its bands: a scale, extents, a mean.
   same 3 builtin:city "${picture[@]}" --region 30,20,90x70 --view light-count
+  same 2 builtin:city "${picture[@]}" --view position
+  echo '{"post": {"tone_map": "reinhard", "encode": "srgb", "output": "rgba8"}}' >tones.json
+  same 4 builtin:city --size 150x110 -o a.png --hash --pipeline "$work/tones.json" --target rgba16f
+  same 3 builtin:city --size 16500x600 -o a.png --hash --pipeline "$work/tones.json" --target rgba16f
   same 3 builtin:city --size 16500x200 -o a.png -o b.exr --aov depth --hash
   same 2 builtin:city --size 16500x200 --frames 1-2 -o a.png --hash
   for simd in $("$trueshade" list --json | grep -oE '"simd": \[[^]]*' | grep -oE '[a-z0-9]+' | tail -n +2); do

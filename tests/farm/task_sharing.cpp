@@ -46,6 +46,7 @@ struct Run {
   std::function<Bytes(int task)> brief{};
   std::function<int(int rank)> at_once = [](int) { return 1; };
   std::function<void()> stop{};
+  std::function<void()> check{};
 };
 
 SharedTasks tasks_of(const Run& how, int rank, Outcome& outcome) {
@@ -65,7 +66,7 @@ SharedTasks tasks_of(const Run& how, int rank, Outcome& outcome) {
   };
   tasks.in_any_order = how.in_any_order;
   tasks.after = how.after, tasks.opens = how.opens, tasks.leave_out = how.leave_out;
-  tasks.brief = how.brief, tasks.stop = how.stop, tasks.at_once = how.at_once(rank);
+  tasks.brief = how.brief, tasks.stop = how.stop, tasks.at_once = how.at_once(rank), tasks.check = how.check;
   return tasks;
 }
 
@@ -271,6 +272,70 @@ TEST_CASE("tasks that cannot look whether they are wanted are stopped, once a ra
   CHECK(shared(2, run).error == "a: b (c)");
   CHECK(stops == 2);
   CHECK(std::chrono::steady_clock::now() - begin < 5000ms);
+}
+
+TEST_CASE("what rank 0 checks ends the run, whether it works, waits for others or is alone") {
+  for (const int ranks : {1, 3})
+    for (const bool rank_0_works : {true, false}) {
+      if (ranks == 1 && !rank_0_works) continue;
+      std::atomic<bool> ends{false};
+      Run run{.tasks = 200};
+      run.rules.slow_after = 60000ms;
+      run.run = [&](int rank, int task, const Wanted& wanted) {
+        if (task == 5) ends = true;
+        for (int i = 0; i < 400 && (rank != 0) != rank_0_works && task > 5; ++i) work_for(10ms, wanted);
+        return result_of(task);
+      };
+      run.check = [&] {
+        if (ends) throw Error(ErrorKind::io, "a", "signal", "c");
+      };
+      const auto begin = std::chrono::steady_clock::now();
+      CHECK(shared(ranks, run).error == "a: signal (c)");
+      CHECK(std::chrono::steady_clock::now() - begin < 3000ms);
+    }
+}
+
+TEST_CASE("a run that fails is the last, and one that does not is followed, whoever was left out") {
+  for (const bool fails : {false, true}) {
+    LocalNetwork network(3);
+    std::atomic<int> rounds[3]{};
+    const auto go_on = [&](int rank) {
+      Run run{.tasks = 9};
+      run.rules.continue_without_lost = true;
+      run.prepare = [rank](int) {
+        if (rank == 2) throw std::runtime_error("no such scene");
+      };
+      run.run = [fails](int rank_at_work, int task, const Wanted& wanted) {
+        work_for(5ms, wanted);
+        if (fails && rank_at_work == 0 && task > 2) throw Error(ErrorKind::io, "a", "b", "c");
+        return result_of(task);
+      };
+      size_t notes = 0;
+      bool goes_on = true;
+      while (goes_on) {
+        const int round = rounds[rank]++;
+        Outcome outcome;
+        try {
+          outcome.report = share_tasks(network.rank(rank), run.rules, [&] {
+            SharedTasks tasks = tasks_of(run, rank, outcome);
+            tasks.is_last = round == 3;
+            return tasks;
+          });
+        } catch (const Error&) {
+        }
+        notes += outcome.report.lost.size();
+        goes_on = outcome.report.goes_on;
+      }
+      return notes;
+    };
+    std::vector<std::thread> others;
+    for (const int rank : {1, 2}) others.emplace_back([&go_on, rank] { go_on(rank); });
+    const size_t notes = go_on(0);
+    for (std::thread& other : others) other.join();
+    CHECK(rounds[0] == (fails ? 1 : 4));
+    for (const int rank : {1, 2}) CHECK(rounds[rank] == rounds[0]);
+    if (!fails) CHECK(notes == 1);
+  }
 }
 
 TEST_CASE("a rank that is lost at any task ends the run in one error that names it, and what was taken stays") {

@@ -20,19 +20,20 @@ struct Liberties {
   bool snapped_planes = false;
   bool turn_ties = false;      ///< samples on an edge belong to the other side
   bool any_neighbour = false;  ///< stores of unorm, half, sRGB and fixed-point depth take either neighbour
-  double reach = 0.5;          ///< otherwise any neighbour that is as near as that, of the subpixel grid; stores to codes
-                               ///< do not decrease
-  uint32_t conversion = 0;     ///< which of these: thresholds between codes are made of this number
+  double reach = 0.5;       ///< otherwise any neighbour that is as near as that, of the subpixel grid; stores to codes
+                            ///< do not decrease
+  uint32_t conversion = 0;  ///< which of these: thresholds between codes are made of this number
   bool reverse_lights = false;
-  int weight_bits = 0;          ///< of texture filters; 0: exact
-  bool decode_late = false;     ///< sRGB textures are filtered in 8 bits, then decoded
-  bool any_level = false;       ///< rho anywhere between OpenGL's limits, else the longer gradient
-  int depth_unit = 1;           ///< codes of fixed-point depth that a unit of polygon offset is
-  double slope_norm = 0;        ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
-  bool blends_codes = false;    ///< fixed-point targets are blended in their own codes
-  bool nearest_halves = false;  ///< floats of 16, 11 and 10 bits are stored to nearest even, else toward zero
-  bool sums_in_floats = false;  ///< a target is kept in floats, clamped where it is fixed-point, and stored at the end
-  bool mesa_codes = false;      ///< sRGB codes of llvmpipe's table; ten bits out of sixteen; codes of light are added
+  int weight_bits = 0;           ///< of texture filters; 0: exact
+  bool decode_late = false;      ///< sRGB textures are filtered in 8 bits, then decoded
+  bool any_level = false;        ///< rho anywhere between OpenGL's limits, else the longer gradient
+  int depth_unit = 1;            ///< codes of fixed-point depth that a unit of polygon offset is
+  double slope_norm = 0;         ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
+  bool blends_codes = false;     ///< fixed-point targets are blended in their own codes
+  bool nearest_halves = false;   ///< floats of 16, 11 and 10 bits are stored to nearest even, else toward zero
+  bool sums_in_floats = false;   ///< a target is kept in floats, clamped where it is fixed-point, and stored at the end
+  bool mesa_codes = false;       ///< sRGB codes of llvmpipe's table; ten bits out of sixteen; codes of light are added
+  bool intel_estimates = false;  ///< that table as CPUs of Intel have it
 };
 
 /// Arithmetic that errs as GLSL 4.60, 4.7.1 allows.

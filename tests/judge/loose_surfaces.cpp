@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/llvmpipe_srgb.h"
+#include "judge/legal/intel_srgb.h"
 #include "tests/judge/loose_renderer.h"
 
 namespace trueshade::testing {
@@ -80,11 +81,11 @@ uint32_t narrow_code(uint32_t wide, int channel) {
 uint32_t code_of_16_bits(float v) { return uint32_t(std::nearbyint(double(std::clamp(v, 0.0f, 1.0f) * 65535.0f))); }
 
 /// The code that llvmpipe stores, of formats whose codes are its own.
-std::optional<uint32_t> mesa_code(const Image& image, int channel, float v) {
+std::optional<uint32_t> mesa_code(const Image& image, int channel, float v, bool intel_estimates) {
   if (info(image.format).srgb_channel(channel)) {
-    const auto& start = kLlvmpipeSrgb.start;
-    const auto step = std::upper_bound(start.begin(), start.end(), std::clamp(v, 0.0f, 1.0f));
-    return kLlvmpipeSrgb.code[size_t(step - start.begin())];
+    const LlvmpipeSrgb& table = intel_estimates ? kIntelSrgb : kLlvmpipeSrgb;
+    const auto step = std::upper_bound(table.start.begin(), table.start.end(), std::clamp(v, 0.0f, 1.0f));
+    return table.code[size_t(step - table.start.begin())];
   }
   if (image.format != Format::rgb10_a2) return std::nullopt;
   return narrow_code(code_of_16_bits(v), channel);
@@ -107,11 +108,13 @@ void add_mesa_codes(Image& image, int x, int y, const float source[4]) {
 void loose_store(LooseFloat& f, const Liberties& liberties, Image& image, int x, int y, int channel, float v) {
   const FormatInfo layout = info(image.format);
   uint32_t bits = 0;
-  if (const auto code = liberties.mesa_codes ? mesa_code(image, channel, v) : std::nullopt) {
+  const auto code =
+      liberties.mesa_codes ? mesa_code(image, channel, v, liberties.intel_estimates) : std::optional<uint32_t>();
+  if (code) {
     bits = *code;
   } else if (layout.number_class == NumberClass::unorm) {
-    bits = uint32_t(
-        loose_code(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
+    bits =
+        uint32_t(loose_code(f, liberties, encoded(layout, channel, double(v)) * double(layout.largest_code(channel))));
   } else if (layout.small_float()) {
     bits = small_bits(f, liberties, layout, channel, v);
   } else {
