@@ -11,18 +11,19 @@
 
 #include "judge/legal/intel_srgb.h"
 #include "judge/stages/validate.h"
-#include "scenes/builtin/builtin.h"
 #include "tests/catch.hpp"
 #include "tests/judge/loose_renderer.h"
+#include "tests/judge/random_scene.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
 
 TEST_CASE("sRGB codes by the estimates of AMD's and of Intel's CPUs are told apart, and neither is convicted") {
-  const Scene scene = builtin_scene("cornell");
   for (const bool intel : {false, true}) {
-    Pipeline pipeline = resolve(builtin_preset("blinn-phong"), scene);
-    pipeline.width = 160, pipeline.height = 120;
+    Pcg32 random(11);
+    const Scene scene = testing::random_scene(random);
+    Pipeline pipeline = testing::random_pipeline(random);
+    pipeline.width = 320, pipeline.height = 240;
     pipeline.target = Format::srgb8_a8;
     pipeline.strategy = Strategy::deferred_loop;
     testing::Liberties liberties;

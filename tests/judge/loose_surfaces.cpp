@@ -83,7 +83,7 @@ uint32_t code_of_16_bits(float v) { return uint32_t(std::nearbyint(double(std::c
 /// The code that llvmpipe stores, of formats whose codes are its own.
 std::optional<uint32_t> mesa_code(const Image& image, int channel, float v, bool intel_estimates) {
   if (info(image.format).srgb_channel(channel)) {
-    const LlvmpipeSrgb& table = intel_estimates ? kIntelSrgb : kLlvmpipeSrgb;
+    const LlvmpipeSrgb& table = intel_estimates ? oracle::kIntelSrgb : kLlvmpipeSrgb;
     const auto step = std::upper_bound(table.start.begin(), table.start.end(), std::clamp(v, 0.0f, 1.0f));
     return table.code[size_t(step - table.start.begin())];
   }
