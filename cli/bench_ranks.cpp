@@ -95,15 +95,17 @@ class RanksBench {
     result_.scene = scene;
   }
 
-  RanksTime run() {
-    share_tasks(ranks_, rules_of(1), [&] {  // the others load nothing meanwhile
+  /// Nothing where rank 0 has ended the run, which it alone says.
+  std::optional<RanksTime> run() {
+    const SharingReport measured = share_tasks(ranks_, rules_of(1), [&] {  // the others load nothing meanwhile
       if (ranks_.own() == 0) measure_costs();
       SharedTasks none;
       none.is_last = false;
       return none;
     });
+    if (!measured.goes_on) return {};
     for (const int count : counts())
-      if (!measure(count)) break;
+      if (!measure(count)) return {};
     if (ranks_.own() == 0) make_table();
     return std::move(result_);
   }
@@ -289,7 +291,11 @@ void bench_ranks(const BenchOptions& options) {
   result.machine = this_machine();
   result.threads = thread_count(options.execution.threads);
   result.simd = options.simd == "best" ? simd_targets().front() : options.simd;
-  for (const std::string& scene : options.scenes) result.scenes.push_back(RanksBench(options, scene, ranks).run());
+  for (const std::string& scene : options.scenes) {
+    std::optional<RanksTime> time = RanksBench(options, scene, ranks).run();
+    if (!time) break;
+    result.scenes.push_back(std::move(*time));
+  }
   if (ranks.own() != 0) return;
   if (options.json_file != "-") print(ranks_text(result));
   if (!options.json_file) return;

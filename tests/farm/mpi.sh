@@ -149,6 +149,21 @@ faults() {
     -n 1 "$trueshade" render builtin:city,seed=4 --frames 0-9 --hash >out 2>err || status=$?
   [[ $status == 3 && $(<err) == *"rank 1 on "*": its scene is '"* ]] || die "another scene: $status, $(<err)"
 
+  # What rank 0 finds ends the others at once.
+  local words
+  for words in "render nosuch.json --frames 0-3" "render builtin:red --frames 0-3 -o none/x.png" \
+    "bench --ranks nosuch.json" "bench --ranks --frames 0-1 --size 17000x16 builtin:red" "batch nosuch.json"; do
+    SECONDS=0 status=0
+    mpi -n 3 "$trueshade" $words >out 2>err || status=$?
+    [[ ($status == 5 || $status == 2) && $(grep -c 'trueshade: error' err) == 1 ]] || die "$words: $status, $(<err)"
+    ((SECONDS < 9)) || die "$words: it took $SECONDS s to end"
+  done
+
+  # One rank lacks the scene.
+  mpi --enable-recovery -n 1 "$trueshade" render builtin:city --size 99x99 --frames 0-3 -o r.png --continue-without-lost : \
+    -n 1 "$trueshade" render nosuch.json --size 99x99 --frames 0-3 -o r.png --continue-without-lost >out 2>err
+  [[ -e r.0003.png && $(<err) != *"Signal"* ]] || die "a rank without a scene: $(<err)"
+
   status=0
   mpi -n 3 bash -c 'ulimit -f 20; exec "$@"' bash "$trueshade" render builtin:lecture --frames 0-9 --size 640x480 -o "$work/full.png" >out 2>err || status=$?
   [[ $status == 5 && $(grep -c 'trueshade: error' err) == 1 && $(<err) == *"full.0000.png: cannot write"* ]] ||
