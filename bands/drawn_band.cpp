@@ -9,7 +9,7 @@
 namespace trueshade {
 namespace {
 
-/// What a count or a time of a picture is: the sum over its parts, or what they have alike.
+/// What a count or a time of a picture is: the sum over its parts, or what they have alike (the last part's is kept).
 enum class Whole : uint8_t { sum, alike };
 
 /// Calls visit(Whole, member...) for each count and time that is kept of a picture, with that member of each `stats`.

@@ -118,7 +118,8 @@ void Following::talk() {
 void Following::hear(const RankMessage& message) {
   std::optional<RankSays> says = unpacked(message.bytes);
   if (!says) {
-    lost_ = std::make_exception_ptr(Error(ErrorKind::bad_input, "rank 0 on " + ranks_.host(0), "it speaks otherwise",
+    lost_ = std::make_exception_ptr(Error(ErrorKind::bad_input, "rank 0 on " + ranks_.host(0),
+                                          "its messages are of another version",
                                           "start the same version of Trueshade everywhere"));
   } else if (says->round != round_) {
     return;

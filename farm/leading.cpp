@@ -189,7 +189,8 @@ void Leading::hear(int rank, std::optional<RankSays> says) {
   other.heard = Clock::now();
   if (!says) {
     if (other.phase != Phase::left_out)
-      leave_out(rank, ErrorKind::bad_input, "it speaks otherwise", "start the same version of Trueshade everywhere");
+      leave_out(rank, ErrorKind::bad_input, "its messages are of another version",
+                "start the same version of Trueshade everywhere");
     other.left = true;  // nor does it know what the end is
     return;
   }

@@ -72,8 +72,9 @@ struct SharingRules {
   std::chrono::milliseconds lost_after{60000};  ///< a rank that was not heard for so long is lost
   bool continue_without_lost = false;           ///< gives tasks of lost ranks to others; else a loss is an Error
   int ahead = 1;                                ///< tasks that wait at a rank besides those that it is at work on
-  int window = 0;  ///< results that wait for one before them, and tasks at work; 0: 4 for each that ranks do at once
-  int ranks = 0;   ///< that tasks are handed out to, from rank 0 on; 0: all
+  /// Results that wait for one before them, and tasks at work; 0: 4 for each task that all ranks can do at once.
+  int window = 0;
+  int ranks = 0;  ///< that tasks are handed out to, from rank 0 on; 0: all
   /// No task is handed out a second time earlier; HandOut::kNever: none is at all.
   std::chrono::milliseconds slow_after{2000};
 };

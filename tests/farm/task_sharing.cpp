@@ -517,7 +517,7 @@ TEST_CASE("a rank of another version, whose messages are of another form, is tol
   };
   const Outcome outcome = shared(network, run);
   CHECK(outcome.kind == int(ErrorKind::bad_input));
-  CHECK_THAT(outcome.error, Catch::Contains("rank 1 on host1: it speaks otherwise"));
+  CHECK_THAT(outcome.error, Catch::Contains("rank 1 on host1: its messages are of another version"));
 }
 
 TEST_CASE("where rank 0 is lost the others end with an error") {
