@@ -112,17 +112,16 @@ std::vector<uint8_t> BatchRun::line_before(int task) const {
 
 std::vector<uint8_t> BatchRun::run(int task, std::span<const uint8_t> line_before) {
   const Job& job = job_of(task);
-  JobResult result;
-  if (children_stopped()) return bytes_of(line_of(job, result, program_));  // a signal came
-  if (!line_before.empty()) result = result_of_bytes(line_before);
-  if (!line_before.empty() && hashes_.are_those_of(result, folder_)) {
+  JobResult result;  // skipped, where a signal has stopped the jobs of this process
+  if (!line_before.empty() && !children_stopped()) result = result_of_bytes(line_before);
+  if (result.passed() && hashes_.are_those_of(result, folder_)) {
     result.state = JobState::unchanged;
   } else {
     result = run_job(job, place_);
-    if (result.state == JobState::skipped && ranks_.own() != 0)
-      throw Error(ErrorKind::io, "batch", "a signal has ended its jobs", "--resume goes on with what is not done");
     result.host = ranks_.host(ranks_.own());
   }
+  if (result.state == JobState::skipped && ranks_.own() != 0)
+    throw Error(ErrorKind::io, "batch", "a signal has ended its jobs", "--resume goes on with what is not done");
   return bytes_of(line_of(job, result, program_));
 }
 
