@@ -163,7 +163,8 @@ std::string conclusion(const Validation& validation) {
     return "every pixel is explained, yet the same frame drawn again is another" + post;
   if (!v.convicted()) return "every pixel is explained" + post;
   const char* lenient = " (a remark, as --lenient asks)";
-  return "each pixel is legal, yet no rounding that is known makes such an image" +
+  const char* what = v.rounds_unlike_any() ? "rounding" : "texture filter or blend";
+  return std::string("each pixel is legal, yet no ") + what + " that is known makes such an image" +
          std::string(validation.lenient ? lenient : "") + post;
 }
 
@@ -196,6 +197,24 @@ std::string blind_spot_line(const Validation& v) {
          " %; rgba16f and rgba32f show it";
 }
 
+std::vector<std::string> hidden_by_materials(const oracle::Verdict& v) {
+  std::vector<std::string> lines;
+  std::string key;
+  for (const oracle::MaterialEvidence& e : v.materials) {
+    if (e.is_of_channel) continue;
+    const bool is_relative = e.cause == "gain" || e.cause == "scale";
+    const std::string now = e.subject() + ", " + (e.map.empty() ? "glass" : e.map) + " in " + e.plane;
+    const std::string limit =
+        e.cause + ' ' + real(is_relative ? 100 * e.least : e.least, "%.2g") + (is_relative ? " %" : "");
+    if (now == key)
+      lines.back() += ", " + limit;
+    else
+      lines.push_back(now + ": what is off by less than " + limit);
+    key = now;
+  }
+  return lines;
+}
+
 double exact_share(const StageVerdict& stage) {
   return double(stage.count(PixelClass::exact) + stage.count(PixelClass::store_2)) /
          double(std::max<size_t>(stage.classes.size(), 1));
@@ -221,6 +240,11 @@ std::string validation_text(const Validation& v) {
   };
   add_row("rounding", rounding_line(v.verdict));
   add_row("hidden", blind_spot_line(v));
+  constexpr size_t kMostHidden = 12;
+  const std::vector<std::string> hidden = hidden_by_materials(v.verdict);
+  for (size_t i = 0; i < std::min(kMostHidden, hidden.size()); ++i) add_row(i == 0 ? "hidden" : "", hidden[i]);
+  if (hidden.size() > kMostHidden)
+    add_row("", "and of " + std::to_string(hidden.size() - kMostHidden) + " more, which --json has under `materials`");
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   lines += verdict_row("verdict", conclusion(v));

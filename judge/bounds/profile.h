@@ -35,7 +35,7 @@ struct Sampling {
   double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
   double lerp_codes = 1;  ///< codes of 255 that one linear step (along u, along v, between levels) of 8-bit texels may
                           ///< be off: either neighbour of its value. 0: filtered as floats
-  double srgb_codes = 1;  ///< codes that a decoded sRGB texel may be off: either neighbour
+  double srgb_codes = 0.5;   ///< codes that a decoded sRGB texel may be off (D3D11.3, 3.2.3; Mesa's are 0.343 off)
   bool decodes_late = true;  ///< sRGB may be filtered, in 8 bits, before it is decoded (GL 4.6 core, 8.24: "allowed")
   bool mesa_decode = false;  ///< sRGB is decoded by Mesa 22.3's polynomial; srgb_codes is from there
   bool any_scale = true;     ///< rho anything 8.14.1 allows; false: equation 8.11

@@ -10,12 +10,6 @@ namespace {
 constexpr long long kFewTexels = 8;                     // of a side: beyond, a box is sampled as the whole level
 constexpr size_t kMostTexels = size_t(kFewTexels) + 2;  // of a side of such a box
 
-/// Mesa 22.3, gallium/auxiliary/gallivm/lp_bld_format_srgb.c: a line, and a polynomial from code 16 on.
-long double mesa_decoded(long double s) {
-  if (s * 255 <= 15) return s / 12.6L;
-  return 0.0023L + s * (0.0030L + s * (0.6935L + s * 0.3012L));
-}
-
 /// Codes -1 to 256 decoded: texels are looked up 100 times a sample.
 struct SrgbTable {
   std::array<long double, 258> value, mesa;
@@ -185,6 +179,11 @@ long double srgb_encoded(long double x) {
 long double srgb_decoded(long double s) {
   if (s <= 0.04045L) return std::max(0.0L, s) / 12.92L;
   return std::pow((std::min(s, 1.0L) + 0.055L) / 1.055L, 2.4L);
+}
+
+long double mesa_decoded(long double s) {
+  if (s * 255 <= 15) return s / 12.6L;
+  return 0.0023L + s * (0.0030L + s * (0.6935L + s * 0.3012L));
 }
 
 LevelReading TexelSource::reading(size_t level) const {

@@ -15,6 +15,10 @@ void include(TexelHull& hull, const TexelHull& other);
 long double srgb_encoded(long double x);
 long double srgb_decoded(long double s);
 
+/// The same as Mesa 22.3 decodes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line, and a polynomial from
+/// code 16 on.
+long double mesa_decoded(long double s);
+
 /// The levels of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.
 struct TexelSource {
   const Texture& texture;

@@ -21,10 +21,8 @@ Range attribute_range(const Projector& projector, const Piece& piece, const Surf
 
 }  // namespace
 
-std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
-                                              const SurfacePoint& point, const TriangleValues& values, double x,
-                                              double y) {
-  if (!slot.used()) return std::nullopt;
+TextureSample map_sample(const Projector& projector, const TextureSlot& slot, const Piece& piece,
+                         const SurfacePoint& point, const TriangleValues& values, double x, double y) {
   const Interpolation how = projector.pipeline().gbuffer.uv.interpolation;
   std::array<std::array<double, 3>, 2> uv{};
   Range at[2];
@@ -34,8 +32,15 @@ std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const 
     piece_values(piece, values, index, uv[k], error);
     at[k] = attribute_range(projector, piece, point, values, index, how);
   }
-  const Texture& texture = projector.scene().textures[size_t(slot.texture)];
-  return texel_range(texture, slot.sampler, texture_sample(piece, uv, how, at[0], at[1], x, y), projector.profile(),
+  return texture_sample(piece, uv, how, at[0], at[1], x, y);
+}
+
+std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
+                                              const SurfacePoint& point, const TriangleValues& values, double x,
+                                              double y) {
+  if (!slot.used()) return std::nullopt;
+  return texel_range(projector.scene().textures[size_t(slot.texture)], slot.sampler,
+                     map_sample(projector, slot, piece, point, values, x, y), projector.profile(),
                      projector.level_hulls().get());
 }
 

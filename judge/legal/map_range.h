@@ -6,6 +6,10 @@
 
 namespace trueshade::oracle {
 
+/// Where a material's map is read. Of a slot that is used.
+TextureSample map_sample(const Projector& projector, const TextureSlot& slot, const Piece& piece,
+                         const SurfacePoint& point, const TriangleValues& values, double x, double y);
+
 /// Texel of a material's map; nothing where the slot is empty.
 std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
                                               const SurfacePoint& point, const TriangleValues& values, double x,

@@ -10,7 +10,8 @@ SurfaceValues::SurfaceValues(const Projector& projector, const PossibleSurface& 
                     possible, x, y) {}
 
 SurfaceValues::SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form,
-                             const PossibleSurface& possible, double x, double y, SurfacePoint::Within within)
+                             const PossibleSurface& possible, double x, double y, SurfacePoint::Within within,
+                             const SurfaceTexels* texels)
     : projector_(projector),
       model_(projector.pipeline().light_model),
       material_(&projector.scene().materials[projector.scene().instances[possible.instance].material]),
@@ -18,20 +19,32 @@ SurfaceValues::SurfaceValues(const Projector& projector, std::shared_ptr<const T
       piece_index_(possible.piece),
       piece_(&form_->pieces()[piece_index_]),
       point_(*piece_, form_->shape(piece_index_), projector.profile(), x, y, within) {
-  const auto texel = [&](const TextureSlot& slot) -> std::optional<std::array<Range, 4>> {
-    if (!slot.used()) return std::nullopt;
-    return map_texel(projector, slot, *piece_, point_, form_->values(), x, y);
-  };
-  texel_ = texel(material_->color_map);
   const bool glass_in_albedo =
       material_->transparent && projector.pipeline().transparency.mode == TransparencyMode::into_albedo;
   unlit_ = material_->unlit && shows_unlit(model_) && !glass_in_albedo;
-  if (!unlit_ && takes_gloss(model_)) gloss_ = texel(material_->specular_map);
-  if (!unlit_ && maps_metals(model_)) metal_ = texel(material_->metallic_roughness_map);
-  if (!unlit_ && model_.emission) glow_ = texel(material_->emission_map), shade_ = texel(material_->occlusion_map);
-  const auto bumps = texel(material_->normal_map);
-  if (!bumps) return;
-  bend(*bumps);
+  const auto slots = maps_of(*material_);
+  for (size_t map = 0; map < kMaterialMaps; ++map) {
+    if (!slots[map]->used() || !reads(MaterialMap(map))) continue;
+    texels_[map] =
+        texels != nullptr ? (*texels)[map] : map_texel(projector, *slots[map], *piece_, point_, form_->values(), x, y);
+  }
+  if (texels_[kNormalMap]) bend(*texels_[kNormalMap]);
+}
+
+bool SurfaceValues::reads(MaterialMap map) const {
+  switch (map) {
+    case kColorMap:
+    case kNormalMap:
+      return true;
+    case kSpecularMap:
+      return !unlit_ && takes_gloss(model_);
+    case kMetalMap:
+      return !unlit_ && maps_metals(model_);
+    case kEmissionMap:
+    case kOcclusionMap:
+      return !unlit_ && model_.emission;
+  }
+  return false;
 }
 
 namespace {
@@ -85,7 +98,7 @@ Range SurfaceValues::normal(int k, Interpolation interpolation) const {
 
 Range SurfaceValues::base_color(int k, Interpolation interpolation) const {
   Range range = attribute(kAlbedo + size_t(k), interpolation);
-  if (texel_) range = product(range, (*texel_)[size_t(k)], projector_.profile());
+  if (const Range* t = texel(kColorMap)) range = product(range, t[k], projector_.profile());
   return tinted(range, double(material_->base_color[k]));
 }
 
@@ -93,13 +106,14 @@ double SurfaceValues::roundoff() const { return std::max(projector_.profile().ar
 
 Range SurfaceValues::metallic() const {
   const double given = double(material_->metallic);
-  return metal_ ? product({given, given, given}, (*metal_)[2], projector_.profile()) : Range{given, given, given};
+  const Range* t = texel(kMetalMap);
+  return t != nullptr ? product({given, given, given}, t[2], projector_.profile()) : Range{given, given, given};
 }
 
 Range SurfaceValues::albedo(const Range& base) const {
   if (unlit_) return {};
   if (!maps_metals(model_)) return base;
-  if (!metal_) return tinted(base, double(1.0f - material_->metallic));
+  if (!rough()) return tinted(base, double(1.0f - material_->metallic));
   const Range m = metallic();
   return product(base, {1 - m.value, 1 - m.high - roundoff(), 1 - m.low + roundoff()}, projector_.profile());
 }
@@ -109,7 +123,7 @@ Range SurfaceValues::albedo(const Range& base) const {
 Range SurfaceValues::specular(const Range& base, int k) const {
   if (unlit_) return {};
   const double given = double(material_->specular_color[k]), least = double(0.04f);
-  if (gloss_) return product({given, given, given}, (*gloss_)[size_t(k)], projector_.profile());
+  if (const Range* t = texel(kSpecularMap)) return product({given, given, given}, t[k], projector_.profile());
   if (!maps_metals(model_)) return {given, given, given};
   if (material_->metallic == 0.0f) return {least, least, least};
   const Range m = metallic();
@@ -126,7 +140,7 @@ Range SurfaceValues::shininess() const {
     return {double(material_->shininess), double(material_->shininess), double(material_->shininess)};
   const auto integer = [](double exponent) { return std::clamp(std::rint(exponent), 1.0, 8192.0); };
   const double given = double(material_->roughness);
-  if (!metal_) {
+  if (!rough()) {
     const double s = integer(2 / std::pow(std::max(given, 0.04), 4) - 2);
     return {s, s, s};
   }
@@ -135,7 +149,7 @@ Range SurfaceValues::shininess() const {
     const Bounded r{std::max(roughness, 0.04), 0x1p-24 * 0.04}, r2 = product(a, r, r);
     return difference(a, quotient(a, {2, 0}, product(a, r2, r2)), {2, 0});
   };
-  const Range r = product({given, given, given}, (*metal_)[1], projector_.profile());
+  const Range r = product({given, given, given}, texel(kMetalMap)[1], projector_.profile());
   return {integer(2 / std::pow(std::max(r.value, 0.04), 4) - 2), integer(exponent(r.high).low()),
           integer(exponent(r.low).high())};
 }
@@ -143,15 +157,16 @@ Range SurfaceValues::shininess() const {
 Range SurfaceValues::emission(const Range& base, int k) const {
   if (unlit_) return base;
   const double e = double(material_->emission[k]);
-  return glow_ ? product({e, e, e}, (*glow_)[size_t(k)], projector_.profile()) : Range{e, e, e};
+  const Range* t = texel(kEmissionMap);
+  return t != nullptr ? product({e, e, e}, t[k], projector_.profile()) : Range{e, e, e};
 }
 
 /// 1 + strength (texel - 1): three roundings of numbers up to 1.
 Range SurfaceValues::ambient_share() const {
-  if (!shade_) return {1, 1, 1};
+  if (!shaded()) return {1, 1, 1};
   const double strength = double(material_->occlusion_strength), v = 3 * roundoff();
   const auto share = [&](double texel) { return 1 + strength * (texel - 1); };
-  const Range& r = (*shade_)[0];
+  const Range& r = *texel(kOcclusionMap);
   return {share(r.value), share(r.low) - v, share(r.high) + v};
 }
 

@@ -11,23 +11,31 @@
 
 namespace trueshade::oracle {
 
+/// The maps of a material, in the order of maps_of().
+enum MaterialMap : size_t { kColorMap, kSpecularMap, kNormalMap, kMetalMap, kEmissionMap, kOcclusionMap };
+
+/// What the maps of a material give at a sample; nothing where a map is not there, or not read.
+using SurfaceTexels = std::array<std::optional<std::array<Range, 4>>, kMaterialMaps>;
+
 /// One possible surface at one sample (x, y), pixels, y up. Borrows the projector.
 class SurfaceValues {
  public:
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
   /// The same of a triangle whose form is known.
+  ///   texels: what the maps give, where that is known already; null: they are looked up
   SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form, const PossibleSurface& possible,
-                double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box);
+                double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box,
+                const SurfaceTexels* texels = nullptr);
 
   bool bounded() const { return point_.bounded(); }
   // Which channels come from a lookup: the albedo's, the specular colour's, the shininess, the emission's, the share of
   // ambient light, the normal's.
-  bool textured() const { return texel_ || metal_; }
-  bool glossy() const { return maps_metals(model_) ? textured() : gloss_.has_value(); }
-  bool rough() const { return metal_.has_value(); }
-  bool glowing() const { return unlit_ ? texel_.has_value() : glow_.has_value(); }
-  bool shaded() const { return shade_.has_value(); }
+  bool textured() const { return texels_[kColorMap] || texels_[kMetalMap]; }
+  bool glossy() const { return maps_metals(model_) ? textured() : texels_[kSpecularMap].has_value(); }
+  bool rough() const { return texels_[kMetalMap].has_value(); }
+  bool glowing() const { return texels_[unlit_ ? kColorMap : kEmissionMap].has_value(); }
+  bool shaded() const { return texels_[kOcclusionMap].has_value(); }
   bool bumpy() const { return bent_.has_value(); }
   bool looked_up() const { return textured() || glossy() || glowing() || shaded() || bumpy(); }
   const Material& material() const { return *material_; }
@@ -43,6 +51,8 @@ class SurfaceValues {
   Range ambient_share() const;  ///< what arrives of ambient light
 
  private:
+  bool reads(MaterialMap map) const;
+  const Range* texel(MaterialMap map) const { return texels_[map] ? texels_[map]->data() : nullptr; }
   Range tinted(const Range& r, double tint) const;
   void bend(const std::array<Range, 4>& bumps);
   Range metallic() const;
@@ -56,7 +66,7 @@ class SurfaceValues {
   const Piece* const piece_;
   const SurfacePoint point_;
   bool unlit_ = false;
-  std::optional<std::array<Range, 4>> texel_, gloss_, metal_, glow_, shade_;  ///< of the maps that are read
+  SurfaceTexels texels_;
   std::optional<std::array<Range, 3>> bent_;
 
   /// Whether the triangle may show its front, its back, or either: what becomes of a double-sided material's normal.

@@ -159,7 +159,7 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
     include(r, filtered_range({texture, s, rules, hulls, false, rules.srgb_codes}, lod, at, profile, steps));
   }
   const double off = rules.lerp_codes * steps / 255;
-  if (srgb && rules.decodes_late) {
+  if (srgb && rules.decodes_late && steps > 0) {
     TexelHull late = filtered_range({texture, s, rules, hulls, true}, lod, at, profile, steps);
     for (size_t c = 0; c < 4; ++c) {
       const double more = off + (c < 3 ? rules.srgb_codes / 255 : 0);

@@ -95,8 +95,8 @@ class GBufferJudge {
   /// Holds the pixel against one surface, and returns whether that is bounded there. Found: Match, or what has its
   /// members but asks for nothing beyond the pixel's legality.
   template <typename Found>
-  bool compare(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, SurfacePoint::Within within,
-               Found& m) const;
+  bool compare(const Projector& projector, const PossibleSurface& c, int x, int y_top, GBufferMemory& memory,
+               SurfacePoint::Within within, Found& m) const;
   /// How the pixel fares against one surface, and whether that is `bounded` there.
   ///   worst_error: the largest one so far; what is less is not told
   Match match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
@@ -111,6 +111,8 @@ class GBufferJudge {
   /// Possible surfaces that may be seen, the nominal one first.
   void find_legal(std::span<const PossibleSurface> all, std::vector<const PossibleSurface*>& legal,
                   const PossibleSurface*& nominal, bool& certain) const;
+  /// What the pixel tells of maps, or of the glass before it, for the tests of the whole image.
+  void keep_for_materials(const PossibleSurface& shown, int x, int y_top, GBufferMemory& memory, RowTally& row) const;
   void judge_pixel(std::span<const PossibleSurface> all, int x, int y_top, GBufferMemory& memory, RowTally& row) const;
   void find_violation(int x, int y_top, GBufferMemory& memory, RowTally& row) const;
   std::optional<PossibleSurface> nominally_seen(std::span<const PossibleSurface> all, double x, double y,
@@ -119,6 +121,7 @@ class GBufferJudge {
   PixelClass class_of(const Match& m, bool bounded, const PossibleSurface* seen, const PossibleSurface* nominal) const;
 
   Projector projector_;
+  std::optional<Projector> exact_filters_;  ///< where maps are read: by a profile of exact lookups
   const Pipeline pipeline_;
   const Profile profile_;
   const Asked asked_;

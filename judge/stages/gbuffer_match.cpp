@@ -34,6 +34,14 @@ struct Legality {
   void note(const char*, int, const LegalTexel&, double, double) { legal = false; }
 };
 
+/// The profile with lookups that are off by nothing but roundings of floats.
+Profile with_exact_filters(const Profile& profile) {
+  Profile p = profile;
+  p.sampling = profile_named("ideal")->sampling;
+  p.sampling.lod_error = 0x1p-10, p.sampling.relative = Sampling{}.relative;
+  return p;
+}
+
 /// A legal albedo under transparent surfaces.
 void take_layers(const LayeredVerdict& v, Match& m) {
   m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
@@ -67,6 +75,10 @@ GBufferJudge::GBufferJudge(const Scene& scene, const Pipeline& pipeline, const P
   if (planes_.empty() && !depth_ && !object_ && !material_)
     throw Error(ErrorKind::bad_input, capture.name, "has no G-buffer plane",
                 "capture depth, position, normal, albedo, uv or ids");
+  const bool is_textured =
+      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.textured(); });
+  if (is_textured && asked == Asked::classes)
+    exact_filters_.emplace(scene, pipeline, with_exact_filters(profile), capture.drawn_at, projector_.level_hulls());
   if (wider_ == nullptr) possible_ = possible_surfaces(projector_, rows);
   if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::into_albedo &&
       capture.plane("albedo") != nullptr)
@@ -124,8 +136,8 @@ void GBufferJudge::judge_shininess(const Range& range, double stored, uint32_t p
 }
 
 template <typename Found>
-bool GBufferJudge::compare(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory,
-                           SurfacePoint::Within within, Found& m) const {
+bool GBufferJudge::compare(const Projector& projector, const PossibleSurface& c, int x, int y_top,
+                           GBufferMemory& memory, SurfacePoint::Within within, Found& m) const {
   std::array<LastTexel, 4>& constants = memory.constants;
   const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
   const double sx = x + 0.5, sy = pipeline_.height - 1 - y_top + 0.5;
@@ -137,7 +149,7 @@ bool GBufferJudge::compare(const PossibleSurface& c, int x, int y_top, GBufferMe
   identifier(object_, "id.object", c.instance + 1.0);
   identifier(material_, "id.material", instance.material + 1.0);
   if (!m.legal && object_) return true;
-  const SurfaceValues surface(projector_, memory.forms.of(c.instance, c.triangle), c, sx, sy, within);
+  const SurfaceValues surface(projector, memory.forms.of(c.instance, c.triangle), c, sx, sy, within);
   const bool bounded = surface.bounded();
   if (depth_)
     m.channel_is(depth_, "depth", 0, widened(surface.depth(), depth_, x, y_top),
@@ -199,13 +211,17 @@ Match GBufferJudge::match(const PossibleSurface& c, int x, int y_top, GBufferMem
                           double worst_error) const {
   Match m;
   m.worst_error = worst_error;
-  bounded = compare(c, x, y_top, memory, SurfacePoint::Within::box, m);
+  bounded = compare(projector_, c, x, y_top, memory, SurfacePoint::Within::box, m);
+  if (!m.legal || !m.off_lookup || m.tex || !exact_filters_) return m;
+  Legality exact;
+  compare(*exact_filters_, c, x, y_top, memory, SurfacePoint::Within::box, exact);
+  m.tex = !exact.legal;
   return m;
 }
 
 bool GBufferJudge::fits_middle(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory) const {
   Legality found;
-  compare(c, x, y_top, memory, SurfacePoint::Within::middle, found);
+  compare(projector_, c, x, y_top, memory, SurfacePoint::Within::middle, found);
   return found.legal;
 }
 

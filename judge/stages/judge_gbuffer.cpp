@@ -4,6 +4,7 @@
 #include "core/threads/parallel_for.h"
 #include "judge/legal/patch.h"
 #include "judge/stages/gbuffer_judge.h"
+#include "judge/stages/glass_deviations.h"
 
 namespace trueshade::oracle {
 
@@ -124,6 +125,7 @@ void GBufferJudge::judge_pixel(std::span<const PossibleSurface> all, int x, int 
     }
     if (m.legal) {
       const PixelClass shown = class_of(m, bounded, c, nominal);
+      if (c == nominal && bounded && m.layered == PixelClass::exact) keep_for_materials(*c, x, y_top, memory, row);
       row.take(x, y_top, shown, m, is_told(shown) ? name_of(c) : std::string());
       return;
     }
@@ -134,6 +136,29 @@ void GBufferJudge::judge_pixel(std::span<const PossibleSurface> all, int x, int 
   closest.choices.clear();
   closest.stored_values = 0;
   row.take(x, y_top, PixelClass::violation, closest, name_of(legal.empty() ? nullptr : legal.front()));
+}
+
+void GBufferJudge::keep_for_materials(const PossibleSurface& shown, int x, int y_top, GBufferMemory& memory,
+                                      RowTally& row) const {
+  const uint32_t pixel = uint32_t(y_top) * uint32_t(pipeline_.width) + uint32_t(x);
+  if (asked_ != Asked::classes || !is_sampled(pixel, pipeline_.width, pipeline_.height)) return;
+  const Scene& scene = projector_.scene();
+  const bool is_textured = scene.materials[scene.instances[shown.instance].material].textured();
+  if (!layers_ || !layers_->any(x, y_top)) {
+    if (is_textured) row.textured.push_back({pixel, shown});
+    return;
+  }
+  const auto albedo =
+      std::find_if(planes_.begin(), planes_.end(), [](const AttributePlane& p) { return p.first == kAlbedo; });
+  if (is_textured || albedo == planes_.end()) return;
+  const SurfaceValues surface(projector_, memory.forms.of(shown.instance, shown.triangle), shown, x + 0.5,
+                              pipeline_.height - 1 - y_top + 0.5, SurfacePoint::Within::middle);
+  std::array<double, 4> opaque{};
+  for (int k = 0; k < 4; ++k) {
+    const Range base = surface.base_color(k, albedo->interpolation);
+    opaque[size_t(k)] = (k < 3 ? surface.albedo(base) : base).value;
+  }
+  keep_glass(*layers_, layers_->at(x, y_top), opaque, albedo->view, x, y_top, row);
 }
 
 void GBufferJudge::judge_band(int y, int end, std::vector<RowTally>& rows) const {

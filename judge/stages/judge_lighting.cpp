@@ -5,6 +5,7 @@
 #include "core/threads/parallel_for.h"
 #include "judge/legal/allows.h"
 #include "judge/stages/captured_surface.h"
+#include "judge/stages/glass_deviations.h"
 #include "judge/stages/judge.h"
 #include "judge/stages/judge_blending.h"
 #include "judge/stages/judge_transparency.h"
@@ -103,10 +104,12 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
   const bool covered = surface_.covered(x, y);
   Match counted;
   CarriedTexel at;
+  std::array<double, 4> from{};
   bool branches = false;
   for (size_t k = 0; k < 4; ++k) {
     const Range c = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
     at.nominal[k] = at.all[k] = legal_texel(c, color_.image->format, int(k), profile_);
+    from[k] = c.value;
   }
   if (covered) {
     ++row.covered;
@@ -122,9 +125,11 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
         return legal_texel(output_range(pipeline_.light_model, c), color_.image->format, int(k), profile_);
       };
       at.nominal[k] = texel(lit.color[k]), at.all[k] = texel(any);
+      from[k] = output_range(pipeline_.light_model, lit.color[k]).value;
     }
-    at.nominal[3] = at.all[3] =
-        legal_texel(output_range(pipeline_.light_model, surface_.alpha(surface)), color_.image->format, 3, profile_);
+    const Range alpha = output_range(pipeline_.light_model, surface_.alpha(surface));
+    at.nominal[3] = at.all[3] = legal_texel(alpha, color_.image->format, 3, profile_);
+    from[3] = alpha.value;
   }
   const TransparentPixel pixel = layers_->at(x, y);
   may_have_other_layers(pixel, pixel_at(x, y), row);
@@ -134,6 +139,7 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
     if (worse(PixelClass::branch, v.pixel_class)) v.pixel_class = PixelClass::branch;
   }
   if (!counted.legal) v = {PixelClass::violation, counted};
+  if (v.pixel_class != PixelClass::violation && !branches) keep_glass(*layers_, pixel, from, color_, x, y, row);
   row.take(x, y, v.pixel_class, v.match, std::to_string(pixel.layers.size()) + " transparent fragments");
 }
 

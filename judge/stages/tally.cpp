@@ -1,10 +1,12 @@
 #include "judge/stages/tally.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "core/error.h"
 #include "core/image_rows.h"
+#include "judge/legal/level_range.h"
 
 namespace trueshade::oracle {
 
@@ -63,6 +65,23 @@ double PlaneView::stored_otherwise(int x, int y, int channel) const {
   return unorm() ? double(code) : value_of_code(layout, channel, code);
 }
 
+double PlaneView::held(double value, int channel) const {
+  if (!unorm()) return value;
+  return layout.largest_code(channel) *
+         (layout.srgb_channel(channel) ? double(srgb_encoded((long double)(value))) : value);
+}
+
+std::optional<Deviation> PlaneView::deviation(int x, int y, int channel, double expected) const {
+  constexpr double kRounding = 0.3;  // standard deviation of what rounding to steps leaves
+  const double given = stored(x, y, channel);
+  const bool is_open = !unorm() || (expected > 1 && expected < layout.largest_code(channel) - 1.0);
+  if (!is_open || !std::isfinite(given) || !std::isfinite(expected)) return std::nullopt;
+  const double parts = unorm() ? 16 : 4096;  // of a step, or in floats of 1: values that near round alike
+  const auto value = uint64_t(int64_t(std::floor(std::clamp(expected, -1e9, 1e9) * parts)) + (int64_t(1) << 50));
+  return Deviation{
+      given - expected, {}, value << 2 | uint64_t(channel & 3), kRounding * unit_of(*this, channel, expected)};
+}
+
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {
   const bool is_target = name == "color";
   PlaneView view(is_target ? (capture.color.width > 0 ? &capture.color : nullptr) : capture.plane(name));
@@ -93,6 +112,9 @@ void Match::lookup_is(const PlaneView& view, const char* name, int at, const Ran
   second = false;
   channel_is(view, name, at, range, stored, pixel, profile);
   tex = tex || second;
+  constexpr double kRoundings = 0x1p-18;
+  off_lookup = off_lookup || (!view.quantised() &&
+                              std::fabs(stored - range.value) > kRoundings * (std::fabs(range.value) + kSmallestFloat));
   second = before, stored_values = values, store_count = seen;
   choices.erase(choices.begin() + int64_t(count), choices.end());
 }
@@ -148,6 +170,11 @@ StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double
     c.value = float(std::floor(value * step) / step);
   }
   return c;
+}
+
+bool is_sampled(uint32_t pixel, int width, int height) {
+  constexpr uint64_t kEnough = 24576;  // pixels
+  return uint64_t(scrambled(pixel)) * uint64_t(width) * uint64_t(height) < kEnough << 32;
 }
 
 void RowTally::may_be_other(uint32_t pixel, uint64_t surface, double chance) {
@@ -231,6 +258,8 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
     v.surface_choices.insert(v.surface_choices.end(), row.surface_choices.begin(), row.surface_choices.end());
     v.choices.insert(v.choices.end(), row.choices.begin(), row.choices.end());
     v.near_thresholds.insert(v.near_thresholds.end(), row.near_thresholds.begin(), row.near_thresholds.end());
+    v.textured.insert(v.textured.end(), row.textured.begin(), row.textured.end());
+    v.glass.insert(v.glass.end(), row.glass.begin(), row.glass.end());
     v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
   }
   keep_worst(v.worst);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 
 #include "core/image.h"
 #include "judge/legal/store.h"
@@ -39,6 +40,10 @@ struct PlaneView {
   }
   size_t pixel(int x, int y) const { return size_t(y) * size_t(image->width) + size_t(x); }
   bool quantised() const { return unorm() || layout.small_float(); }
+  /// A value as the plane would hold it but for rounding: of fixed point in codes, sRGB encoded; else the value itself.
+  double held(double value, int channel) const;
+  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it.
+  std::optional<Deviation> deviation(int x, int y, int channel, double expected) const;
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
 
@@ -67,10 +72,11 @@ struct SeenStore {
 /// How one pixel fares against one surface.
 struct Match {
   bool legal = true;
-  bool tex = false;        ///< some channel took a value that another legal lookup gives
-  bool second = false;     ///< some channel took a neighbour that is not the nominal one
-  double worst_error = 0;  ///< float channels: |given - value| / bound
-  double excess = 0;       ///< of the worst channel outside its range
+  bool tex = false;         ///< some channel took a value that another legal lookup gives
+  bool off_lookup = false;  ///< a float channel is farther from the nominal lookup's value than roundings make it
+  bool second = false;      ///< some channel took a neighbour that is not the nominal one
+  double worst_error = 0;   ///< float channels: |given - value| / bound
+  double excess = 0;        ///< of the worst channel outside its range
   const char* plane = "";
   int channel = 0;
   LegalTexel legal_value;
@@ -103,6 +109,9 @@ StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double
 /// Whether a verdict may list a pixel of that class.
 inline bool is_told(PixelClass c) { return c != PixelClass::exact && c != PixelClass::store_2; }
 
+/// Whether a pixel is one of those that tests of materials look at: of a large image some are enough.
+bool is_sampled(uint32_t pixel, int width, int height);
+
 /// One row's share of a verdict.
 struct RowTally {
   std::vector<PixelClass> classes;
@@ -112,6 +121,8 @@ struct RowTally {
   std::vector<StoreChoice> choices;
   std::vector<NearThreshold> near_thresholds;
   std::vector<WorstPixel> worst;
+  std::vector<TexturedPixel> textured;
+  std::vector<GlassDeviation> glass;
 
   /// `pixel`: y * width + x, y from the top.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
@@ -123,9 +134,9 @@ struct RowTally {
  private:
   void compare(int x, const Match& match);
   void keep_choices(int y, const Match& match);
-  std::vector<uint32_t> runs_;  ///< of each of `choices`: the run of records that it is of
-  uint32_t records_ = 0;        ///< that had a choice
-  uint32_t one_in_ = 1;         ///< so many runs is kept: a power of two
+  std::vector<uint32_t> runs_;                       ///< of each of `choices`: the run of records that it is of
+  uint32_t records_ = 0;                             ///< that had a choice
+  uint32_t one_in_ = 1;                              ///< so many runs is kept: a power of two
   std::array<SeenStore, Match::kMostStores> before;  ///< of the pixel to the left, if there is one
   size_t before_count = 0;
   int before_x = -2;

@@ -50,6 +50,13 @@ struct CarriedTexel {
   PixelClass doubt = PixelClass::branch;
 };
 
+/// What glass of one material makes of a pixel in real arithmetic, and what one unit of alpha makes of that.
+struct GlassChange {
+  uint32_t material = 0;
+  std::array<double, 4> value{}, by_alpha{};
+  int blends = 0;
+};
+
 /// A fragment is tested against the depth that the opaque surfaces left: the capture's own where it has that plane,
 /// else that of any opaque surface that may be seen there. LESS and LEQUAL (GREATER and GEQUAL alike): sure to pass
 /// where all of its depths are in front of that one, may pass where some are; ALWAYS passes; EQUAL and NOTEQUAL may go
@@ -71,6 +78,10 @@ class TransparentLayers {
   /// Every way to draw the layers onto a texel, the nominal one first. Triangles of a patch are in a way that its sum
   /// of turns allows. More than six layers in doubt: the nominal way, and the hull of all.
   std::vector<LayeredTexel> ways(const TransparentPixel& pixel, const Texel& from) const;
+
+  /// Of layers of one material without maps that are drawn for sure; nothing of others.
+  ///   from: what the pixel holds before them, values
+  std::optional<GlassChange> change(const TransparentPixel& pixel, const std::array<double, 4>& from) const;
 
   /// All ways at once: of a pixel that is not known but to lie in a set.
   void carry(const TransparentPixel& pixel, CarriedTexel& at) const;

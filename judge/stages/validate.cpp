@@ -1,6 +1,7 @@
 #include "judge/stages/validate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 
@@ -123,8 +124,13 @@ double Verdict::least_chance(size_t stages_judged) const {
   return significance / double(stages_judged * kAggregateTests);
 }
 
-bool Verdict::convicted() const {
+bool Verdict::rounds_unlike_any() const {
   return std::any_of(evidence.begin(), evidence.end(), [](const Evidence& e) { return e.against; });
+}
+
+bool Verdict::convicted() const {
+  return rounds_unlike_any() ||
+         std::any_of(materials.begin(), materials.end(), [](const MaterialEvidence& e) { return e.against; });
 }
 
 bool Verdict::suspicious() const {
@@ -139,7 +145,7 @@ std::string Verdict::evidence_line() const {
     const AggregateTest& t = evidence[i].least_likely();
     if (strongest == nullptr || t.chance < strongest->chance) strongest = &t, stage = stages[i].stage;
   }
-  if (strongest == nullptr) return {};
+  if (strongest == nullptr) return material_line();
   const auto tests = double(stages.size() * kAggregateTests);  // of which one is the rarest
   char text[256];
   std::snprintf(
@@ -147,6 +153,15 @@ std::string Verdict::evidence_line() const {
       stage.c_str(), strongest->name.c_str(), strongest->where.empty() ? "" : ", ", strongest->where.c_str(),
       strongest->observed, strongest->low, strongest->high, one_in(std::min(1.0, strongest->chance * tests)).c_str());
   return text;
+}
+
+std::string Verdict::material_line() const {
+  const MaterialEvidence* strongest = nullptr;
+  const auto strength = [](const MaterialEvidence& e) { return std::fabs(e.value) / e.least; };
+  for (const MaterialEvidence& e : materials)
+    if (e.against && (strongest == nullptr || strength(e) > strength(*strongest))) strongest = &e;
+  return strongest == nullptr ? std::string()
+                              : strongest->stage + ", " + strongest->subject() + ": " + strongest->text();
 }
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
@@ -168,6 +183,7 @@ Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Captur
     v.evidence.push_back(evidence_of(stage.verdict, stage.judge, options.profile, v.least_chance(stages.size())));
     v.stages.push_back(std::move(stage.verdict));
   }
+  v.materials = material_evidence(scene, pipeline, options.profile, capture, v.stages, options.significance);
   begin("what profile explains it");
   if (options.infer && v.stages.front().stage == "gbuffer") {
     JudgedBefore before = validation.before();

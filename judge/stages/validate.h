@@ -8,6 +8,7 @@
 #include "judge/stages/evidence.h"
 #include "judge/stages/infer.h"
 #include "judge/stages/judge.h"
+#include "judge/stages/material_evidence.h"
 
 namespace trueshade::oracle {
 
@@ -25,15 +26,20 @@ struct Verdict {
   std::string profile;
   std::vector<StageVerdict> stages;  ///< those the capture has planes for: gbuffer; lighting or blending; transparency
   std::vector<Evidence> evidence;    ///< of each stage
+  std::vector<MaterialEvidence> materials;  ///< of maps and of glass
   double significance = 1e-6;
   std::optional<Inference> inferred;
 
   uint64_t violations() const;                      ///< over all stages; the command's exit code is 1 where it is not 0
   double least_chance(size_t stages_judged) const;  ///< of one test, so that all of them pass by the significance
-  bool convicted() const;   ///< legal pixel by pixel, yet no implementation that is known makes such an image
-  bool suspicious() const;  ///< convicted, or stores follow another known rule than the one that is stated
+  bool rounds_unlike_any() const;  ///< some stage's stores or surfaces are not what any known rounding makes
+  bool convicted() const;          ///< legal pixel by pixel, yet no implementation that is known makes such an image
+  bool suspicious() const;         ///< convicted, or stores follow another known rule than the one that is stated
   /// The strongest evidence in one line: what was seen, what is expected at most, how likely that is.
   std::string evidence_line() const;
+
+ private:
+  std::string material_line() const;
 };
 
 /// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by

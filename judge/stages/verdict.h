@@ -7,6 +7,8 @@
 
 #include "judge/bounds/profile.h"
 #include "judge/legal/pixel_class.h"
+#include "judge/legal/possible_surfaces.h"
+#include "judge/stages/cause_fit.h"
 
 namespace trueshade::oracle {
 
@@ -50,6 +52,27 @@ struct SurfaceChoice {
   float chance;      ///< predicted that another is shown
 };
 
+/// A pixel that shows its nominal surface, whose material has maps.
+struct TexturedPixel {
+  uint32_t pixel;  ///< y * width + x, y from the top
+  PossibleSurface surface;
+};
+
+/// What glass may do to a plane otherwise, each as one number for the whole picture.
+enum class GlassCause : uint8_t {
+  alpha,  ///< of the source
+  step_r,
+  step_g,
+  step_b,  ///< codes that a blend is off on average, in each channel: a source is often one colour
+};
+inline constexpr size_t kGlassCauses = 4;
+
+/// A channel of a pixel under transparent surfaces of one material.
+struct GlassDeviation {
+  uint32_t material;
+  Deviation deviation;  ///< by GlassCause
+};
+
 struct StageVerdict {
   std::string stage, profile;
   int width = 0, height = 0;
@@ -62,12 +85,14 @@ struct StageVerdict {
   std::vector<SurfaceChoice> surface_choices;    ///< of the ambiguous pixels
   std::vector<StoreChoice> choices;              ///< those of them with two likely values, or that took a second one
   std::vector<NearThreshold> near_thresholds;    ///< of fixed-point targets whose conversion to codes is seen
-  uint64_t stored_apart = 0;       ///< stores whose value is that of the pixel to the left, which stored another code,
-                                   ///< although the likely rule leaves one outcome
-  StoreRule rule;                  ///< by which `choices` are choices
-  double worst_error = 0;          ///< float planes: largest |given - value| / bound
-  std::vector<double> row_errors;  ///< the same of each row
-  std::vector<WorstPixel> worst;   ///< at most 32
+  uint64_t stored_apart = 0;  ///< stores whose value is that of the pixel to the left, which stored another code,
+                              ///< although the likely rule leaves one outcome
+  std::vector<TexturedPixel> textured;  ///< some of them, by numbers that look like chance
+  std::vector<GlassDeviation> glass;    ///< of pixels under it, as many
+  StoreRule rule;                       ///< by which `choices` are choices
+  double worst_error = 0;               ///< float planes: largest |given - value| / bound
+  std::vector<double> row_errors;       ///< the same of each row
+  std::vector<WorstPixel> worst;        ///< at most 32
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   bool passes() const { return count(PixelClass::violation) == 0; }

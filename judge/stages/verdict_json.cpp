@@ -42,6 +42,13 @@ std::string stage_json(const StageVerdict& s, const Evidence& evidence, double l
          ",\"worst\":" + array(s.worst, worst_json) + "}";
 }
 
+std::string material_json(const MaterialEvidence& m) {
+  return "{\"stage\":" + json_string(m.stage) + ",\"material\":" + std::to_string(m.material) +
+         ",\"plane\":" + json_string(m.plane) + ",\"map\":" + json_string(m.map) +
+         ",\"cause\":" + json_string(m.cause) + ",\"value\":" + number(m.value) + ",\"error\":" + number(m.error) +
+         ",\"least\":" + number(m.least) + ",\"pass\":" + (m.against ? "false" : "true") + "}";
+}
+
 std::string inference_json(const Inference& i) {
   const auto tried = [](const Hypothesis& h) {
     return "{\"knob\":" + json_string(h.knob) + ",\"value\":" + json_string(h.value) +
@@ -70,7 +77,8 @@ std::string verdict_json(const Verdict& v) {
          ",\"convicted\":" + (v.convicted() ? "true" : "false") +
          ",\"suspicious\":" + (v.suspicious() ? "true" : "false") + ",\"significance\":" + number(v.significance) +
          ",\"evidence\":" + json_string(v.evidence_line()) + ",\"stages\":" + stages +
-         "],\"inferred\":" + (v.inferred ? inference_json(*v.inferred) : "null") + "}";
+         "],\"materials\":" + array(v.materials, material_json) +
+         ",\"inferred\":" + (v.inferred ? inference_json(*v.inferred) : "null") + "}";
 }
 
 }  // namespace trueshade::oracle

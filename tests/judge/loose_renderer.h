@@ -4,6 +4,7 @@
 // any fill rule, either neighbour in every store, textures of few weight bits and any legal level. Independent of the
 // renderer and of the judge; small scenes only, nothing may cross the near or far plane.
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "oracle/capture.h"
@@ -13,6 +14,17 @@
 #include "scenes/scene.h"
 
 namespace trueshade::testing {
+
+/// One way to read textures, the same for a whole picture.
+struct TextureWay {
+  double rho = 0;         ///< -1: the largest derivative, 0: equation 8.11, 1: the larger ones along u and v added up
+  double levels_off = 0;  ///< of log2 rho
+  int weight_bits = 0;    ///< 0: exact
+  bool cuts_weights = false;               ///< else to the nearest
+  std::optional<double> step_threshold{};  ///< 8-bit steps give the upper code from this fraction on: 0.5 to nearest, 1
+                                           ///< truncates; nothing: steps are in floats
+  bool mesa_decode = false;                ///< sRGB by Mesa's polynomial
+};
 
 struct Liberties {
   bool any_rounding = true;  ///< otherwise to nearest, divisions and roots correct, as llvmpipe
@@ -24,13 +36,14 @@ struct Liberties {
                             ///< do not decrease
   uint32_t conversion = 0;  ///< which of these: thresholds between codes are made of this number
   bool reverse_lights = false;
-  int weight_bits = 0;           ///< of texture filters; 0: exact
-  bool decode_late = false;      ///< sRGB textures are filtered in 8 bits, then decoded
-  bool any_level = false;        ///< rho anywhere between OpenGL's limits, else the longer gradient
-  int depth_unit = 1;            ///< codes of fixed-point depth that a unit of polygon offset is
-  double slope_norm = 0;         ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
-  bool blends_codes = false;     ///< fixed-point targets are blended in their own codes
-  bool nearest_halves = false;   ///< floats of 16, 11 and 10 bits are stored to nearest even, else toward zero
+  int weight_bits = 0;              ///< of texture filters; 0: exact
+  bool decode_late = false;         ///< sRGB textures are filtered in 8 bits, then decoded
+  std::optional<TextureWay> way{};  ///< of all lookups; `weight_bits` and `any_level` are passed over
+  bool any_level = false;           ///< rho anywhere between OpenGL's limits, else the longer gradient
+  int depth_unit = 1;               ///< codes of fixed-point depth that a unit of polygon offset is
+  double slope_norm = 0;            ///< of polygon offset: 0 the larger slope, 1 the Euclidean norm, or between
+  bool blends_codes = false;        ///< fixed-point targets are blended in their own codes
+  bool nearest_halves = false;      ///< floats of 16, 11 and 10 bits are stored to nearest even, else toward zero
   bool sums_in_floats = false;   ///< a target is kept in floats, clamped where it is fixed-point, and stored at the end
   bool mesa_codes = false;       ///< sRGB codes of llvmpipe's table; ten bits out of sixteen; codes of light are added
   bool intel_estimates = false;  ///< that table as CPUs of Intel have it
@@ -97,9 +110,12 @@ class LooseTextures {
   std::array<float, 4> texel(LooseFloat& f, const TextureSlot& slot, const oracle::TexturePlace& place) const;
 
  private:
+  std::array<float, 4> one_way(LooseFloat& f, const TextureSlot& slot, const oracle::TexturePlace& place) const;
   const Scene& scene_;
   const Liberties free_;
+  void decode_by_mesa();
   std::vector<Texture> encoded_;  ///< sRGB textures as if they were not
+  std::vector<Texture> by_mesa_;  ///< the same in floats, as Mesa decodes them
 };
 
 /// The whole capture: depth, position, normal, albedo, id.object, specular and the target; of deferred strategies

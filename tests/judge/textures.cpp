@@ -298,8 +298,8 @@ TEST_CASE("A decoded code may be off by what its profile says, and not by a code
     for (const double sign : {-1.0, 1.0}) {
       CHECK(allows("d3d-class", one, nearest, 0.5, off_by(0.45 * sign)));
       CHECK_FALSE(allows("d3d-class", one, nearest, 0.5, off_by(0.6 * sign)));
-      CHECK(allows("unknown", one, nearest, 0.5, off_by(0.95 * sign)));
-      CHECK_FALSE(allows("unknown", one, nearest, 0.5, off_by(1.1 * sign)));
+      CHECK(allows("unknown", one, nearest, 0.5, off_by(0.45 * sign)));
+      CHECK_FALSE(allows("unknown", one, nearest, 0.5, off_by(0.6 * sign)));
     }
   }
 }

@@ -1,0 +1,35 @@
+#pragma once
+// How much of each of several causes a plane's deviations show: least squares within bounds.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trueshade::oracle {
+
+/// A channel of a pixel: how far it is from nominal, and what one unit of each cause would make of it.
+struct Deviation {
+  double given = 0;              ///< stored less nominal, in steps of the plane
+  std::vector<double> by_cause;  ///< of one unit, in the same steps; as many as there are causes
+  uint64_t cluster = 0;          ///< deviations of one cluster are one choice: equal values round alike
+  double noise = 0;              ///< what rounding makes of the deviation, a standard deviation
+};
+
+/// What an implementation may have of a cause, as one number for the whole picture.
+struct CauseBounds {
+  double low = 0, high = 0;
+};
+
+struct CauseEstimate {
+  double value = 0;   ///< the likeliest, whatever its own bounds, the others within theirs
+  double beyond = 0;  ///< how far outside its bounds, as seen from the likeliest values of all causes within bounds
+  double error = 0;   ///< standard deviation there, from how much clusters differ and from their noise; infinite where
+                      ///< the other causes may do the same
+};
+
+/// Each cause's estimate. A cluster counts once, however many deviations it has. Errors are those of clusters, whatever
+/// is behind them: White's estimator (Halbert White, A Heteroskedasticity-Consistent Covariance Matrix Estimator,
+/// Econometrica 48, 1980), over clusters.
+std::vector<CauseEstimate> estimate_causes(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds);
+
+}  // namespace trueshade::oracle

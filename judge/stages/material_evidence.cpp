@@ -1,0 +1,153 @@
+#include "judge/stages/material_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "judge/legal/texel_changes.h"
+#include "judge/stages/tally.h"
+#include "judge/stages/texture_deviations.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr std::string_view kMapNames[kMaterialMaps] = {
+    "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
+
+/// A cause as it is tested.
+struct TestedCause {
+  std::string_view name;  ///< empty: an implementation's choice, which the others are estimated beside
+  CauseBounds legal;      ///< of implementations that are known
+  double tolerance = 0;   ///< what the linear model may be off
+};
+
+/// In the order of TexelCause. Levels: log2 as drivers have it is 0.045 off. Shifts: weights have at least 7 bits
+/// (VK-GL-CTS). Steps: from floor to ceil.
+constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003},
+                                                   {"level", {-0.06, 0.06}, 0.08},
+                                                   {"", {0, 1}},
+                                                   {"", {0, 1}},
+                                                   {"", {0, 1}},
+                                                   {"", {-0x1p-6, 0x1p-6}},
+                                                   {"", {-0x1p-6, 0x1p-6}},
+                                                   {"", {-0.6, 0.6}},
+                                                   {"", {0, 1}},
+                                                   {"", {0, 1}},
+                                                   {"", {0, 1}}};
+constexpr TestedCause kScale{"scale", {0, 0}, 0.02};  // in place of a normal map's gain
+
+constexpr double kCode = 1.0 / 255;  // what rounding alpha and 1 - alpha to codes may be off together
+
+/// In the order of GlassCause. A blend has a source, two products and a sum, each of which may be cut.
+constexpr TestedCause kGlassTests[kGlassCauses] = {
+    {"alpha", {-kCode, kCode}, 0.001}, {"", {-2, 2}}, {"", {-2, 2}}, {"", {-2, 2}}};
+
+/// Deviations that are tested together.
+struct Tested {
+  MaterialEvidence of;  ///< stage, material and plane
+  std::vector<TestedCause> causes;
+  std::vector<std::string_view> maps;  ///< of each cause
+  std::vector<Deviation> list;
+};
+
+void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector<MaterialEvidence>& found) {
+  constexpr size_t kLeast = 64;
+  if (t.list.size() < kLeast) return;
+  std::vector<CauseBounds> bounds;
+  for (const TestedCause& c : t.causes) bounds.push_back({c.legal.low - c.tolerance, c.legal.high + c.tolerance});
+  const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    const TestedCause& cause = t.causes[i];
+    if (cause.name.empty() || !std::isfinite(estimates[i].error) || (gains_alone && cause.name != "gain")) continue;
+    MaterialEvidence e = t.of;
+    e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
+    e.least = bounds[i].high + deviations * e.error;
+    e.against = estimates[i].beyond > deviations * e.error;
+    found.push_back(std::move(e));
+  }
+}
+
+/// All channels together, and each of several by itself, for what is wrong with one colour.
+void add_all_tests(const Tested& t, double deviations, std::vector<MaterialEvidence>& found) {
+  add_tests(t, deviations, false, found);
+  const bool has_gains = std::any_of(t.causes.begin(), t.causes.end(), [](const auto& c) { return c.name == "gain"; });
+  if (!has_gains || t.of.plane == "normal" || t.of.plane.find('.') != std::string::npos) return;
+  for (int k = 0; k < 3; ++k) {
+    Tested one{t.of, t.causes, t.maps, {}};
+    one.of.plane = channel_of(t.of.plane, k), one.of.is_of_channel = true;
+    std::copy_if(t.list.begin(), t.list.end(), std::back_inserter(one.list),
+                 [k](const Deviation& d) { return int(d.cluster & 3) == k; });
+    add_tests(one, deviations, true, found);
+  }
+}
+
+Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviations&& d) {
+  Tested t{{stage, d.material, scene.materials[d.material].name, std::string(d.plane)}, {}, {}, std::move(d.list)};
+  for (const MaterialMap map : d.maps)
+    for (size_t cause = 0; cause < kTexelCauses; ++cause) {
+      const bool is_scale = map == kNormalMap && TexelCause(cause) == TexelCause::gain;
+      t.causes.push_back(is_scale ? kScale : kTexelTests[cause]);
+      t.maps.push_back(kMapNames[map]);
+    }
+  return t;
+}
+
+std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) {
+  std::map<uint32_t, Tested> by_material;
+  for (const GlassDeviation& g : stage.glass) {
+    const auto [at, is_new] = by_material.try_emplace(g.material);
+    if (is_new)
+      at->second = {
+          {stage.stage, g.material, scene.materials[g.material].name, stage.stage == "gbuffer" ? "albedo" : "color"},
+          {std::begin(kGlassTests), std::end(kGlassTests)},
+          std::vector<std::string_view>(kGlassCauses),
+          {}};
+    at->second.list.push_back(g.deviation);
+  }
+  std::vector<Tested> out;
+  for (auto& [material, t] : by_material) out.push_back(std::move(t));
+  return out;
+}
+
+}  // namespace
+
+std::string MaterialEvidence::subject() const {
+  return "material " + std::to_string(material) + (name.empty() ? "" : " (" + name + ")");
+}
+
+std::string MaterialEvidence::text() const {
+  char line[160];
+  const std::string read = map.empty() ? "glass" : map;
+  if (cause == "gain" || cause == "scale")
+    std::snprintf(line, sizeof line, "%s has a %s of %.4g in %s, where %.4g to %.4g are expected", read.c_str(),
+                  cause.c_str(), 1 + value, plane.c_str(), 1 - least, 1 + least);
+  else if (cause == "alpha")
+    std::snprintf(line, sizeof line, "%s has an alpha %+.3g off in %s, where at most %.2g is expected", read.c_str(),
+                  value, plane.c_str(), least);
+  else
+    std::snprintf(line, sizeof line, "%s is read %+.3g levels off in %s, where at most %.2g is expected", read.c_str(),
+                  value, plane.c_str(), least);
+  return line;
+}
+
+std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                                const Capture& capture, std::span<const StageVerdict> stages,
+                                                double significance) {
+  std::vector<Tested> tested;
+  for (const StageVerdict& stage : stages) {
+    for (TextureDeviations& d :
+         texture_deviations(scene, pipeline, resolved(profile, pipeline), capture, stage.textured))
+      tested.push_back(tested_maps(scene, stage.stage, std::move(d)));
+    for (Tested& t : tested_glass(scene, stage)) tested.push_back(std::move(t));
+  }
+  constexpr double kTestsEach = 8;
+  const double tests = kTestsEach * double(std::max<size_t>(tested.size(), 1));
+  const double deviations = std::sqrt(2 * std::log(2 * tests / significance));  // a normal distribution's, at most
+  std::vector<MaterialEvidence> found;
+  for (const Tested& t : tested) add_all_tests(t, deviations, found);
+  return found;
+}
+
+}  // namespace trueshade::oracle

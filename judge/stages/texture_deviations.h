@@ -1,0 +1,29 @@
+#pragma once
+// How far textured planes are from nominal, pixel by pixel, and what each cause would make of them.
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "judge/legal/surface_values.h"
+#include "judge/stages/cause_fit.h"
+#include "judge/stages/verdict.h"
+#include "oracle/capture.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// Of one material's channels that go together.
+struct TextureDeviations {
+  uint32_t material = 0;
+  std::string_view plane;         ///< `albedo`, `albedo.A`, `specular`, `emission`, `emission.A`, `normal`
+  std::vector<MaterialMap> maps;  ///< those of the material: each has kTexelCauses in the deviations' causes, in order
+  std::vector<Deviation> list;    ///< in the order of the pixels
+};
+
+/// Pixels whose nearest texel is in doubt, and values that a format clamps, are passed over.
+///   profile: resolved()
+std::vector<TextureDeviations> texture_deviations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                                  const Capture& capture, std::span<const TexturedPixel> textured);
+
+}  // namespace trueshade::oracle
