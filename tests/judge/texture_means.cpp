@@ -216,7 +216,7 @@ Scene behind_glass(const char* name, float alpha) {
   for (Mesh& mesh : scene.meshes)
     for (auto& channel : mesh.color) {
       channel = {};
-      for (size_t v = 0; v < mesh.vertex_count(); ++v) channel.push_back(random.between(0, 1));
+      for (size_t v = 0; v < mesh.vertex_count(); ++v) channel.push_back(float(random.between(0, 1)));
     }
   Material glass;
   glass.base_color = {0.3f, 0.5f, 0.6f, alpha};
