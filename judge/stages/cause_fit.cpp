@@ -183,10 +183,11 @@ class BoundedFit {
 };
 
 /// What a row of the inverse makes of the deviations that are left, and its variance: over clusters, of what is left of
-/// each, or of its noise where that is more.
+/// each, or of its noise and what the causes' own bends make, where that is more.
 struct Step {
   double size = 0, variance = 0;
 };
+constexpr double kBend = 0.1;  // of what the causes tell: they are taken to be linear, and are not quite
 Step step_of(const Clusters& clusters, const Equations& e, const std::vector<size_t>& free, const Vector& row,
              const Vector& x) {
   Step sum;
@@ -195,11 +196,11 @@ Step step_of(const Clusters& clusters, const Equations& e, const std::vector<siz
     const double w = clusters.weight(c);
     for (size_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
       const Deviation& d = *clusters.deviations[i];
-      double pull = 0, rest = d.given;
+      double pull = 0, told = 0;
       for (size_t j = 0; j < free.size(); ++j) pull += row[j] * d.by_cause[free[j]] / e.length[free[j]];
       for (size_t j = 0; j < x.size(); ++j)
-        if (e.length[j] > 0) rest -= x[j] * d.by_cause[j] / e.length[j];
-      left += w * pull * rest, noise += w * pull * d.noise;
+        if (e.length[j] > 0) told += x[j] * d.by_cause[j] / e.length[j];
+      left += w * pull * (d.given - told), noise += w * pull * (d.noise + kBend * std::fabs(told));
     }
     sum.size += left, sum.variance += std::max(left * left, noise * noise);
   }

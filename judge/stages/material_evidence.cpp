@@ -23,6 +23,8 @@ struct TestedCause {
   double tolerance = 0;   ///< what the linear model may be off
 };
 
+constexpr std::string_view kLate = "late";  // how much of a map is filtered before it is decoded: 0 or 1, as all others
+
 /// In the order of TexelCause. Levels: log2 as drivers have it is 0.045 off. Shifts: weights have at least 7 bits
 /// (VK-GL-CTS). Steps: from floor to ceil.
 constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003},
@@ -33,7 +35,7 @@ constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003},
                                                    {"", {-0x1p-6, 0x1p-6}},
                                                    {"", {-0x1p-6, 0x1p-6}},
                                                    {"", {-0.6, 0.6}},
-                                                   {"", {0, 1}},
+                                                   {kLate, {0, 1}},
                                                    {"", {0, 1}},
                                                    {"", {0, 1}}};
 constexpr TestedCause kScale{"scale", {0, 0}, 0.02};  // in place of a normal map's gain
@@ -65,6 +67,7 @@ void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector
     e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
     e.least = bounds[i].high + deviations * e.error;
     e.against = estimates[i].beyond > deviations * e.error;
+    if (e.cause == kLate && deviations * e.error > 0.5) continue;  // either
     found.push_back(std::move(e));
   }
 }
@@ -81,6 +84,16 @@ void add_all_tests(const Tested& t, double deviations, std::vector<MaterialEvide
                  [k](const Deviation& d) { return int(d.cluster & 3) == k; });
     add_tests(one, deviations, true, found);
   }
+}
+
+/// sRGB is decoded before it is filtered or after, in all maps of a picture alike: those that are not as the most are
+/// held against it.
+void hold_to_one_order(std::vector<MaterialEvidence>& found) {
+  const auto is_late = [](const MaterialEvidence& e) { return e.cause == kLate && e.value > 0.5; };
+  const auto all = std::count_if(found.begin(), found.end(), [](const auto&e) { return e.cause == kLate; }),
+             late = std::count_if(found.begin(), found.end(), is_late);
+  for (MaterialEvidence& e : found)
+    if (e.cause == kLate) e.least = 0.5, e.against = late > 0 && late < all && is_late(e) == (2 * late <= all);
 }
 
 Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviations&& d) {
@@ -126,6 +139,9 @@ std::string MaterialEvidence::text() const {
   else if (cause == "alpha")
     std::snprintf(line, sizeof line, "%s has an alpha %+.3g off in %s, where at most %.2g is expected", read.c_str(),
                   value, plane.c_str(), least);
+  else if (cause == kLate)
+    std::snprintf(line, sizeof line, "%s is decoded %s it is filtered in %s, and others are not", read.c_str(),
+                  value > 0.5 ? "after" : "before", plane.c_str());
   else
     std::snprintf(line, sizeof line, "%s is read %+.3g levels off in %s, where at most %.2g is expected", read.c_str(),
                   value, plane.c_str(), least);
@@ -147,6 +163,7 @@ std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeli
   const double deviations = std::sqrt(2 * std::log(2 * tests / significance));  // a normal distribution's, at most
   std::vector<MaterialEvidence> found;
   for (const Tested& t : tested) add_all_tests(t, deviations, found);
+  hold_to_one_order(found);
   return found;
 }
 

@@ -18,8 +18,8 @@ struct MaterialEvidence {
   std::string name;   ///< the material's, if it has one
   std::string plane;  ///< `albedo`, `albedo.A`, `specular`, `emission`, `emission.A`, `normal`, `color`, or one channel
   std::string map{};  ///< as scene files call it, `color_map`; empty of glass
-  std::string cause{};         ///< `gain`, `scale`, `level`, `alpha`
-  double value = 0;            ///< found: relative of gains and scales, else levels, alpha
+  std::string cause{};         ///< `gain`, `scale`, `level`, `late`, `alpha`
+  double value = 0;            ///< found: relative of gains and scales, else levels, alpha; `late` 0 or 1
   double error = 0;            ///< its standard deviation
   double least = 0;            ///< the smallest |value| that would have been told
   bool is_of_channel = false;  ///< of one of several channels that are tested together, too
@@ -31,10 +31,10 @@ struct MaterialEvidence {
   std::string text() const;
 };
 
-/// Of each material's maps gains, scales of normal maps and levels; of glass its alpha. What
-/// implementations choose is estimated beside these, as one number for a material and plane: the formula of rho between
-/// the limits of 8.14.1, 2^-6 of a texel, how 8-bit steps, factors and blends are rounded, when and how sRGB is
-/// decoded. Passed over is what too few pixels tell, or what such a choice would make, too.
+/// Of each material's maps gains, scales of normal maps, levels, and whether all are decoded in one order; of glass its
+/// alpha. What implementations choose is estimated beside these, as one number for a material and plane: the formula of
+/// rho between the limits of 8.14.1, 2^-6 of a texel, how 8-bit steps, factors and blends are rounded, when and how
+/// sRGB is decoded. Passed over is what too few pixels tell, or what such a choice would make, too.
 ///   stages: as judged
 ///   significance: how many right images may fail one of the tests
 std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

@@ -161,6 +161,34 @@ TEST_CASE("A gain, a level or a scale of all lookups is convicted though each of
     }
 }
 
+TEST_CASE(
+    "Maps of which one is decoded after it is filtered, and the other before, are convicted together, not apart") {
+  const Sampler trilinear = sampler_of(Filter::linear, MipFilter::linear);
+  Scene scene = room(Pattern::noise, TextureFormat::srgb8_a8, trilinear, 8);
+  scene.textures.push_back(scene.textures[0]);
+  scene.materials[1].color_map.texture = 2;
+  Pipeline pipeline = pipeline_of(Format::rgba8);
+  const auto drawn = [&](bool late) {
+    Liberties l;
+    l.way.emplace(), l.decode_late = late;
+    return testing::loose_frame(scene, pipeline, l, 1);
+  };
+  const Capture early = drawn(false), late = drawn(true);
+  for (const Capture* one_way : {&early, &late}) CHECK_FALSE(judged(scene, pipeline, *one_way).convicted());
+  Capture mixed = early;
+  for (size_t i = 0; i < mixed.planes.size(); ++i) {
+    if (mixed.planes[i].name != "albedo") continue;
+    for (int y = 0; y < pipeline.height; ++y)
+      for (int x = 0; x < pipeline.width; ++x)
+        if (early.plane("id.object")->value(x, y, 0) == 2)
+          std::copy_n(late.planes[i].image.texel(x, y), 4, mixed.planes[i].image.texel(x, y));
+  }
+  const Verdict v = judged(scene, pipeline, mixed);
+  CHECK(v.violations() == 0);
+  CHECK(v.convicted());
+  CHECK(v.evidence_line().find("it is filtered") != std::string::npos);
+}
+
 namespace {
 
 testing::TextureWay random_way(Pcg32& random) {
