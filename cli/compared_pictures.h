@@ -18,7 +18,9 @@ struct JudgedPicture {
 struct ComparedPictures {
   PictureFile reference, test;
   compare::Comparison comparison;
-  JudgedPicture judged;  ///< of pictures that fit together, are finite and are not the same
+  PixelMask mask;
+  std::string left_out_by;  ///< MaskRules::text()
+  JudgedPicture judged;     ///< of pictures that fit together, are finite and are not the same
 
   ComparedPictures() = default;
   ComparedPictures(ComparedPictures&&) = default;
@@ -42,6 +44,12 @@ std::string verdict_line(const ComparedPictures& pictures);
 /// All of it, for people and as one JSON document.
 std::string comparison_text(const ComparedPictures& pictures);
 std::string comparison_json(const ComparedPictures& pictures);
+
+/// `mask.png: 12 of 256 pixels left out, 4.69 %`.
+std::string mask_line(const ComparedPictures& pictures);
+
+/// `16x16 at 32,48: 12 of 256 pixels differ by more than 0.1, mean error 0.01, largest 0.5`.
+std::string window_line(const compare::WorstWindow& window, double delta);
 
 /// `PNG, 640x480, R G B unorm 8`.
 std::string about_picture(const PictureFile& picture);
