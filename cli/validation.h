@@ -20,6 +20,7 @@ struct Validation {
   oracle::Capture capture;
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
+  std::string left_out_by;                ///< what made capture.mask: MaskRules::text()
   bool lenient = false;                   ///< what the tests of the whole image find is no failure
   bool is_diagnosed = false;              ///< faults were tried
   std::vector<oracle::Finding> findings;  ///< what explains a capture that does not pass, or what was supposed
@@ -51,6 +52,10 @@ std::string invariance_line(const Validation& validation);
 std::string profile_line(const oracle::Profile& profile);
 std::string tightest_line(const oracle::Inference& inferred);
 std::string conclusion(const Validation& validation);
+
+/// What was left out, and how much; and a window of worst_windows(), each in one line.
+std::string left_out_line(const Validation& validation);
+std::string judged_window_line(const LocalWindow& window);
 
 /// The rounding of stores that each stage follows: `gbuffer as stated, codes to nearest, halves toward zero; ...`.
 std::string rounding_line(const oracle::Verdict& verdict);

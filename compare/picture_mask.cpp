@@ -124,15 +124,17 @@ bool leave_out_ids(const PictureFile& picture, const IgnoredIds& ignored, PixelM
 }
 
 void check_left_out(const MaskRules& rules, uint64_t left_out, uint64_t all, const char* what) {
-  const std::string where = rules.file.empty() ? "--ignore" : rules.file;
+  const bool by_file = !rules.file.empty();
+  const std::string where = by_file ? rules.file : "--ignore",
+                    what_a_mask_is = by_file ? "0 leaves a pixel out, and 1 or white looks at it: " : "";
   if (all > 0 && left_out == all)
     throw Error(ErrorKind::bad_input, where, "all " + std::to_string(all) + ' ' + what + " are left out",
-                "leave something to look at: 0 leaves a pixel out, and 1 or white looks at it");
+                what_a_mask_is + "leave something to look at");
   if (rules.allow || double(left_out) <= kMostLeftOut * double(all)) return;
   throw Error(ErrorKind::bad_input, where,
               std::to_string(left_out) + " of " + std::to_string(all) + ' ' + what + " are left out, " +
                   percent_text(left_out, all) + ", and at most 10 % may be",
-              "0 leaves a pixel out, and 1 or white looks at it: leave out less, or add --allow-mask");
+              what_a_mask_is + "leave out less, or add --allow-mask");
 }
 
 PixelMask mask_of_pair(const MaskRules& rules, const PictureFile* mask_file, const PictureFile& reference,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/pixel_mask.h"
 
 namespace trueshade::oracle {
 
@@ -34,6 +35,8 @@ struct Capture {
   std::array<int, 2> drawn_at{};   ///< where its lower left pixel was in the driver's window: floats round there
   bool has_alpha = true;           ///< false: the file had R, G and B alone; the alpha of `color` is then not judged
   std::string name = "capture";    ///< what errors call it: the file it is from
+
+  PixelMask mask{};  ///< pixels that are not judged; of the capture's size, or empty
 
   std::vector<DecodedPlane> decoded{};  ///< of the planes that are not as their renderer stored them
 

@@ -112,20 +112,24 @@ struct RowTally {
   std::vector<StoreChoice> choices;
   std::vector<NearThreshold> near_thresholds;
   std::vector<WorstPixel> worst;
+  std::vector<float> excess;  ///< of violations by x, as far as the last of them
 
   /// `pixel`: y * width + x, y from the top.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
   /// `surface`: where the class is_told().
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+  /// A pixel that is not judged.
+  void leave_out() { classes.push_back(PixelClass::left_out); }
   /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 
  private:
   void compare(int x, const Match& match);
+  void keep_excess(int x, double outside);
   void keep_choices(int y, const Match& match);
-  std::vector<uint32_t> runs_;  ///< of each of `choices`: the run of records that it is of
-  uint32_t records_ = 0;        ///< that had a choice
-  uint32_t one_in_ = 1;         ///< so many runs is kept: a power of two
+  std::vector<uint32_t> runs_;                       ///< of each of `choices`: the run of records that it is of
+  uint32_t records_ = 0;                             ///< that had a choice
+  uint32_t one_in_ = 1;                              ///< so many runs is kept: a power of two
   std::array<SeenStore, Match::kMostStores> before;  ///< of the pixel to the left, if there is one
   size_t before_count = 0;
   int before_x = -2;
