@@ -45,6 +45,9 @@ std::string verdict_line(const ComparedPictures& pictures);
 std::string comparison_text(const ComparedPictures& pictures);
 std::string comparison_json(const ComparedPictures& pictures);
 
+/// Steps of a storage: a whole number, or of two storages a fraction.
+std::string steps_text(double steps);
+
 /// `mask.png: 12 of 256 pixels left out, 4.69 %`.
 std::string mask_line(const ComparedPictures& pictures);
 

@@ -30,6 +30,12 @@ std::string line_of(const std::string& name, const std::string& value) {
   return name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + printable(value, Lines::one) + '\n';
 }
 
+}  // namespace
+
+std::string steps_text(double steps) { return number_of(steps, steps == std::floor(steps) ? "%.0f" : "%.4g"); }
+
+namespace {
+
 /// Columns as wide as their widest cell; the first and the last are set to the left.
 std::string table_of(const std::vector<std::vector<std::string>>& rows) {
   std::vector<size_t> widths(rows.front().size());
@@ -59,7 +65,7 @@ std::string channel_table(const std::vector<ChannelDifferences>& channels) {
     const uint64_t not_finite = c.not_finite_reference + c.not_finite_test;
     rows.push_back(
         {printable(c.name, Lines::one), std::to_string(c.unequal), number_of(c.mean(), "%.4g"),
-         number_of(c.rms(), "%.4g"), number_of(c.largest), number_of(c.largest_ulp, "%.0f"),
+         number_of(c.rms(), "%.4g"), number_of(c.largest), steps_text(c.largest_ulp),
          c.largest > 0 ? place_text(c.worst) : "-", number_of(c.psnr(), "%.2f"),
          not_finite == 0 ? "-" : std::to_string(c.not_finite_reference) + " and " + std::to_string(c.not_finite_test),
          storage});

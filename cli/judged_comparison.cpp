@@ -91,7 +91,7 @@ class SceneJudge {
     CapturedPlanes planes = captured_planes(files, scene_, v_.pipeline);
     v_.capture = std::move(planes.capture);
     if (!has_planes) draw_planes();
-    store_as(v_.pipeline, test.path, v_.capture);
+    store_as(v_.pipeline, v_.capture);
     v_.capture.mask = pictures_.mask, v_.left_out_by = pictures_.left_out_by;
     if (!v_.capture.has_alpha) v_.notes.push_back("the picture has no alpha channel, so alpha is not judged");
     v_.notes.insert(v_.notes.end(), planes.notes.begin(), planes.notes.end());

@@ -72,7 +72,7 @@ void save(const oracle::Capture& capture, const std::string& path) {
 void fit_capture(const ValidationOptions& options, const CaptureFiles& files, const Scene& scene, Validation& v) {
   CapturedPlanes planes = captured_planes(files, scene, v.pipeline);
   v.capture = std::move(planes.capture);
-  store_as(v.pipeline, files.name, v.capture);
+  store_as(v.pipeline, v.capture);
   if (v.capture.color.width > 0 && !v.capture.has_alpha)
     v.notes.push_back("the picture has no alpha channel, so alpha is not judged");
   v.notes.insert(v.notes.end(), planes.notes.begin(), planes.notes.end());

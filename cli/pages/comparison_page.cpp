@@ -168,7 +168,7 @@ std::string channel_row(const ChannelDifferences& c) {
       c.reference_storage == c.test_storage ? c.reference_storage : c.reference_storage + " and " + c.test_storage;
   return "<tr><td>" + escaped(c.name) + "<td class=number>" + grouped(std::to_string(c.unequal)) + "<td class=number>" +
          digits(c.mean(), "%.4g") + "<td class=number>" + digits(c.rms(), "%.4g") + "<td class=number>" +
-         digits(c.largest) + "<td class=number>" + digits(c.largest_ulp, "%.0f") + "<td>" + place +
+         digits(c.largest) + "<td class=number>" + steps_text(c.largest_ulp) + "<td>" + place +
          "<td class=number>" + digits(c.psnr(), "%.2f") + "<td class=number>" + std::to_string(c.not_finite_reference) +
          " | " + std::to_string(c.not_finite_test) + "<td>" + escaped(storage) + '\n';
 }

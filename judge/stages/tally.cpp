@@ -70,7 +70,7 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
   if (view.decoded != nullptr && !view.decoded->has_alpha) view.channels = std::min(view.channels, 3);
   if (is_target && !capture.has_alpha) view.channels = std::min(view.channels, 3);
   if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
-    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),
+    throw Error(ErrorKind::bad_input, capture.file_of(name) + ": plane " + std::string(name),
                 "is " + std::to_string(view.image->width) + "x" + std::to_string(view.image->height) + ", not " +
                     std::to_string(pipeline.width) + "x" + std::to_string(pipeline.height),
                 "capture it at the pipeline's size, or set the size");

@@ -65,7 +65,7 @@ py::object validate_image(PythonScene& scene, const py::object& image, const py:
   run_interruptible([&](const auto& watch) {
     options.begins = [&](const char*) { watch(); };
     validate(scene.values());
-    store_as(p, "capture", capture);
+    store_as(p, capture);
     const FittedScene fitted(scene.values(), p.light_model);
     if (mask_file)
       capture.mask = judged_mask({mask_file->path, {}, allow_mask}, &*mask_file, fitted.values(), p, capture);

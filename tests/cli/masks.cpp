@@ -173,6 +173,32 @@ TEST_CASE("rows from the bottom up are turned, and channels that are not named a
   CHECK(run_compare(folder, {"--channels", "G"}).exit_code == 0);
 }
 
+TEST_CASE("an error names the file that holds the value, of several") {
+  const ScratchFolder folder;
+  const auto run = [&](std::vector<std::string> arguments) { return run_command(arguments, folder.path("")); };
+  write_npy(folder.path("position.npy"), even(3, 1), "<f4");
+  write_npy(folder.path("normal.npy"), even(3, 1), "<f4");
+  write_npy(folder.path("depth.npy"), even(1, 0.5), "<f4");
+  write_npy(folder.path("albedo.npy"), even(3, 51), "|u1");
+  write_npy(folder.path("lit.npy"), with_icon(even(3, 0.2), 0.3003), "<f4");
+  const auto judged = [&](const std::string& map) {
+    return run({"validate", "builtin:cornell", "--subpixel-bits", "8", "--map", map});
+  };
+  const std::string planes = "position=position.npy,normal=normal.npy,depth=depth.npy,albedo=albedo.npy";
+  check_refused(judged(planes + ",color=lit.npy"), 3, "error: lit.npy: color at 8,8 is 0.300300002, which rgba8 does");
+  check_refused(
+      run({"validate", "builtin:cornell", "--subpixel-bits", "8", "--gbuffer", "position.npy", "--map",
+           "position=position.npy,depth=depth.npy,normal=normal.npy,albedo=albedo.npy", "--image", "lit.npy"}),
+      3, "error: lit.npy: color at 8,8");
+  write_npy(folder.path("albedo.npy"), with_icon(even(3, 0.2), 0.7), "<f4");
+  check_refused(judged(planes), 3, "error: albedo.npy: albedo at 8,8 is 0.699999988, which rgba8 does not hold");
+  write_npy(folder.path("id.npy"), with_icon(even(1, 1), 1.5), "<f4");
+  write_npy(folder.path("albedo.npy"), even(3, 51), "|u1");
+  check_refused(judged(planes + ",id.object=id.npy"), 3, "error: id.npy: id.object at 8,8 is 1.5");
+  write_npy(folder.path("depth.npy"), even(1, 0.5, kWidth, kHeight - 8), "<f4");
+  check_refused(judged(planes), 3, "depth.npy");
+}
+
 TEST_CASE("validate judges nothing of what a mask, or an object, leaves out") {
   const ScratchFolder folder;
   const auto run = [&](std::vector<std::string> arguments) { return run_command(arguments, folder.path("")); };
