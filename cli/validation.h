@@ -42,6 +42,9 @@ bool passes(const Validation& validation);
 /// Pixels that some stage finds in no legal set.
 uint64_t violating_pixels(const oracle::Verdict& verdict);
 
+/// The first stage with a pixel in no legal set, or without one the first that no known rounding makes; null: none.
+const oracle::StageVerdict* failed_stage(const oracle::Verdict& verdict);
+
 /// EXACT and STORE-2 pixels among all of a stage.
 double exact_share(const oracle::StageVerdict& stage);
 

@@ -213,6 +213,14 @@ std::string blind_spot_line(const Validation& v) {
          " %; rgba16f and rgba32f show it";
 }
 
+const StageVerdict* failed_stage(const oracle::Verdict& v) {
+  for (const StageVerdict& s : v.stages)
+    if (!s.passes()) return &s;
+  for (size_t i = 0; i < v.stages.size(); ++i)
+    if (v.evidence[i].against) return &v.stages[i];
+  return nullptr;
+}
+
 double exact_share(const StageVerdict& stage) {
   return double(stage.count(PixelClass::exact) + stage.count(PixelClass::store_2)) /
          double(std::max<uint64_t>(stage.judged(), 1));

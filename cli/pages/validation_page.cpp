@@ -91,11 +91,12 @@ std::string windows_list(const StageVerdict& s) {
 }
 
 std::string stage_part(const StageVerdict& s, const oracle::Evidence& evidence, double least_chance) {
-  return "<h2>Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) + "<p class=quiet>" +
-         grouped(std::to_string(s.explained())) + " pixels show another surface or branch than the nominal one; " +
-         number(s.predicted_other, "%.1f") + " are predicted if errors are spread evenly over their bounds, and " +
-         grouped(std::to_string(s.ambiguous)) + " pixels have more than one legal surface or branch.</p>\n" +
-         windows_list(s) + aggregates_table(evidence, least_chance) + worst_table(s);
+  return "<h2 id=\"stage-" + escaped(s.stage) + "\">Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) +
+         "<p class=quiet>" + grouped(std::to_string(s.explained())) +
+         " pixels show another surface or branch than the nominal one; " + number(s.predicted_other, "%.1f") +
+         " are predicted if errors are spread evenly over their bounds, and " + grouped(std::to_string(s.ambiguous)) +
+         " pixels have more than one legal surface or branch.</p>\n" + windows_list(s) +
+         aggregates_table(evidence, least_chance) + worst_table(s);
 }
 
 std::string inference_part(const oracle::Verdict& v) {
@@ -159,9 +160,16 @@ std::string facts(const Validation& v) {
          "</div>\n";
 }
 
+std::string way_to_failed_stage(const Validation& v) {
+  const StageVerdict* const failed = failed_stage(v.verdict);
+  if (failed == nullptr) return "";
+  return " <a href=\"#stage-" + escaped(failed->stage) + "\">What stage " + escaped(failed->stage) + " found</a>";
+}
+
 std::string heading(const Validation& v) {
   return heading_part(v.verdict.scene) + "<p class=\"verdict " + (passes(v) ? "good" : "bad") +
-         "\">Verdict: " + escaped(conclusion(v)) + ".</p>\n" + subject(v) + notes_part(v.scene_notes.lines);
+         "\">Verdict: " + escaped(conclusion(v)) + "." + way_to_failed_stage(v) + "</p>\n" + subject(v) +
+         notes_part(v.scene_notes.lines);
 }
 
 }  // namespace

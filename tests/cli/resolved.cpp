@@ -82,7 +82,7 @@ TEST_CASE("numbers and times are the same whatever rounding mode a library has l
     CHECK(outcome.exit_code == 0);
     const Outcome json = run_command(drawn, folder.path(""), setup);
     const Json of_frame = Json::parse(json.out.substr(json.out.find('{')));
-    return outcome.out + (of_frame.contains("time") ? of_frame["time"].dump() : std::string());
+    return outcome.out + of_frame["scene"]["time"].dump();
   };
   const std::string usual = said("");
   CHECK(usual.size() > 1000);
