@@ -136,7 +136,8 @@ std::string viewer_of(const ComparedPictures& pictures) {
     viewer.add(std::move(both.test));
     viewer.add(std::move(difference));
   }
-  if (!pictures.mask.empty()) viewer.add(mask_layer(pictures));
+  if (!pictures.mask.empty() && !pictures.judged.validation)  // whose maps of classes show it
+    viewer.add(mask_layer(pictures));
   if (!c.differences.windows.empty()) viewer.places.push_back(window_places(c));
   add_pixel(viewer, c.worst, nullptr, "Worst pixel", "The pixel with the largest difference of any channel.");
   add_pixel(viewer, c.first, nullptr, "First pixel", "The first pixel that differs, row by row from the top.");
