@@ -183,7 +183,7 @@ TEST_CASE("pixels that are left out make a window neither better nor worse than 
   CHECK(c.differences.windows.front().window.mean() == Approx(8.0 / 255));
 }
 
-TEST_CASE("a mask is 0 and 1, or 0 and white, in any storage; all else is refused") {
+TEST_CASE("a mask is 0 and 1, or 0 and white, in any storage, and all else is refused") {
   const auto masked = [](std::vector<Channel> channels, int width = 2) {
     return mask_of(made_picture(width, 1, std::move(channels)), 2, 1).left_out;
   };
