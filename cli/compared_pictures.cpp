@@ -47,16 +47,19 @@ void turn_rows(PictureFile& picture) {
 
 }  // namespace
 
-ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
-                                   const CompareOptions& options) {
+std::optional<PictureFile> mask_file(const CompareOptions& options) {
+  if (options.mask.file.empty()) return std::nullopt;
+  return read_any_picture(options.mask.file, options.limits.expansion);
+}
+
+ComparedPictures compared_pictures(const std::string& reference, const std::string& test, const CompareOptions& options,
+                                   const std::optional<PictureFile>& mask) {
   ComparedPictures pictures;
   pictures.reference = read_any_picture(reference, options.limits.expansion);
   pictures.test = read_any_picture(test, options.limits.expansion);
   if (options.bottom_up) turn_rows(pictures.test);
   compare::CompareRules rules = options.rules;
   if (options.mask.any()) {
-    std::optional<PictureFile> mask;
-    if (!options.mask.file.empty()) mask = read_any_picture(options.mask.file, options.limits.expansion);
     rules.mask = compare::mask_of_pair(options.mask, mask ? &*mask : nullptr, pictures.reference, pictures.test);
     pictures.mask = rules.mask, pictures.left_out_by = options.mask.text();
   }

@@ -29,8 +29,12 @@ struct ComparedPictures {
 
 /// Reads two pictures and compares them; judges the test where the options let it and the reference carries its scene.
 /// Errors as read_any_picture() has them; Error(limit) where comparing would take more memory than the cap.
-ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
-                                   const CompareOptions& options);
+///   mask: of mask_file()
+ComparedPictures compared_pictures(const std::string& reference, const std::string& test, const CompareOptions& options,
+                                   const std::optional<PictureFile>& mask);
+
+/// The picture of --mask, if it is given. Errors as read_any_picture() has them.
+std::optional<PictureFile> mask_file(const CompareOptions& options);
 
 /// How many bytes of memory FLIP takes beside the pictures, of a picture of so many pixels.
 uint64_t flip_memory(uint64_t pixels);

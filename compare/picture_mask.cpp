@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "compare/stored_value.h"
-#include "core/error.h"
 
 namespace trueshade::compare {
 namespace {
@@ -17,8 +16,8 @@ std::string place_text(size_t pixel, int width) {
   return std::to_string(pixel % size_t(width)) + ',' + std::to_string(pixel / size_t(width));
 }
 
-Error bad_mask(const std::string& where, const std::string& reason) {
-  return {ErrorKind::bad_input, where, reason,
+MaskError bad_mask(const std::string& where, const std::string& reason) {
+  return {where, reason,
           "0 leaves a pixel out, and 1 or the largest code, white, looks at it: save the mask with these two alone"};
 }
 
@@ -80,15 +79,14 @@ std::string MaskRules::text() const {
 
 PixelMask mask_of(const PictureFile& file, int width, int height) {
   if (file.parts.size() != 1)
-    throw Error(ErrorKind::bad_input, file.path, "the mask has " + std::to_string(file.parts.size()) + " parts",
-                "give a file of one");
+    throw MaskError(file.path, "the mask has " + std::to_string(file.parts.size()) + " parts", "give a file of one");
   const ChannelFile& part = file.parts.front();
   if (part.width != width || part.height != height || part.is_window())
-    throw Error(ErrorKind::bad_input, file.path,
-                part.is_window() ? "the mask is a window of a larger picture"
-                                 : "the mask is " + size_text(part.width, part.height) + ", and what it masks is " +
-                                       size_text(width, height),
-                "give one of the same size");
+    throw MaskError(file.path,
+                    part.is_window() ? "the mask is a window of a larger picture"
+                                     : "the mask is " + size_text(part.width, part.height) + ", and what it masks is " +
+                                           size_text(width, height),
+                    "give one of the same size");
   PixelMask mask{width, height, {}};
   std::vector<uint8_t> looked_at;
   for (const Channel& channel : part.channels) {
@@ -113,10 +111,10 @@ bool leave_out_ids(const PictureFile& picture, const IgnoredIds& ignored, PixelM
       for (size_t i = 0; i < channel.words.size(); ++i) {
         const double id = channel.is_code() ? double(channel.words[i]) : channel.value(i);
         if (!(id >= 0 && id <= 4294967295.0 && id == std::floor(id)))
-          throw Error(ErrorKind::bad_input, picture.path,
-                      ignored.plane + " at " + place_text(i, part.width) + " is " + stored_text(channel, i, false) +
-                          ", and an identifier is a whole number",
-                      "store the channel as uint");
+          throw MaskError(picture.path,
+                          ignored.plane + " at " + place_text(i, part.width) + " is " + stored_text(channel, i, false) +
+                              ", and an identifier is a whole number",
+                          "store the channel as uint");
         if (ignored.has(uint32_t(id))) mask.left_out[i] = 1;
       }
     }
@@ -128,13 +126,13 @@ void check_left_out(const MaskRules& rules, uint64_t left_out, uint64_t all, con
   const std::string where = by_file ? rules.file : "--ignore",
                     what_a_mask_is = by_file ? "0 leaves a pixel out, and 1 or white looks at it: " : "";
   if (all > 0 && left_out == all)
-    throw Error(ErrorKind::bad_input, where, "all " + std::to_string(all) + ' ' + what + " are left out",
-                what_a_mask_is + "leave something to look at");
+    throw MaskError(where, "all " + std::to_string(all) + ' ' + what + " are left out",
+                    what_a_mask_is + "leave something to look at");
   if (rules.allow || double(left_out) <= kMostLeftOut * double(all)) return;
-  throw Error(ErrorKind::bad_input, where,
-              std::to_string(left_out) + " of " + std::to_string(all) + ' ' + what + " are left out, " +
-                  percent_text(left_out, all) + ", and at most 10 % may be",
-              what_a_mask_is + "leave out less, or add --allow-mask");
+  throw MaskError(where,
+                  std::to_string(left_out) + " of " + std::to_string(all) + ' ' + what + " are left out, " +
+                      percent_text(left_out, all) + ", and at most 10 % may be",
+                  what_a_mask_is + "leave out less, or add --allow-mask");
 }
 
 PixelMask mask_of_pair(const MaskRules& rules, const PictureFile* mask_file, const PictureFile& reference,
@@ -143,8 +141,7 @@ PixelMask mask_of_pair(const MaskRules& rules, const PictureFile* mask_file, con
   const ChannelFile& first = reference.parts.front();
   for (const ChannelFile& part : reference.parts)
     if (part.width != first.width || part.height != first.height)
-      throw Error(ErrorKind::bad_input, reference.path, "its parts have several sizes, and a mask has one",
-                  "compare files of one part");
+      throw MaskError(reference.path, "its parts have several sizes, and a mask has one", "compare files of one part");
   PixelMask mask{first.width, first.height, {}};
   if (mask_file != nullptr)
     mask = mask_of(*mask_file, first.width, first.height);
@@ -153,8 +150,8 @@ PixelMask mask_of_pair(const MaskRules& rules, const PictureFile* mask_file, con
   for (const IgnoredIds& ids : rules.ignored) {
     const bool in_reference = leave_out_ids(reference, ids, mask), in_test = leave_out_ids(test, ids, mask);
     if (!in_reference && !in_test)
-      throw Error(ErrorKind::bad_input, "--ignore", "neither picture has a channel " + ids.plane,
-                  "write one (render --aov " + ids.plane + "), or give a --mask");
+      throw MaskError("--ignore", "neither picture has a channel " + ids.plane,
+                      "write one (render --aov " + ids.plane + "), or give a --mask");
   }
   check_left_out(rules, mask.count(), mask.left_out.size(), "pixels");
   return mask;

@@ -1,12 +1,21 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/image_files/picture_file.h"
 #include "core/pixel_mask.h"
 
 namespace trueshade::compare {
+
+/// Error(bad_input) of a mask or a list, not of the pictures.
+class MaskError : public Error {
+ public:
+  MaskError(std::string_view where, std::string_view reason, std::string_view remedy)
+      : Error(ErrorKind::bad_input, where, reason, remedy) {}
+};
 
 /// Pixels that are left out because a plane of identifiers holds certain numbers there.
 struct IgnoredIds {
@@ -33,14 +42,14 @@ inline constexpr double kMostLeftOut = 0.1;
 
 /// The mask that a picture of one part is: pixels of 0 are left out, and those of 1 or of the largest code are looked
 /// at. All its channels must say the same, but for an alpha that is the largest everywhere.
-/// Error(bad_input): another size; greys, NaN and other numbers; channels that contradict each other.
+/// MaskError: another size; greys, NaN and other numbers; channels that contradict each other.
 PixelMask mask_of(const PictureFile& file, int width, int height);
 
 /// Leaves out where a channel of that name, of any part, holds one of the numbers. Returns whether there is one.
-/// Error(bad_input) where it holds what is no identifier.
+/// MaskError where it holds what is no identifier.
 bool leave_out_ids(const PictureFile& picture, const IgnoredIds& ignored, PixelMask& mask);
 
-/// Error(bad_input): everything is left out, or more than kMostLeftOut of `all` without leave.
+/// MaskError: everything is left out, or more than kMostLeftOut of `all` without leave.
 ///   left_out: of `all`, which are `what`: `pixels`, `pixels with a surface`
 void check_left_out(const MaskRules& rules, uint64_t left_out, uint64_t all, const char* what);
 

@@ -1,5 +1,6 @@
 // --mask, --ignore, --window, --channels and --rows, run as people run them; and masks that are none.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,8 @@ TEST_CASE("masks that are none are refused in one line") {
   CHECK(run_compare(folder, {"--mask", "much.npy", "--allow-mask"}).exit_code == 1);
   check_refused(run_compare(folder, {"--mask", "none.npy", "--allow-mask"}), 3, "all 3072 pixels are left out");
   check_refused(run_compare(folder, {"--allow-mask"}), 2, "nothing is left out");
+  folder.write("m.png", "");
+  check_refused(run_compare(folder, {"--mask", "m.png", "-o", "m.png"}), 2, "or their mask");
 }
 
 TEST_CASE("lists of identifiers and windows that are none are refused, and so are channels that are not there") {
@@ -133,6 +136,35 @@ TEST_CASE("lists of identifiers and windows that are none are refused, and so ar
   }
   check_refused(run_compare(folder, {"--rows", "sideways"}), 2, "--rows");
   check_refused(run_compare(folder, {"--rows", "bottom_up", "--accept"}), 2, "--accept");
+}
+
+TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it accepts none") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path("ref"));
+  std::filesystem::create_directories(folder.path("test"));
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"compare", "ref", "test"});
+    return run_command(more, folder.path(""));
+  };
+  for (const char* name : {"a.npy", "b.npy"}) {
+    write_npy(folder.path(std::string("ref/") + name), even(3, 100), "|u1");
+    write_npy(folder.path(std::string("test/") + name), with_icon(even(3, 100), 200), "|u1");
+  }
+  write_npy(folder.path("mask.npy"), with_icon(even(1, 1), 0), "|b1");
+  write_npy(folder.path("small.npy"), even(1, 1, 8, 8), "|b1");
+  write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kWidth, 30), "|b1");
+  CHECK(run({}).exit_code == 1);
+  const auto json = json_of(run({"--mask", "mask.npy", "--json"}));
+  CHECK(json["passes"] == true);
+  CHECK(json["pictures"][1]["left_out_pixels"] == 192);
+  for (const char* wrong : {"small.npy", "much.npy"}) {
+    const Outcome outcome = run({"--mask", wrong, "--accept"});
+    CHECK(outcome.exit_code == 3);
+    says(outcome.out, "2 of 2 pictures do not pass");
+  }
+  check_refused(run({"--mask", "absent.npy", "--accept"}), 5, "absent.npy: cannot open it");
+  CHECK(run({"--mask", "mask.npy", "--accept"}).exit_code == 0);
+  CHECK(run({}).exit_code == 1);  // none was accepted
 }
 
 TEST_CASE("the worst windows are told, and one fails the comparison") {
