@@ -132,7 +132,7 @@ void check_left_out(const MaskRules& rules, uint64_t left_out, uint64_t all, con
   throw MaskError(where,
                   std::to_string(left_out) + " of " + std::to_string(all) + ' ' + what + " are left out, " +
                       percent_text(left_out, all) + ", and at most 10 % may be",
-                  what_a_mask_is + "leave out less, or add --allow-mask");
+                  what_a_mask_is + "leave out less, or " + rules.leave);
 }
 
 PixelMask mask_of_pair(const MaskRules& rules, const PictureFile* mask_file, const PictureFile& reference,

@@ -30,7 +30,8 @@ struct IgnoredIds {
 struct MaskRules {
   std::string file;  ///< of the mask, as errors call it; empty: there is none
   std::vector<IgnoredIds> ignored;
-  bool allow = false;  ///< more than kMostLeftOut may be left out
+  const char* leave = "add --allow-mask";  ///< how to get it, for errors
+  bool allow = false;                      ///< more than kMostLeftOut may be left out
 
   bool any() const { return !file.empty() || !ignored.empty(); }
   std::string text() const;  ///< what leaves pixels out, for people: `mask.png, id.object=3`

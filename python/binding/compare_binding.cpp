@@ -186,7 +186,7 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
   pictures.reference = std::move(a.picture), pictures.test = std::move(b.picture);
   const std::string command = command_of(pictures, page_path);
   if (const std::optional<PictureFile> mask_file = mask_picture(mask)) {
-    const compare::MaskRules left_out{mask_file->path, {}, allow_mask};
+    const compare::MaskRules left_out{mask_file->path, {}, "pass allow_mask=True", allow_mask};
     rules.mask = compare::mask_of_pair(left_out, &*mask_file, pictures.reference, pictures.test);
     pictures.mask = rules.mask, pictures.left_out_by = left_out.text();
   }
@@ -207,9 +207,13 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
 
 std::optional<PictureFile> mask_picture(const py::object& mask) {
   if (mask.is_none()) return std::nullopt;
-  const bool is_bool = py::isinstance<py::array>(mask) && py::array(mask).dtype().kind() == 'b';
-  PictureFile picture = picture_from(is_bool ? py::object(mask.attr("view")("uint8")) : mask, "mask").picture;
-  picture.path = is_bool || picture.kind == kArray ? "mask" : picture.path;
+  if (py::isinstance<py::str>(mask) || py::isinstance<py::bytes>(mask) || py::hasattr(mask, "__fspath__"))
+    return picture_from(mask, "mask").picture;
+  const py::array array = array_from(mask, "mask");
+  PictureFile picture =
+      picture_from(array.dtype().kind() == 'b' ? py::object(array.attr("view")("uint8")) : py::object(array), "mask")
+          .picture;
+  picture.path = "mask";
   return picture;
 }
 

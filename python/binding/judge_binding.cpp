@@ -68,7 +68,8 @@ py::object validate_image(PythonScene& scene, const py::object& image, const py:
     store_as(p, capture);
     const FittedScene fitted(scene.values(), p.light_model);
     if (mask_file)
-      capture.mask = judged_mask({mask_file->path, {}, allow_mask}, &*mask_file, fitted.values(), p, capture);
+      capture.mask = judged_mask({mask_file->path, {}, "pass allow_mask=True", allow_mask}, &*mask_file,
+                                 fitted.values(), p, capture);
     verdict = oracle::verdict_json(oracle::validate_capture(fitted.values(), p, capture, options));
   });
   return from_json(verdict);
