@@ -43,8 +43,10 @@ void check_names(const CompareOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   if (options.junit) outputs.push_back(*options.junit);
   for (const std::string& path : outputs)
-    if (fs::equivalent(path, options.reference, unknown) || fs::equivalent(path, options.test, unknown))
-      throw usage("-o", "'" + path + "' is one of the pictures that are compared", "give it another name");
+    if (fs::equivalent(path, options.reference, unknown) || fs::equivalent(path, options.test, unknown) ||
+        fs::equivalent(path, options.mask.file, unknown))
+      throw usage("-o", "'" + path + "' is one of the pictures that are compared, or their mask",
+                  "give it another name");
 }
 
 bool is_page(const std::string& path) { return has_ending(path, ".html"); }
@@ -98,7 +100,7 @@ int compare_two_pictures(const CompareOptions& options) {
   ComparedPictures pictures;
   {
     const Activity activity("comparing");
-    pictures = compared_pictures(options.reference, options.test, options);
+    pictures = compared_pictures(options.reference, options.test, options, mask_file(options));
   }
   for (const std::string& path : options.outputs) {
     if (is_page(path))

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
+#include "cli/mask_options.h"
 #include "cli/option_texts.h"
 #include "cli/option_values.h"
 #include "core/error.h"
@@ -55,6 +57,39 @@ compare::Exposures exposures_from_text(const std::string& text) {
   return {*start, *stop, int(*count)};
 }
 
+/// `16:0.05`.
+compare::Criterion window_from_text(const std::string& text, double delta) {
+  const size_t colon = std::min(text.find(':'), text.size());
+  const double side = decimal(std::string_view(text).substr(0, colon)).value_or(0),
+               share = decimal(std::string_view(text).substr(std::min(colon + 1, text.size()))).value_or(-1);
+  const bool is_side = side >= kLeastWindowSide && side <= kMostWindowSide && side == std::floor(side) &&
+                       std::has_single_bit(unsigned(side));
+  if (!is_side || !(share >= 0 && share <= 1))
+    throw usage("--window",
+                "'" + text + "' is not SIDE:SHARE, a side of 8, 16, 32, 64 or 128 pixels and a share from 0 to 1",
+                "give one, like 16:0.05");
+  return {compare::Measure::window_share, share, delta, int(side)};
+}
+
+/// `RGB` is R, G and B; with commas, and where there is a dot, they are names.
+std::vector<std::string> channels_from_text(const std::string& text) {
+  std::vector<std::string> names;
+  if (text.find_first_of(",.") == std::string::npos && text.find_first_not_of("RGBAXYZWUV") == std::string::npos)
+    for (const char letter : text) names.emplace_back(1, letter);
+  else
+    for (size_t at = 0; at <= text.size();) {
+      const size_t comma = std::min(text.find(',', at), text.size());
+      names.push_back(text.substr(at, comma - at));
+      at = comma + 1;
+    }
+  for (const std::string& name : names)
+    if (name.empty() || std::count(names.begin(), names.end(), name) > 1)
+      throw usage("--channels", name.empty() ? "a name is empty" : "'" + name + "' is named twice",
+                  "give letters like RGB, or names with commas between, like R,G,depth.Z");
+  if (names.empty()) throw usage("--channels", "it names none", "give letters like RGB");
+  return names;
+}
+
 void add_criteria(const CompareTexts& texts, compare::CompareRules& rules) {
   using compare::Measure;
   const auto add = [&rules](Measure measure, double bound, double delta = 0.0) {
@@ -62,11 +97,12 @@ void add_criteria(const CompareTexts& texts, compare::CompareRules& rules) {
   };
   if (texts.difference) add(Measure::largest_difference, bound_from_text("--max-difference", *texts.difference));
   if (texts.ulp) add(Measure::largest_ulp, count_from_text("--max-ulp", *texts.ulp));
-  if (texts.delta && !texts.pixels)
-    throw usage("--delta", "it is what --pixels lets pass", "add --pixels COUNT, or give --max-difference instead");
-  if (texts.pixels)
-    add(Measure::pixels_beyond, count_from_text("--pixels", *texts.pixels),
-        texts.delta ? bound_from_text("--delta", *texts.delta) : 0.0);
+  if (texts.delta && !texts.pixels && texts.windows.empty())
+    throw usage("--delta", "it is what --pixels and --window let pass",
+                "add --pixels COUNT, or give --max-difference instead");
+  const double delta = texts.delta ? bound_from_text("--delta", *texts.delta) : 0.0;
+  if (texts.pixels) add(Measure::pixels_beyond, count_from_text("--pixels", *texts.pixels), delta);
+  for (const std::string& text : texts.windows) rules.criteria.push_back(window_from_text(text, delta));
   if (texts.psnr) add(Measure::psnr, bound_from_text("--psnr", *texts.psnr));
   if (texts.flip) add(Measure::flip_mean, bound_from_text("--flip", *texts.flip));
   if (texts.flip_median) add(Measure::flip_weighted_median, bound_from_text("--flip-median", *texts.flip_median));
@@ -104,7 +140,17 @@ CompareOptions finished(CompareOptions options, const CompareTexts& texts) {
     options.rules.color_space = *texts.color_space == "srgb" ? ColorSpace::srgb : ColorSpace::linear;
   }
   if (texts.threads) options.rules.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  options.judges = !texts.no_judge && options.rules.criteria.empty();
+  options.mask = mask_rules_of(texts.mask);
+  if (texts.channels) options.channels = channels_from_text(*texts.channels);
+  if (texts.rows) {
+    if (std::find(std::begin(kRowOrders), std::end(kRowOrders), *texts.rows) == std::end(kRowOrders))
+      throw unknown_name("--rows", "rows do not run", *texts.rows, kRowOrders);
+    options.bottom_up = *texts.rows == "bottom_up";
+  }
+  if (options.bottom_up && options.accept)
+    throw usage("--accept", "the test's file would be the reference, and its rows run the other way",
+                "save it from the top down, or leave out one of --rows and --accept");
+  options.judges = !texts.no_judge && options.rules.criteria.empty() && options.channels.empty() && !options.bottom_up;
   if (options.reference.empty() || options.test.empty())
     throw usage("compare", "a name is empty", "name two pictures, or two folders");
   if (options.junit && !has_ending(*options.junit, ".xml"))

@@ -13,17 +13,64 @@ uint64_t flip_memory(uint64_t pixels) {
   return pixels * 4 * (kPlanes + kMaps) + kOfBands;
 }
 
-ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
-                                   const CompareOptions& options) {
+namespace {
+
+/// Keeps the channels that were asked for. Error(bad_input) where the picture lacks one.
+void keep_channels(const std::vector<std::string>& names, PictureFile& picture) {
+  std::string there;
+  std::vector<std::string> missing = names;
+  for (ChannelFile& part : picture.parts) {
+    for (const Channel& channel : part.channels) there += (there.empty() ? "" : " ") + channel.name;
+    std::erase_if(part.channels, [&](const Channel& channel) {
+      std::erase(missing, channel.name);
+      return std::find(names.begin(), names.end(), channel.name) == names.end();
+    });
+  }
+  if (!missing.empty())
+    throw Error(ErrorKind::bad_input, picture.path, "it has no channel " + missing.front(),
+                "--channels takes those that it has: " + there);
+  std::erase_if(picture.parts, [](const ChannelFile& part) { return part.channels.empty(); });
+}
+
+/// The first row becomes the last.
+void turn_rows(PictureFile& picture) {
+  for (ChannelFile& part : picture.parts) {
+    if (part.is_window()) part.top = part.frame_height - part.top - part.height;
+    for (Channel& channel : part.channels)
+      for (int y = 0; y < part.height / 2; ++y) {
+        const auto row = channel.words.begin() + int64_t(y) * part.width,
+                   other = channel.words.begin() + int64_t(part.height - 1 - y) * part.width;
+        std::swap_ranges(row, row + part.width, other);
+      }
+  }
+}
+
+}  // namespace
+
+std::optional<PictureFile> mask_file(const CompareOptions& options) {
+  if (options.mask.file.empty()) return std::nullopt;
+  return read_any_picture(options.mask.file, options.limits.expansion);
+}
+
+ComparedPictures compared_pictures(const std::string& reference, const std::string& test, const CompareOptions& options,
+                                   const std::optional<PictureFile>& mask) {
   ComparedPictures pictures;
   pictures.reference = read_any_picture(reference, options.limits.expansion);
   pictures.test = read_any_picture(test, options.limits.expansion);
+  if (options.bottom_up) turn_rows(pictures.test);
+  compare::CompareRules rules = options.rules;
+  if (options.mask.any()) {
+    rules.mask = compare::mask_of_pair(options.mask, mask ? &*mask : nullptr, pictures.reference, pictures.test);
+    pictures.mask = rules.mask, pictures.left_out_by = options.mask.text();
+  }
+  if (!options.channels.empty())
+    keep_channels(options.channels, pictures.reference), keep_channels(options.channels, pictures.test);
   const ChannelFile& part = pictures.reference.parts.front();
   const auto& criteria = options.rules.criteria;
   if (options.rules.wants_flip ||
       std::any_of(criteria.begin(), criteria.end(), [](const auto& row) { return compare::is_flip(row.measure); }))
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
-  pictures.comparison = compare::compared(pictures.reference, pictures.test, options.rules);
+  pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
   const compare::Comparison& c = pictures.comparison;
   if (options.judges && c.outcome == compare::Outcome::different && c.differences.not_finite_pixels == 0)
     pictures.judged = judged_by_scene(pictures, options);

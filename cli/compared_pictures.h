@@ -18,7 +18,9 @@ struct JudgedPicture {
 struct ComparedPictures {
   PictureFile reference, test;
   compare::Comparison comparison;
-  JudgedPicture judged;  ///< of pictures that fit together, are finite and are not the same
+  PixelMask mask;
+  std::string left_out_by;  ///< MaskRules::text()
+  JudgedPicture judged;     ///< of pictures that fit together, are finite and are not the same
 
   ComparedPictures() = default;
   ComparedPictures(ComparedPictures&&) = default;
@@ -27,8 +29,12 @@ struct ComparedPictures {
 
 /// Reads two pictures and compares them; judges the test where the options let it and the reference carries its scene.
 /// Errors as read_any_picture() has them; Error(limit) where comparing would take more memory than the cap.
-ComparedPictures compared_pictures(const std::string& reference, const std::string& test,
-                                   const CompareOptions& options);
+///   mask: of mask_file()
+ComparedPictures compared_pictures(const std::string& reference, const std::string& test, const CompareOptions& options,
+                                   const std::optional<PictureFile>& mask);
+
+/// The picture of --mask, if it is given. Errors as read_any_picture() has them.
+std::optional<PictureFile> mask_file(const CompareOptions& options);
 
 /// How many bytes of memory FLIP takes beside the pictures, of a picture of so many pixels.
 uint64_t flip_memory(uint64_t pixels);
@@ -42,6 +48,15 @@ std::string verdict_line(const ComparedPictures& pictures);
 /// All of it, for people and as one JSON document.
 std::string comparison_text(const ComparedPictures& pictures);
 std::string comparison_json(const ComparedPictures& pictures);
+
+/// Steps of a storage: a whole number, or of two storages a fraction.
+std::string steps_text(double steps);
+
+/// `mask.png: 12 of 256 pixels left out, 4.69 %`.
+std::string mask_line(const ComparedPictures& pictures);
+
+/// `16x16 at 32,48: 12 of 256 pixels differ by more than 0.1, mean error 0.01, largest 0.5`.
+std::string window_line(const compare::WorstWindow& window, double delta);
 
 /// `PNG, 640x480, R G B unorm 8`.
 std::string about_picture(const PictureFile& picture);

@@ -30,6 +30,12 @@ std::string line_of(const std::string& name, const std::string& value) {
   return name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') + printable(value, Lines::one) + '\n';
 }
 
+}  // namespace
+
+std::string steps_text(double steps) { return number_of(steps, steps == std::floor(steps) ? "%.0f" : "%.4g"); }
+
+namespace {
+
 /// Columns as wide as their widest cell; the first and the last are set to the left.
 std::string table_of(const std::vector<std::vector<std::string>>& rows) {
   std::vector<size_t> widths(rows.front().size());
@@ -59,7 +65,7 @@ std::string channel_table(const std::vector<ChannelDifferences>& channels) {
     const uint64_t not_finite = c.not_finite_reference + c.not_finite_test;
     rows.push_back(
         {printable(c.name, Lines::one), std::to_string(c.unequal), number_of(c.mean(), "%.4g"),
-         number_of(c.rms(), "%.4g"), number_of(c.largest), number_of(c.largest_ulp, "%.0f"),
+         number_of(c.rms(), "%.4g"), number_of(c.largest), steps_text(c.largest_ulp),
          c.largest > 0 ? place_text(c.worst) : "-", number_of(c.psnr(), "%.2f"),
          not_finite == 0 ? "-" : std::to_string(c.not_finite_reference) + " and " + std::to_string(c.not_finite_test),
          storage});
@@ -96,6 +102,20 @@ std::string extent_text(const compare::Differences& d) {
   const std::string text = std::to_string(d.unequal_pixels) + " of " + count_of(d.pixels, "pixel", "pixels");
   return text + (d.unequal_pixels == 1 ? " differs" : " differ") +
          (d.unequal_pixels > 0 ? ", by " + number_of(largest) + " at most" : "");
+}
+
+/// `; 120 are left out`, of what is.
+std::string left_out_text(const compare::Differences& d) {
+  if (d.left_out == 0) return "";
+  return "; " + std::to_string(d.left_out) + (d.left_out == 1 ? " is" : " are") + " left out";
+}
+
+std::string window_json(const compare::WorstWindow& worst, const Comparison& c) {
+  const LocalWindow& w = worst.window;
+  JsonObject json;
+  json.put("side", w.side).put("part", c.pairing.parts[worst.part].name).put("x", w.x).put("y", w.y);
+  json.put("width", w.width).put("height", w.height).put("pixels", w.seen).put("pixels_beyond", w.found);
+  return json.put("share", worst.share).put("mean", w.mean()).put("largest", w.largest).text();
 }
 
 const char* word_of(Outcome outcome) {
@@ -179,6 +199,21 @@ std::string about_picture(const PictureFile& picture) {
   return channels <= kMostChannelsShown ? line : line + ", " + std::to_string(channels) + " channels in all";
 }
 
+std::string mask_line(const ComparedPictures& pictures) {
+  const compare::Differences& d = pictures.comparison.differences;
+  const uint64_t all = d.pixels + d.left_out;
+  return pictures.left_out_by + ": " + std::to_string(d.left_out) + " of " + count_of(all, "pixel", "pixels") +
+         " left out, " + number_of(all > 0 ? 100.0 * double(d.left_out) / double(all) : 0.0, "%.3g") + " %";
+}
+
+std::string window_line(const compare::WorstWindow& worst, double delta) {
+  const LocalWindow& w = worst.window;
+  return std::to_string(w.side) + 'x' + std::to_string(w.side) + " at " + std::to_string(w.x) + ',' +
+         std::to_string(w.y) + ": " + std::to_string(w.found) + " of " + count_of(w.seen, "pixel", "pixels") +
+         (w.found == 1 ? " differs" : " differ") + (delta > 0 ? " by more than " + number_of(delta) : "") +
+         ", mean error " + number_of(w.mean(), "%.4g") + ", largest " + number_of(w.largest, "%.4g");
+}
+
 bool passes(const ComparedPictures& pictures) {
   return pictures.judged.validation ? passes(*pictures.judged.validation) : pictures.comparison.passes();
 }
@@ -188,8 +223,8 @@ std::string verdict_line(const ComparedPictures& pictures) {
   const compare::Differences& d = c.differences;
   if (c.outcome == Outcome::same)
     return "the pictures are the same: " + count_of(d.pixels, "pixel", "pixels") + " of " +
-           count_of(d.channels.size(), "channel", "channels") + ", every stored value equal";
-  const std::string extent = extent_text(d);
+           count_of(d.channels.size(), "channel", "channels") + ", every stored value equal" + left_out_text(d);
+  const std::string extent = extent_text(d) + left_out_text(d);
   if (const auto& v = pictures.judged.validation)
     return "judged by the reference's scene: " + conclusion(*v) + "; " + extent + " from the reference";
   if (c.outcome == Outcome::within) return "the pictures differ within what is allowed: " + extent;
@@ -209,6 +244,7 @@ std::string comparison_text(const ComparedPictures& pictures) {
   for (size_t i = 1; i < c.failures.size(); ++i) text += line_of("and", c.failures[i]);
   text += line_of("reference", pictures.reference.path + ": " + about_picture(pictures.reference));
   text += line_of("test", pictures.test.path + ": " + about_picture(pictures.test));
+  if (!pictures.left_out_by.empty()) text += line_of("mask", mask_line(pictures));
   text += line_of("colours", c.colors);
   for (const std::string& note : c.notes) text += line_of("note", note);
   if (!pictures.judged.why_not.empty()) text += line_of("not judged", pictures.judged.why_not);
@@ -217,6 +253,8 @@ std::string comparison_text(const ComparedPictures& pictures) {
       text += line_of("criterion", compare::text_of(row) + (row.holds ? ": holds" : ": DOES NOT HOLD"));
   if (c.flip) text += line_of("FLIP", flip_line(*c.flip));
   if (!c.no_flip.empty()) text += line_of("FLIP", "not measured: " + c.no_flip);
+  for (const compare::WorstWindow& w : c.differences.windows)
+    text += line_of("window", window_line(w, c.differences.delta));
   if (c.differences.channels.empty() || c.outcome == Outcome::same) return text;
   text += '\n' + channel_table(c.differences.channels);
   for (const std::string& pixel : {pixel_text("first pixel", c.first), pixel_text("worst pixel", c.worst),
@@ -229,21 +267,25 @@ std::string comparison_text(const ComparedPictures& pictures) {
 std::string comparison_json(const ComparedPictures& pictures) {
   const Comparison& c = pictures.comparison;
   const compare::Differences& d = c.differences;
-  JsonArray criteria, channels;
+  JsonArray criteria, channels, windows;
   for (const compare::Judged& row : c.criteria) {
     JsonObject json;
     json.put("measure", compare::name_of(row.criterion.measure)).put("bound", row.criterion.bound);
-    if (row.criterion.measure == compare::Measure::pixels_beyond) json.put("delta", row.criterion.delta);
+    if (compare::has_delta(row.criterion.measure)) json.put("delta", row.criterion.delta);
+    if (row.criterion.side > 0) json.put("side", row.criterion.side);
     criteria.add_raw(json.put("measured", row.measured).put("holds", row.holds).text());
   }
   for (const ChannelDifferences& channel : d.channels) channels.add_raw(channel_json(channel));
+  for (const compare::WorstWindow& worst : d.windows) windows.add_raw(window_json(worst, c));
   JsonObject json;
   json.put("outcome", word_of(c.outcome)).put("passes", passes(pictures)).put("verdict", verdict_line(pictures));
   json.put("reference", pictures.reference.path).put("test", pictures.test.path).put("colors", c.colors);
   json.put_raw("failures", strings_json(c.failures)).put_raw("notes", strings_json(c.notes));
   json.put_raw("criteria", criteria.text()).put("pixels", d.pixels).put("unequal_pixels", d.unequal_pixels);
+  json.put("left_out_pixels", d.left_out);
+  if (!pictures.left_out_by.empty()) json.put("left_out_by", pictures.left_out_by);
   json.put("pixels_beyond", d.pixels_beyond).put("not_finite_pixels", d.not_finite_pixels);
-  json.put_raw("channels", channels.text());
+  json.put_raw("channels", channels.text()).put_raw("windows", windows.text());
   if (c.first) json.put_raw("first", pixel_json(*c.first));
   if (c.worst) json.put_raw("worst", pixel_json(*c.worst));
   if (c.first_not_finite) json.put_raw("first_not_finite", pixel_json(*c.first_not_finite));

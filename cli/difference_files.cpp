@@ -10,12 +10,12 @@
 namespace trueshade {
 namespace {
 
-/// |reference - test| of a channel, as floats.
-void put_differences(const compare::PairReader& reader, size_t channel, Image& image) {
+/// |reference - test| of a channel, as floats; 0 where pixels are left out.
+void put_differences(const compare::PairReader& reader, const PixelMask& mask, size_t channel, Image& image) {
   const int channels = info(image.format).channels;
   const size_t pixels = size_t(image.width) * size_t(image.height);
   for (size_t i = 0; i < pixels; ++i) {
-    const auto difference = float(reader.at(i).difference);
+    const float difference = mask.has(i) ? 0.0f : float(reader.at(i).difference);
     std::memcpy(image.texels.data() + 4 * (i * size_t(channels) + channel), &difference, 4);
   }
 }
@@ -33,11 +33,11 @@ void write_difference_exr(const ComparedPictures& pictures, const std::string& p
       const compare::PairReader reader(pair, c.decoding.reference && is_color, c.decoding.test && is_color);
       const size_t place = std::string_view("RGBA").find(pair.name);
       if (pair.name.size() == 1 && place != std::string_view::npos) {
-        put_differences(reader, place, color);
+        put_differences(reader, pictures.mask, place, color);
         continue;
       }
       planes.push_back({pair.name, Image(p.width, p.height, Format::d32f)});
-      put_differences(reader, 0, planes.back().image);
+      put_differences(reader, pictures.mask, 0, planes.back().image);
     }
   write_image(path, color, planes, {{"trueshade:difference", "absolute, test against reference"}});
 }

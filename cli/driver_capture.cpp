@@ -35,11 +35,13 @@ void mark_changes(const Image& a, const Image& b, std::vector<bool>& changed) {
     if (std::memcmp(&a.texels[i * texel], &b.texels[i * texel], texel) != 0) changed[i] = true;
 }
 
-/// Pixels that are not the same, bit for bit, in two captures of one driver.
+/// Pixels that are not the same, bit for bit, in two captures of one driver, but for those that the first leaves out.
 uint64_t changed_pixels(const oracle::Capture& a, const oracle::Capture& b) {
   std::vector<bool> changed(size_t(a.color.width) * size_t(a.color.height));
   mark_changes(a.color, b.color, changed);
   for (size_t i = 0; i < a.planes.size(); ++i) mark_changes(a.planes[i].image, b.planes[i].image, changed);
+  for (size_t i = 0; i < changed.size(); ++i)
+    if (a.mask.has(i)) changed[i] = false;
   return uint64_t(std::count(changed.begin(), changed.end(), true));
 }
 

@@ -87,7 +87,8 @@ Image given_pixel(const Question& q, Format format) {
   capture.color = one_pixel(stored_plane_image(files.planes.front()), q.options.x, q.options.y);
   Pipeline of_pixel = q.pipeline;
   of_pixel.width = of_pixel.height = 1, of_pixel.target = format;
-  store_as(of_pixel, path, capture);
+  capture.name = path;
+  store_as(of_pixel, capture);
   return capture.color;
 }
 

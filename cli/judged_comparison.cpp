@@ -9,7 +9,6 @@
 #include "cli/capture/stored_planes.h"
 #include "cli/preparation.h"
 #include "cli/shell_words.h"
-#include "cli/shell_words.h"
 #include "core/error.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
@@ -92,7 +91,8 @@ class SceneJudge {
     CapturedPlanes planes = captured_planes(files, scene_, v_.pipeline);
     v_.capture = std::move(planes.capture);
     if (!has_planes) draw_planes();
-    store_as(v_.pipeline, test.path, v_.capture);
+    store_as(v_.pipeline, v_.capture);
+    v_.capture.mask = pictures_.mask, v_.left_out_by = pictures_.left_out_by;
     if (!v_.capture.has_alpha) v_.notes.push_back("the picture has no alpha channel, so alpha is not judged");
     v_.notes.insert(v_.notes.end(), planes.notes.begin(), planes.notes.end());
     if (!has_planes)
@@ -119,7 +119,8 @@ class SceneJudge {
 
 JudgedPicture judged_by_scene(const ComparedPictures& pictures, const CompareOptions& options) {
   if (metadata_value(pictures.reference, "trueshade:scene") == nullptr) return {};
-  if (metadata_value(pictures.reference, "trueshade:cubeMap") != nullptr) return {};  // not what the scene's camera sees
+  if (metadata_value(pictures.reference, "trueshade:cubeMap") != nullptr)
+    return {};  // not what the scene's camera sees
   try {
     return {SceneJudge(pictures, options).judge(), ""};
   } catch (const Error& error) {

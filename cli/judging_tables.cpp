@@ -1,6 +1,7 @@
 // The tables of commands that judge and measure: validate, compare, bench.
 #include "cli/command_tables.h"
 #include "cli/commands.h"
+#include "cli/mask_options.h"
 #include "cli/option_values.h"
 #include "judge/bounds/profile_names.h"
 
@@ -23,7 +24,10 @@ void add_criteria(CommandTable& table, CompareOptions& options, CompareTexts& te
   add_value(table, "--max-ulp", "COUNT", texts.ulp,
             "No value differs by more steps of its storage: floats, halves, codes");
   add_value(table, "--pixels", "COUNT", texts.pixels, "At most so many pixels differ by more than --delta");
-  add_value(table, "--delta", "D", texts.delta, "What --pixels lets pass; without it 0");
+  add_value(table, "--delta", "D", texts.delta, "What --pixels and --window let pass; without it 0");
+  add_values(table, "--window", "SIDE:SHARE", texts.windows,
+             "At most this share of the pixels of any SIDExSIDE window differ by more than --delta, like 16:0.05; SIDE "
+             "is 8, 16, 32, 64 or 128; may be repeated");
   add_value(table, "--psnr", "DB", texts.psnr, "Each channel's peak signal-to-noise ratio is at least so many dB");
   add_value(table, "--flip", "MEAN", texts.flip, "The mean of FLIP's map is at most MEAN; 1 never fails");
   add_value(table, "--flip-median", "BOUND", texts.flip_median, "The weighted median of FLIP's map is at most BOUND");
@@ -33,6 +37,12 @@ void add_criteria(CommandTable& table, CompareOptions& options, CompareTexts& te
              "Compare values although the reference carries its scene, by which pixels can be judged");
   add_choice(table, "--color-space", "NAME", texts.color_space,
              "What both pictures' R, G and B are, whatever the files say: srgb or linear", kColorSpaceNames);
+  table.open_group = "What is compared";
+  add_value(table, "--channels", "LIST", texts.channels,
+            "These channels alone: letters like RGB, or names with commas between, like R,G,depth.Z");
+  add_choice(table, "--rows", "ORDER", texts.rows,
+             "How the test's rows run: top_down, or bottom_up as glReadPixels gives them", kRowOrders);
+  add_mask(table, texts.mask);
   table.open_group = "FLIP";
   add_value(table, "--ppd", "COUNT", texts.ppd, "Pixels per degree of the visual field (67.02)");
   add_switch(table, "--ldr", texts.low, "Colours are what a screen shows; the default for codes");
@@ -52,6 +62,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
       table, options.capture, "--gbuffer",
       "Judge this capture instead: planes as .exr, .dds, .tif, .npy or .png, channels as --aov names them or as "
       "--map says; may be repeated (docs/captures.md)");
+  add_mask(table, texts.mask);
   table.open_group = "Judgement";
   add_choice(table, "--driver", "NAME", options.driver,
              "Driver to open: default, llvmpipe or softpipe of OpenGL, vulkan, or lavapipe", kDriverNames);

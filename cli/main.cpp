@@ -20,6 +20,7 @@
 #include "cli/shared_render.h"
 #include "cli/terminal.h"
 #include "core/error.h"
+#include "core/fp_env.h"
 #include "core/memory_cap.h"
 #include "core/printable_text.h"
 #include "farm/process_ranks.h"
@@ -27,7 +28,7 @@
 namespace trueshade {
 namespace {
 
-constexpr int kOurFault = 70;         // sysexits.h: EX_SOFTWARE
+constexpr int kOurFault = 70;          // sysexits.h: EX_SOFTWARE
 constexpr int kReaderGone = 128 + 13;  // as of a program that SIGPIPE ends
 
 /// Writes all of it, and takes no memory for that.
@@ -161,6 +162,7 @@ int run(int count, char** arguments) {
 
 /// A failed write must come back as an error, not as the end by a signal.
 int main(int count, char** arguments) {
+  const trueshade::FpScope ieee;  // whatever a library that was loaded before has left: texts are rounded by it, too
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   return trueshade::leave_process_ranks(trueshade::run(count, arguments));

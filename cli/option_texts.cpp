@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/frame_name.h"
+#include "cli/mask_options.h"
 #include "cli/option_values.h"
 #include "cli/picture_output.h"
 #include "core/error.h"
@@ -178,6 +179,7 @@ ExportOptions finished(ExportOptions options, const std::optional<std::string>& 
 }
 
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
+  options.mask = mask_rules_of(texts.mask);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);

@@ -25,8 +25,16 @@ struct GlslTexts {
   std::optional<std::string> api, size, strategy, time;
 };
 
+/// Of validate and compare.
+struct MaskTexts {
+  std::optional<std::string> file;
+  std::vector<std::string> ignored;
+  bool allow = false;
+};
+
 /// Of validate.
 struct ValidationTexts {
+  MaskTexts mask;
   std::optional<std::string> size, subpixel_bits, strategy, time, significance;
 };
 
@@ -53,7 +61,9 @@ struct ViewTexts {
 /// Of compare.
 struct CompareTexts {
   std::optional<std::string> difference, ulp, pixels, delta, psnr, flip, flip_median, ppd, mapper, exposures,
-      color_space, threads;
+      color_space, threads, channels, rows;
+  std::vector<std::string> windows;
+  MaskTexts mask;
   bool low = false, high = false, no_judge = false;
 };
 

@@ -46,6 +46,7 @@ Variant variant_from_text(const std::string& text);
 // Names that values may have, for completions and suggestions.
 inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
 inline constexpr std::string_view kEncodingNames[] = {"srgb", "raw"}, kColorSpaceNames[] = {"srgb", "linear"};
+inline constexpr std::string_view kRowOrders[] = {"top_down", "bottom_up"};
 inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse4", "scalar"};
 inline constexpr std::string_view kShellNames[] = {"bash", "zsh", "fish"};
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};

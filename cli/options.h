@@ -7,6 +7,7 @@
 
 #include "cli/limit_options.h"
 #include "compare/comparison.h"
+#include "compare/picture_mask.h"
 #include "core/image_files/image_io.h"
 #include "farm/task_sharing.h"
 #include "gl/emit/glsl_terms.h"
@@ -120,6 +121,7 @@ struct ValidationOptions : PipelineOptions {
   double time = 0.0;                   ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
   CaptureOptions capture;              ///< empty: draw one here
+  compare::MaskRules mask;             ///< pixels that are not judged
   std::vector<std::string> saved;      ///< .png, .exr: what was drawn here
   std::optional<std::string> report;   ///< .html
   bool quick = false;                  ///< neither the tightest profile nor the moved frame
@@ -161,12 +163,15 @@ struct ViewOptions : PipelineOptions {  // with `size` the picture keeps it, wha
 /// `trueshade compare`: two pictures, or two folders of them.
 struct CompareOptions : LimitedOptions {
   std::string reference, test;
-  compare::CompareRules rules;
-  bool judges = true;                ///< by the reference's scene, where it carries one and no criterion is given
-  std::vector<std::string> outputs;  ///< .png, .exr or .html; of folders one folder
-  std::optional<std::string> junit;  ///< .xml
-  bool accept = false;               ///< copy test pictures that do not pass over their references
-  std::string command_line;          ///< as it was given, for a shell
+  compare::CompareRules rules;  ///< but for the mask, which is of the pictures' size
+  compare::MaskRules mask;
+  std::vector<std::string> channels;  ///< names; empty: all
+  bool bottom_up = false;             ///< the test's first row is its lowest
+  bool judges = true;                 ///< by the reference's scene, where it carries one and no criterion is given
+  std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders one folder
+  std::optional<std::string> junit;   ///< .xml
+  bool accept = false;                ///< copy test pictures that do not pass over their references
+  std::string command_line;           ///< as it was given, for a shell
   bool json = false;
 };
 

@@ -52,7 +52,7 @@ std::string values_text(const compare::PixelValues& pixel) {
 
 class FolderComparer {
  public:
-  explicit FolderComparer(const CompareOptions& options) : options_(options) {}
+  explicit FolderComparer(const CompareOptions& options) : options_(options), mask_(mask_file(options)) {}
 
   PictureRow compare(const std::string& name, bool in_reference, bool in_test) const {
     const auto start = std::chrono::steady_clock::now();
@@ -96,6 +96,8 @@ class FolderComparer {
       const PictureFile picture = read_any_picture(test(row), options_.limits.expansion);
       try {
         compare_pair(row);
+      } catch (const compare::MaskError&) {
+        throw;  // it says nothing of the reference
       } catch (const Error& error) {
         fail(error.what(), int(error.kind()), row);
       }
@@ -106,7 +108,7 @@ class FolderComparer {
   }
 
   void compare_pair(PictureRow& row) const {
-    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_);
+    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_, mask_);
     const compare::Comparison& c = pictures.comparison;
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
@@ -115,6 +117,7 @@ class FolderComparer {
       row.reason +=
           "; worst at " + std::to_string(c.worst->x) + ',' + std::to_string(c.worst->y) + values_text(*c.worst);
     row.unequal_pixels = c.differences.unequal_pixels, row.pixels = c.differences.pixels;
+    row.left_out_pixels = c.differences.left_out;
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);
     if (c.flip) row.flip_mean = c.flip->mean;
@@ -136,6 +139,7 @@ class FolderComparer {
   }
 
   const CompareOptions& options_;
+  const std::optional<PictureFile> mask_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ struct PictureRow {
   RowState state = RowState::same;
   std::string reason;   ///< verdict_line(), or why there is none
   std::string details;  ///< comparison_text() of pictures that do not pass: first and worst pixel, what it looks like
-  uint64_t unequal_pixels = 0, pixels = 0;
+  uint64_t unequal_pixels = 0, pixels = 0, left_out_pixels = 0;
   double largest = 0.0;  ///< difference in any channel
   std::optional<double> flip_mean;
   int exit_code = 0;     ///< of a picture that cannot be read
@@ -40,8 +40,8 @@ struct FolderComparison {
   int exit_code() const;  ///< 0, 1, or that of the first picture that cannot be read
 };
 
-/// Relative names of the pictures in a folder and in those within; links to folders are not followed. Adds the number of
-/// files whose names do not end as a picture's to `passed_over`. Error(io): a folder that cannot be listed.
+/// Relative names of the pictures in a folder and in those within; links to folders are not followed. Adds the number
+/// of files whose names do not end as a picture's to `passed_over`. Error(io): a folder that cannot be listed.
 std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over);
 
 /// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences into

@@ -43,7 +43,7 @@ CapturedPlanes planes_to_light(const ShadeOptions& options, const CaptureFiles& 
                                const Pipeline& pipeline) {
   CapturedPlanes planes = captured_planes(files, scene, pipeline);
   planes.capture.color = {};
-  store_as(pipeline, files.name, planes.capture);
+  store_as(pipeline, planes.capture);
   if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
     planes.notes.push_back("transparent surfaces are in no G-buffer, so they are not drawn");
   if (!options.capture.image_file.empty()) planes.notes.push_back("--image is not read: the picture is what is made");

@@ -11,12 +11,14 @@
 #include "cli/capture_options.h"
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
+#include "cli/judged_mask.h"
 #include "cli/preparation.h"
 #include "cli/shell_words.h"
 #include "cli/validation.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
 #include "core/image_files/image_io.h"
+#include "core/image_files/picture_file.h"
 #include "core/printable_text.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
@@ -70,13 +72,20 @@ void save(const oracle::Capture& capture, const std::string& path) {
 void fit_capture(const ValidationOptions& options, const CaptureFiles& files, const Scene& scene, Validation& v) {
   CapturedPlanes planes = captured_planes(files, scene, v.pipeline);
   v.capture = std::move(planes.capture);
-  store_as(v.pipeline, files.name, v.capture);
+  store_as(v.pipeline, v.capture);
   if (v.capture.color.width > 0 && !v.capture.has_alpha)
     v.notes.push_back("the picture has no alpha channel, so alpha is not judged");
   v.notes.insert(v.notes.end(), planes.notes.begin(), planes.notes.end());
   if (!options.held_to && !options.subpixel_bits)
     v.notes.push_back(
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
+}
+
+void leave_out(const ValidationOptions& options, const Scene& scene, Validation& v) {
+  std::optional<PictureFile> mask;
+  if (!options.mask.file.empty()) mask = read_any_picture(options.mask.file, options.limits.expansion);
+  v.capture.mask = judged_mask(options.mask, mask ? &*mask : nullptr, scene, v.pipeline, v.capture);
+  v.left_out_by = options.mask.text();
 }
 
 /// The file of a capture's picture, as far as its name tells: a file of planes may hold one.
@@ -143,6 +152,7 @@ bool judge_opengl(const ValidationOptions& options) {
       fit_capture(options, *files, scene, v);
   });
   files.reset();
+  if (options.mask.any()) leave_out(options, scene, v);
   for (const std::string& path : options.saved) {
     activity->now("writing " + printable(path, Lines::one));
     save(v.capture, path);

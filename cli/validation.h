@@ -20,6 +20,7 @@ struct Validation {
   oracle::Capture capture;
   oracle::Profile profile;  ///< what the capture was held to
   oracle::Verdict verdict;
+  std::string left_out_by;                ///< what made capture.mask: MaskRules::text()
   bool lenient = false;                   ///< what the tests of the whole image find is no failure
   bool is_diagnosed = false;              ///< faults were tried
   std::vector<oracle::Finding> findings;  ///< what explains a capture that does not pass, or what was supposed
@@ -41,6 +42,9 @@ bool passes(const Validation& validation);
 /// Pixels that some stage finds in no legal set.
 uint64_t violating_pixels(const oracle::Verdict& verdict);
 
+/// The first stage with a pixel in no legal set, or without one the first that no known rounding makes; null: none.
+const oracle::StageVerdict* failed_stage(const oracle::Verdict& verdict);
+
 /// EXACT and STORE-2 pixels among all of a stage.
 double exact_share(const oracle::StageVerdict& stage);
 
@@ -51,6 +55,10 @@ std::string invariance_line(const Validation& validation);
 std::string profile_line(const oracle::Profile& profile);
 std::string tightest_line(const oracle::Inference& inferred);
 std::string conclusion(const Validation& validation);
+
+/// What was left out, and how much; and a window of worst_windows(), each in one line.
+std::string left_out_line(const Validation& validation);
+std::string judged_window_line(const LocalWindow& window);
 
 /// The rounding of stores that each stage follows: `gbuffer as stated, codes to nearest, halves toward zero; ...`.
 std::string rounding_line(const oracle::Verdict& verdict);

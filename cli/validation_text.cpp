@@ -38,7 +38,7 @@ std::string class_rows(const StageVerdict& s) {
   std::string lines;
   for (size_t c = 0; c < kPixelClasses; ++c) {
     if (s.counts[c] == 0 && PixelClass(c) != PixelClass::violation) continue;
-    const double share = 100.0 * double(s.counts[c]) / double(s.classes.size());
+    const double share = 100.0 * double(s.counts[c]) / double(std::max<uint64_t>(s.judged(), 1));
     lines += "  " + left(std::string(text(PixelClass(c))), 10) + right(std::to_string(s.counts[c]), 10) +
              right(real(share, "%.4f"), 10) + " %\n";
   }
@@ -67,16 +67,31 @@ std::string worst_row(const WorstPixel& w) {
          (w.note.empty() ? "" : (w.plane.empty() ? "" : "; ") + w.note) + '\n';
 }
 
+}  // namespace
+
+std::string judged_window_line(const LocalWindow& w) {
+  std::string line = std::to_string(w.side) + 'x' + std::to_string(w.side) + " at " + std::to_string(w.x) + ',' +
+                     std::to_string(w.y) + ": of " + std::to_string(w.seen) + " pixels " + std::to_string(w.found) +
+                     " in no legal set, " + std::to_string(w.others) + " other surfaces or branches";
+  return w.found == 0 ? line
+                      : line + "; outside by " + real(w.sum / double(w.found), "%.4g") +
+                            " units of the last place on " + "average, " + real(w.largest, "%.4g") + " at most";
+}
+
+namespace {
+
 std::string stage_text(const StageVerdict& s, const Evidence& evidence, double least_chance) {
   constexpr size_t kShown = 8;
-  std::string lines = "\n" + s.stage + ": " + std::to_string(s.classes.size()) + " pixels, " +
-                      std::to_string(s.covered) + " with a surface\n";
+  std::string lines = "\n" + s.stage + ": " + std::to_string(s.judged()) + " pixels, " + std::to_string(s.covered) +
+                      " with a surface" + (s.left_out > 0 ? "; " + std::to_string(s.left_out) + " left out" : "") +
+                      '\n';
   lines += class_rows(s);
   lines += "  other surfaces or branches: " + std::to_string(s.explained()) + " seen, " +
            real(s.predicted_other, "%.1f") + " predicted, " + std::to_string(s.ambiguous) + " possible\n";
   if (s.worst_error > 0)
     lines += "  largest error of a float channel: " + real(s.worst_error, "%.3f") + " of its bound\n";
   lines += aggregate_rows(evidence, least_chance);
+  for (const LocalWindow& w : oracle::worst_windows(s)) lines += "  worst window " + judged_window_line(w) + '\n';
   if (!s.worst.empty()) lines += "  worst pixels (x,y from the top left):\n";
   for (size_t i = 0; i < std::min(kShown, s.worst.size()); ++i) lines += "  " + worst_row(s.worst[i]);
   return lines;
@@ -155,7 +170,9 @@ std::string stages_of_violations(const oracle::Verdict& v) {
 std::string conclusion(const Validation& validation) {
   const oracle::Verdict& v = validation.verdict;
   const uint64_t violations = violating_pixels(v);
-  const std::string post = validation.pipeline.post.active() ? "; the post chain is not judged" : "";
+  const uint64_t left_out = validation.capture.mask.count();
+  const std::string post = std::string(validation.pipeline.post.active() ? "; the post chain is not judged" : "") +
+                           (left_out > 0 ? "; " + std::to_string(left_out) + " are left out" : "");
   if (violations > 0)
     return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" +
            stages_of_violations(v) + post;
@@ -188,7 +205,7 @@ std::string blind_spot_line(const Validation& v) {
   double codes = 0;  // all stored, so that an error of e changes e * codes of them
   for (int y = 0; y < color.height; ++y)
     for (int x = 0; x < color.width; ++x)
-      for (int k = 0; k < 3; ++k) codes += double(color.code(layout, x, y, k));
+      for (int k = 0; k < 3 && !v.capture.mask.has(x, y); ++k) codes += double(color.code(layout, x, y, k));
   constexpr double kTold = 30;        // stores that a rule rules out and that the tests tell
   constexpr double kSmallest = 1e-3;  // percent: what sums of floats may be off
   const double one = 100.0 / double(layout.largest_code(0)), all = codes > 0 ? 100 * kTold / codes : 100;
@@ -215,9 +232,26 @@ std::vector<std::string> hidden_by_materials(const oracle::Verdict& v) {
   return lines;
 }
 
+const StageVerdict* failed_stage(const oracle::Verdict& v) {
+  for (const StageVerdict& s : v.stages)
+    if (!s.passes()) return &s;
+  for (size_t i = 0; i < v.stages.size(); ++i)
+    if (v.evidence[i].against) return &v.stages[i];
+  for (const StageVerdict& s : v.stages)
+    for (const oracle::MaterialEvidence& e : v.materials)
+      if (e.against && e.stage == s.stage) return &s;
+  return nullptr;
+}
+
 double exact_share(const StageVerdict& stage) {
   return double(stage.count(PixelClass::exact) + stage.count(PixelClass::store_2)) /
-         double(std::max<size_t>(stage.classes.size(), 1));
+         double(std::max<uint64_t>(stage.judged(), 1));
+}
+
+std::string left_out_line(const Validation& v) {
+  const uint64_t count = v.capture.mask.count(), all = v.capture.mask.left_out.size();
+  return v.left_out_by + ": " + std::to_string(count) + " of " + std::to_string(all) + " pixels left out, " +
+         real(all > 0 ? 100.0 * double(count) / double(all) : 0.0, "%.3g") + " %";
 }
 
 std::string validation_text(const Validation& v) {
@@ -227,6 +261,7 @@ std::string validation_text(const Validation& v) {
                                   std::to_string(v.pipeline.height) + ", " + std::string(info(v.pipeline.target).name));
   lines += verdict_row("driver", v.verdict.driver) + verdict_row("profile", profile_line(v.profile));
   for (const std::string& note : v.notes) lines += verdict_row("note", note);
+  if (!v.left_out_by.empty()) lines += verdict_row("mask", left_out_line(v));
   std::string times;
   for (const DriverFrame::Pass& pass : v.passes) times += pass.name + ' ' + real(pass.ms, "%.1f") + " ms, ";
   if (v.timed_frames > 1) times += "(median of " + std::to_string(v.timed_frames) + " frames) ";
@@ -271,6 +306,7 @@ std::string validation_json(const Validation& v) {
       .put_raw("notes", notes.text())
       .put("post_chain", v.pipeline.post.active() ? "not judged" : "none");
   if (const std::string hidden = blind_spot_line(v); !hidden.empty()) json.put("hidden", hidden);
+  if (!v.left_out_by.empty()) json.put("left_out_by", v.left_out_by).put("left_out_pixels", v.capture.mask.count());
   json.put("lenient", v.lenient).put_raw("ignored", ignored_json(v.scene_notes));
   if (v.repeat_changes) json.put("repeat_changes", *v.repeat_changes);
   if (v.move_changes) json.put("move_changes", *v.move_changes);

@@ -55,17 +55,24 @@ bool holds_floats(const ChannelFile& part) {
 
 /// FLIP has no error for a color that is not finite. A pixel that has one, and that differs between the pictures,
 /// counts as the largest error.
-void count_not_finite(const Pairing& pairing, FlipResult& result) {
+void count_not_finite(const Pairing& pairing, const PixelMask& mask, FlipResult& result) {
   bool any = false;
   for (const ChannelPair& pair : pairing.parts.empty() ? std::vector<ChannelPair>{} : pairing.parts.front().channels) {
     if (!is_color(*pair.reference) || pair.reference->words.size() != result.map.size()) continue;
     for (size_t i = 0; i < result.map.size(); ++i) {
+      if (mask.has(i)) continue;
       const double a = pair.reference->value(i), b = pair.test->value(i);
       const bool same = a == b || (std::isnan(a) && std::isnan(b));
       if (!same && !(std::isfinite(a) && std::isfinite(b))) result.map[i] = 1.0f, any = true;
     }
   }
-  if (any) measure(result);
+  if (any) measure(result, &mask);
+}
+
+void blacken(const PixelMask& mask, LinearPicture& picture) {
+  for (std::vector<float>& plane : picture.rgb)
+    for (size_t i = 0; i < mask.left_out.size(); ++i)
+      if (mask.has(i)) plane[i] = 0.0f;
 }
 
 void measure_flip(const PictureFile& reference, const PictureFile& test, const CompareRules& rules, Comparison& c) {
@@ -77,20 +84,21 @@ void measure_flip(const PictureFile& reference, const PictureFile& test, const C
   const auto is_srgb = [&rules](const PictureFile& picture) {
     return rules.color_space.value_or(picture.color_space) == ColorSpace::srgb;
   };
-  const auto of_r = linear_picture(r, is_srgb(reference)), of_t = linear_picture(t, is_srgb(test));
+  auto of_r = linear_picture(r, is_srgb(reference)), of_t = linear_picture(t, is_srgb(test));
   if (!of_r || !of_t) {
     c.no_flip = "a picture has no channels R, G and B";
     return;
   }
+  blacken(rules.mask, *of_r), blacken(rules.mask, *of_t);
   const bool light = holds_floats(r) && holds_floats(t) && !is_srgb(reference) && !is_srgb(test);
   const bool high = rules.range == CompareRules::Range::by_storage ? light : rules.range == CompareRules::Range::high;
   FlipOptions options = rules.flip;
-  options.threads = rules.threads;
+  options.threads = rules.threads, options.mask = &rules.mask;
   FlipResult result = high ? hdr_flip(*of_r, *of_t, options) : flip(*of_r, *of_t, options);
   if (result.map.empty())
     c.no_flip = "the reference is black, so there is no exposure to see it at";
   else
-    count_not_finite(c.pairing, result), c.flip = std::move(result);
+    count_not_finite(c.pairing, rules.mask, result), c.flip = std::move(result);
 }
 
 double measured(const Criterion& criterion, const Comparison& c) {
@@ -101,6 +109,10 @@ double measured(const Criterion& criterion, const Comparison& c) {
       return double(d.unequal_pixels);
     case Measure::pixels_beyond:
       return double(d.pixels_beyond);
+    case Measure::window_share:
+      for (const WorstWindow& w : d.windows)
+        if (w.window.side == criterion.side) worst = w.share;
+      return worst;
     case Measure::largest_difference:
       for (const ChannelDifferences& channel : d.channels) worst = std::max(worst, channel.largest);
       return worst;
@@ -152,8 +164,19 @@ void check_finite(const CompareRules& rules, Comparison& c) {
 
 double delta_of(const CompareRules& rules) {
   for (const Criterion& criterion : rules.criteria)
-    if (criterion.measure == Measure::pixels_beyond) return criterion.delta;
+    if (has_delta(criterion.measure)) return criterion.delta;
   return 0.0;
+}
+
+/// Those that are told, and those that a criterion is of.
+std::vector<int> window_sides(const CompareRules& rules) {
+  std::vector<int> sides(kWindowSides.begin(), kWindowSides.end());
+  for (const Criterion& criterion : rules.criteria)
+    if (criterion.measure == Measure::window_share &&
+        std::find(sides.begin(), sides.end(), criterion.side) == sides.end())
+      sides.push_back(criterion.side);
+  std::sort(sides.begin(), sides.end());
+  return sides;
 }
 
 /// Floats of 64 bits are read as 32; what that loses is told, and is a failure where equality is asked for.
@@ -215,7 +238,8 @@ Comparison compared(const PictureFile& reference, const PictureFile& test, const
   Comparison c;
   c.pairing = paired(reference, test);
   choose_decoding(reference, test, rules, c);
-  c.differences = differences(c.pairing, c.decoding, delta_of(rules), rules.threads);
+  c.differences =
+      differences(c.pairing, c.decoding, {delta_of(rules), rules.threads, window_sides(rules), &rules.mask});
   const Differences& d = c.differences;
   if (d.first) c.first = values_at(c, *d.first);
   if (d.worst) c.worst = values_at(c, *d.worst);

@@ -19,6 +19,7 @@ struct CompareRules {
   enum class Range : uint8_t { by_storage, low, high } range = Range::by_storage;  ///< FLIP or HDR-FLIP
   FlipOptions flip;
   bool wants_flip = false;  ///< measure FLIP though no criterion asks for it
+  PixelMask mask;           ///< pixels that nothing is asked of; of the size of every part, or empty
   int threads = 0;          ///< 0: one a core. Never changes a figure
 };
 

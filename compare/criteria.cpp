@@ -22,6 +22,8 @@ Judged judged(const Criterion& criterion, double measured) {
 
 bool is_flip(Measure measure) { return measure == Measure::flip_mean || measure == Measure::flip_weighted_median; }
 
+bool has_delta(Measure measure) { return measure == Measure::pixels_beyond || measure == Measure::window_share; }
+
 std::string_view name_of(Measure measure) {
   switch (measure) {
     case Measure::unequal_pixels:
@@ -32,6 +34,8 @@ std::string_view name_of(Measure measure) {
       return "largest_ulp";
     case Measure::pixels_beyond:
       return "pixels_beyond";
+    case Measure::window_share:
+      return "window_share";
     case Measure::psnr:
       return "psnr";
     case Measure::flip_mean:
@@ -54,6 +58,11 @@ std::string text_of(const Judged& row) {
     case Measure::pixels_beyond:
       return "pixels that differ by more than " + number_text(row.criterion.delta) + ": " + measured + " (at most " +
              bound + ")";
+    case Measure::window_share: {
+      const std::string side = std::to_string(row.criterion.side);
+      return "share of pixels that differ by more than " + number_text(row.criterion.delta) + " in a window of " +
+             side + "x" + side + ": " + measured + " (at most " + bound + ")";
+    }
     case Measure::psnr:
       return "least PSNR " + measured + " dB (at least " + bound + ")";
     case Measure::flip_mean:

@@ -12,6 +12,7 @@ enum class Measure : uint8_t {
   largest_difference,   ///< of two values
   largest_ulp,          ///< steps of the storage between two values
   pixels_beyond,        ///< pixels with a channel that differs by more than `delta`
+  window_share,         ///< the largest share of such pixels that a window of `side` pixels has
   psnr,                 ///< dB, the least of any channel; at least the bound
   flip_mean,            ///< mean of the FLIP map of R, G and B
   flip_weighted_median  ///< weighted median of the same
@@ -21,7 +22,8 @@ enum class Measure : uint8_t {
 struct Criterion {
   Measure measure = Measure::unequal_pixels;
   double bound = 0.0;  ///< at most; of psnr at least
-  double delta = 0.0;  ///< of pixels_beyond
+  double delta = 0.0;  ///< of pixels_beyond and window_share
+  int side = 0;        ///< of window_share
 };
 
 /// A criterion and what was measured.
@@ -34,6 +36,7 @@ struct Judged {
 Judged judged(const Criterion& criterion, double measured);
 
 bool is_flip(Measure measure);
+bool has_delta(Measure measure);
 
 /// `largest_difference`, ... as JSON has it, and as people read it: `largest difference 0.0157 (at most 0.02)`.
 std::string_view name_of(Measure measure);

@@ -20,7 +20,7 @@ struct BandOfChannel {
 
 struct Band {
   std::vector<BandOfChannel> channels;
-  uint64_t unequal = 0, unequal_other = 0, beyond = 0, not_finite = 0, apart = 0;
+  uint64_t unequal = 0, unequal_other = 0, beyond = 0, not_finite = 0, apart = 0, left_out = 0;
   std::optional<size_t> first, worst, first_not_finite;  ///< pixels
   double largest = 0.0;
 };
@@ -53,26 +53,42 @@ bool same_and_finite(const PairReader& reader, size_t pixel) {
 
 class PartCounter {
  public:
-  PartCounter(const PartPair& part, Decoding decoding, double beyond, bool is_first)
-      : part_(part), beyond_(beyond), is_first_(is_first) {
+  PartCounter(const PartPair& part, Decoding decoding, const CountRules& rules, bool is_first)
+      : part_(part), rules_(rules), is_first_(is_first) {
+    for (const int side : rules.window_sides) windows_.emplace_back(part.width, part.height, side);
     for (const ChannelPair& pair : part.channels) {
       const bool color = is_color(*pair.reference) && is_color(*pair.test);
       readers_.emplace_back(pair, decoding.reference && color, decoding.test && color);
     }
   }
 
-  Band band(int index) const {
+  /// Bands are counted apart from each other, each once.
+  Band band(int index) {
     Band band;
     band.channels.resize(readers_.size());
     const size_t begin = size_t(index) * kBandRows * size_t(part_.width),
                  end = std::min(begin + size_t(kBandRows) * size_t(part_.width),
                                 size_t(part_.width) * size_t(part_.height));
-    for (size_t pixel = begin; pixel < end; ++pixel) add_pixel(pixel, band);
+    for (size_t pixel = begin; pixel < end; ++pixel)
+      if (rules_.mask != nullptr && rules_.mask->has(pixel))
+        leave_out(pixel, band);
+      else
+        add_pixel(pixel, band);
     return band;
   }
 
+  const std::vector<LocalWindows>& windows() const { return windows_; }
+
  private:
-  void add_pixel(size_t pixel, Band& band) const {
+  int x_of(size_t pixel) const { return int(pixel % size_t(part_.width)); }
+  int y_of(size_t pixel) const { return int(pixel / size_t(part_.width)); }
+
+  void leave_out(size_t pixel, Band& band) {
+    ++band.left_out;
+    for (LocalWindows& windows : windows_) windows.leave_out(x_of(pixel), y_of(pixel));
+  }
+
+  void add_pixel(size_t pixel, Band& band) {
     PixelMarks marks;
     for (size_t c = 0; c < readers_.size(); ++c) {
       const PairReader& reader = readers_[c];
@@ -85,7 +101,7 @@ class PartCounter {
       add_pair(n, pixel, band.channels[c]);
       marks.unequal |= !n.equal;
       marks.unequal_other |= !n.equal && !(is_first_ && is_color(*reader.pair().reference));
-      marks.beyond |= n.difference > beyond_;
+      marks.beyond |= n.difference > rules_.beyond;
       marks.not_finite |= !n.reference_finite || !n.test_finite;
       marks.apart |= (!n.reference_finite || !n.test_finite) && n.difference > 0;
       marks.largest = std::max(marks.largest, n.difference);
@@ -95,11 +111,14 @@ class PartCounter {
     if (marks.unequal && !band.first) band.first = pixel;
     if (marks.not_finite && !band.first_not_finite) band.first_not_finite = pixel;
     if (marks.largest > band.largest) band.largest = marks.largest, band.worst = pixel;
+    if (!marks.unequal) return;
+    for (LocalWindows& windows : windows_) windows.add(x_of(pixel), y_of(pixel), marks.beyond, false, marks.largest);
   }
 
   const PartPair& part_;
-  double beyond_;
+  const CountRules& rules_;
   bool is_first_;
+  std::vector<LocalWindows> windows_;
   std::vector<PairReader> readers_;
 };
 
@@ -122,6 +141,7 @@ void add_bands(const std::vector<Band>& bands, const PartPair& part, size_t inde
                Differences& all) {
   for (const Band& band : bands) {
     all.unequal_pixels += band.unequal, all.unequal_other_pixels += band.unequal_other;
+    all.left_out += band.left_out, all.pixels -= band.left_out;
     all.pixels_beyond += band.beyond, all.not_finite_pixels += band.not_finite, all.apart_pixels += band.apart;
     if (band.first && !all.first) all.first = place_of(*band.first, index, part.width);
     if (band.first_not_finite && !all.first_not_finite)
@@ -131,6 +151,18 @@ void add_bands(const std::vector<Band>& bands, const PartPair& part, size_t inde
     for (size_t c = 0; c < band.channels.size(); ++c)
       add_band_of_channel(band.channels[c], index, part.width, all.channels[channel + c]);
   }
+}
+
+void keep_worse(const LocalWindows& windows, const PartPair& part, size_t index, std::vector<WorstWindow>& worst) {
+  const std::optional<LocalWindow> found = windows.worst();
+  if (!found) return;
+  const WorstWindow here{*found, index, found->share(part.width, part.height)};
+  const auto same =
+      std::find_if(worst.begin(), worst.end(), [&](const WorstWindow& w) { return w.window.side == found->side; });
+  if (same == worst.end())
+    worst.push_back(here);
+  else if (is_worse(here.window, same->window))
+    *same = here;
 }
 
 ChannelDifferences unmeasured(const ChannelPair& pair, uint64_t pixels) {
@@ -154,19 +186,22 @@ bool is_color(const Channel& channel) {
   return channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "Y";
 }
 
-Differences differences(const Pairing& pairing, Decoding decoding, double beyond, int threads) {
+Differences differences(const Pairing& pairing, Decoding decoding, const CountRules& rules) {
   Differences all;
+  all.delta = rules.beyond;
   double largest = 0.0;
   for (size_t p = 0; p < pairing.parts.size(); ++p) {
     const PartPair& part = pairing.parts[p];
-    const uint64_t pixels = uint64_t(part.width) * uint64_t(part.height);
+    const uint64_t pixels = uint64_t(part.width) * uint64_t(part.height),
+                   seen = pixels - (rules.mask != nullptr ? rules.mask->count() : 0);
     const size_t channel = all.channels.size();
-    for (const ChannelPair& pair : part.channels) all.channels.push_back(unmeasured(pair, pixels));
-    const PartCounter counter(part, decoding, beyond, p == 0);
+    for (const ChannelPair& pair : part.channels) all.channels.push_back(unmeasured(pair, seen));
+    PartCounter counter(part, decoding, rules, p == 0);
     std::vector<Band> bands(size_t((part.height + kBandRows - 1) / kBandRows));
-    parallel_for(int(bands.size()), threads, [&](int i) { bands[size_t(i)] = counter.band(i); });
+    parallel_for(int(bands.size()), rules.threads, [&](int i) { bands[size_t(i)] = counter.band(i); });
     all.pixels += pixels;
     add_bands(bands, part, p, channel, largest, all);
+    for (const LocalWindows& windows : counter.windows()) keep_worse(windows, part, p, all.windows);
   }
   // Pixels that differ by nothing, as 0 and -0 do: the first of them is as bad as any.
   if (all.first && !all.worst) all.worst = all.first;

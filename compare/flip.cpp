@@ -62,10 +62,11 @@ FlipResult dark_result(const LinearPicture& picture) {
 
 }  // namespace
 
-std::optional<Exposures> exposures_of(const LinearPicture& reference, ToneMapper mapper) {
+std::optional<Exposures> exposures_of(const LinearPicture& reference, ToneMapper mapper, const PixelMask* mask) {
   constexpr double kShown = 0.85;
   std::vector<float> luminances;
   for (size_t i = 0; i < reference.rgb[0].size(); ++i) {
+    if (mask != nullptr && mask->has(i)) continue;
     const double light = 0.2126 * double(reference.rgb[0][i]) + 0.7152 * double(reference.rgb[1][i]) +
                          0.0722 * double(reference.rgb[2][i]);
     luminances.push_back(std::isfinite(light) ? float(light) : 0.0f);
@@ -85,13 +86,13 @@ std::optional<Exposures> exposures_of(const LinearPicture& reference, ToneMapper
 FlipResult flip(const LinearPicture& reference, const LinearPicture& test, const FlipOptions& options) {
   FlipResult result = dark_result(reference);
   raise_flip_map(reference, test, ToneCurve{}, options.pixels_per_degree, options.threads, result.map);
-  measure(result);
+  measure(result, options.mask);
   return result;
 }
 
 FlipResult hdr_flip(const LinearPicture& reference, const LinearPicture& test, const FlipOptions& options) {
   const std::optional<Exposures> exposures =
-      options.exposures ? options.exposures : exposures_of(reference, options.tone_mapper);
+      options.exposures ? options.exposures : exposures_of(reference, options.tone_mapper, options.mask);
   if (!exposures) return {};
   FlipResult result = dark_result(reference);
   result.exposures = exposures;
@@ -102,12 +103,18 @@ FlipResult hdr_flip(const LinearPicture& reference, const LinearPicture& test, c
     curve.scale = std::exp2(exposure);
     raise_flip_map(reference, test, curve, options.pixels_per_degree, options.threads, result.map);
   }
-  measure(result);
+  measure(result, options.mask);
   return result;
 }
 
-void measure(FlipResult& result) {
-  std::vector<float> ascending = result.map;
+void measure(FlipResult& result, const PixelMask* mask) {
+  std::vector<float> ascending;
+  ascending.reserve(result.map.size());
+  for (size_t i = 0; i < result.map.size(); ++i)
+    if (mask != nullptr && mask->has(i))
+      result.map[i] = 0.0f;
+    else
+      ascending.push_back(result.map[i]);
   std::sort(ascending.begin(), ascending.end());
   double sum = 0.0;
   for (const float value : ascending) sum += double(value);

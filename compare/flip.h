@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/flip_map.h"
+#include "core/pixel_mask.h"
 
 namespace trueshade::compare {
 
@@ -28,6 +29,7 @@ struct FlipOptions {
   ToneMapper tone_mapper = ToneMapper::aces;  ///< of HDR-FLIP
   std::optional<Exposures> exposures;         ///< of HDR-FLIP; nothing: exposures_of()
   int threads = 0;                            ///< 0: one a core. Never changes a figure
+  const PixelMask* mask = nullptr;  ///< pixels that are in no figure; both pictures are alike there. Null: none
 };
 
 /// Pixels' errors in [0, 1], and their figures. A weighted percentile counts each pixel by its error.
@@ -46,9 +48,10 @@ FlipResult hdr_flip(const LinearPicture& reference, const LinearPicture& test, c
 
 /// From the exposure at which the brightest pixel of the reference is shown at 0.85 to that at which its median pixel
 /// is. Pixels of no light are not counted for the median where it would be 0. Nothing for a picture without light.
-std::optional<Exposures> exposures_of(const LinearPicture& reference, ToneMapper mapper);
+std::optional<Exposures> exposures_of(const LinearPicture& reference, ToneMapper mapper,
+                                      const PixelMask* mask = nullptr);
 
-/// The figures of a map.
-void measure(FlipResult& result);
+/// The figures of a map. What the mask leaves out is 0 in it.
+void measure(FlipResult& result, const PixelMask* mask = nullptr);
 
 }  // namespace trueshade::compare

@@ -1,26 +1,32 @@
 #include "compare/stored_value.h"
 
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-
-#include "core/half.h"
 
 namespace trueshade::compare {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Floats in the order of their values as whole numbers, one step each; both zeros are 0.
-int64_t float_order(uint32_t bits) {
-  const auto magnitude = int64_t(bits & 0x7fffffffu);
-  return (bits >> 31) != 0 ? -magnitude : magnitude;
+/// Where a finite value lies among the numbers of a storage, in its steps from 0; between two of them a fraction.
+/// Floats of 64 bits are read as 32. Of sRGB codes `value` is light where it was decoded.
+double position(double value, const Channel& storage, bool is_light) {
+  if (storage.kind == ChannelKind::integer) return value;
+  if (storage.kind != ChannelKind::floating)
+    return double(storage.largest_code()) * (is_light ? srgb_of_linear(value) : value);
+  const int mantissa = storage.bits >= 32 ? 23 : storage.bits == 16 ? 10 : storage.bits - 5;
+  const int least = storage.bits >= 32 ? -126 : -14;
+  const double magnitude = std::fabs(value);
+  const int exponent = magnitude == 0.0 ? least : std::max(std::ilogb(magnitude), least);
+  return std::copysign(std::ldexp(double(exponent - least), mantissa) + std::ldexp(magnitude, mantissa - exponent),
+                       value);
 }
-int64_t half_order(uint32_t float_bits) {
-  const uint16_t half = half_from_float(std::bit_cast<float>(float_bits), HalfRound::toward_zero);  // exact
-  const auto magnitude = int64_t(half & 0x7fffu);
-  return (half >> 15) != 0 ? -magnitude : magnitude;
+
+/// Of two storages the one whose steps are counted: that of codes, else the one of fewer bits.
+bool is_coarser(const Channel& a, const Channel& b) {
+  const bool is_float = a.kind == ChannelKind::floating;
+  return is_float == (b.kind == ChannelKind::floating) ? a.bits < b.bits : !is_float;
 }
 
 }  // namespace
@@ -29,6 +35,12 @@ double linear_of_srgb(double srgb) {
   const double magnitude = std::fabs(srgb);
   const double light = magnitude <= 0.04045 ? magnitude / 12.92 : std::pow((magnitude + 0.055) / 1.055, 2.4);
   return std::copysign(light, srgb);
+}
+
+double srgb_of_linear(double light) {
+  const double magnitude = std::fabs(light);
+  const double srgb = magnitude <= 0.0031308 ? 12.92 * magnitude : 1.055 * std::pow(magnitude, 1 / 2.4) - 0.055;
+  return std::copysign(srgb, light);
 }
 
 PairReader::PairReader(const ChannelPair& pair, bool decode_reference, bool decode_test)
@@ -45,17 +57,14 @@ double PairReader::value_of(const Channel& channel, size_t pixel, bool decode) c
   return to_float_ && channel.kind != ChannelKind::integer ? double(float(value)) : value;
 }
 
-double PairReader::steps(uint32_t reference, uint32_t test) const {
-  const Channel& channel = *pair_->reference;
-  if (channel.kind != ChannelKind::floating) {
-    const bool with_sign = channel.kind == ChannelKind::snorm;
-    const int64_t r = with_sign ? int64_t(int32_t(reference)) : int64_t(reference),
-                  t = with_sign ? int64_t(int32_t(test)) : int64_t(test);
-    return double(std::abs(r - t));
-  }
-  const bool halves = channel.bits == 16;
-  return double(std::abs((halves ? half_order(reference) : float_order(reference)) -
-                         (halves ? half_order(test) : float_order(test))));
+double PairReader::steps(size_t pixel, double reference, double test) const {
+  const Channel &r = *pair_->reference, &t = *pair_->test;
+  if (same_storage_ && r.is_code()) return std::fabs(double(r.words[pixel]) - double(t.words[pixel]));
+  if (same_storage_ && r.kind == ChannelKind::snorm)
+    return std::fabs(double(int32_t(r.words[pixel])) - double(int32_t(t.words[pixel])));
+  const bool is_light = decode_reference_ || decode_test_;
+  const Channel& counted = is_coarser(t, r) ? t : r;
+  return std::fabs(position(reference, counted, is_light) - position(test, counted, is_light));
 }
 
 NumberPair PairReader::at(size_t pixel) const {
@@ -70,14 +79,10 @@ NumberPair PairReader::at(size_t pixel) const {
     n.difference = n.ulp = both_nan || n.reference == n.test ? 0.0 : kInfinite;
     return n;
   }
-  if (!same_storage_) {
+  n.ulp = steps(pixel, n.reference, n.test);
+  if (!same_storage_)
     n.difference = std::fabs(n.reference - n.test);
-    n.ulp = double(std::abs(float_order(std::bit_cast<uint32_t>(float(n.reference))) -
-                            float_order(std::bit_cast<uint32_t>(float(n.test)))));
-    return n;
-  }
-  n.ulp = steps(r_word, t_word);
-  if (r.kind == ChannelKind::integer)
+  else if (r.kind == ChannelKind::integer)
     n.difference = n.ulp;
   else if (r.is_code())
     n.difference = n.ulp / double(r.largest_code());  // exactly the fraction that a bound like 2/255 is

@@ -15,7 +15,8 @@ struct NumberPair {
   bool reference_finite, test_finite;
   double
       difference;  ///< of the values, 0 where both are the same infinity or both NaN; infinite where one is not finite
-  double ulp;      ///< steps of what both store between them: floats, halves, codes, whole numbers; else infinite
+  double ulp;      ///< steps of the storage between them, of two storages of the coarser: floats, halves, codes, whole
+                   ///< numbers. Infinite where one is not finite
 };
 
 /// How the numbers of a pair of channels are read.
@@ -36,7 +37,7 @@ class PairReader {
 
  private:
   double value_of(const Channel& channel, size_t pixel, bool decode) const;
-  double steps(uint32_t reference, uint32_t test) const;
+  double steps(size_t pixel, double reference, double test) const;
 
   const ChannelPair* pair_;
   bool decode_reference_, decode_test_, same_storage_, to_float_;
@@ -51,5 +52,7 @@ std::string storage_text(const Channel& channel);
 
 /// The linear light of an sRGB value; values outside [0, 1] by the same curve, mirrored at 0.
 double linear_of_srgb(double srgb);
+/// The other way.
+double srgb_of_linear(double light);
 
 }  // namespace trueshade::compare

@@ -3,9 +3,11 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/image.h"
+#include "core/pixel_mask.h"
 
 namespace trueshade::oracle {
 
@@ -34,6 +36,9 @@ struct Capture {
   std::array<int, 2> drawn_at{};   ///< where its lower left pixel was in the driver's window: floats round there
   bool has_alpha = true;           ///< false: the file had R, G and B alone; the alpha of `color` is then not judged
   std::string name = "capture";    ///< what errors call it: the file it is from
+  std::vector<std::pair<std::string, std::string>> files{};  ///< planes from another file than that, each with its file
+
+  PixelMask mask{};  ///< pixels that are not judged; of the capture's size, or empty
 
   std::vector<DecodedPlane> decoded{};  ///< of the planes that are not as their renderer stored them
 
@@ -41,6 +46,12 @@ struct Capture {
     for (const NamedImage& p : planes)
       if (p.name == name) return &p.image;
     return nullptr;
+  }
+  /// What errors call a plane's file. The target is `color`.
+  const std::string& file_of(std::string_view plane) const {
+    for (const auto& [of, file] : files)
+      if (of == plane) return file;
+    return name;
   }
   const DecodedPlane* decoding(std::string_view name) const {
     for (const DecodedPlane& p : decoded)

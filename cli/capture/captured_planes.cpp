@@ -97,6 +97,7 @@ class PlaneUnpacker {
 
   void add(const PlaneChannelList& plane) {
     const std::string& name = plane.mapped.plane;
+    if (plane.file->path != files_.name) out_.capture.files.emplace_back(name, plane.file->path);
     const bool lacks_alpha = plane.channels.size() == 3 && (name == "color" || name == "albedo" || name == "emission");
     if (plane.mapped.plane == "depth" && is_linear(plane)) {
       add_linear_depth(plane);

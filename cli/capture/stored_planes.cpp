@@ -201,13 +201,14 @@ Image without_alpha(const std::string& where, const std::string& name, const Ima
 
 }  // namespace
 
-void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& capture) {
+void store_as(const Pipeline& asked, oracle::Capture& capture) {
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);
   const Image& first = capture.planes.empty() ? capture.color : capture.planes.front().image;
   if (first.width != pipeline.width || first.height != pipeline.height)
     throw bad_capture(
-        where, "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
+        capture.file_of(capture.planes.empty() ? "color" : capture.planes.front().name),
+        "it is " + size_text(first.width, first.height) + ", not " + size_text(pipeline.width, pipeline.height),
         "give the capture's size, or none");
   if (capture.color.width > 0) {
     if (capture.color.format == Format::rgba8 && pipeline.target == Format::srgb8_a8)
@@ -215,10 +216,10 @@ void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& 
     if (capture.color.format == Format::srgb8_a8 && pipeline.target == Format::rgba8)
       capture.color.format = Format::rgba8;
     if (capture.color.format == Format::rgba8 && pipeline.target != Format::rgba8)
-      throw bad_capture(where,
+      throw bad_capture(capture.file_of("color"),
                         "the target is " + std::string(info(pipeline.target).name) + ", and its picture has 8 bits",
                         "give it as an EXR");
-    capture.color = converted(where, "color", capture.color, pipeline.target);
+    capture.color = converted(capture.file_of("color"), "color", capture.color, pipeline.target);
   }
   if (lacks_albedo_alpha(capture) && pipeline.light_model.alpha_from_albedo) capture.has_alpha = false;
   for (NamedImage& plane : capture.planes) {
@@ -226,9 +227,9 @@ void store_as(const Pipeline& asked, const std::string& where, oracle::Capture& 
     if (decoded != nullptr && decoded->is_unpacked()) continue;
     const Format wanted = stored_format(pipeline, plane.name);
     const bool extra_alpha = info(plane.image.format).channels == 4 && info(wanted).channels == 3;
-    if (extra_alpha) plane.image = without_alpha(where, plane.name, plane.image, info(wanted));
+    if (extra_alpha) plane.image = without_alpha(capture.file_of(plane.name), plane.name, plane.image, info(wanted));
     const int given = info(plane.image.format).channels;
-    plane.image = converted(where, plane.name, plane.image, wanted);
+    plane.image = converted(capture.file_of(plane.name), plane.name, plane.image, wanted);
     if (given == 3 && info(plane.image.format).channels == 4 && plane.name == "albedo")
       capture.decoded.push_back({plane.name, false, {}, {}, false});
   }

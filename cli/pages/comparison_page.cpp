@@ -27,7 +27,7 @@ std::string digits(double value, const char* format = "%.6g") {
 }
 
 /// The pixels of a group that differ most, those first.
-Places largest_differences(const PageLayer& from, const PageLayer& to) {
+Places largest_differences(const PageLayer& from, const PageLayer& to, const PixelMask& mask) {
   struct Apart {
     double distance;
     int x, y;
@@ -39,6 +39,7 @@ Places largest_differences(const PageLayer& from, const PageLayer& to) {
     from.read(0, y, from.width, a.data());
     to.read(0, y, from.width, b.data());
     for (int x = 0; x < from.width; ++x) {
+      if (mask.has(x, y)) continue;
       double most = 0;
       for (size_t i = size_t(x) * from.channels(); i < size_t(x + 1) * from.channels(); ++i) {
         if (a[i] == b[i]) continue;
@@ -74,6 +75,31 @@ void add_pixel(PageViewer& viewer, const std::optional<PixelValues>& pixel, cons
   viewer.explanations.push_back(explained(*pixel, name));
 }
 
+/// Which pixels the mask leaves out.
+PageLayer mask_layer(const ComparedPictures& pictures) {
+  const PixelMask& mask = pictures.mask;
+  PageLayer layer;
+  layer.id = "mask", layer.name = "Mask", layer.about = "What was left out: " + pictures.left_out_by + ".";
+  layer.look = Look::classes, layer.reduction = Reduction::largest;
+  layer.channel_names = {""}, layer.widths = {8};
+  layer.width = mask.width, layer.height = mask.height;
+  const uint64_t count = mask.count();
+  layer.classes = {{"looked at", "Every figure is of these pixels.", {38, 44, 56}, mask.left_out.size() - count, 0},
+                   {"left out", "In none of the figures.", {200, 160, 60}, count, 1}};
+  layer.read = [&mask](int x, int y, int count_of, uint32_t* codes) {
+    for (int i = 0; i < count_of; ++i) codes[i] = mask.has(x + i, y) ? 1 : 0;
+  };
+  return layer;
+}
+
+/// The middle of each worst window.
+Places window_places(const Comparison& c) {
+  Places places{"Worst windows", "The middle of each window with the most pixels that differ.", {}};
+  for (const compare::WorstWindow& w : c.differences.windows)
+    if (w.part == 0) places.pixels.push_back({w.window.x + w.window.width / 2, w.window.y + w.window.height / 2});
+  return places;
+}
+
 std::string about_values(const ChannelGroup& group) {
   const std::string reference = compare::storage_text(*group.channels[0]->reference),
                     test = compare::storage_text(*group.channels[0]->test);
@@ -101,7 +127,7 @@ std::string viewer_of(const ComparedPictures& pictures) {
                             both.reference, both.test, "group" + std::to_string(i) + "-difference");
     if (i == 0) {
       viewer.compared = Compared{both.reference.id, both.test.id, about_values(groups[i])};
-      viewer.places.push_back(largest_differences(both.reference, both.test));
+      viewer.places.push_back(largest_differences(both.reference, both.test, pictures.mask));
       figures += figure(picture_of_layer(both.reference), "Reference", escaped(pictures.reference.path)) +
                  figure(picture_of_layer(both.test), "Test", escaped(pictures.test.path)) +
                  figure(picture_of_layer(difference), "Difference", "how far both are apart, not enlarged");
@@ -110,6 +136,9 @@ std::string viewer_of(const ComparedPictures& pictures) {
     viewer.add(std::move(both.test));
     viewer.add(std::move(difference));
   }
+  if (!pictures.mask.empty() && !pictures.judged.validation)  // whose maps of classes show it
+    viewer.add(mask_layer(pictures));
+  if (!c.differences.windows.empty()) viewer.places.push_back(window_places(c));
   add_pixel(viewer, c.worst, nullptr, "Worst pixel", "The pixel with the largest difference of any channel.");
   add_pixel(viewer, c.first, nullptr, "First pixel", "The first pixel that differs, row by row from the top.");
   add_pixel(viewer, c.first_not_finite, nullptr, "First that is not finite",
@@ -140,7 +169,7 @@ std::string channel_row(const ChannelDifferences& c) {
       c.reference_storage == c.test_storage ? c.reference_storage : c.reference_storage + " and " + c.test_storage;
   return "<tr><td>" + escaped(c.name) + "<td class=number>" + grouped(std::to_string(c.unequal)) + "<td class=number>" +
          digits(c.mean(), "%.4g") + "<td class=number>" + digits(c.rms(), "%.4g") + "<td class=number>" +
-         digits(c.largest) + "<td class=number>" + digits(c.largest_ulp, "%.0f") + "<td>" + place +
+         digits(c.largest) + "<td class=number>" + steps_text(c.largest_ulp) + "<td>" + place +
          "<td class=number>" + digits(c.psnr(), "%.2f") + "<td class=number>" + std::to_string(c.not_finite_reference) +
          " | " + std::to_string(c.not_finite_test) + "<td>" + escaped(storage) + '\n';
 }
@@ -166,6 +195,16 @@ std::string channels_part(const Comparison& c) {
   return html + "</table></div>\n";
 }
 
+std::string windows_part(const Comparison& c) {
+  if (c.differences.windows.empty()) return "";
+  std::string html =
+      "<h2>Worst windows</h2>\n<p class=quiet>Where pixels that differ lie closest together, of each size of window; a "
+      "pixel's error is its largest difference.</p>\n<ul>\n";
+  for (const compare::WorstWindow& w : c.differences.windows)
+    html += "<li>" + escaped(window_line(w, c.differences.delta)) + '\n';
+  return html + "</ul>\n";
+}
+
 std::string facts_of(const Comparison& c) {
   double largest = 0;
   for (const ChannelDifferences& channel : c.differences.channels) largest = std::max(largest, channel.largest);
@@ -176,6 +215,9 @@ std::string facts_of(const Comparison& c) {
       fact(digits(largest), "largest difference", "Of any channel; codes as shares of the largest code.") +
       fact(grouped(std::to_string(c.differences.not_finite_pixels)), "pixels not finite",
            "With an infinity or a value that is no number, in either picture.");
+  if (c.differences.left_out > 0)
+    html += fact(grouped(std::to_string(c.differences.left_out)), "pixels left out",
+                 "By the mask or for what they show; in none of the figures.");
   if (c.flip)
     html += fact(digits(c.flip->mean), c.flip->exposures ? "HDR-FLIP, mean" : "FLIP, mean",
                  "How much people see the difference when they flip between "
@@ -196,9 +238,10 @@ std::string comparison_page(const ComparedPictures& pictures, const std::string&
           "<br>test " + escaped(pictures.test.path + ": " + about_picture(pictures.test)) + "</p>\n";
   for (const std::string& failure : c.failures) html += "<p class=note>" + escaped(failure) + ".</p>\n";
   if (const auto& judged = pictures.judged.validation) html += diagnosis_part(*judged);
-  html += viewer_of(pictures) + facts_of(c) + criteria_part(pictures) + channels_part(c);
+  html += viewer_of(pictures) + facts_of(c) + criteria_part(pictures) + windows_part(c) + channels_part(c);
   if (const auto& judged = pictures.judged.validation) html += stages_part(*judged);
   html += "<h2>About this comparison</h2>\n" + paragraph("Colours: " + c.colors);
+  if (!pictures.left_out_by.empty()) html += paragraph("Mask: " + mask_line(pictures));
   for (const std::string& note : c.notes) html += paragraph(note);
   if (!c.no_flip.empty()) html += paragraph("FLIP was not measured: " + c.no_flip);
   if (!pictures.judged.why_not.empty()) html += paragraph("Not judged: " + pictures.judged.why_not);

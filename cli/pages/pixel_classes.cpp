@@ -32,6 +32,8 @@ constexpr Rgb color_of(PixelClass c) {
       return {160, 160, 160};
     case PixelClass::violation:
       return {255, 40, 80};
+    case PixelClass::left_out:
+      return {72, 60, 44};
   }
   return {};  // unreachable: every enumerator returns above
 }
@@ -56,6 +58,8 @@ constexpr const char* meaning_of(PixelClass c) {
       return "OpenGL gives the value no meaning here, so every value is legal.";
     case PixelClass::violation:
       return "In no legal set: nothing that keeps the promises of the profile stores this value.";
+    case PixelClass::left_out:
+      return "Not judged: left out by a mask or for what is shown, and in none of the figures.";
   }
   return "";  // unreachable: every enumerator returns above
 }
@@ -75,6 +79,9 @@ std::vector<LayerClass> classes_of(const StageVerdict& stage) {
     const auto c = PixelClass(i);
     classes.push_back({std::string(text(c)), meaning_of(c), color_of(c), stage.counts[i], rank_of(c)});
   }
+  if (stage.left_out > 0)
+    classes.push_back({std::string(text(PixelClass::left_out)), meaning_of(PixelClass::left_out),
+                       color_of(PixelClass::left_out), stage.left_out, 0});
   return classes;
 }
 

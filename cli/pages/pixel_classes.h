@@ -7,6 +7,7 @@
 namespace trueshade {
 
 /// The classes of a stage as a page shows them, in the order of PixelClass: a colour, a sentence, how many pixels.
+/// left_out is the last where there is one.
 std::vector<LayerClass> classes_of(const oracle::StageVerdict& stage);
 
 /// The square of a class's colour, and its name, as HTML.

@@ -31,7 +31,8 @@ std::string counts_table(const StageVerdict& s) {
   for (size_t c = 0; c < kPixelClasses; ++c) {
     if (s.counts[c] == 0 && PixelClass(c) != PixelClass::violation) continue;
     html += "<tr><td>" + class_key(PixelClass(c)) + "<td class=number>" + grouped(std::to_string(s.counts[c])) +
-            "<td class=number>" + number(100.0 * double(s.counts[c]) / double(s.classes.size()), "%.4f") +
+            "<td class=number>" +
+            number(100.0 * double(s.counts[c]) / double(std::max<uint64_t>(s.judged(), 1)), "%.4f") +
             " %<td class=meaning>" + escaped(classes[c].meaning) + '\n';
   }
   return html + "</table></div>\n";
@@ -79,11 +80,22 @@ std::string worst_table(const StageVerdict& s) {
   return html + "</table></div>\n";
 }
 
+std::string windows_list(const StageVerdict& s) {
+  std::string html;
+  for (const LocalWindow& w : oracle::worst_windows(s)) {
+    const std::string middle = std::to_string(w.x + w.width / 2) + ',' + std::to_string(w.y + w.height / 2);
+    html += "<li><a href=\"#" + middle + "\" data-pixel=\"" + middle + "\">Worst window</a> " +
+            escaped(judged_window_line(w)) + ".\n";
+  }
+  return html.empty() ? "" : "<ul>\n" + html + "</ul>\n";
+}
+
 std::string stage_part(const StageVerdict& s, const oracle::Evidence& evidence, double least_chance) {
-  return "<h2>Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) + "<p class=quiet>" +
-         grouped(std::to_string(s.explained())) + " pixels show another surface or branch than the nominal one; " +
-         number(s.predicted_other, "%.1f") + " are predicted if errors are spread evenly over their bounds, and " +
-         grouped(std::to_string(s.ambiguous)) + " pixels have more than one legal surface or branch.</p>\n" +
+  return "<h2 id=\"stage-" + escaped(s.stage) + "\">Stage " + escaped(s.stage) + "</h2>\n" + counts_table(s) +
+         "<p class=quiet>" + grouped(std::to_string(s.explained())) +
+         " pixels show another surface or branch than the nominal one; " + number(s.predicted_other, "%.1f") +
+         " are predicted if errors are spread evenly over their bounds, and " + grouped(std::to_string(s.ambiguous)) +
+         " pixels have more than one legal surface or branch.</p>\n" + windows_list(s) +
          aggregates_table(evidence, least_chance) + worst_table(s);
 }
 
@@ -121,6 +133,7 @@ std::string subject(const Validation& v) {
 std::string about_part(const Validation& v) {
   std::string html =
       "<h2>About this judgement</h2>\n<p>Held to " + escaped(profile_line(v.profile)) + ".</p>\n" + remarks(v);
+  if (!v.left_out_by.empty()) html += "<p>Mask: " + escaped(left_out_line(v)) + ".</p>\n";
   for (const std::string& note : v.notes) html += "<p>" + escaped(note) + ".</p>\n";
   if (v.capture.color.width > 0)
     html += "<p>The image that was judged has the hash <code>sha256:" + image_hash(v.capture.color) + "</code>.</p>\n";
@@ -131,6 +144,8 @@ std::string facts(const Validation& v) {
   std::string html =
       "<div class=facts>" + fact(grouped(std::to_string(violating_pixels(v.verdict))), "pixels in no legal set",
                                  "Nothing that keeps the profile's promises stores these; none may be.");
+  if (const uint64_t left_out = v.capture.mask.count(); left_out > 0)
+    html += fact(grouped(std::to_string(left_out)), "pixels left out", "By the mask, or for what they show.");
   for (const StageVerdict& s : v.verdict.stages)
     html += fact(number(100 * exact_share(s), "%.3f") + " %", "EXACT or STORE-2, " + s.stage,
                  "Pixels of the nominal surface, with the nominal value or the neighbour that rounding may give.");
@@ -145,9 +160,16 @@ std::string facts(const Validation& v) {
          "</div>\n";
 }
 
+std::string way_to_failed_stage(const Validation& v) {
+  const StageVerdict* const failed = failed_stage(v.verdict);
+  if (failed == nullptr) return "";
+  return " <a href=\"#stage-" + escaped(failed->stage) + "\">What stage " + escaped(failed->stage) + " found</a>";
+}
+
 std::string heading(const Validation& v) {
   return heading_part(v.verdict.scene) + "<p class=\"verdict " + (passes(v) ? "good" : "bad") +
-         "\">Verdict: " + escaped(conclusion(v)) + ".</p>\n" + subject(v) + notes_part(v.scene_notes.lines);
+         "\">Verdict: " + escaped(conclusion(v)) + "." + way_to_failed_stage(v) + "</p>\n" + subject(v) +
+         notes_part(v.scene_notes.lines);
 }
 
 }  // namespace

@@ -106,6 +106,7 @@ void add_planes(const Validation& v, PageViewer& viewer) {
 
 void add_judgement(const Validation& v, PageViewer& viewer, const std::string& under) {
   for (const StageVerdict& s : v.verdict.stages) viewer.add(class_layer(s, under));
+  if (const StageVerdict* failed = failed_stage(v.verdict)) viewer.opens = "classes-" + failed->stage;
   for (Places& places : places_of(v)) viewer.places.push_back(std::move(places));
   for (PixelExplanation& worst : worst_pixels_of(v)) viewer.explanations.push_back(std::move(worst));
 }

@@ -69,6 +69,7 @@ std::string viewer_part(const PageViewer& viewer, const std::string& pictures, i
   manifest.put("tile", kTileSide).put("gain", viewer.gain).put_raw("layers", layers.text());
   if (viewer.compared) manifest.put_raw("compared", json_of(*viewer.compared));
   if (!viewer.explain_command.empty()) manifest.put("explain", viewer.explain_command);
+  if (!viewer.opens.empty()) manifest.put("opens", viewer.opens);
   manifest.put_raw("marks", places.text());
   // Texts of explanations are long and alike.
   const std::string explanations = points.text();

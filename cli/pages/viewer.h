@@ -32,6 +32,7 @@ struct Compared {
 struct PageViewer {
   std::vector<PageLayer> layers;
   std::optional<Compared> compared;
+  std::string opens;  ///< the map of classes that is shown first: of the stage that failed; empty: the first there is
   std::vector<Places> places;
   std::vector<PixelExplanation> explanations;
   std::string explain_command;  ///< with {x} and {y}; or empty

@@ -61,7 +61,8 @@ ChannelFile read_channel_file(const std::string& path, uint64_t most_expansion);
 // What read_channel_file() is made of. `where` stands in errors.
 
 /// NumPy's format (NEP 1), versions 1 to 3: arrays of shape (height, width) or (height, width, channels), of floats of
-/// 2, 4 or 8 bytes or of integers, in either order of bytes and of axes. Integers of 1 and 2 bytes are unorm.
+/// 2, 4 or 8 bytes, of integers or of bools, in either order of bytes and of axes. Unsigned ones of 1 and 2 bytes are
+/// unorm; bools are integers.
 ChannelFile npy_channels(const std::string& where, std::span<const uint8_t> bytes);
 
 /// DirectDraw Surface, its first level: one texture of two dimensions in a format without blocks.

@@ -76,7 +76,7 @@ class NpyHeaderText {
 
 /// How the array lies in the file.
 struct NpyLayout {
-  char kind = 0;  ///< f, u, i
+  char kind = 0;  ///< f, u, i, b
   size_t bytes = 0;
   bool big_endian = false, fortran_order = false;
   std::vector<uint64_t> shape;
@@ -89,10 +89,11 @@ void read_element_type(NpyHeaderText& text, std::string_view descr, NpyLayout& l
     layout.kind = descr[1];
     layout.bytes = size_t(descr[2] - '0');
     const bool whole = layout.kind == 'u' || layout.kind == 'i';
+    if (layout.kind == 'b' && layout.bytes == 1) return;
     if (layout.kind == 'f' && (layout.bytes == 2 || layout.bytes == 4 || layout.bytes == 8)) return;
     if (whole && (layout.bytes == 1 || layout.bytes == 2 || layout.bytes == 4 || layout.bytes == 8)) return;
   }
-  text.fail("names the type '" + std::string(descr.substr(0, 32)) + "', not a float or an integer");
+  text.fail("names the type '" + std::string(descr.substr(0, 32)) + "', not a float, an integer or a bool");
 }
 
 void read_shape(NpyHeaderText& text, NpyLayout& layout) {
@@ -198,7 +199,7 @@ ChannelFile npy_channels(const std::string& where, std::span<const uint8_t> byte
     channel.kind = layout.kind == 'f' ? ChannelKind::floating
                    : layout.bytes > 2 ? ChannelKind::integer
                                       : ChannelKind::unorm;
-    if (layout.kind == 'i') channel.kind = ChannelKind::integer;
+    if (layout.kind == 'i' || layout.kind == 'b') channel.kind = ChannelKind::integer;
     channel.bits = std::min(int(8 * layout.bytes), layout.kind == 'f' ? 64 : 32);
     channel.words.resize(pixels);
     for (uint64_t y = 0, i = 0; y < height; ++y)

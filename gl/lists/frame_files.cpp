@@ -211,7 +211,7 @@ std::string vulkan_border(const Sampler& s) {
   if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return quoted(name + "OPAQUE_BLACK");
   if (s.border == glm::vec4(1.0f)) return quoted(name + "OPAQUE_WHITE");
   throw Error(ErrorKind::usage, "--api vulkan", "a texture's border is no colour that Vulkan has",
-              "choose another API");
+              "--api gl has any; or give it (0, 0, 0, 0), (0, 0, 0, 1) or (1, 1, 1, 1), or another wrap");
 }
 
 /// Members of VkSamplerCreateInfo. Without a filter between levels the first level alone is read, magnified or not, as

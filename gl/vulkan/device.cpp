@@ -1,6 +1,7 @@
 #include "gl/vulkan/device.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -27,12 +28,19 @@ VkSamplerAddressMode address_mode(Wrap wrap) {
   return kModes[size_t(wrap)];
 }
 
-/// One of the three borders that every device has.
+/// One of the three borders that every device has. A sampler that does not clamp to its border reads none.
 VkBorderColor border_of(const Sampler& s) {
-  if (s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+  const bool is_read = s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border;
+  if (!is_read || s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
   if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_BLACK;
   if (s.border == glm::vec4(1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
-  throw no_device("a texture's border is no colour that Vulkan has");
+  char border[96];
+  std::snprintf(border, sizeof border, "(%.4g, %.4g, %.4g, %.4g)", double(s.border.x), double(s.border.y),
+                double(s.border.z), double(s.border.w));
+  throw Error(ErrorKind::no_gl_driver, "Vulkan",
+              std::string("a sampler that clamps to its border has the border ") + border +
+                  ", and Vulkan has (0, 0, 0, 0), (0, 0, 0, 1) and (1, 1, 1, 1) alone",
+              "OpenGL draws any: --driver llvmpipe; or give the sampler one of these borders, or another wrap");
 }
 
 }  // namespace

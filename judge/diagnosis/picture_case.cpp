@@ -43,8 +43,8 @@ std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::a
                                          const std::vector<PixelUse>& uses) {
   std::array<std::vector<uint32_t>, 4> strata;
   for (uint32_t i = 0; i < stage.classes.size(); ++i) {
-    if (uses[i] == PixelUse::left_out) continue;
     const PixelClass c = stage.classes[i];
+    if (uses[i] == PixelUse::left_out || c == PixelClass::left_out) continue;
     const size_t other = uses[i] == PixelUse::dull ? 3 : 2;
     strata[c == PixelClass::violation ? 0 : c == PixelClass::store_2 ? 1 : other].push_back(i);
   }
@@ -76,6 +76,7 @@ PictureCase::PictureCase(const Scene& scene, const Pipeline& pipeline, const Pro
       pipeline_(pipeline),
       captured_(scene, pipeline, resolved(profile, pipeline), capture),
       color_(target_of(capture, pipeline)),
+      mask_(capture.mask),
       right_(light_pass_of(scene, pipeline)),
       stale_(stage) {
   draw_sample(stage, profile, capture);
@@ -237,7 +238,8 @@ bool PictureCase::looks_dithered(const PictureSupposition& supposed) const {
     double codes = 0, chance = 0;
   };
   const auto added = [&](int x, int y, int channel) -> std::optional<Added> {
-    if (x >= pipeline_.width || y >= pipeline_.height || !captured_.covered(x, y)) return std::nullopt;
+    if (x >= pipeline_.width || y >= pipeline_.height || !captured_.covered(x, y) || mask_.has(x, y))
+      return std::nullopt;
     const double largest = color_.layout.largest_code(channel);
     const double value = predicted(supposed, x, y).value[size_t(channel)] * largest, f = value - std::floor(value);
     if (!(value > 0) || value >= largest) return std::nullopt;

@@ -109,6 +109,7 @@ class PictureCase {
   const Pipeline pipeline_;
   const CapturedSurface captured_;
   const PlaneView color_;
+  const PixelMask& mask_;
   LightPass right_;
   std::vector<SampledPixel> sample_, few_;
   StaleTiles stale_;

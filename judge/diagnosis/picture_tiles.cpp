@@ -12,6 +12,10 @@ namespace {
 constexpr int kLeastTile = 8;
 constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
+bool is_left_out(const StageVerdict& stage, int x, int y) {
+  return stage.classes[size_t(y) * size_t(stage.width) + size_t(x)] == PixelClass::left_out;
+}
+
 /// Whether the pixel is not as it should be.
 bool is_odd(const StageVerdict& stage, int x, int y) {
   const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
@@ -26,6 +30,7 @@ bool ends_sharply(const StageVerdict& stage, const std::vector<uint8_t>& tiles, 
   double odd[2] = {}, all[2] = {};
   for (int y = 0; y < stage.height; ++y)
     for (int x = 0; x < stage.width; ++x) {
+      if (is_left_out(stage, x, y)) continue;
       const bool here = in(x, y);
       const bool at_border = in(std::max(x - kBand, 0), y) != here || in(x, std::max(y - kBand, 0)) != here ||
                              in(std::min(x + kBand, stage.width - 1), y) != here ||
@@ -44,6 +49,7 @@ StaleTiles::StaleTiles(const StageVerdict& stage) : width_(stage.width) {
     std::vector<int> odd_in(size_t(across) * size_t(down)), all_in(odd_in.size());
     for (int y = 0; y < stage.height; ++y)
       for (int x = 0; x < stage.width; ++x) {
+        if (is_left_out(stage, x, y)) continue;
         const size_t tile = size_t(y / side) * size_t(across) + size_t(x / side);
         odd_in[tile] += is_odd(stage, x, y) ? 1 : 0, ++all_in[tile];
       }
@@ -51,7 +57,7 @@ StaleTiles::StaleTiles(const StageVerdict& stage) : width_(stage.width) {
     tiles.stale.resize(odd_in.size());
     double odd_stale = 0, all_stale = 0, odd_other = 0, all_other = 0;
     for (size_t i = 0; i < odd_in.size(); ++i) {
-      const bool stale = 5 * odd_in[i] >= 2 * all_in[i];
+      const bool stale = all_in[i] > 0 && 5 * odd_in[i] >= 2 * all_in[i];
       tiles.stale[i] = stale ? 1 : 0, tiles.count += stale ? 1 : 0;
       (stale ? odd_stale : odd_other) += odd_in[i], (stale ? all_stale : all_other) += all_in[i];
     }

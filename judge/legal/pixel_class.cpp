@@ -25,15 +25,17 @@ std::string_view text(PixelClass c) {
       return "UNDEFINED";
     case PixelClass::violation:
       return "VIOLATION";
+    case PixelClass::left_out:
+      return "LEFT OUT";
   }
   return {};
 }
 
 bool worse(PixelClass a, PixelClass b) {
   const auto rank = [](PixelClass c) {
-    constexpr PixelClass order[] = {PixelClass::exact,     PixelClass::store_2,   PixelClass::tex,
-                                    PixelClass::branch,    PixelClass::clip,      PixelClass::edge,
-                                    PixelClass::depth_tie, PixelClass::undefined, PixelClass::violation};
+    constexpr PixelClass order[] = {
+        PixelClass::exact, PixelClass::left_out, PixelClass::store_2,   PixelClass::tex,       PixelClass::branch,
+        PixelClass::clip,  PixelClass::edge,     PixelClass::depth_tie, PixelClass::undefined, PixelClass::violation};
     return std::find(std::begin(order), std::end(order), c) - std::begin(order);
   };
   return rank(a) > rank(b);

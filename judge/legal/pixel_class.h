@@ -16,9 +16,15 @@ enum class PixelClass : uint8_t {
   tex,        ///< a texture lookup, or the alpha test it decides, has several legal results
   undefined,  ///< OpenGL gives the value no meaning: normalize(0), a triangle that may have no area
   violation,  ///< in no legal set
+  left_out,   ///< not judged: no class of the others, and in none of the figures
 };
-inline constexpr size_t kPixelClasses = 9;
+inline constexpr size_t kPixelClasses = 9;  ///< but for left_out
 std::string_view text(PixelClass c);
+
+/// Another surface or branch than the nominal one.
+inline bool shows_another(PixelClass c) {
+  return c == PixelClass::edge || c == PixelClass::depth_tie || c == PixelClass::clip || c == PixelClass::branch;
+}
 
 /// A class a pixel keeps when another of its draws has a lesser one.
 bool worse(PixelClass a, PixelClass b);

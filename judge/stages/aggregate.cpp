@@ -122,10 +122,6 @@ AggregateTest other_surfaces(std::span<const PixelChoice> surfaces) {
   return {"other surfaces", found, 0, most, chance_of_at_least(found, most)};
 }
 
-bool shows_another(PixelClass c) {
-  return c == PixelClass::edge || c == PixelClass::depth_tie || c == PixelClass::clip || c == PixelClass::branch;
-}
-
 /// The pixels with more than one surface, each with all its chances together.
 std::vector<PixelChoice> choices_of_surfaces(const StageVerdict& v) {
   std::vector<SurfaceChoice> sorted = v.surface_choices;

@@ -37,6 +37,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
       color_(target_of(capture, pipeline)),
       count_(plane_of(capture, pipeline, "light.count")),
       drawn_at_(capture.drawn_at),
+      mask_(capture.mask),
       captured_(scene, pipeline, profile, capture),
       outputs_(scene, pipeline, profile),
       meshes_(pipeline.light_volumes),
@@ -55,7 +56,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
   rows_.resize(size_t(pipeline.height));
   each_row([&](int y) {
     for (int x = 0; x < pipeline_.width; ++x)
-      if ((covered_[at(x, y)] = captured_.covered(x, y) ? 1 : 0) != 0) {
+      if (!mask_.has(x, y) && (covered_[at(x, y)] = captured_.covered(x, y) ? 1 : 0) != 0) {
         surfaces_[at(x, y)] = captured_.at(x, y);
         ++rows_[size_t(y)].covered;
       }
@@ -69,6 +70,7 @@ void BlendingJudge::start(const Image* given) {
   const bool drawn = multipass_ ? scene_.lights.empty() : pipeline_.light_volumes.base;
   each_row([&](int y) {
     for (int x = 0; x < pipeline_.width; ++x) {
+      if (mask_.has(x, y)) continue;
       LightOutput out;
       for (size_t k = 0; k < 4; ++k)
         out.nominal[k] = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
@@ -92,6 +94,10 @@ StageVerdict BlendingJudge::verdict(std::string_view stage, const Image* last) {
   each_row([&](int y) {
     RowTally& row = rows_[size_t(y)];
     for (int x = 0; x < pipeline_.width; ++x) {
+      if (mask_.has(x, y)) {
+        row.leave_out();
+        continue;
+      }
       PixelState& p = pixels_[at(x, y)];
       if (layers_ && layers_->any(x, y)) cover(x, y);
       if (last != nullptr) judge_last(x, y, *last);
@@ -142,7 +148,8 @@ void BlendingJudge::judge_row(int y, RowWork& work) {
     if (seen_) work.changed[i] = !same_row(before(i), batch_[i], y);
     any = any || work.drawn[i] != 0 || work.changed[i] != 0;
   }
-  for (int x = 0; x < pipeline_.width && any; ++x) judge_pixel(x, y, work);
+  for (int x = 0; x < pipeline_.width && any; ++x)
+    if (!mask_.has(x, y)) judge_pixel(x, y, work);
 }
 
 void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {

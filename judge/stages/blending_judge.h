@@ -122,6 +122,7 @@ class BlendingJudge {
   const Profile profile_, likely_;
   const PlaneView color_, count_;  ///< the target, and light.count where it was captured
   const std::array<int, 2> drawn_at_;
+  const PixelMask& mask_;
   const CapturedSurface captured_;
   LightOutputs outputs_;
   const LightMeshes meshes_;

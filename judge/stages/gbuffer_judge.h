@@ -125,6 +125,7 @@ class GBufferJudge {
   const Pipeline pipeline_;
   const Profile profile_;
   const Asked asked_;
+  const PixelMask& mask_;
   const PossibleSurfaces* const wider_;
   PlaneView depth_, object_, material_, specular_, emission_;
   std::vector<AttributePlane> planes_;

@@ -58,6 +58,7 @@ GBufferJudge::GBufferJudge(const Scene& scene, const Pipeline& pipeline, const P
       pipeline_(pipeline),
       profile_(profile),
       asked_(asked),
+      mask_(capture.mask),
       wider_(wider),
       depth_(plane_of(capture, pipeline, "depth")),
       object_(plane_of(capture, pipeline, "id.object")),

@@ -166,7 +166,9 @@ void GBufferJudge::judge_band(int y, int end, std::vector<RowTally>& rows) const
   for (int x = 0; x < pipeline_.width; x += kTile)
     for (int row = y; row < end; ++row)
       for (int column = x; column < std::min(x + kTile, pipeline_.width); ++column)
-        if (asked_ == Asked::classes)
+        if (mask_.has(column, row))
+          rows[size_t(row)].leave_out();
+        else if (asked_ == Asked::classes)
           judge_pixel(possible_.at(pixel_of(column, row)), column, row, memory, rows[size_t(row)]);
         else
           find_violation(column, row, memory, rows[size_t(row)]);

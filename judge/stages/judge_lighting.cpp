@@ -28,6 +28,7 @@ class LightingJudge {
         pipeline_(pipeline),
         profile_(profile),
         settled_(settled),
+        mask_(capture.mask),
         surface_(scene, pipeline, profile, capture),
         color_(target_of(capture, pipeline)),
         count_(plane_of(capture, pipeline, "light.count")),
@@ -49,7 +50,11 @@ class LightingJudge {
       }
       look_at(x, y, std::min(x + kTile, pipeline_.width), end, tile);
       for (int row = y; row < end; ++row)
-        for (int column = x; column < tile.x1; ++column) judge_pixel(column, row, tile, rows[size_t(row)]);
+        for (int column = x; column < tile.x1; ++column)
+          if (mask_.has(column, row))
+            rows[size_t(row)].leave_out();
+          else
+            judge_pixel(column, row, tile, rows[size_t(row)]);
     }
   }
 
@@ -85,6 +90,7 @@ class LightingJudge {
   const Pipeline pipeline_;
   const Profile profile_;
   const StageVerdict* const settled_;
+  const PixelMask& mask_;
   const CapturedSurface surface_;
   const PlaneView color_, count_;
   const bool sees_thresholds_ = converts_as_seen(color_, profile_);

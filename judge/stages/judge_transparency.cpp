@@ -17,16 +17,21 @@ class TransparencyJudge {
   TransparencyJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
       : pipeline_(pipeline),
         profile_(profile),
+        mask_(capture.mask),
         layers_(scene, pipeline, profile, capture),
         classes_(size_t(pipeline.width) * size_t(pipeline.height), PixelClass::exact),
-        rows_(size_t(pipeline.height)) {}
+        rows_(size_t(pipeline.height)) {
+    for (size_t i = 0; i < classes_.size(); ++i)
+      if (mask_.has(i)) classes_[i] = PixelClass::left_out;
+  }
 
   void start(const Image& target) { before_ = target; }
 
   /// Objects [first, end) were drawn.
   void objects(uint32_t first, uint32_t end, const Image& target) {
     parallel_for(pipeline_.height, 0, [&](int y) {
-      for (int x = 0; x < pipeline_.width; ++x) judge(x, y, first, end, target);
+      for (int x = 0; x < pipeline_.width; ++x)
+        if (!mask_.has(x, y)) judge(x, y, first, end, target);
     });
     before_ = target;
   }
@@ -64,6 +69,7 @@ class TransparencyJudge {
 
   const Pipeline pipeline_;
   const Profile profile_;
+  const PixelMask& mask_;
   const TransparentLayers layers_;
   std::vector<PixelClass> classes_;
   std::vector<RowTally> rows_;

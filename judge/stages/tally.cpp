@@ -89,7 +89,7 @@ PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string
   if (view.decoded != nullptr && !view.decoded->has_alpha) view.channels = std::min(view.channels, 3);
   if (is_target && !capture.has_alpha) view.channels = std::min(view.channels, 3);
   if (view && (view.image->width != pipeline.width || view.image->height != pipeline.height))
-    throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name),
+    throw Error(ErrorKind::bad_input, capture.file_of(name) + ": plane " + std::string(name),
                 "is " + std::to_string(view.image->width) + "x" + std::to_string(view.image->height) + ", not " +
                     std::to_string(pipeline.width) + "x" + std::to_string(pipeline.height),
                 "capture it at the pipeline's size, or set the size");
@@ -204,9 +204,15 @@ void RowTally::record(int x, int y, PixelClass c, const Match& match, const std:
   worst_error = std::max(worst_error, match.worst_error);
   keep_choices(y, match);
   if (!is_told(c)) return;
+  if (c == PixelClass::violation) keep_excess(x, match.excess);
   worst.push_back({x, y, c, channel_of(match.plane, match.channel), match.legal_value.low, match.legal_value.high,
                    match.legal_value.nominal, match.given, match.excess, surface});
   if (worst.size() > 4 * kWorst) keep_worst(worst);
+}
+
+void RowTally::keep_excess(int x, double outside) {
+  if (excess.size() <= size_t(x)) excess.resize(size_t(x) + 1);
+  excess[size_t(x)] = std::max(excess[size_t(x)], float(outside));
 }
 
 /// Runs of records are kept by a number that looks like chance, so that what is kept is from all over the row.
@@ -248,7 +254,12 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
   v.width = width, v.height = height;
   for (RowTally& row : rows) {
     v.classes.insert(v.classes.end(), row.classes.begin(), row.classes.end());
-    for (const PixelClass c : row.classes) ++v.counts[size_t(c)];
+    for (const PixelClass c : row.classes) ++(c == PixelClass::left_out ? v.left_out : v.counts[size_t(c)]);
+    if (!row.excess.empty()) {
+      v.excess.resize(size_t(width) * size_t(height));
+      const auto y = size_t(&row - rows.data());
+      std::copy(row.excess.begin(), row.excess.end(), v.excess.begin() + int64_t(y) * width);
+    }
     if (row.classes.empty()) v.classes.resize(v.classes.size() + size_t(width), PixelClass::exact);
     v.covered += row.covered, v.ambiguous += row.ambiguous, v.stored_values += row.stored_values;
     v.stored_apart += row.stored_apart;
@@ -264,6 +275,25 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
   }
   keep_worst(v.worst);
   return v;
+}
+
+std::vector<LocalWindow> worst_windows(const StageVerdict& v) {
+  std::vector<LocalWindow> worst;
+  for (const int side : kWindowSides) {
+    LocalWindows windows(v.width, v.height, side);
+    for (size_t i = 0; i < v.classes.size(); ++i) {
+      const int x = int(i % size_t(v.width)), y = int(i / size_t(v.width));
+      const PixelClass c = v.classes[i];
+      if (c == PixelClass::left_out)
+        windows.leave_out(x, y);
+      else if (c == PixelClass::violation)
+        windows.add(x, y, true, false, v.excess.empty() ? 0.0 : double(v.excess[i]));
+      else if (shows_another(c))
+        windows.add(x, y, false, true, 0.0);
+    }
+    if (const auto found = windows.worst()) worst.push_back(*found);
+  }
+  return worst;
 }
 
 }  // namespace trueshade::oracle

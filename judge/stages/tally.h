@@ -123,16 +123,20 @@ struct RowTally {
   std::vector<WorstPixel> worst;
   std::vector<TexturedPixel> textured;
   std::vector<GlassDeviation> glass;
+  std::vector<float> excess;  ///< of violations by x, as far as the last of them
 
   /// `pixel`: y * width + x, y from the top.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
   /// `surface`: where the class is_told().
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
+  /// A pixel that is not judged.
+  void leave_out() { classes.push_back(PixelClass::left_out); }
   /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 
  private:
   void compare(int x, const Match& match);
+  void keep_excess(int x, double outside);
   void keep_choices(int y, const Match& match);
   std::vector<uint32_t> runs_;                       ///< of each of `choices`: the run of records that it is of
   uint32_t records_ = 0;                             ///< that had a choice

@@ -49,10 +49,10 @@ Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Cap
                          const ValidateOptions& options = {});
 
 /// The verdict as JSON, fixed key order: scene, driver, profile, pass, convicted, suspicious, significance, evidence
-/// (one line, where convicted), stages [{stage, width, height, counts by class name, covered, ambiguous,
-/// predicted_other, stored_values, worst_error, rounding, aggregates [{name, observed, low, high, chance, where,
-/// pass}], worst [{x, y, class, plane, low, high, nominal, given, note}]}], inferred. x, y from the top left; infinite
-/// ends are null.
+/// (one line, where convicted), stages [{stage, width, height, counts by class name, left_out, covered,
+/// ambiguous, predicted_other, stored_values, worst_error, rounding, aggregates [{name, observed, low, high, chance,
+/// where, pass}], windows [{side, x, y, width, height, pixels, violations, other, mean_excess, largest_excess}], worst
+/// [{x, y, class, plane, low, high, nominal, given, note}]}], inferred. x, y from the top left; infinite ends are null.
 std::string verdict_json(const Verdict& verdict);
 
 }  // namespace trueshade::oracle

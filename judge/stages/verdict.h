@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/local_windows.h"
 #include "judge/bounds/profile.h"
 #include "judge/legal/pixel_class.h"
 #include "judge/legal/possible_surfaces.h"
@@ -78,6 +79,7 @@ struct StageVerdict {
   int width = 0, height = 0;
   std::vector<PixelClass> classes;               ///< row 0 at the top; rows that were not judged are EXACT
   std::array<uint64_t, kPixelClasses> counts{};  ///< by class
+  uint64_t left_out = 0;                         ///< pixels that were not judged: in no other figure
   uint64_t covered = 0;                          ///< pixels where a surface is nominally seen
   uint64_t ambiguous = 0;                        ///< pixels with more than one legal surface or branch
   double predicted_other = 0;                    ///< expected number of edge + depth_tie + clip + branch pixels
@@ -93,6 +95,9 @@ struct StageVerdict {
   double worst_error = 0;               ///< float planes: largest |given - value| / bound
   std::vector<double> row_errors;       ///< the same of each row
   std::vector<WorstPixel> worst;        ///< at most 32
+  std::vector<float> excess;  ///< WorstPixel::excess of each pixel, 0 of legal ones; empty: there is no violation
+
+  uint64_t judged() const { return classes.size() - left_out; }
 
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   bool passes() const { return count(PixelClass::violation) == 0; }
@@ -100,5 +105,9 @@ struct StageVerdict {
     return count(PixelClass::edge) + count(PixelClass::depth_tie) + count(PixelClass::clip) + count(PixelClass::branch);
   }
 };
+
+/// The worst window of each of kWindowSides, where one has a pixel in no legal set (LocalWindow::found) or one that
+/// shows another surface or branch (others). A pixel's error is WorstPixel::excess.
+std::vector<LocalWindow> worst_windows(const StageVerdict& verdict);
 
 }  // namespace trueshade::oracle

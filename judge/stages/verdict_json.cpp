@@ -16,6 +16,13 @@ std::string worst_json(const WorstPixel& w) {
          ",\"given\":" + number(w.given) + ",\"note\":" + json_string(w.note) + "}";
 }
 
+std::string window_json(const LocalWindow& w) {
+  return "{\"side\":" + std::to_string(w.side) + ",\"x\":" + std::to_string(w.x) + ",\"y\":" + std::to_string(w.y) +
+         ",\"width\":" + std::to_string(w.width) + ",\"height\":" + std::to_string(w.height) +
+         ",\"pixels\":" + number(w.seen) + ",\"violations\":" + number(w.found) + ",\"other\":" + number(w.others) +
+         ",\"mean_excess\":" + number(w.mean()) + ",\"largest_excess\":" + number(w.largest) + "}";
+}
+
 std::string aggregate_json(const AggregateTest& t, double least_chance) {
   return "{\"name\":" + json_string(t.name) + ",\"observed\":" + number(t.observed) + ",\"low\":" + number(t.low) +
          ",\"high\":" + number(t.high) + ",\"chance\":" + number(t.chance) + ",\"where\":" + json_string(t.where) +
@@ -35,11 +42,12 @@ std::string stage_json(const StageVerdict& s, const Evidence& evidence, double l
   for (size_t c = 0; c < kPixelClasses; ++c)
     counts += (c > 0 ? "," : "") + json_string(text(PixelClass(c))) + ":" + number(s.counts[c]);
   return "{\"stage\":" + json_string(s.stage) + ",\"width\":" + std::to_string(s.width) +
-         ",\"height\":" + std::to_string(s.height) + ",\"counts\":" + counts + "},\"covered\":" + number(s.covered) +
-         ",\"ambiguous\":" + number(s.ambiguous) + ",\"predicted_other\":" + number(s.predicted_other) +
-         ",\"stored_values\":" + number(s.stored_values) + ",\"worst_error\":" + number(s.worst_error) +
-         ",\"rounding\":" + json_string(text(evidence.rule)) + ",\"aggregates\":" + array(evidence.tests, test_json) +
-         ",\"worst\":" + array(s.worst, worst_json) + "}";
+         ",\"height\":" + std::to_string(s.height) + ",\"counts\":" + counts + "},\"left_out\":" + number(s.left_out) +
+         ",\"covered\":" + number(s.covered) + ",\"ambiguous\":" + number(s.ambiguous) +
+         ",\"predicted_other\":" + number(s.predicted_other) + ",\"stored_values\":" + number(s.stored_values) +
+         ",\"worst_error\":" + number(s.worst_error) + ",\"rounding\":" + json_string(text(evidence.rule)) +
+         ",\"aggregates\":" + array(evidence.tests, test_json) +
+         ",\"windows\":" + array(worst_windows(s), window_json) + ",\"worst\":" + array(s.worst, worst_json) + "}";
 }
 
 std::string material_json(const MaterialEvidence& m) {

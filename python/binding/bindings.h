@@ -1,4 +1,7 @@
 #pragma once
+#include <optional>
+
+#include "core/image_files/picture_file.h"
 #include "python/binding/arrays.h"
 
 namespace trueshade::python {
@@ -16,6 +19,9 @@ void add_files(py::module_& module);
 /// Python's `inspect` reads it. Made at build time by python/make_docs.py, so that it is written once. Error for a name
 /// without.
 const char* doc_of(std::string_view name);
+
+/// The picture that a mask is, a file or an array, whose bools become codes; nothing of None.
+std::optional<PictureFile> mask_picture(const py::object& mask);
 
 /// A text of the library with Python's arguments where it names options of the command: `strategy` for `--strategy`.
 std::string in_words_of_python(std::string text);

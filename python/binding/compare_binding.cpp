@@ -61,6 +61,16 @@ Source picture_from(const py::object& source, const std::string& name) {
   return {read_any_picture(path, kMostExpansion), false, 0};
 }
 
+/// A window of so many pixels a side, and the share of them that may differ.
+void ask_window(const std::optional<std::pair<int, double>>& window, double delta, compare::CompareRules& rules) {
+  if (!window) return;
+  const auto [side, share] = *window;
+  if (side < kLeastWindowSide || side > kMostWindowSide || !std::has_single_bit(unsigned(side)) || !(share >= 0) ||
+      !(share <= 1))
+    throw bad_argument("window", "it is no side and share", "a side of 8, 16, 32, 64 or 128 and a share from 0 to 1");
+  rules.criteria.push_back({Measure::window_share, share, delta, side});
+}
+
 /// Takes from an array's picture what the array does not have and the other picture neither: alpha, or colours of a
 /// grey one.
 void fit_channels(Source& array, const PictureFile& other) {
@@ -100,6 +110,16 @@ py::dict dict_of(const compare::Comparison& c) {
   for (const std::string& failure : c.failures) failures.append(in_words_of_python(failure));
   out["failures"] = failures, out["notes"] = c.notes, out["colors"] = c.colors;
   out["unequal_pixels"] = c.differences.unequal_pixels;
+  out["left_out_pixels"] = c.differences.left_out;
+  py::list windows;
+  for (const compare::WorstWindow& worst : c.differences.windows) {
+    py::dict row;
+    row["side"] = worst.window.side, row["x"] = worst.window.x, row["y"] = worst.window.y;
+    row["pixels_beyond"] = worst.window.found, row["share"] = worst.share;
+    row["mean"] = worst.window.mean(), row["largest"] = worst.window.largest;
+    windows.append(row);
+  }
+  out["windows"] = windows;
   out["not_finite_pixels"] = c.differences.not_finite_pixels;
   py::list channels, criteria;
   for (const auto& channel : c.differences.channels) {
@@ -136,7 +156,8 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
                           const std::optional<double>& max_difference, const std::optional<double>& max_ulp,
                           const std::optional<double>& pixels, const std::optional<double>& delta,
                           const std::optional<double>& psnr, const std::optional<double>& flip, bool allow_nonfinite,
-                          const py::object& page) {
+                          const py::object& page, const std::optional<std::pair<int, double>>& window,
+                          const py::object& mask, bool allow_mask) {
   compare::CompareRules rules;
   rules.allow_not_finite = allow_nonfinite;
   const auto ask = [&](Measure measure, const std::optional<double>& bound, double delta_of = 0.0) {
@@ -144,11 +165,14 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
     if (!(*bound >= 0.0)) throw bad_argument("compare", "a bound is below 0 or NaN", "0 or more");
     rules.criteria.push_back({measure, *bound, delta_of});
   };
-  if (pixels.has_value() != delta.has_value())
+  if (pixels.has_value() && !delta.has_value())
     throw bad_argument("pixels", "pixels and delta go together", "give both, or neither");
+  if (delta.has_value() && !pixels.has_value() && !window.has_value())
+    throw bad_argument("delta", "it is what pixels and window let pass", "give one of them, too");
   ask(Measure::largest_difference, max_difference);
   ask(Measure::largest_ulp, max_ulp);
   ask(Measure::pixels_beyond, pixels, delta.value_or(0.0));
+  ask_window(window, delta.value_or(0.0), rules);
   ask(Measure::psnr, psnr);
   ask(Measure::flip_mean, flip);
   Source a = picture_from(reference, "reference"), b = picture_from(test, "test");
@@ -161,6 +185,11 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
   ComparedPictures pictures;
   pictures.reference = std::move(a.picture), pictures.test = std::move(b.picture);
   const std::string command = command_of(pictures, page_path);
+  if (const std::optional<PictureFile> mask_file = mask_picture(mask)) {
+    const compare::MaskRules left_out{mask_file->path, {}, "pass allow_mask=True", allow_mask};
+    rules.mask = compare::mask_of_pair(left_out, &*mask_file, pictures.reference, pictures.test);
+    pictures.mask = rules.mask, pictures.left_out_by = left_out.text();
+  }
   {
     const py::gil_scoped_release release;
     pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
@@ -176,11 +205,24 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
 
 }  // namespace
 
+std::optional<PictureFile> mask_picture(const py::object& mask) {
+  if (mask.is_none()) return std::nullopt;
+  if (py::isinstance<py::str>(mask) || py::isinstance<py::bytes>(mask) || py::hasattr(mask, "__fspath__"))
+    return picture_from(mask, "mask").picture;
+  const py::array array = array_from(mask, "mask");
+  PictureFile picture =
+      picture_from(array.dtype().kind() == 'b' ? py::object(array.attr("view")("uint8")) : py::object(array), "mask")
+          .picture;
+  picture.path = "mask";
+  return picture;
+}
+
 void add_compare(py::module_& module) {
   using namespace py::literals;
   module.def("compare", &compare_pictures, doc_of("compare"), "reference"_a, "test"_a, py::kw_only(),
              "max_difference"_a = py::none(), "max_ulp"_a = py::none(), "pixels"_a = py::none(), "delta"_a = py::none(),
-             "psnr"_a = py::none(), "flip"_a = py::none(), "allow_nonfinite"_a = false, "page"_a = py::none());
+             "psnr"_a = py::none(), "flip"_a = py::none(), "allow_nonfinite"_a = false, "page"_a = py::none(),
+             "window"_a = py::none(), "mask"_a = py::none(), "allow_mask"_a = false);
 }
 
 }  // namespace trueshade::python

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cli/capture/stored_planes.h"
+#include "cli/judged_mask.h"
 #include "explain/explain.h"
 #include "judge/bounds/profile_names.h"
 #include "judge/stages/validate.h"
@@ -49,7 +50,8 @@ oracle::Capture capture_of(const py::object& image, const py::dict& planes, cons
 
 py::object validate_image(PythonScene& scene, const py::object& image, const py::dict& planes,
                           const py::object& pipeline, const std::string& profile,
-                          const std::optional<int>& subpixel_bits, double significance) {
+                          const std::optional<int>& subpixel_bits, double significance, const py::object& mask,
+                          bool allow_mask) {
   Pipeline p = pipeline_for(scene.values(), pipeline);
   oracle::Capture capture = capture_of(image, planes, p);
   const Image& first = capture.color.width > 0 ? capture.color : capture.planes.front().image;
@@ -57,13 +59,17 @@ py::object validate_image(PythonScene& scene, const py::object& image, const py:
   oracle::ValidateOptions options;
   options.profile = profile_of(profile, subpixel_bits);
   options.significance = number_within(significance, "significance", 0, 1);
+  const std::optional<PictureFile> mask_file = mask_picture(mask);
   const PythonScene::Reading reading(scene);
   std::string verdict;
   run_interruptible([&](const auto& watch) {
     options.begins = [&](const char*) { watch(); };
     validate(scene.values());
-    store_as(p, "capture", capture);
+    store_as(p, capture);
     const FittedScene fitted(scene.values(), p.light_model);
+    if (mask_file)
+      capture.mask = judged_mask({mask_file->path, {}, "pass allow_mask=True", allow_mask}, &*mask_file,
+                                 fitted.values(), p, capture);
     verdict = oracle::verdict_json(oracle::validate_capture(fitted.values(), p, capture, options));
   });
   return from_json(verdict);
@@ -88,9 +94,9 @@ void add_judge(py::module_& module) {
   using namespace py::literals;
   module.def("validate", &validate_image, doc_of("validate"), "scene"_a.none(false), "image"_a, "planes"_a,
              "pipeline"_a = py::none(), py::kw_only(), "profile"_a = "unknown", "subpixel_bits"_a = py::none(),
-             "significance"_a = 1e-6);
-  module.def("explain", &explain_pixel, doc_of("explain"), "scene"_a.none(false), "x"_a, "y"_a, "pipeline"_a = py::none(),
-             py::kw_only(), "everything"_a = false);
+             "significance"_a = 1e-6, "mask"_a = py::none(), "allow_mask"_a = false);
+  module.def("explain", &explain_pixel, doc_of("explain"), "scene"_a.none(false), "x"_a, "y"_a,
+             "pipeline"_a = py::none(), py::kw_only(), "everything"_a = false);
 }
 
 }  // namespace trueshade::python

@@ -349,6 +349,8 @@ def validate(
     profile: str = "unknown",
     subpixel_bits: Optional[int] = None,
     significance: float = 1e-6,
+    mask: Optional[Union[_Path, npt.NDArray[Any]]] = None,
+    allow_mask: bool = False,
 ) -> Dict[str, Any]:
     """Judges a picture and its planes by what OpenGL allows, without a tolerance.
 
@@ -357,7 +359,7 @@ def validate(
         render() has: depth, position, normal, albedo, id.object, ... Their size is the pipeline's.
     profile: unknown, vulkan, d3d-class, mesa-llvmpipe-22.3 or ideal: what the device promises. subpixel_bits: of its
         window coordinates, 4 to 16, if it is known. significance: how many legal images may fail the tests of the whole
-        image.
+        image. mask, allow_mask: as compare() has them.
 
     Returns the verdict of `trueshade validate --json`: `pass` says that no pixel is in violation, `stages` holds for
     each stage the counts of pixels by class and the worst pixels, `evidence` what convicts the image as a whole.
@@ -385,6 +387,9 @@ def compare(
     flip: Optional[float] = None,
     allow_nonfinite: bool = False,
     page: Optional[_Path] = None,
+    window: Optional[Tuple[int, float]] = None,
+    mask: Optional[Union[_Path, npt.NDArray[Any]]] = None,
+    allow_mask: bool = False,
 ) -> Dict[str, Any]:
     """Compares two pictures, each a file (EXR, PNG, TIFF, HDR, DDS, .npy, JPEG) or an array.
 
@@ -397,10 +402,15 @@ def compare(
     flip: mean of the FLIP metric, 0 to 1, at most. What is not finite, and sizes and channels that do not fit, fail
     always; allow_nonfinite lets pass what is not finite in both. docs/compare.md says more.
 
+    window: a side of 8, 16, 32, 64 or 128 pixels, and the largest share of the pixels of such a window that may differ
+    by more than delta.
+
     page: a file .html that is written, with both pictures to look into.
+    mask: a picture or an array of bool or codes. Where it is 0 or False pixels are left out, where it is 1, True or the
+    largest code they are looked at. More than a tenth may be left out with allow_mask alone.
 
     Returns `pass`, `outcome` (same, within, different, mismatched), `verdict` in one line, `failures`, `notes`,
-    `unequal_pixels`, `channels`, `criteria`, and `first` and `worst`: pixels with both values of every channel.
+    `unequal_pixels`, `left_out_pixels`, `channels`, `criteria`, `windows`, and `first` and `worst`: pixels with both values of every channel.
     Raises Error for arrays that are no picture, for two of which one alone has colours, for files that cannot be read
     and for a page that does not end in .html.
     """

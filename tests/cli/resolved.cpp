@@ -71,6 +71,25 @@ void check_lights(const Json& json, const Scene& scene) {
   }
 }
 
+TEST_CASE("numbers and times are the same whatever rounding mode a library has left the process") {
+  const ScratchFolder folder;
+  const Arguments drawn = {"render", "builtin:cornell", "--size", "16x16", "--time", "0.1", "--hash", "--json"};
+  const auto said = [&](const char* way) {
+    const std::string setup =
+        *way == '\0' ? "true" : std::string("export TRUESHADE_ROUNDING=") + way + " LD_PRELOAD='" ROUNDS_OTHERWISE "'";
+    // An aspect that no number of 24 bits is, so that the projection rounds.
+    const Outcome outcome = resolve("builtin:city,objects=3,lights=2", folder, {"--size", "97x61"}, setup);
+    CHECK(outcome.exit_code == 0);
+    const Outcome json = run_command(drawn, folder.path(""), setup);
+    const Json of_frame = Json::parse(json.out.substr(json.out.find('{')));
+    return outcome.out + of_frame["scene"]["time"].dump();
+  };
+  const std::string usual = said("");
+  CHECK(usual.size() > 1000);
+  CHECK(said("up") == usual);
+  CHECK(said("down") == usual);
+}
+
 TEST_CASE("info --resolved prints each float of a scene so that it reads back to the bit") {
   const ScratchFolder folder;
   for (const char* spec : {"builtin:cornell", "builtin:cornell,lights=40,seed=7"}) {

@@ -10,7 +10,7 @@ namespace trueshade::compare {
 namespace {
 
 Differences of(const PictureFile& reference, const PictureFile& test, double beyond = 0.0, int threads = 0) {
-  return differences(paired(reference, test), {}, beyond, threads);
+  return differences(paired(reference, test), {}, {beyond, threads});
 }
 
 TEST_CASE("mean, RMS and PSNR are those of their formulas") {

@@ -1,8 +1,7 @@
-#include "compare/stored_value.h"
-
 #include <cmath>
 #include <limits>
 
+#include "compare/stored_value.h"
 #include "tests/catch.hpp"
 #include "tests/compare/made_pictures.h"
 
@@ -29,6 +28,35 @@ TEST_CASE("a step of floats and of halves is one ULP, across powers of two and a
   CHECK(pair_of(half_channel("R", {0x1p-24f}), half_channel("R", {-0x1p-24f})).ulp == 2);
 }
 
+TEST_CASE("floats of 11 and 10 bits have 64 and 32 steps from a power of two to the next, and of 64 bits those of 32") {
+  const auto small = [](int bits, float a, float b) {
+    Channel r = float_channel("R", {a}), t = float_channel("R", {b});
+    r.bits = t.bits = bits;
+    return pair_of(r, t).ulp;
+  };
+  CHECK(small(11, 1.0f, 2.0f) == 64);
+  CHECK(small(10, 1.0f, 2.0f) == 32);
+  CHECK(small(11, 0.0f, 0x1p-20f) == 1);  // the least: 2^-14 2^-6
+  CHECK(small(10, 0.0f, 0x1p-19f) == 1);
+  CHECK(small(64, 1.0f, 1.0f + 0x1p-23f) == 1);
+}
+
+TEST_CASE("of two storages the steps are those of the coarser one, and parts of them") {
+  CHECK(pair_of(half_channel("R", {1.0f}), float_channel("R", {1.0f + 0x1p-10f})).ulp == 1);
+  CHECK(pair_of(float_channel("R", {1.0f + 0x1p-12f}), half_channel("R", {1.0f})).ulp == 0.25);
+  CHECK(pair_of(half_channel("R", {-0x1p-24f}), float_channel("R", {0x1p-24f})).ulp == 2);
+  CHECK(pair_of(code_channel("R", 8, {100}), half_channel("R", {0.5f})).ulp == Approx(27.5));
+  CHECK(pair_of(float_channel("R", {1.0f}), code_channel("R", 8, {254})).ulp == Approx(1.0));
+  CHECK(pair_of(code_channel("R", 8, {1}), code_channel("R", 16, {0})).ulp == Approx(1.0));
+  CHECK(pair_of(code_channel("R", 8, {2}, ChannelKind::integer), float_channel("R", {5.0f})).ulp == 3);
+  // Light of 0.2158605 is the sRGB value of 0.5020, 128 / 255.
+  const Channel code = code_channel("R", 8, {128}, ChannelKind::srgb), light = float_channel("R", {0.21586050f});
+  const ChannelPair pair{"R", &code, &light};
+  CHECK(PairReader(pair, true, false).at(0).ulp == Approx(0.0).margin(1e-3));
+  for (const double x : {0.0, 0.001, 0.0031308, 0.02, 0.5, 1.0, 7.0, -0.3})
+    CHECK(linear_of_srgb(srgb_of_linear(x)) == Approx(x).epsilon(1e-6).margin(1e-12));
+}
+
 TEST_CASE("codes differ by exactly the fraction that a bound states") {
   for (uint32_t k = 0; k + 2 < 256; ++k) {
     const NumberPair n = pair_of(code_channel("R", 8, {k}), code_channel("R", 8, {k + 2}));
@@ -53,8 +81,8 @@ TEST_CASE("both zeros are unequal as they are stored, and do not differ in value
 }
 
 TEST_CASE("what is not finite differs without an end from anything else, and by nothing from its like") {
-  for (const auto& [a, b] : {std::pair(kNan, 0.0f), std::pair(0.0f, kNan), std::pair(kInf, 0.0f), std::pair(kInf, -kInf),
-                             std::pair(kNan, kInf), std::pair(-kInf, 1e38f)}) {
+  for (const auto& [a, b] : {std::pair(kNan, 0.0f), std::pair(0.0f, kNan), std::pair(kInf, 0.0f),
+                             std::pair(kInf, -kInf), std::pair(kNan, kInf), std::pair(-kInf, 1e38f)}) {
     CHECK(std::isinf(floats(a, b).difference));
     CHECK(std::isinf(floats(a, b).ulp));
     CHECK_FALSE(floats(a, b).equal);

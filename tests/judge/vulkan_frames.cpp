@@ -151,3 +151,26 @@ TEST_CASE("What a Vulkan device cannot hold, draw into or blend is refused in on
   wide.width = beyond, wide.height = 1;
   check_refused([&] { drawn_by_vulkan(builtin_scene("cornell"), wide, true); }, images);
 }
+
+TEST_CASE("A border that Vulkan has not is refused with what helps, and passed over where no sampler reads it") {
+  if (!has_lavapipe()) return;
+  Scene scene = builtin_scene("lecture");
+  Pipeline pipeline = *preset_pipeline("lecture");
+  pipeline.width = 32, pipeline.height = 24;
+  const auto bordered = [&](Wrap wrap) {
+    for (Material& m : scene.materials)
+      m.color_map.sampler.wrap = {Wrap::repeat, wrap}, m.color_map.sampler.border = {0.25f, 0.5f, 1.0f, 1.0f};
+    return drawn_by_vulkan(scene, pipeline, true).capture.color;
+  };
+  CHECK(bordered(Wrap::mirrored_repeat).width == 32);
+  try {
+    bordered(Wrap::clamp_to_border);
+    FAIL_CHECK("nothing was refused");
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    CAPTURE(line);
+    CHECK(error.kind() == ErrorKind::no_gl_driver);
+    CHECK(line.find("the border (0.25, 0.5, 1, 1)") != std::string::npos);
+    CHECK(line.find("--driver llvmpipe") != std::string::npos);
+  }
+}

@@ -254,6 +254,18 @@ class Page(unittest.TestCase):
         for part in (f"Pixel {x}, {y}", "VIOLATION", "In no legal set", "legal is ", "nominal ", "Surface: instance ", "Object", "Lights"):
             self.assertIn(part, card)
 
+    def test_a_page_opens_on_the_stage_that_failed(self):
+        lit = page("lit.html", ("render", "builtin:cornell", "--size", "96x72", "-o", "right.exr", "--aov", PLANES),
+                   ("render", "builtin:cornell,lights=3", "--size", "96x72", "-o", "lit.png"),
+                   ("validate", "builtin:cornell", "--gbuffer", "right.exr", "--map",
+                    "depth,position,normal,albedo,id.object", "--image", "lit.png", "--quick", "-o", "lit.html"))
+        for path, stage in ((wrong_page(), "gbuffer"), (lit, "lighting")):
+            self.open(path)
+            self.assertEqual(self.viewer("[...v.chosen]"), ["reference", "test", "difference", "classes-" + stage])
+            way = self.browser.run("return document.querySelector('.verdict a').getAttribute('href');")
+            self.assertEqual(way, "#stage-" + stage)
+            self.assertEqual(self.browser.run("return document.querySelector(arguments[0]).textContent;", way), "Stage " + stage)
+
     def test_legal_ranges_and_the_way_to_a_value_are_there(self):
         path = page("right.html", ("render", "builtin:cornell", "--size", "96x72", "-o", "right.exr", "--aov", PLANES),
                     ("validate", "builtin:cornell", "--gbuffer", "right.exr", "--quick", "-o", "right.html"))

@@ -16,15 +16,16 @@ class Viewer {
         if (layer.base) level.base = this.layers.get(layer.base).levels.find(other => other.scale === level.scale);
     }
     this.shown = [...this.layers.values()].filter(layer => layer.shown);
-    const {compared} = manifest;  // of which both sides, their difference and the first map of classes are shown first
-    const comes_first = layer => !compared || layer.look === "classes" || [compared.reference, compared.test].includes(layer.id) ||
+    const {compared, opens} = manifest;  // of which both sides, their difference and a map of classes are shown first
+    const is_first_map = layer => layer.look === "classes" && (!opens || layer.id === opens);
+    const comes_first = layer => !compared || is_first_map(layer) || [compared.reference, compared.test].includes(layer.id) ||
                                  (layer.look === "difference" && layer.of[0] === compared.reference);
     this.chosen = new Set(this.shown.filter(comes_first).slice(0, 4).map(layer => layer.id));
     this.one = this.shown[0].id;
     this.sides = manifest.compared ? [manifest.compared.reference, manifest.compared.test]
                                    : [this.shown[0].id, (this.shown[1] || this.shown[0]).id];
     this.mode = this.shown.length < 2 || innerWidth < 640 ? "one" : "side";
-    if (this.mode === "one" && manifest.compared) this.one = manifest.compared.test;
+    if (this.mode === "one" && (opens || compared)) this.one = opens || compared.test;
     looks.gain = manifest.gain || looks.gain;
     this.panes = new Panes(manifest, this.layers, () => this.show_zoom());
     this.inspector = new Inspector(manifest, this.layers, this.panes);

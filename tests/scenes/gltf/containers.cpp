@@ -95,6 +95,11 @@ TEST_CASE("required extensions that are not implemented are refused by name, oth
               .instances.empty());
   CHECK_STARTS_WITH(gltf_refusal(extensions(R"("extensionsUsed": ["A", "B", "A"])")),
                     ": /extensionsUsed/2: an extension is named twice");
+  // What cannot be read at all is told before what is missing beside it.
+  CHECK_STARTS_WITH(gltf_refusal(extensions(R"("extensionsUsed": ["A_b"], "extensionsRequired": ["A_b"], )"
+                                            R"("buffers": [{"uri": "there_is_none.bin", "byteLength": -4}], )"
+                                            R"("bufferViews": [{"buffer": 7}])")),
+                    ": /extensionsRequired/0: the required extension \"A_b\" is not implemented");
   const std::string quantization = R"("KHR_mesh_quantization")";
   CHECK_STARTS_WITH(gltf_refusal(extensions(R"("extensionsUsed": [)" + quantization + R"(], "extensionsRequired": [)" +
                                             quantization + ", " + quantization + "]")),
