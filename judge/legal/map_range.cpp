@@ -15,7 +15,7 @@ Range attribute_range(const Projector& projector, const Piece& piece, const Surf
     return {v, v - e, v + e};
   }
   std::array<double, 3> value{}, error{};
-  piece_values(piece, values, index, value, error);
+  piece_values(piece, values, index, how, value, error);
   return point.attribute(value, error, how);
 }
 
@@ -31,7 +31,7 @@ std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const 
   for (size_t k = 0; k < 2; ++k) {
     std::array<double, 3> error{};
     const size_t index = uv_index(slot.uv_set) + k;
-    piece_values(piece, values, index, uv[k], error);
+    piece_values(piece, values, index, how, uv[k], error);
     at[k] = attribute_range(projector, piece, point, values, index, how);
   }
   const Texture& texture = projector.scene().textures[size_t(slot.texture)];

@@ -188,8 +188,10 @@ void RowTally::keep_choices(int y, const Match& match) {
   if (match.choices.empty()) return;
   const uint32_t run = scrambled(uint32_t(y) * 0x9e3779b1u ^ records_++ / kRun);
   if (run % one_in_ != 0) return;
-  choices.insert(choices.end(), match.choices.begin(), match.choices.end());
-  runs_.insert(runs_.end(), match.choices.size(), run);
+  // Of a value that is not a number no code is the nominal one.
+  std::copy_if(match.choices.begin(), match.choices.end(), std::back_inserter(choices),
+               [](const StoreChoice& c) { return !std::isnan(c.value); });
+  runs_.resize(choices.size(), run);
   while (choices.size() > kMostChoices && one_in_ < 1u << 31) {
     one_in_ *= 2;
     size_t kept = 0;
