@@ -10,7 +10,7 @@ namespace trueshade::oracle {
 namespace {
 
 // Planes of the view: near, far and w, then its sides.
-constexpr int kFirstSide = 3, kPlanes = 7;
+constexpr int kW = 2, kFirstSide = 3, kPlanes = 7;
 constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which OpenGL may take for 0
 
 }  // namespace
@@ -84,6 +84,7 @@ void Projector::cut(std::vector<ClipVertex>& polygon, int plane) const {
       point.error[k] = a->error[k] + (b->error[k] - a->error[k]) * t +
                        4 * profile_.arithmetic.roundoff * std::max(std::fabs(a->c[k]), std::fabs(b->c[k]));
     }
+    if (plane == kW) point.c[3] = kSmallestW;  // of which the sum above leaves noise, of either sign
     kept.push_back(point);
   }
   polygon = std::move(kept);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/legal/light_output.h"
 #include "judge/legal/patch.h"
 #include "judge/stages/captured_surface.h"
 #include "judge/stages/tally.h"
@@ -134,6 +135,7 @@ void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& lay
     layer.other[k] = either(layer.nominal[k], either(output_range(model_, up), output_range(model_, down)));
   }
   layer.nominal[3] = layer.other[3] = output_range(model_, surface.albedo[3]);
+  layer.undefined = layer.undefined || !are_numbers(layer.nominal) || !are_numbers(layer.other);
 }
 
 TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {
