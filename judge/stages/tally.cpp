@@ -121,6 +121,7 @@ void Match::channel_is(const PlaneView& view, const char* name, int at, const Ra
 void Match::texel_is(const PlaneView& view, const char* name, int at, const LegalTexel& texel, double value,
                      double stored, uint32_t pixel, const Profile& profile) {
   if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, at, texel.nominal));
+  if (texel.is_open()) return;
   if (!view.quantised()) {
     const double bound = std::max(texel.high - value, value - texel.low);
     if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - value) / bound);
@@ -157,6 +158,12 @@ void RowTally::may_be_other(uint32_t pixel, uint64_t surface, double chance) {
 }
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
+  if (c == PixelClass::undefined && match.stored_values > 0) {  // whatever was stored says nothing of rounding
+    Match unknown = match;
+    unknown.choices.clear(), unknown.near_thresholds.clear();
+    unknown.store_count = 0, unknown.stored_values = 0;
+    return take(x, y, c, unknown, surface);
+  }
   classes.push_back(c);
   compare(x, match);
   record(x, y, c, match, surface);

@@ -50,12 +50,11 @@ class FrameTrial {
       return;
     }
     profile_.subpixel_bits = drawn.subpixel_bits;
-    hold(seed, frame, drawn, {profile_, false, {}, {}});
-    if (!drawn.shows_steps) return;
-    ValidateOptions options{profile_, false, {}, {}};
-    if (blends_lights(frame.pipeline.strategy)) options.steps = shown(drawn.lights);
-    if (draws_transparent(frame.scene, frame.pipeline)) options.objects = shown(drawn.objects);
-    if (options.steps || options.objects) hold(seed, frame, drawn, options);
+    try {
+      hold(seed, frame, drawn);
+    } catch (const Error& error) {
+      alarm(seed, frame, "cannot be judged", error.what());
+    }
   }
 
   void tell() const {
@@ -67,14 +66,27 @@ class FrameTrial {
   }
 
  private:
+  /// As a capture from files, and draw by draw.
+  void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn) {
+    hold(seed, frame, drawn, {profile_, false, {}, {}});
+    if (!drawn.shows_steps) return;
+    ValidateOptions options{profile_, false, {}, {}};
+    if (blends_lights(frame.pipeline.strategy)) options.steps = shown(drawn.lights);
+    if (draws_transparent(frame.scene, frame.pipeline)) options.objects = shown(drawn.objects);
+    if (options.steps || options.objects) hold(seed, frame, drawn, options);
+  }
+
   void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn, const ValidateOptions& options) {
     const Verdict v = validate_capture(frame.scene, frame.pipeline, drawn.capture, options);
     if (v.violations() == 0 && !v.convicted()) return;
+    alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
+  }
+
+  void alarm(uint64_t seed, const RandomFrame& frame, const char* how, const std::string& reason) {
     ++alarms_;
-    WARN(asked_.drawer << ", frame " << seed << " of theme " << int(asked_.theme)
-                       << (options.steps || options.objects ? " draw by draw, " : ", ")
+    WARN(asked_.drawer << ", frame " << seed << " of theme " << int(asked_.theme) << " " << how << ", "
                        << name_of(frame.pipeline.strategy) << " " << info(frame.pipeline.target).name << ": "
-                       << reason_of(v));
+                       << reason);
   }
 
   const RandomFrames& asked_;
