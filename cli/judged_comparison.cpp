@@ -8,6 +8,7 @@
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/preparation.h"
+#include "cli/shaded_gbuffer.h"
 #include "cli/shell_words.h"
 #include "core/error.h"
 #include "scenes/pipeline/fit_lights.h"
@@ -50,9 +51,15 @@ class SceneJudge {
 
   Validation judge() {
     load();
-    find_capture();
+    const bool shaded = is_shaded(pictures_.reference.metadata);
+    if (shaded)
+      find_shaded();
+    else
+      find_capture();
     const oracle::Capture& capture = v_.capture;
-    v_.verdict = oracle::validate_capture(scene_, v_.pipeline, capture, {v_.profile});
+    oracle::ValidateOptions asked{v_.profile};
+    asked.surfaces = !shaded;
+    v_.verdict = oracle::validate_capture(scene_, v_.pipeline, capture, asked);
     v_.is_diagnosed = v_.verdict.violations() > 0 || v_.verdict.convicted();
     if (v_.is_diagnosed)
       v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
@@ -99,6 +106,20 @@ class SceneJudge {
       v_.notes.push_back(
           "the test is a picture alone: its planes are drawn here, so a renderer whose edges or depths differ shows "
           "violations there (write planes into an EXR to have them judged)");
+  }
+
+  /// Of a reference that was lit from a G-buffer: the picture of the test, and the planes of that one.
+  void find_shaded() {
+    StoredPlanes planes =
+        found_gbuffer(pictures_.reference.metadata, pictures_.reference.path, options_.limits, scene_, v_.pipeline);
+    v_.pipeline.transparency.mode = TransparencyMode::none;  // glass is in no G-buffer
+    const std::string& test = pictures_.test.path;
+    v_.capture = captured_planes(read_picture_file(test, options_.limits.expansion), scene_, v_.pipeline).capture;
+    v_.capture.planes = std::move(planes.capture.planes), v_.capture.decoded = std::move(planes.capture.decoded);
+    store_as(v_.pipeline, v_.capture);
+    v_.capture.mask = pictures_.mask, v_.left_out_by = pictures_.left_out_by;
+    v_.notes.push_back("judged by the G-buffer that the reference was shaded of, " + planes.capture.name);
+    v_.notes.insert(v_.notes.end(), planes.notes.begin(), planes.notes.end());
   }
 
   void draw_planes() {

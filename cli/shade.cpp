@@ -2,8 +2,6 @@
 #include <utility>
 
 #include "cli/activity.h"
-#include "cli/capture/captured_planes.h"
-#include "cli/capture/stored_planes.h"
 #include "cli/capture_options.h"
 #include "cli/commands.h"
 #include "cli/frame_text.h"
@@ -11,6 +9,7 @@
 #include "cli/picture_output.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
+#include "cli/shaded_gbuffer.h"
 #include "cli/written_files.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
@@ -39,15 +38,19 @@ GivenSurfaces surfaces_of(const oracle::Capture& capture, const Pipeline& pipeli
   return given;
 }
 
-CapturedPlanes planes_to_light(const ShadeOptions& options, const CaptureFiles& files, const Scene& scene,
-                               const Pipeline& pipeline) {
-  CapturedPlanes planes = captured_planes(files, scene, pipeline);
-  planes.capture.color = {};
-  store_as(pipeline, planes.capture);
+StoredPlanes planes_to_light(const ShadeOptions& options, const CaptureFiles& files, const Scene& scene,
+                             const Pipeline& pipeline) {
+  StoredPlanes planes = stored_planes(files, scene, pipeline);
   if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
     planes.notes.push_back("transparent surfaces are in no G-buffer, so they are not drawn");
   if (!options.capture.image_file.empty()) planes.notes.push_back("--image is not read: the picture is what is made");
   return planes;
+}
+
+Metadata metadata_of(const RenderedFrame& result, const ShadeOptions& options, const oracle::Capture& planes) {
+  Metadata metadata = metadata_of(result);
+  for (auto& entry : gbuffer_metadata(options.capture, planes)) metadata.push_back(std::move(entry));
+  return metadata;
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ void shade(const ShadeOptions& options) {
   pipeline.width = files.width(), pipeline.height = files.height();
   fit_lights_of_ours(scene, pipeline.light_model);
   check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, {}, options.outputs, {}));
-  const CapturedPlanes planes = planes_to_light(options, files, scene, pipeline);
+  const StoredPlanes planes = planes_to_light(options, files, scene, pipeline);
   files = {};
   RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};
   {
@@ -74,7 +77,8 @@ void shade(const ShadeOptions& options) {
   if (!options.outputs.empty()) result.scene_hash = scene_hash(scene);
   for (const std::string& path : options.outputs) {
     const Activity activity("writing " + printable(path, Lines::one));
-    write_picture(path, result.frame.color, {}, metadata_of(result), file_options(options, pipeline));
+    write_picture(path, result.frame.color, {}, metadata_of(result, options, planes.capture),
+                  file_options(options, pipeline));
     say_written(path,
                 std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) + ' ' +
                     std::string(info(pipeline.target).name) + ", " + kind_of_file(path),

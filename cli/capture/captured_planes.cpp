@@ -25,13 +25,25 @@ float rounded_up(double value) { return std::nextafter(float(value), HUGE_VALF);
 
 double length_of(const Real3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/// The distance to the next number of a small float with so many bits of mantissa.
+double float_step(double value, int mantissa) {
+  const int exponent = value == 0 ? -14 : std::max(std::ilogb(value), -14);
+  return std::ldexp(1.0, exponent - mantissa);
+}
+
 /// The distance of the next number that a channel's storage has.
 double step_of(const Channel& channel, double value) {
   if (channel.is_code() || channel.kind == ChannelKind::snorm) return 1.0 / channel.largest_code();
   if (channel.is_rounded) return 0x1p-23 * std::fabs(value);
   if (channel.bits >= 32) return 0;
-  const int exponent = value == 0 ? -14 : std::max(std::ilogb(value), -14);
-  return std::ldexp(1.0, exponent - (channel.bits == 16 ? 10 : channel.bits - 5));
+  return float_step(value, channel.bits == 16 ? 10 : channel.bits - 5);
+}
+
+/// The same of a plane's format, whose numbers a file may hold as floats. Codes stand for -1 to 1.
+double step_in(Format format, double value) {
+  const FormatInfo layout = info(format);
+  if (layout.number_class == NumberClass::unorm) return 2.0 / layout.largest_code(0);
+  return layout.small_float() ? float_step(value, 10) : 0;
 }
 
 /// Unpacks the planes of one capture.
@@ -226,10 +238,15 @@ class PlaneUnpacker {
 
   UnpackedVector unpacked_normal(const PlaneChannelList& plane, int x, int y) const {
     const auto component = [&](size_t k) { return component_at(plane, k, x, y); };
+    const auto stored = [&](size_t k) {  // in the pipeline's format, which the file's type may not show
+      PackedNumber n = component(k);
+      n.step = std::max(n.step, step_in(surface_planes(pipeline_).normal.format, n.value));
+      return n;
+    };
     std::optional<UnpackedVector> v;
     switch (plane.mapped.packing) {
       case Packing::none:
-        v = unpacked_components({component(0), component(1), component(2)});
+        v = unpacked_components({stored(0), stored(1), stored(2)});
         break;
       case Packing::octahedral:
         v = unpacked_octahedral(component(0), component(1));
@@ -265,7 +282,8 @@ class PlaneUnpacker {
       double step = 0;
       for (size_t k = 0; k < 3; ++k) {
         const PackedNumber number = number_at(plane, k, x, y);
-        p[k] = number.value, step = std::max(step, number.step);
+        p[k] = number.value;
+        step = std::max({step, number.step, step_in(surface_planes(pipeline_).position.format, number.value)});
       }
       const double computed = kComputed * (length_of(p) + 2 * eye);
       return UnpackedVector{frame_.world_position(plane.mapped.space, p), computed + kComputed * farthest_light_,

@@ -53,8 +53,8 @@ void copy_texel(Format stored, Format wanted, const uint8_t* from, uint8_t* to) 
 
 class VulkanDrawing {
  public:
-  VulkanDrawing(VulkanDevice& device, const FrameList& list, const VulkanDraw& draw, Format target)
-      : device_(device), vk_(device.vk()), list_(list), draw_(draw), target_(target) {
+  VulkanDrawing(VulkanDevice& device, const FrameList& list, const VulkanDraw& draw, Format target, int lights)
+      : device_(device), vk_(device.vk()), list_(list), draw_(draw), target_(target), lights_(lights) {
     nearest_ = device.make_sampler(
         {{Wrap::clamp_to_edge, Wrap::clamp_to_edge}, Filter::nearest, Filter::nearest, MipFilter::none}, 1);
     for (const ListedPicture& p : list.pictures) pictures_[p.name] = device.make_picture(p.format, p.width, p.height);
@@ -74,7 +74,7 @@ class VulkanDrawing {
 
   void run() {
     for (size_t i = 0; i < list_.passes.size(); ++i) run_pass(list_.passes[i], passes_[i]);
-    if (draw_.after_light && !started_lights_) draw_.after_light(-1, image("target", target_));
+    if (draw_.after_light && !started_lights_) show_unlit();
   }
 
   /// A picture as an image of that format, rows from the top.
@@ -280,6 +280,12 @@ class VulkanDrawing {
     return light != nullptr && light->numbers[0] >= 0;
   }
 
+  /// The target where no light is drawn, as there is none or nothing that it lights.
+  void show_unlit() {
+    started_lights_ = true;
+    for (int light = -1; light < lights_; ++light) draw_.after_light(light, image("target", target_));
+  }
+
   void run_pass(const ListedPass& pass, const Prepared& ready) {
     device_.run([&](VkCommandBuffer commands) {
       device_.order(commands);
@@ -288,6 +294,7 @@ class VulkanDrawing {
     const bool over = pass.colors[0] == "target";
     const size_t stride = (objects_ + kMostSteps - 1) / kMostSteps;
     for (size_t first = 0; first < pass.draws.size();) {
+      if (draw_.after_light && !started_lights_ && over && pass.name == "glass") show_unlit();
       if (draw_.after_light && !started_lights_ && over && is_of_light(pass.draws[first])) {
         started_lights_ = true;
         draw_.after_light(-1, image("target", target_));
@@ -318,6 +325,7 @@ class VulkanDrawing {
   const FrameList& list_;
   const VulkanDraw& draw_;
   const Format target_;
+  const int lights_;
   VkSampler nearest_ = VK_NULL_HANDLE;
   std::map<std::string, VulkanImage> pictures_;
   std::map<std::string, VulkanBuffer> buffers_, read_back_;
@@ -336,7 +344,7 @@ VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, bool s
   options.primitive = device.info().primitive_ids;
   options.rgb16f = device.draws_into(VK_FORMAT_R16G16B16_SFLOAT, false);
   const FrameList list = frame_list(scene, pipeline, options);
-  VulkanDrawing drawing(device, list, draw, pipeline.target);
+  VulkanDrawing drawing(device, list, draw, pipeline.target, int(scene.lights.size()));
   VulkanFrame out;
   const auto start = std::chrono::steady_clock::now();
   drawing.run();

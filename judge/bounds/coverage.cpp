@@ -48,6 +48,7 @@ EdgeSpan edge_span_of_box(const WindowVertex& a, const WindowVertex& b, const Pa
     size =
         std::max(size, std::max(std::fabs(p.low), std::fabs(p.high)) + std::max(std::fabs(q.low), std::fabs(q.high)));
   }
+  if (!std::isfinite(size)) return {-HUGE_VAL, HUGE_VAL};  // a vertex next to w = 0
   return {all.low - 0x1p-46 * size, all.high + 0x1p-46 * size};
 }
 

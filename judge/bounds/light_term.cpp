@@ -55,10 +55,23 @@ bool adds_unlit(const LightModel& model) {
          (model.specular != Specular::none && !model.specular_masked);
 }
 
+namespace {
+
+bool is_nan(const Bounded& c) { return std::isnan(c.value); }
+
+/// Of planes that hold what is no number. Positions are looked at light by light.
+bool has_nan(const ShadedSurface& s) {
+  const auto any = [](const auto& values) { return std::any_of(values.begin(), values.end(), is_nan); };
+  return any(s.normal) || any(s.albedo) || any(s.specular) || any(s.emission) || is_nan(s.ambient_share) ||
+         std::isnan(s.shininess);
+}
+
+}  // namespace
+
 LightSum::LightSum(const ShadedSurface& s, const Scene& scene, const LightModel& model,
                    const std::array<double, 3>& view_axis, const Arithmetic& a, bool exact, const LightVolumes& volumes)
     : surface_(s), model_(model), volumes_(volumes), a_(a), exact_(exact) {
-  undefined_ = !exact && model.renormalize && is_zero(s.normal);
+  undefined_ = has_nan(s) || (!exact && model.renormalize && is_zero(s.normal));
   normal_ = model.renormalize ? unit(a, s.normal) : s.normal;
   if (model.renormalize && is_zero(s.normal)) normal_ = {};
   const Bounded3 to_eye = vector_difference(a, exactly(scene.camera.eye), s.position);
@@ -97,13 +110,13 @@ LightTerm LightSum::operator()(const Light& light) const {
       return t;
     }
     strength = falloff_at(d2, light);
-    if (light.type == LightType::spot && model_.cone != Cone::none)
-      strength = product(a_, strength, cone_at(light, to_light, t));
-    if (t.either_way) t.in_range = false;
-    if (model_.falloff != Falloff::linear) {
-      t.in_range = strength.low() > 0 && !t.either_way, t.maybe_in_range = strength.high() > 0;
-      if (!t.maybe_in_range) return t;
+    Bounded reaches = model_.falloff == Falloff::linear ? Bounded{1, 0} : strength;  // linear: below 0 beyond the range
+    if (light.type == LightType::spot && model_.cone != Cone::none) {
+      const Bounded cone = cone_at(light, to_light, t);
+      strength = product(a_, strength, cone), reaches = product(a_, reaches, cone);
     }
+    t.in_range = reaches.low() > 0 && !t.either_way, t.maybe_in_range = reaches.high() > 0;
+    if (!t.maybe_in_range) return t;
   }
   shade(light, to_light, strength, t);
   return t;
@@ -111,7 +124,6 @@ LightTerm LightSum::operator()(const Light& light) const {
 
 bool LightSum::overflows(const Bounded3& offset, const Bounded& d2, LightTerm& t) const {
   if (!is_finite(offset)) {
-    const auto is_nan = [](const Bounded& c) { return std::isnan(c.value); };
     t.undefined = !exact_ && std::any_of(offset.begin(), offset.end(), is_nan);  // GLSL promises nothing of NaN
     return true;
   }

@@ -9,6 +9,8 @@ namespace trueshade::oracle {
 
 namespace {
 
+// Planes of the view: near, far and w, then its sides.
+constexpr int kW = 2, kFirstSide = 3, kPlanes = 7;
 constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which OpenGL may take for 0
 
 }  // namespace
@@ -57,7 +59,9 @@ bool Projector::face(const Faces& faces, Piece& piece) const {
 
 double Projector::plane_distance(const ClipVertex& v, int plane) const {
   if (plane == 0) return pipeline_.geometry.clip_depth == ClipDepth::zero_to_one ? v.c[2] : v.c[2] + v.c[3];
-  return plane == 1 ? v.c[3] - v.c[2] : v.c[3] - kSmallestW;
+  if (plane < 3) return plane == 1 ? v.c[3] - v.c[2] : v.c[3] - kSmallestW;
+  const double side = v.c[plane < 5 ? 0 : 1];
+  return plane % 2 == 1 ? v.c[3] + side : v.c[3] - side;
 }
 
 void Projector::cut(std::vector<ClipVertex>& polygon, int plane) const {
@@ -80,6 +84,7 @@ void Projector::cut(std::vector<ClipVertex>& polygon, int plane) const {
       point.error[k] = a->error[k] + (b->error[k] - a->error[k]) * t +
                        4 * profile_.arithmetic.roundoff * std::max(std::fabs(a->c[k]), std::fabs(b->c[k]));
     }
+    if (plane == kW) point.c[3] = kSmallestW;  // of which the sum above leaves noise, of either sign
     kept.push_back(point);
   }
   polygon = std::move(kept);
@@ -104,6 +109,7 @@ void Projector::exact_pieces(const std::array<ClipVertex, 3>& corners, const Fac
       for (size_t k = 0; k < 4; ++k) c.c[k] = t.values[i][k];
       for (size_t k = 0; k < 3; ++k) c.weight[k] = t.values[i][4 + k];
       piece.v[i] = window_vertex(c, false);
+      piece.v[i].linear = c.weight;  // docs/arithmetic.md, section 3
       const double x = double(t.x[i]) / kSubpixels, y = double(t.y[i]) / kSubpixels;
       piece.v[i].low = piece.v[i].high = piece.v[i].plane = {x, y};
     }
@@ -113,6 +119,29 @@ void Projector::exact_pieces(const std::array<ClipVertex, 3>& corners, const Fac
     piece.facing_known = !turned_over;
     out.push_back(piece);
   }
+}
+
+/// A point of weights a_k in clip space has the weights a_k w_k over their sum in the window. A driver may find them on
+/// each edge by the quotient of two differences along x, or along y, of coordinates X over w (Mesa's draw module): of
+/// those a few roundings of |X| over the difference of the ends.
+void Projector::weigh_linearly(const std::array<ClipVertex, 3>& corners, WindowVertex& v) const {
+  double sum = 0;
+  for (size_t k = 0; k < 3; ++k) sum += v.linear[k] = v.weight[k] * corners[k].c[3];
+  for (double& weight : v.linear) weight /= sum;
+  for (size_t a = 0; a < 3; ++a)
+    for (size_t b = 0; b < a; ++b)
+      for (size_t axis = 0; axis < 2 && v.weight[a] * v.weight[b] != 0; ++axis) {
+        const double at_a = corners[a].c[axis] / corners[a].c[3], at_b = corners[b].c[axis] / corners[b].c[3];
+        if (at_a == at_b) continue;
+        const double condition = (std::fabs(at_a) + std::fabs(at_b)) / std::fabs(at_a - at_b);
+        v.linear_error = std::max(v.linear_error, std::min(1.0, 16 * profile_.arithmetic.roundoff * (1 + condition)));
+      }
+}
+
+std::vector<WindowVertex> Projector::corners_of(const std::vector<ClipVertex>& polygon) const {
+  std::vector<WindowVertex> corners;
+  for (const ClipVertex& v : polygon) corners.push_back(window_vertex(v, true));
+  return corners;
 }
 
 void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const {
@@ -140,13 +169,22 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
     for (int plane = pipeline_.geometry.depth_clamp ? 2 : 0; plane < 3 && !cut_polygon.empty(); ++plane)
       cut(cut_polygon, plane);
   }
+  std::shared_ptr<std::vector<std::vector<WindowVertex>>> polygons;
+  if (pipeline_.geometry.polygon_offset_factor != 0 && (!inside || (leaves && profile_.clips_to_view))) {
+    std::vector<ClipVertex> left = inside ? std::vector(corners.begin(), corners.end()) : cut_polygon;
+    polygons = std::make_shared<std::vector<std::vector<WindowVertex>>>(1, corners_of(left));
+    for (int plane = kFirstSide; plane < kPlanes && leaves && profile_.clips_to_view; ++plane) cut(left, plane);
+    if (leaves && profile_.clips_to_view) polygons->push_back(corners_of(left));
+  }
   const std::span<const ClipVertex> polygon = inside ? std::span<const ClipVertex>(corners) : cut_polygon;
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {
     Piece piece;
     piece.cut = !inside;
     piece.leaves_view = leaves && profile_.clips_to_view;
+    piece.polygons = polygons;
     const ClipVertex* of[3] = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (size_t k = 0; k < 3; ++k) piece.v[k] = window_vertex(*of[k], piece.leaves_view || piece.cut);
+    for (size_t k = 0; k < 3 && piece.cut; ++k) weigh_linearly(corners, piece.v[k]);
     if (face(faces, piece)) out.push_back(piece);
   }
 }

@@ -24,6 +24,10 @@ struct WindowVertex {
   double z = 0, z_error = 0;       ///< window depth
   double u = 0, u_error = 0;       ///< 1 / w
   std::array<double, 3> weight{};  ///< in clip space, of the vertices of the triangle submitted
+  /// The same in the window, where attributes that are noperspective vary linearly (GL 4.6 core, 13.7.1), and how far
+  /// each may be off.
+  std::array<double, 3> linear{};
+  double linear_error = 0;
 };
 
 /// A triangle, or a piece of the fan of a clipped one.
@@ -34,6 +38,9 @@ struct Piece {
   bool facing_known = true;
   int sign = 1;       ///< of the area; -1: edges are turned
   bool front = true;  ///< meaningful where facing_known
+  /// What is left of the triangle by near, far and w, and by the sides of the view too, where a driver may cut it into
+  /// pieces of its own that a polygon offset tells apart; null elsewhere.
+  std::shared_ptr<const std::vector<std::vector<WindowVertex>>> polygons{};
 };
 
 /// How surely a piece has a sample.
@@ -114,6 +121,8 @@ class Projector {
   void exact_pieces(const std::array<ClipVertex, 3>& corners, const Faces& faces, std::vector<Piece>& out) const;
   void cut(std::vector<ClipVertex>& polygon, int plane) const;
   double plane_distance(const ClipVertex& v, int plane) const;
+  std::vector<WindowVertex> corners_of(const std::vector<ClipVertex>& polygon) const;
+  void weigh_linearly(const std::array<ClipVertex, 3>& corners, WindowVertex& v) const;
   bool face(const Faces& faces, Piece& piece) const;
   Faces faces_of(uint32_t instance) const;
 

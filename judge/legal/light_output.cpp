@@ -40,10 +40,16 @@ LightOutput LightOutputs::start(const ShadedSurface& surface) const {
   return output(surface, start_->one_by_one(surface));
 }
 
+bool are_numbers(const std::array<Range, 4>& color) {
+  return std::none_of(color.begin(), color.end(),
+                      [](const Range& r) { return std::isnan(r.value) || std::isnan(r.low) || std::isnan(r.high); });
+}
+
 LightOutput LightOutputs::of_color(const ShadedSurface& surface, const Bounded3& color) const {
   LightOutput out;
   for (size_t k = 0; k < 3; ++k) out.nominal[k] = output_range(pipeline_.light_model, color[k]);
   out.nominal[3] = alpha(surface);
+  out.undefined = !are_numbers(out.nominal);
   return out;
 }
 
@@ -55,7 +61,6 @@ Range LightOutputs::alpha(const ShadedSurface& surface) const {
 LightOutput LightOutputs::output(const ShadedSurface& surface, const LitRange& lit) const {
   const LightModel& model = pipeline_.light_model;
   LightOutput out;
-  out.undefined = lit.undefined;
   out.either_way = !lit.branches.empty();
   for (size_t k = 0; k < 3; ++k) {
     Bounded c = lit.color[k];
@@ -64,6 +69,7 @@ LightOutput LightOutputs::output(const ShadedSurface& surface, const LitRange& l
     out.other[k] = output_range(model, c);
   }
   out.nominal[3] = out.other[3] = alpha(surface);
+  out.undefined = lit.undefined || !are_numbers(out.nominal) || !are_numbers(out.other);
   return out;
 }
 

@@ -17,6 +17,9 @@ struct LightOutput {
 /// A colour of the lights as the fragment outputs it: clamped where the model says so.
 Range output_range(const LightModel& model, const Bounded& value);
 
+/// Whether a colour's ranges are known: GLSL promises nothing of what is no number.
+bool are_numbers(const std::array<Range, 4>& color);
+
 /// The outputs of strategies that draw light by light. A Scene without meshes, of the camera and some lights, stands
 /// for the scene.
 class LightOutputs {

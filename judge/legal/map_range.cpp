@@ -15,7 +15,7 @@ Range attribute_range(const Projector& projector, const Piece& piece, const Surf
     return {v, v - e, v + e};
   }
   std::array<double, 3> value{}, error{};
-  piece_values(piece, values, index, value, error);
+  piece_values(piece, values, index, how, value, error);
   return point.attribute(value, error, how);
 }
 
@@ -29,7 +29,7 @@ TextureSample map_sample(const Projector& projector, const TextureSlot& slot, co
   for (size_t k = 0; k < 2; ++k) {
     std::array<double, 3> error{};
     const size_t index = uv_index(slot.uv_set) + k;
-    piece_values(piece, values, index, uv[k], error);
+    piece_values(piece, values, index, how, uv[k], error);
     at[k] = attribute_range(projector, piece, point, values, index, how);
   }
   return texture_sample(piece, uv, how, at[0], at[1], x, y);

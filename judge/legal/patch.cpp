@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "judge/legal/possible_sample.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -79,6 +81,8 @@ std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<co
 
 double patch_key(const Projector& projector, std::span<const PossibleSurface> possible, double x, double y) {
   double key = HUGE_VAL;
+  const DepthFunc func = projector.pipeline().geometry.depth_func;
+  if (!orders_depths(func) && func != DepthFunc::always) return key;  // what covers the sample need not pass
   for (const ClosedPatch& patch : closed_patches(projector, possible, x, y)) {
     if (patch.turns == 0) continue;
     double behind = -HUGE_VAL;

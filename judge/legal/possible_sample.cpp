@@ -37,6 +37,8 @@ bool near_a_limit(const GeometryState& state, const Range& z) {
   return z.low <= std::min(near, far) || z.high >= std::max(near, far);
 }
 
+bool passes_equal(DepthFunc func) { return func == DepthFunc::lequal || func == DepthFunc::gequal; }
+
 /// What the alpha test leaves of a possible surface; false: nothing.
 bool test_alpha(const Projector& p, const Piece& piece, const SurfacePoint& point, const TriangleValues& values,
                 double x, double y, PossibleSurface& c) {
@@ -74,14 +76,27 @@ std::optional<PossibleSurface> possible_sample(const Projector& projector, const
 
 bool is_kept(const GeometryState& state, double clear, PossibleSurface& surface, double& limit) {
   if (!(surface.low <= limit)) return false;
-  const bool equal_passes = state.depth_func == DepthFunc::lequal || state.depth_func == DepthFunc::gequal;
-  const bool ordered = state.depth_func != DepthFunc::equal && state.depth_func != DepthFunc::notequal &&
-                       state.depth_func != DepthFunc::never;
-  if (surface.low == clear && !equal_passes) return false;
-  if (surface.high > clear || (surface.high == clear && !equal_passes)) surface.certain = false;
-  surface.certain = surface.certain && ordered;
+  const bool equal_passes = passes_equal(state.depth_func);
+  const bool ordered = orders_depths(state.depth_func) || state.depth_func == DepthFunc::always;
+  const auto passes = [&](double key) { return key < clear || (key == clear && equal_passes); };
+  if (!passes(surface.low)) return false;
+  if (!passes(surface.high) || !ordered) {
+    // How depths lie in their range is the driver's secret: one rule may take all of them to the same side.
+    surface.certain = false, surface.chance_other = std::max(surface.chance_other, 0.5f);
+    surface.nominal = surface.nominal && passes(surface.middle);
+  }
   if (surface.certain) limit = std::min(limit, surface.high);
   return true;
+}
+
+bool orders_depths(DepthFunc func) {
+  return passes_equal(func) || func == DepthFunc::less || func == DepthFunc::greater;
+}
+
+bool may_be_left(const GeometryState& state, double clear, PossibleSurface& surface, double& limit) {
+  if (!orders_depths(state.depth_func)) return true;
+  if (surface.low <= limit && surface.low == clear && !passes_equal(state.depth_func)) return true;
+  return is_kept(state, clear, surface, limit);
 }
 
 void NarrowedSurfaces::add(const PossibleSurface& wider, double x, double y) {

@@ -24,6 +24,12 @@ std::optional<PossibleSurface> possible_sample(const Projector& projector, const
 /// Makes a surface uncertain that the depth test may drop, or whose order depth does not tell.
 bool is_kept(const GeometryState& state, double clear, PossibleSurface& surface, double& limit);
 
+/// The same of one that may have the depth which is left, be it seen or not (find_tied()).
+bool may_be_left(const GeometryState& state, double clear, PossibleSurface& surface, double& limit);
+
+/// Whether the depth test tells surfaces apart by which is nearer or farther.
+bool orders_depths(DepthFunc func);
+
 /// The possible surfaces of single pixels under the projector's profile, from those under a profile that allows all of
 /// it: the same as a search among all triangles finds. For one thread at a time.
 class NarrowedSurfaces {

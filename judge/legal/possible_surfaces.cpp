@@ -32,13 +32,20 @@ struct NearTriangle {
   PixelRect rect;
 };
 
+/// Which fragments a search keeps.
+enum class Kept : uint8_t {
+  possible,    ///< of opaque surfaces, those that may be seen
+  tied,        ///< of opaque surfaces, those that may have the depth that is left
+  transparent  ///< of surfaces drawn apart, none of which hides another
+};
+
 /// What a search is for.
 struct Search {
-  bool transparent = false;  ///< surfaces drawn apart, none of which hides another; else all the others
-  bool apart = false;        ///< whether there are any that are drawn apart
+  Kept kept = Kept::possible;
+  bool apart = false;  ///< whether there are surfaces that are drawn apart
   bool wants(const Projector& p, uint32_t instance) const {
     const Scene& scene = p.scene();
-    return !apart || scene.materials[scene.instances[instance].material].transparent == transparent;
+    return !apart || scene.materials[scene.instances[instance].material].transparent == (kept == Kept::transparent);
   }
 };
 
@@ -67,7 +74,13 @@ class Band {
   void add_piece(const Piece& piece, const TriangleValues* values, PossibleSurface base, double order,
                  const PixelRect& rect);
   void keep(Entry entry);
+  bool keeps(PossibleSurface& surface, double& limit) const {
+    if (search_.kept == Kept::transparent) return surface.low <= limit;
+    return search_.kept == Kept::tied ? may_be_left(state_, clear_, surface, limit)
+                                      : is_kept(state_, clear_, surface, limit);
+  }
   void drop_hidden() {
+    if (search_.kept == Kept::tied && !orders_depths(state_.depth_func)) return;
     std::erase_if(entries_, [&](const Entry& e) { return e.surface.low > bound_[e.pixel]; });
   }
 
@@ -135,7 +148,7 @@ void Band::add_piece(const Piece& piece, const TriangleValues* values, PossibleS
 
 void Band::keep(Entry e) {
   double& limit = bound_[e.pixel];
-  if (!(search_.transparent ? e.surface.low <= limit : is_kept(state_, clear_, e.surface, limit))) return;
+  if (!keeps(e.surface, limit)) return;
   entries_.push_back(e);
   if (entries_.size() < most_) return;
   drop_hidden();
@@ -244,16 +257,28 @@ PossibleSurfaces found(const Projector& projector, const Search& search, const s
 
 }  // namespace
 
-PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows, int threads) {
+namespace {
+
+PossibleSurfaces found_opaque(const Projector& projector, Kept kept, const JudgedRows& rows, int threads) {
   const std::vector<double> clear(size_t(projector.width()) * size_t(projector.height()),
                                   clear_key(projector.pipeline().geometry));
-  const Search search{false, draws_transparent(projector.scene(), projector.pipeline())};
+  const Search search{kept, draws_transparent(projector.scene(), projector.pipeline())};
   return found(projector, search, clear, rows, threads);
+}
+
+}  // namespace
+
+PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows, int threads) {
+  return found_opaque(projector, Kept::possible, rows, threads);
+}
+
+PossibleSurfaces find_tied(const Projector& projector, const JudgedRows& rows, int threads) {
+  return found_opaque(projector, Kept::tied, rows, threads);
 }
 
 PossibleSurfaces find_transparent(const Projector& projector, const std::vector<double>& front, const JudgedRows& rows,
                                   int threads) {
-  return found(projector, {true, true}, front, rows, threads);
+  return found(projector, {Kept::transparent, true}, front, rows, threads);
 }
 
 }  // namespace trueshade::oracle

@@ -39,6 +39,11 @@ double clear_key(const GeometryState& state);
 /// per covered pixel. `rows`: where they are looked for; other pixels get none.
 PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows = {}, int threads = 0);
 
+/// The fragments that may have the depth which opaque surfaces leave at a pixel, be they seen or not: beside the
+/// possible surfaces those that fail the test against a clear depth which they may have themselves. Under tests that do
+/// not order depths all fragments; `certain` is of their coverage and the alpha test alone.
+PossibleSurfaces find_tied(const Projector& projector, const JudgedRows& rows = {}, int threads = 0);
+
 /// All fragments of transparent surfaces but those sure to lie behind `front`, the key of what is in front of each
 /// pixel (row 0 the bottom row). None hides another; `certain` is of coverage and the alpha test alone.
 PossibleSurfaces find_transparent(const Projector& projector, const std::vector<double>& front,

@@ -226,7 +226,18 @@ LegalTexel narrowed(const LegalTexel& wide, int channel) {
   return t;
 }
 
-LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile) {
+namespace {
+
+/// What is no number may be any.
+Range numbers_of(const Range& r) {
+  return {std::isnan(r.value) ? 0 : r.value, std::isnan(r.low) ? -HUGE_VAL : r.low,
+          std::isnan(r.high) ? HUGE_VAL : r.high};
+}
+
+}  // namespace
+
+LegalTexel legal_texel(const Range& given, Format format, int channel, const Profile& profile) {
+  const Range range = numbers_of(given);
   const FormatInfo layout = info(format);
   const bool has_mesa_codes = layout.srgb_channel(channel) || format == Format::rgb10_a2;
   if (profile.likely.mesa_codes && profile.blend != BlendRule::mesa_codes && has_mesa_codes) {

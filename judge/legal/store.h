@@ -1,5 +1,7 @@
 #pragma once
 // From the interval a value lies in to the texels it may be stored as (docs/gl_rules.md section 3).
+#include <cmath>
+
 #include "core/format.h"
 #include "judge/bounds/profile.h"
 
@@ -19,7 +21,9 @@ struct LegalTexel {
   double second_chance = 0;  ///< predicted probability that the likely rule does not store the nominal value, errors
                              ///< uniform in the range
   int second_side = 0;       ///< where the likelier other value lies: -1 below, 1 above
-  bool contains(double stored) const { return stored >= low && stored <= high; }
+  /// Anything may be stored for a value of which nothing is known: NaN too.
+  bool is_open() const { return low != low || high != high || (low == -HUGE_VAL && high == HUGE_VAL); }
+  bool contains(double stored) const { return (stored >= low && stored <= high) || is_open(); }
 };
 
 /// What a channel of `format` may hold for an output in `range`.

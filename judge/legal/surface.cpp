@@ -33,6 +33,7 @@ SurfacePoint::SurfacePoint(const Piece& piece, const PieceShape& shape, const Pr
 }
 
 void SurfacePoint::find_samples(double x, double y, Within within) {
+  at_ = {x, y};
   const auto& v = piece_.v;
   std::array<double, 3> edge{};
   for (size_t i = 0; i < 3; ++i) {
@@ -117,10 +118,13 @@ Range SurfacePoint::affine(const VertexAttribute& vertices) const {
   }
   Range r{at[0], at[0], at[0]};
   double inherited = 0;
+  bool known = true;  // a vertex that is cut next to w = 0 lies beyond what a double tells
   for (size_t k = 0; k < kSamples; ++k) {
+    known = known && !std::isnan(at[k] + carried[k]);
     r.low = std::min(r.low, at[k]), r.high = std::max(r.high, at[k]);
     inherited = std::max(inherited, carried[k]);
   }
+  if (!known) return kAnyValue;
   const double more = inherited + vertices.plane_error;
   return {r.value, r.low - more, r.high + more};
 }
@@ -140,6 +144,41 @@ Range SurfacePoint::depth() const {
   return {at, at - largest * 0x1p-47, at + largest * 0x1p-47};
 }
 
+namespace {
+
+/// The inverse of a triangle's edges, in 1/pixel: how much its plane turns where a vertex is moved.
+double turn_of(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
+  double span = 0;
+  for (size_t k = 0; k < 2; ++k)
+    span += std::max({a.plane[k], b.plane[k], c.plane[k]}) - std::min({a.plane[k], b.plane[k], c.plane[k]});
+  const double area =
+      (b.plane[0] - a.plane[0]) * (c.plane[1] - a.plane[1]) - (b.plane[1] - a.plane[1]) * (c.plane[0] - a.plane[0]);
+  return span / std::fabs(area);
+}
+
+bool may_cover(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c, const Profile& profile,
+               const Pair& at) {
+  Piece piece;
+  piece.v = {a, b, c};
+  piece.facing_known = false;
+  return coverage_at(piece, profile, ClipOrigin::lower_left, at[0], at[1]).cover != Cover::no;
+}
+
+}  // namespace
+
+/// The largest turn_of() any piece that a driver may have made of the triangle at the sample.
+double SurfacePoint::steepest() const {
+  double most = (shape_.span_x + shape_.span_y) / std::fabs(shape_.area);
+  if (!piece_.polygons) return most;
+  for (const std::vector<WindowVertex>& p : *piece_.polygons)
+    for (size_t a = 0; a < p.size(); ++a)
+      for (size_t b = 0; b < a; ++b)
+        for (size_t c = 0; c < b; ++c)
+          if (const double turn = turn_of(p[a], p[b], p[c]); turn > most && may_cover(p[a], p[b], p[c], profile_, at_))
+            most = turn;
+  return most;
+}
+
 Range SurfacePoint::depth_offset(const GeometryState& state, double largest) const {
   const double factor = double(state.polygon_offset_factor), units = double(state.polygon_offset_units);
   if (factor == 0 && units == 0) return {};
@@ -155,12 +194,12 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
   Range m{std::max(gx, gy), std::max(gx, gy), profile_.max_norm_slope ? std::max(gx, gy) : std::hypot(gx, gy)};
   if (!profile_.exact_planes) {
     // Moving the ends of a plane's edges by 2 reach moves its slope by share = |inverse| 4 reach of what it becomes.
-    const double share = 4 * reach * (shape_.span_x + shape_.span_y) / std::fabs(shape_.area);
+    const double turn = steepest(), share = 4 * reach * turn;
     if (!(share < 1)) return kAnyValue;
     const double v = profile_.arithmetic.roundoff, det = 3 * shape_.condition * v + profile_.arithmetic.divide + v;
     double errors = 0;  // of the vertices' depths
     for (const WindowVertex& p : piece_.v) errors = std::max(errors, p.z_error);
-    const double sums = 2 * (4 * v * spread + 2 * errors) * (shape_.span_x + shape_.span_y) / std::fabs(shape_.area);
+    const double sums = 2 * (4 * v * spread + 2 * errors) * turn;
     m.low = std::max(0.0, m.low * (1 - share / (1 - share)) - sums - m.low * det);
     m.high = m.high * (1 + share / (1 - share)) + sums + m.high * det;
   }
@@ -304,16 +343,22 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
   return t;
 }
 
-void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
-                  std::array<double, 3>& error) {
+void piece_values(const Piece& piece, const TriangleValues& values, size_t index, Interpolation interpolation,
+                  std::array<double, 3>& value, std::array<double, 3>& error) {
+  const bool linear = interpolation == Interpolation::noperspective;
   for (size_t i = 0; i < 3; ++i) {
-    const auto& w = piece.v[i].weight;
+    const auto& w = linear ? piece.v[i].linear : piece.v[i].weight;
     value[i] = error[i] = 0;
     if (!piece.cut) {
       value[i] = values.value[i][index], error[i] = values.error[i][index];
       continue;
     }
-    for (size_t k = 0; k < 3; ++k) value[i] += w[k] * values.value[k][index], error[i] += w[k] * values.error[k][index];
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < 3; ++k) {
+      value[i] += w[k] * values.value[k][index], error[i] += std::fabs(w[k]) * values.error[k][index];
+      least = std::min(least, values.value[k][index]), most = std::max(most, values.value[k][index]);
+    }
+    if (linear) error[i] += 2 * piece.v[i].linear_error * (most - least);
     if (w[0] < 1 && w[1] < 1 && w[2] < 1 && error[i] > 0) error[i] += 4 * 0x1p-23 * std::fabs(value[i]);
   }
 }
@@ -343,6 +388,9 @@ Range stored_depth(const SurfacePoint& point, const GeometryState& state, const 
   if (!profile.exact_planes && profile.unorm_reach != 0.5) {
     code.low = std::min(code.low, std::max(0.0, std::floor(z.low * codes * (1 - 0x1p-24))));
     code.high = std::max(code.high, std::min(codes, std::ceil(z.high * codes * (1 + 0x1p-24))));
+    // 0 and 1, where depths are clamped, have one code (GL 4.6 core, 2.3.5.2).
+    if (z.low >= 1) code.low = codes;
+    if (z.high <= 0) code.high = 0;
   }
   return {code.value / codes, code.low / codes, code.high / codes};
 }

@@ -59,7 +59,8 @@ class SurfacePoint {
   Range depth() const;
 
   /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
-  /// of both, of the plane through any vertices of the box; r of the profile, in float depth of the largest |z| of the
+  /// of both, of the plane through any vertices of the box, or of any three corners of what clipping leaves that may
+  /// have the sample; r of the profile, in float depth of the largest |z| of the
   /// vertices, `largest`, or of the triangles that clipping may have cut the piece into.
   Range depth_offset(const GeometryState& state, double largest) const;
 
@@ -96,7 +97,10 @@ class SurfacePoint {
   };
   void find_divisors(bool smooth, Divisors& out) const;
 
+  double steepest() const;
+
   const Piece& piece_;
+  Pair at_{};                                  ///< the sample
   const std::optional<PieceShape> own_shape_;  ///< where none was at hand
   const PieceShape& shape_;
   const Profile& profile_;
@@ -115,9 +119,9 @@ struct TriangleValues {
 };
 TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-/// Of attribute `index` at the vertices of a piece: convex combinations by their weights.
-void piece_values(const Piece& piece, const TriangleValues& values, size_t index, std::array<double, 3>& value,
-                  std::array<double, 3>& error);
+/// Of attribute `index` at the vertices of a piece, to be interpolated so: combinations by their weights.
+void piece_values(const Piece& piece, const TriangleValues& values, size_t index, Interpolation interpolation,
+                  std::array<double, 3>& value, std::array<double, 3>& error);
 
 /// VertexAttribute::plane_error of such values.
 double plane_error_of(const Piece& piece, const PieceShape& shape, const std::array<double, 3>& value,

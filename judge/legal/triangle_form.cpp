@@ -17,7 +17,7 @@ const VertexAttribute& TriangleForm::attribute(size_t piece, size_t index, Inter
   KnownAttribute& known = forms_[piece].attributes[index];
   if (known.interpolation == interpolation) return known.attribute;
   VertexAttribute& a = known.attribute;
-  piece_values(pieces_[piece], values_, index, a.value, a.error);
+  piece_values(pieces_[piece], values_, index, interpolation, a.value, a.error);
   a.plane_error = plane_error_of(pieces_[piece], forms_[piece].shape, a.value, interpolation);
   known.interpolation = interpolation;
   return a;

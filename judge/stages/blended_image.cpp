@@ -113,11 +113,11 @@ void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragment
   for (const DrawnFragment& f : fragments) {
     if (!f.output.undefined && color_.quantised()) carry_likely(p, f, blend);
     if (f.output.undefined) {
-      if (f.least > 0) p.pixel_class = PixelClass::undefined;
-      if (f.least == 0) {
+      if (f.least > 0)
+        p.pixel_class = PixelClass::undefined;
+      else
         p.open = true;
-        continue;
-      }
+      continue;
     }
     const auto drawn = [&](Texel t, const std::array<Range, 4>& source, int times) {
       for (int i = 0; i < times; ++i) t = blended_texel(blend, format, profile_, source, t);

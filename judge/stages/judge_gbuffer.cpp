@@ -24,18 +24,30 @@ bool ruled_out(const Projector& p, const PossibleSurface& earlier, const Possibl
                     earlier.piece == later.piece);
 }
 
-/// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or of two
-/// depths spread evenly over [a0, a1] and [b0, b1] the farther comes first, which is overlap^2 / 2 over both widths.
+/// The integral from -infinity to x of the share of [low, high] below a number.
+double share_below(double low, double high, double x) {
+  if (x <= low) return 0;
+  return x < high ? (x - low) * (x - low) / (2 * (high - low)) : (high - low) / 2 + (x - high);
+}
+
+/// Predicted probability that `other` is in front of the nominal surface, though it is not where both are in the middle
+/// of their ranges: that of two numbers spread evenly over these. Where the middle of one lies within the other's, one
+/// and the same error may bring all such pixels to the same side, and no share of them is told from another.
+double chance_before(const PossibleSurface& nominal, const PossibleSurface& other) {
+  if (other.middle < nominal.middle) return 1;
+  if (other.low > nominal.high) return 0;
+  if (other.low <= nominal.middle || nominal.high >= other.middle) return 0.5;
+  return (share_below(other.low, other.high, nominal.high) - share_below(other.low, other.high, nominal.low)) /
+         (nominal.high - nominal.low);
+}
+
+/// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or the
+/// farther of two depths comes first.
 double chance_of_other(const std::vector<const PossibleSurface*>& legal, const PossibleSurface* nominal) {
   double same = nominal != nullptr ? 1 - double(nominal->chance_other) : 1;
   for (const PossibleSurface* c : legal) {
     if (c == nominal) continue;
-    double before = 1;
-    if (nominal != nullptr) {
-      const double overlap = std::max(0.0, std::min(nominal->high, c->high) - std::max(nominal->low, c->low));
-      const double widths = (nominal->high - nominal->low) * (c->high - c->low);
-      before = c->middle < nominal->middle ? 1 : widths > 0 ? std::min(0.5, overlap * overlap / (2 * widths)) : 0.5;
-    }
+    const double before = nominal != nullptr ? chance_before(*nominal, *c) : 1;
     same *= 1 - before * (c->nominal ? 1 : double(c->chance_other));
   }
   return 1 - same;

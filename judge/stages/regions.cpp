@@ -18,9 +18,10 @@ struct Cut {
   int width, height;  ///< pixels
 };
 
-/// What the choices of a region came to.
+/// What the choices of a region came to. `open`: of those that are expected, what may go either way, all of it, as depths
+/// that tie do: how much of that a region has says nothing of another.
 struct Sums {
-  double other = 0, expected = 0;
+  double other = 0, expected = 0, open = 0;
 };
 
 /// Choices that went the other way, at most so many, where `seen` of them were seen with as much latitude: three
@@ -47,7 +48,9 @@ std::vector<Sums> sums_by_region(const std::vector<PixelChoice>& by_group, const
   std::vector<Sums> sums(regions);
   std::vector<Open> open(regions);
   const auto close = [](const Open& o, Sums& s) {
-    if (o.count > 0) s.other += o.other / o.count, s.expected += std::min(1.0, 2 * o.chance / o.count);
+    if (o.count == 0) return;
+    const double expected = std::min(1.0, 2 * o.chance / o.count);
+    s.other += o.other / o.count, s.expected += expected, s.open += expected == 1 ? 1 : 0;
   };
   for (const PixelChoice& c : by_group) {
     const size_t region = region_of(c);
@@ -91,7 +94,7 @@ AggregateTest least_likely_region(const char* name, double least_share, std::vec
       ++tried[size_t(c)];
       const double outside = all.expected - s.expected, seen = with_room(all.other - s.other);
       const double share = outside > seen ? std::max(least_share, seen / outside) : 1;
-      const double most = share * s.expected;
+      const double most = share * (s.expected - s.open) + s.open;
       const double chance = chance_of_at_least(s.other, most);
       if (chance >= least.chance) continue;
       least.chance = chance, least.observed = s.other, least.high = most;

@@ -143,6 +143,7 @@ void Match::channel_is(const PlaneView& view, const char* name, int at, const Ra
 void Match::texel_is(const PlaneView& view, const char* name, int at, const LegalTexel& texel, double value,
                      double stored, uint32_t pixel, const Profile& profile) {
   if (!texel.contains(stored)) return note(name, at, texel, stored, unit_of(view, at, texel.nominal));
+  if (texel.is_open()) return;
   if (!view.quantised()) {
     const double bound = std::max(texel.high - value, value - texel.low);
     if (bound > 0) worst_error = std::max(worst_error, std::fabs(stored - value) / bound);
@@ -184,6 +185,12 @@ void RowTally::may_be_other(uint32_t pixel, uint64_t surface, double chance) {
 }
 
 void RowTally::take(int x, int y, PixelClass c, const Match& match, const std::string& surface) {
+  if (c == PixelClass::undefined && match.stored_values > 0) {  // whatever was stored says nothing of rounding
+    Match unknown = match;
+    unknown.choices.clear(), unknown.near_thresholds.clear();
+    unknown.store_count = 0, unknown.stored_values = 0;
+    return take(x, y, c, unknown, surface);
+  }
   classes.push_back(c);
   compare(x, match);
   record(x, y, c, match, surface);
@@ -221,8 +228,10 @@ void RowTally::keep_choices(int y, const Match& match) {
   if (match.choices.empty()) return;
   const uint32_t run = scrambled(uint32_t(y) * 0x9e3779b1u ^ records_++ / kRun);
   if (run % one_in_ != 0) return;
-  choices.insert(choices.end(), match.choices.begin(), match.choices.end());
-  runs_.insert(runs_.end(), match.choices.size(), run);
+  // Of a value that is not a number no code is the nominal one.
+  std::copy_if(match.choices.begin(), match.choices.end(), std::back_inserter(choices),
+               [](const StoreChoice& c) { return !std::isnan(c.value); });
+  runs_.resize(choices.size(), run);
   while (choices.size() > kMostChoices && one_in_ < 1u << 31) {
     one_in_ *= 2;
     size_t kept = 0;

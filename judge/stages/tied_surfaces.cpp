@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/threads/parallel_for.h"
+#include "judge/legal/possible_sample.h"
 #include "judge/legal/surface_values.h"
 #include "judge/stages/tally.h"
 
@@ -20,8 +21,9 @@ class TieFinder {
         object_(plane_of(capture, pipeline, "id.object")),
         primitive_(plane_of(capture, pipeline, "id.primitive")),
         depth_(plane_of(capture, pipeline, "depth")),
+        position_(plane_of(capture, pipeline, "position")),
         normal_(plane_of(capture, pipeline, "normal")),
-        possible_(possible_surfaces(projector_, rows)) {}
+        possible_(find_tied(projector_, rows)) {}
 
   std::vector<TiedSurface> at(int x, int y_top) const {
     const int y = pipeline_.height - 1 - y_top;
@@ -32,19 +34,22 @@ class TieFinder {
     if (all.empty() || (covered && all.size() == 1)) return list;
     const PossibleSurface* seen = covered ? visible(all, x, y_top) : nullptr;
     if (covered && seen == nullptr) return list;  // shows what it cannot: the G-buffer's fault
-    const double clear = clear_key(pipeline_.geometry);
+    const double clear = depth_in_buffer(pipeline_.geometry, double(pipeline_.geometry.clear_depth));
+    const Range left = seen != nullptr ? depth_of(*seen, x, y) : Range{clear, clear, clear};
     for (const PossibleSurface& c : all) {
       if (&c == seen) continue;
-      const bool may = seen != nullptr ? c.low <= seen->high && c.high >= seen->low : c.low <= clear && c.high >= clear;
-      if (may)
-        list.push_back(
-            {surface_of(c, x + 0.5, y + 0.5), seen != nullptr && ties(*seen, c), seen != nullptr && &c < seen});
+      const Range depth = depth_of(c, x, y);
+      if (depth.low > left.high || depth.high < left.low) continue;
+      const bool same = (left.low == left.high && depth.low == left.low && depth.high == left.low) ||
+                        (seen != nullptr && same_vertices(*seen, c));
+      list.push_back({surface_of(c, x + 0.5, y + 0.5), same && c.certain, seen != nullptr && &c < seen});
     }
     return list;
   }
 
  private:
-  /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen.
+  /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen. Of two
+  /// that an offset takes to the end of the depth range, the position does.
   const PossibleSurface* visible(std::span<const PossibleSurface> all, int x, int y_top) const {
     const double object = object_ ? object_.stored(x, y_top, 0) : 0;
     const double primitive = primitive_ ? primitive_.stored(x, y_top, 0) : 0;
@@ -64,21 +69,32 @@ class TieFinder {
     return best;
   }
 
-  /// How far the pixel's normal and depth are from the middle of the possible surface's.
+  /// How far the pixel's position, normal and depth are from the middle of the possible surface's.
   double difference(const PossibleSurface& c, int x, int y_top) const {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
+    const GBufferState& planes = pipeline_.gbuffer;
     double off = 0;
     for (int k = 0; k < 3 && normal_; ++k)
-      off +=
-          std::fabs(values.normal(k, pipeline_.gbuffer.normal.interpolation).value - normal_.image->value(x, y_top, k));
+      off += std::fabs(values.normal(k, planes.normal.interpolation).value - normal_.image->value(x, y_top, k));
+    for (int k = 0; k < 3 && position_; ++k)
+      off += std::fabs(values.attribute(kPosition + size_t(k), planes.position.interpolation).value -
+                       position_.image->value(x, y_top, k));
     if (depth_)
       off += std::fabs(values.depth().value - depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
   }
 
+  /// As the buffer may hold it.
+  Range depth_of(const PossibleSurface& c, int x, int y) const {
+    const DepthFunc func = pipeline_.geometry.depth_func;
+    if (!orders_depths(func)) return SurfaceValues(projector_, c, x + 0.5, y + 0.5).depth();
+    const bool far_first = func == DepthFunc::greater || func == DepthFunc::gequal;
+    return far_first ? Range{-c.middle, -c.high, -c.low} : Range{c.middle, c.low, c.high};
+  }
+
   /// Equal clip coordinates give equal depths (GL 4.6 core, appendix A, rule 5).
-  bool ties(const PossibleSurface& a, const PossibleSurface& b) const {
-    return b.certain && a.piece == b.piece &&
+  bool same_vertices(const PossibleSurface& a, const PossibleSurface& b) const {
+    return a.piece == b.piece &&
            projector_.clip_of(a.instance, a.triangle) == projector_.clip_of(b.instance, b.triangle);
   }
 
@@ -89,7 +105,7 @@ class TieFinder {
 
   const Pipeline pipeline_;
   const Projector projector_;
-  const PlaneView object_, primitive_, depth_, normal_;
+  const PlaneView object_, primitive_, depth_, position_, normal_;
   const PossibleSurfaces possible_;
 };
 

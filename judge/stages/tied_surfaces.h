@@ -13,7 +13,7 @@ namespace trueshade::oracle {
 
 struct TiedSurface {
   ShadedSurface surface;  ///< what its fragment's attributes may be
-  bool certain = false;   ///< covers the sample, with the very depth of the visible surface
+  bool certain = false;   ///< covers the sample, with the very depth that the visible surface or the clear value left
   bool before = false;    ///< submitted before the visible one
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/legal/light_output.h"
 #include "judge/legal/patch.h"
 #include "judge/stages/captured_surface.h"
 #include "judge/stages/tally.h"
@@ -25,6 +26,16 @@ Pipeline forward_of(const Pipeline& pipeline) {
   return p;
 }
 
+/// What transparent surfaces are blended in: of a plane that was captured in a format with an alpha which the
+/// pipeline's has not, that one, whose alpha is blended too.
+Format blended_format(const Pipeline& pipeline, const Capture& capture) {
+  const bool in_albedo = pipeline.transparency.mode == TransparencyMode::into_albedo;
+  const Format asked = in_albedo ? pipeline.gbuffer.albedo.format : pipeline.target;
+  if (!in_albedo) return capture.color.width > 0 ? capture.color.format : asked;
+  const Image* const albedo = capture.plane("albedo");
+  return albedo != nullptr && info(albedo->format).channels > info(asked).channels ? albedo->format : asked;
+}
+
 Range either(const Range& a, const Range& b) { return {a.value, std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 }  // namespace
@@ -41,9 +52,7 @@ TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipelin
     : pipeline_(pipeline),
       profile_(profile),
       blend_(pipeline.transparency.blend),
-      format_(pipeline.transparency.mode == TransparencyMode::into_albedo ? pipeline.gbuffer.albedo.format
-              : capture.color.width > 0                                   ? capture.color.format
-                                                                          : pipeline.target),
+      format_(blended_format(pipeline, capture)),
       model_(pipeline.light_model),
       projector_(scene, forward_of(pipeline), profile, capture.drawn_at) {
   model_.alpha_from_albedo = true;
@@ -92,7 +101,7 @@ bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& fro
   const Range z = values.depth();
   const bool up = ordered_up(func), strict = func == DepthFunc::less || func == DepthFunc::greater;
   if (!up && !ordered_down(func)) {  // EQUAL, NOTEQUAL: depths of opaque surfaces are not followed
-    layer.certain = false, layer.doubt = PixelClass::depth_tie, layer.chance_other = 0.5f;
+    layer.certain = false, layer.doubt = PixelClass::depth_tie, layer.patch = -1, layer.chance_other = 0.5f;
     return true;
   }
   const double low = up ? -z.high : z.low, high = up ? -z.low : z.high, middle = up ? -z.value : z.value;
@@ -126,6 +135,7 @@ void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& lay
     layer.other[k] = either(layer.nominal[k], either(output_range(model_, up), output_range(model_, down)));
   }
   layer.nominal[3] = layer.other[3] = output_range(model_, surface.albedo[3]);
+  layer.undefined = layer.undefined || !are_numbers(layer.nominal) || !are_numbers(layer.other);
 }
 
 TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {

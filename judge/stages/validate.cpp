@@ -27,8 +27,8 @@ class Validation {
   std::vector<Stage> stages() {
     const auto has = [&](std::string_view name) { return capture_.plane(name) != nullptr; };
     begin("the surfaces");
-    if (has("depth") || has("position") || has("normal") || has("albedo") || has("uv") || has("id.object") ||
-        has("id.material"))
+    if (options_.surfaces && (has("depth") || has("position") || has("normal") || has("albedo") || has("uv") ||
+                              has("id.object") || has("id.material")))
       add_surfaces();
     const bool layers =
         draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights;

@@ -19,6 +19,7 @@ struct ValidateOptions {
   LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
   double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them
   std::function<void(const char* part)> begins{};  ///< called before each part, such as `the surfaces`
+  bool surfaces = true;  ///< false: the G-buffer is taken as it is, and only what lights make of it is judged
 };
 
 struct Verdict {

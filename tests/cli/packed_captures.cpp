@@ -1,7 +1,29 @@
 // Packed planes: what their codes say is judged, and faults in them are found.
+#include "core/half.h"
 #include "tests/cli/drawn_capture.h"
 
 namespace trueshade {
+
+TEST_CASE("Normals made unit and stored as the pipeline's halves are legal, whatever floats a file holds them in") {
+  const DrawnCapture c;
+  const EnginePlane halves = repacked(c.normal, 3, [](const double* n, double* e) {
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; ++k)
+      e[k] = length > 0 ? double(float_from_half(half_from_float(float(n[k] / length), HalfRound::toward_zero))) : 0;
+  });
+  write_bytes(c.path("halves.json"), R"({"gbuffer": {"normal": {"format": "rgba16f"}}})");
+  const auto violating = [&](const Words& more) {
+    Words options = {"--gbuffer", "c.exr", "--map", "depth,id.object,normal=n.npy.RGB:unit"};
+    options.insert(options.end(), more.begin(), more.end());
+    return violations(c.counts(options));
+  };
+  for (const char* type : {"<f2", "<f4"}) {
+    CAPTURE(type);
+    write_npy(c.path("n.npy"), halves, type);
+    CHECK(violating({"--pipeline", "halves.json"}) == 0);
+  }
+  CHECK(violating({}) > 100);  // floats, as the pipeline says then
+}
 
 TEST_CASE("A capture whose values are packed is judged by what its codes say, and no pixel is convicted", "[slow]") {
   const DrawnCapture c;

@@ -43,6 +43,45 @@ TEST_CASE("shade rebuilds positions from depth as render does, and blends into t
     }
 }
 
+TEST_CASE("compare judges by the G-buffer that a reference was shaded of, and not where that is not to be had") {
+  const ScratchFolder folder;
+  const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
+  const auto says = [](const Outcome& outcome, const std::string& text) {
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.out.find(text) != std::string::npos);
+  };
+  // Another pixel grid than the scene's own: drawn anew, the planes would be other ones.
+  const Words planes = {"-q", "-o", "g.exr", "--aov", "depth,position,normal,albedo,id.object"};
+  write_bytes(folder.path("shifted.json"),
+              R"({"geometry": {"viewport": {"x": 3, "y": -2, "width": 64, "height": 64}}})");
+  Words drawn = {"render", "builtin:cornell", "--size", "64x64", "--pipeline", "shifted.json"};
+  drawn.insert(drawn.end(), planes.begin(), planes.end());
+  REQUIRE(run(drawn).exit_code == 0);
+  const auto shade = [&](const std::string& file, const Words& more) {
+    Words words = {"shade", "g.exr", "--lights", "builtin:cornell", "-q", "--target", "rgba32f", "-o", file};
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(run(words).exit_code == 0);
+  };
+  write_bytes(folder.path("order.json"), R"({"light_model": {"order": "separate"}})");
+  shade("should.exr", {});
+  shade("order.exr", {"--pipeline", "order.json"});  // the same light, rounded otherwise
+  shade("wrong.exr", {"--preset", "light-volumes", "--strategy", "deferred-loop"});
+  const Outcome legal = run({"compare", "should.exr", "order.exr"});
+  says(legal, "judged by the G-buffer that the reference was shaded of, g.exr");
+  says(legal, "lighting: 4096 pixels");
+  says(legal, "VIOLATION          0");
+  CHECK(legal.out.find("gbuffer: ") == std::string::npos);
+  says(run({"compare", "should.exr", "wrong.exr"}), "pixels are in no legal set");
+  REQUIRE(
+      run({"render", "builtin:cornell", "--size", "64x64", "-q", "-o", "g.exr", "--aov", planes.back()}).exit_code ==
+      0);
+  says(run({"compare", "should.exr", "wrong.exr"}), "it is another G-buffer today");
+  std::filesystem::remove(folder.path("g.exr"));
+  const Outcome gone = run({"compare", "should.exr", "wrong.exr"});
+  says(gone, "the reference was shaded of this, and it is neither here nor beside it");
+  CHECK(gone.out.find("no legal set") == std::string::npos);
+}
+
 TEST_CASE("shade refuses what a G-buffer cannot tell") {
   const DrawnCapture c;
   const auto refused = [&](const Words& words, int code, const std::string& about) {

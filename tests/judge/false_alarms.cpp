@@ -3,11 +3,12 @@
 #include <cstdio>
 #include <set>
 
-#include "judge/stages/judge.h"
 #include "judge/bounds/shading.h"
+#include "judge/stages/judge.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/loose_renderer.h"
+#include "tests/judge/random_frames.h"
 #include "tests/judge/random_scene.h"
 
 using namespace trueshade;
@@ -110,6 +111,32 @@ TEST_CASE("Of ten thousand legal images at most one is rejected", "[long]") {
 
 TEST_CASE("Of ten thousand images as D3D11.3 has them at most one is rejected by its profile", "[long]") {
   CHECK(rejected("d3d-class", 10000, 1000) <= 1);
+}
+
+namespace {
+
+void check_ours(testing::FrameTheme theme, uint64_t first, int count) {
+  testing::check_random_frames({"ours", "unknown", theme, first, count}, [](const testing::RandomFrame& frame) {
+    testing::DrawnFrame drawn;
+    drawn.capture = testing::captured(frame.scene, frame.pipeline);
+    return drawn;
+  });
+}
+
+void check_ours_of_every_theme(uint64_t first, int count) {
+  using enum testing::FrameTheme;
+  check_ours(any, first, count);
+  for (const testing::FrameTheme theme : {clamped_depths, sloped_depths, glass_in_halves})
+    check_ours(theme, first, count / 4);
+}
+
+}  // namespace
+
+TEST_CASE("Our own frames are not convicted under states drawn at random") { check_ours_of_every_theme(1, 100); }
+
+// LEGAL_FRAMES=N in the environment judges N.
+TEST_CASE("Of ten thousand frames of ours under states drawn at random none is convicted", "[long]") {
+  check_ours_of_every_theme(1000, testing::long_count(10000));
 }
 
 namespace {

@@ -1,0 +1,43 @@
+// llvmpipe under states drawn at random: nothing that it draws is an alarm.
+#include "gl/driver/renderer.h"
+#include "tests/catch.hpp"
+#include "tests/judge/drivers.h"
+#include "tests/judge/random_frames.h"
+
+using namespace trueshade;
+using namespace trueshade::testing;
+using trueshade::oracle::GlContext;
+
+namespace {
+
+DrawnFrame drawn_by(const GlContext& context, const RandomFrame& frame) {
+  DrawnFrame drawn;
+  drawn.shows_steps = true;
+  oracle::GlDraw draw;
+  draw.after_light = [&](int light, const Image& target) { drawn.lights.emplace_back(light, target); };
+  draw.after_object = [&](int object, const Image& target) { drawn.objects.emplace_back(object, target); };
+  drawn.capture = oracle::GlRenderer(context, frame.scene).draw(frame.pipeline, draw).capture;
+  drawn.subpixel_bits = context.info().subpixel_bits;
+  return drawn;
+}
+
+void check_llvmpipe(FrameTheme theme, uint64_t first, int count) {
+  const GlContext* const context = opened(oracle::GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  check_random_frames({"llvmpipe", "unknown", theme, first, count},
+                      [context](const RandomFrame& frame) { return drawn_by(*context, frame); });
+}
+
+constexpr FrameTheme kThemes[] = {FrameTheme::clamped_depths, FrameTheme::sloped_depths, FrameTheme::glass_in_halves};
+
+}  // namespace
+
+TEST_CASE("llvmpipe is not convicted under states drawn at random") {
+  check_llvmpipe(FrameTheme::any, 1, 24);
+  for (const FrameTheme theme : kThemes) check_llvmpipe(theme, 1, 6);
+}
+
+TEST_CASE("Of two thousand frames of llvmpipe's under states drawn at random none is convicted", "[long]") {
+  check_llvmpipe(FrameTheme::any, 1000, long_count(2000));
+  for (const FrameTheme theme : kThemes) check_llvmpipe(theme, 1000, long_count(2000) / 10);
+}

@@ -1,0 +1,110 @@
+#include "tests/judge/random_frames.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "judge/stages/validate.h"
+#include "scenes/pipeline/transparency.h"
+#include "tests/catch.hpp"
+
+namespace trueshade::testing {
+
+using namespace oracle;
+
+namespace {
+
+LightSteps shown(const std::vector<std::pair<int, Image>>& steps) {
+  return [&steps](const StepSink& sink) {
+    for (const auto& [index, target] : steps) sink(index, target);
+  };
+}
+
+/// The first pixel in no legal set, or the evidence against the whole image.
+std::string reason_of(const Verdict& v) {
+  for (const StageVerdict& stage : v.stages) {
+    if (stage.passes()) continue;
+    const WorstPixel& w = stage.worst.front();
+    char text[256];
+    std::snprintf(text, sizeof text, "%s: %llu violations, at (%d, %d) %s is %.9g, legal [%.9g, %.9g], %s",
+                  stage.stage.c_str(), static_cast<unsigned long long>(stage.count(PixelClass::violation)), w.x, w.y,
+                  w.plane.c_str(), w.given, w.low, w.high, w.note.c_str());
+    return text;
+  }
+  return v.evidence_line();
+}
+
+class FrameTrial {
+ public:
+  explicit FrameTrial(const RandomFrames& asked) : asked_(asked), profile_(*profile_named(asked.profile)) {}
+
+  void judge(uint64_t seed, const FrameDrawer& drawer) {
+    const RandomFrame frame = random_frame(seed, asked_.theme);
+    DrawnFrame drawn;
+    try {
+      drawn = drawer(frame);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::no_gl_driver && error.kind() != ErrorKind::limit) throw;
+      ++refused_;
+      return;
+    }
+    profile_.subpixel_bits = drawn.subpixel_bits;
+    try {
+      hold(seed, frame, drawn);
+    } catch (const Error& error) {
+      alarm(seed, frame, "cannot be judged", error.what());
+    }
+  }
+
+  void tell() const {
+    std::printf("random frames by %s, theme %d: %d, not drawn %d, alarms %d\n", asked_.drawer.c_str(),
+                int(asked_.theme), asked_.count, refused_, alarms_);
+    std::fflush(stdout);
+    CHECK(alarms_ == 0);
+    CHECK(refused_ <= asked_.count / 3);
+  }
+
+ private:
+  /// As a capture from files, and draw by draw.
+  void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn) {
+    hold(seed, frame, drawn, {profile_, false, {}, {}});
+    if (!drawn.shows_steps) return;
+    ValidateOptions options{profile_, false, {}, {}};
+    if (blends_lights(frame.pipeline.strategy)) options.steps = shown(drawn.lights);
+    if (draws_transparent(frame.scene, frame.pipeline)) options.objects = shown(drawn.objects);
+    if (options.steps || options.objects) hold(seed, frame, drawn, options);
+  }
+
+  void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn, const ValidateOptions& options) {
+    const Verdict v = validate_capture(frame.scene, frame.pipeline, drawn.capture, options);
+    if (v.violations() == 0 && !v.convicted()) return;
+    alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
+  }
+
+  void alarm(uint64_t seed, const RandomFrame& frame, const char* how, const std::string& reason) {
+    ++alarms_;
+    WARN(asked_.drawer << ", frame " << seed << " of theme " << int(asked_.theme) << " " << how << ", "
+                       << name_of(frame.pipeline.strategy) << " " << info(frame.pipeline.target).name << ": "
+                       << reason);
+  }
+
+  const RandomFrames& asked_;
+  Profile profile_;
+  int refused_ = 0, alarms_ = 0;
+};
+
+}  // namespace
+
+void check_random_frames(const RandomFrames& asked, const FrameDrawer& drawer) {
+  FrameTrial trial(asked);
+  for (int i = 0; i < asked.count; ++i) trial.judge(asked.first + uint64_t(i), drawer);
+  trial.tell();
+}
+
+int long_count(int usual) {
+  const char* const asked = std::getenv("LEGAL_FRAMES");
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : usual;
+}
+
+}  // namespace trueshade::testing
