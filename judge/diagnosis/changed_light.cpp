@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/diagnosis/least_squares.h"
 #include "judge/diagnosis/predicted_term.h"
 
 namespace trueshade::oracle {
@@ -13,25 +14,6 @@ constexpr size_t kMostLights = 1024;  ///< of a scene that are tried
 constexpr size_t kTerms = 8000;       ///< lights and pixels together, by which the lights are chosen
 constexpr double kScale = 8;          ///< steps beyond which a pixel may have another fault
 constexpr size_t kFitted = 2;         ///< lights that are fitted to all pixels
-
-/// A symmetric system of three equations.
-struct Normal {
-  std::array<std::array<double, 3>, 3> a{};
-  Triple3 b{};
-
-  /// Solved with so much added to the diagonal; nothing where it is singular.
-  std::optional<Triple3> solved(double damping) const {
-    std::array<Triple3, 3> m = a;
-    // A direction has a length to spare, along which nothing pulls: the trace keeps steps from growing there.
-    const double trace = a[0][0] + a[1][1] + a[2][2];
-    for (size_t k = 0; k < 3; ++k) m[k][k] += damping * a[k][k] + 1e-6 * trace;
-    const Triple3 yz = cross(m[1], m[2]), zx = cross(m[2], m[0]), xy = cross(m[0], m[1]);
-    const double determinant = inner(m[0], yz);
-    if (!(std::fabs(determinant) > 0)) return std::nullopt;
-    const Triple3 sum = plus(plus(times(yz, b[0]), times(zx, b[1])), times(xy, b[2]));
-    return times(sum, 1 / determinant);
-  }
-};
 
 class LightFit {
  public:
@@ -64,7 +46,7 @@ class LightFit {
   double size_of(size_t light) const;
   /// How far a channel is off, in steps, beyond what its store may be.
   double off(const Seen& seen, const Color& value, int channel) const;
-  Normal equations(size_t light, const Triple3& at, size_t most, double scale) const;
+  NormalEquations equations(size_t light, const Triple3& at, size_t most, double scale) const;
   double error(size_t light, const Triple3& at, double scale) const;
   Triple3 fitted(size_t light) const;
   /// Whether the changed light adds anything to any pixel.
@@ -139,7 +121,7 @@ double LightFit::off(const Seen& seen, const Color& value, int channel) const {
 }
 
 /// The normal equations of a step from `at`, each residual weighed by Cauchy's rule.
-Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
+NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
   const double size = size_of(light);
   const Light here = changed(light, at);
   std::array<Light, 3> moved{here, here, here};
@@ -148,7 +130,7 @@ Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double 
     v[i] += size;
     moved[i] = changed(light, v);
   }
-  Normal n;
+  NormalEquations n;
   const size_t stride = std::max<size_t>(1, seen_.size() / most);
   for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
     const Seen& s = seen_[at_pixel];
@@ -235,7 +217,7 @@ std::vector<FaultParameter> LightFit::best() const {
   std::vector<std::pair<double, size_t>> gains;  // by what one step of least squares is expected to gain
   for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
     if (!fault_.of_light(lights[i])) continue;
-    const Normal n = equations(i, start, std::max<size_t>(60, kTerms / std::min(lights.size(), kMostLights)), farthest_);
+    const NormalEquations n = equations(i, start, std::max<size_t>(60, kTerms / std::min(lights.size(), kMostLights)), farthest_);
     if (const std::optional<Triple3> step = n.solved(1e-3)) gains.emplace_back(-inner(*step, n.b), i);
   }
   std::sort(gains.begin(), gains.end());

@@ -9,13 +9,14 @@ namespace trueshade::oracle {
 
 namespace {
 
-std::string listed_name(std::string_view name, bool has_parameter, bool has_vector = false) {
-  return std::string(name) + (has_vector ? "=N:X,Y,Z" : has_parameter ? "=N" : "");
+std::string listed_name(std::string_view name, const ParameterForm& form) {
+  return std::string(name) + (form.any() ? "=" + listed_parameter(form) : "");
 }
 
-std::string listed_text(std::string_view text) {
+std::string listed_text(std::string_view text, const ParameterForm& form) {
+  constexpr const char* kVectors[] = {"", "X", "(X, Y)", "(X, Y, Z)"};
   std::string listed(text);
-  for (const auto& [mark, word] : {std::pair("%s", "N"), std::pair("%v", "(X, Y, Z)")})
+  for (const auto& [mark, word] : {std::pair("%s", "N"), std::pair("%p", "P"), std::pair("%v", kVectors[form.vector])})
     if (const size_t at = listed.find(mark); at != std::string::npos) listed.replace(at, 2, word);
   return listed;
 }
@@ -79,12 +80,11 @@ std::vector<KnownFault> known_faults() {
   std::vector<KnownFault> faults;
   for (const auto table : {picture_value_faults(), light_faults()})
     for (const PictureFault& f : table)
-      faults.push_back({listed_name(f.name, f.search != Search::none, f.search == Search::one_light), "picture",
-                        listed_text(f.text)});
-  for (const auto table : {plane_faults(), redraw_faults()})
+      faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
+  for (const auto table : {plane_faults(), redraw_faults(), object_faults(), camera_faults()})
     for (const PlaneFault& f : table)
-      faults.push_back({listed_name(f.name, f.search != PlaneFault::Search::none),
-                        std::string(kPlaneNames[size_t(f.plane)]), listed_text(f.text)});
+      faults.push_back({listed_name(f.name, f.form()), std::string(kPlaneNames[size_t(f.plane)]),
+                        listed_text(f.text, f.form())});
   return faults;
 }
 

@@ -59,14 +59,24 @@ int PlaneCase::planes() const {
   return int(std::count_if(views_.begin(), views_.end(), [](const PlaneView& v) { return bool(v); }));
 }
 
+namespace {
+
+/// False: there is nothing that the fault changes.
+bool redrawn(Scene& scene, Pipeline& pipeline, const NamedPlaneFault& f) {
+  return f.fault->edit != nullptr ? f.fault->edit(scene, pipeline, f.parameter)
+                                  : f.fault->redraw(scene, pipeline, f.parameter.number);
+}
+
+}  // namespace
+
 std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, const NamedPlaneFault& fault) const {
   PlaneSupposition s = base;
   s.faults.push_back(fault);
-  if (fault.fault->redraw == nullptr) return s;
+  if (!fault.fault->redraws()) return s;
   const auto scene = std::make_shared<Scene>(scene_);
   Pipeline pipeline = pipeline_;
   for (const NamedPlaneFault& f : s.faults)
-    if (f.fault->redraw != nullptr && !f.fault->redraw(*scene, pipeline, f.parameter)) return std::nullopt;
+    if (f.fault->redraws() && !redrawn(*scene, pipeline, f)) return std::nullopt;
   s.scene = scene;
   s.drawn = std::make_shared<ExpectedPlanes>(*scene, pipeline, profile_, drawn_at_);
   return s;
@@ -77,7 +87,7 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
   PlaneMove move;
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->move != nullptr && (f.fault->plane == plane || f.fault->plane == Plane::all))
-      f.fault->move(move, f.parameter);
+      f.fault->move(move, f.parameter.number);
   x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
   ExpectedPixel p =
       supposed.drawn->at(move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y);
@@ -88,7 +98,7 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
             std::nearbyint(stored(plane, v->albedo[size_t(k)], k)) / views_[size_t(plane)].layout.largest_code(k);
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->change != nullptr && f.fault->plane == plane)
-      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter);
+      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter.number);
   return p;
 }
 
@@ -143,6 +153,40 @@ std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& suppose
       off[i] = std::min(off[i], off_by(changed(supposed, Plane(i), x, y, true)));
   }
   return off;
+}
+
+/// As numbers, of the planes that were captured.
+PlaneValues PlaneCase::given(int x, int y) const {
+  PlaneValues v;
+  const auto number = [&](Plane plane, int channel) {
+    const PlaneView& view = views_[size_t(plane)];
+    const double stored = view.stored(x, y, channel);
+    if (!view.unorm()) return stored;
+    const double value = stored / view.layout.largest_code(channel);
+    return plane == Plane::normal ? 2 * value - 1 : value;
+  };
+  const auto fill = [&](Plane plane, auto& numbers) {
+    const PlaneView& view = views_[size_t(plane)];
+    for (size_t k = 0; view && k < std::min(numbers.size(), size_t(view.channels)); ++k)
+      numbers[k] = number(plane, int(k));
+  };
+  fill(Plane::position, v.position), fill(Plane::normal, v.normal), fill(Plane::albedo, v.albedo);
+  fill(Plane::uv, v.uv);
+  if (views_[size_t(Plane::depth)]) v.depth = number(Plane::depth, 0);
+  if (views_[size_t(Plane::material)]) v.material = number(Plane::material, 0);
+  v.object = views_[size_t(Plane::object)] ? number(Plane::object, 0) : -1;
+  v.covered = v.object >= 0 ? v.object > 0 : !is_clear_depth(pipeline_.geometry, v.depth);
+  return v;
+}
+
+PlaneEvidence PlaneCase::evidence() const {
+  PlaneEvidence e{scene_, pipeline_, {}, {}};
+  for (size_t k = 0; k < kPlanes; ++k) e.has[k] = bool(views_[k]);
+  for (const SampledPixel& p : sample_) {
+    const ExpectedPixel expected = right_->at(p.x, p.y);
+    e.pixels.push_back({p, false, given(p.x, p.y), expected.value, expected.triangle});
+  }
+  return e;
 }
 
 double PlaneCase::predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const {

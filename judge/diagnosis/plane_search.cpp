@@ -27,13 +27,14 @@ struct Candidate {
 
 class PlaneSearch {
  public:
-  explicit PlaneSearch(const PlaneCase& planes) : planes_(planes) {
+  explicit PlaneSearch(const PlaneCase& planes) : planes_(planes), evidence_(planes.evidence()) {
     off_few_ = off(planes.right(), planes.few()), off_ = off(planes.right(), planes.sample());
     for (size_t i = 0; i < off_.size(); ++i) {
       const double weight = planes.sample()[i].weight;
       for (size_t k = 0; k < kPlanes; ++k) wrong_[k] += off_[i][k] >= kSameSteps ? weight : 0;
       changed_ += agrees(off_[i]) ? 0 : weight;
     }
+    for (size_t i = 0; i < off_.size(); ++i) evidence_.pixels[i].wrong = !agrees(off_[i]);
     for (size_t i = 0; i < off_few_.size(); ++i) cost_few_ += planes.few()[i].weight * cost(off_few_[i]);
     for (size_t i = 0; i < off_.size(); ++i) cost_ += planes.sample()[i].weight * cost(off_[i]);
   }
@@ -60,7 +61,7 @@ class PlaneSearch {
     return sum / planes_.planes();
   }
   Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
-  std::vector<double> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
+  std::vector<FaultParameter> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
   PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
@@ -68,6 +69,7 @@ class PlaneSearch {
   Proof proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const;
 
   const PlaneCase& planes_;
+  PlaneEvidence evidence_;
   Steps off_few_, off_;
   std::array<double, kPlanes> wrong_{};
   double changed_ = 0, cost_few_ = 0, cost_ = 0;
@@ -104,9 +106,10 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
 }
 
 /// The parameters that are tried for a fault: its table's, or one that is estimated from the pixels.
-std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
+std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
   if (fault.search == Search::none) return {0};
   if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
+  if (fault.search == Search::suspected) return suspected_parameters(evidence_, fault);
   std::vector<double> differences;
   std::map<uint32_t, double> votes;
   for (size_t i = 0; i < off_few_.size(); ++i) {
@@ -123,8 +126,8 @@ std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const 
     for (const auto& [object, weight] : votes) ranked.emplace_back(-weight, double(object));
     std::sort(ranked.begin(), ranked.end());
     if (ranked.size() > 2) ranked.resize(2);
-    std::vector<double> objects;
-    for (const auto& [weight, object] : ranked) objects.push_back(object);
+    std::vector<FaultParameter> objects;
+    for (const auto& [weight, object] : ranked) objects.emplace_back(object);
     return objects;
   }
   if (differences.empty()) return {};
@@ -139,7 +142,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
       std::optional<Candidate> best;
-      for (const double parameter : parameters(base, fault)) {
+      for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
         if (!s) continue;
         Candidate c = judged(std::move(*s), false);
@@ -151,7 +154,12 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
   tries(plane_faults());
   // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
   const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
-  if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) tries(redraw_faults());
+  if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) {
+    tries(redraw_faults());
+    // What is estimated is estimated of captures with no other fault.
+    if (base.faults.empty() && std::none_of(candidates.begin(), candidates.end(), explained))
+      tries(object_faults()), tries(camera_faults());
+  }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   return candidates;
@@ -259,17 +267,10 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
 
 }  // namespace
 
-std::string name_of(const PlaneFault& fault, double parameter) {
-  return std::string(fault.name) + (fault.search == Search::none ? "" : "=" + parameter_word(fault, parameter));
+std::string name_of(const PlaneFault& fault, const FaultParameter& parameter) {
+  return fault_name(fault, parameter);
 }
-
-std::string text_of(const PlaneFault& fault, double parameter) {
-  std::string text(fault.text);
-  const size_t at = text.find("%s");
-  if (at != std::string::npos)
-    text.replace(at, 2, fault.says != nullptr ? fault.says(parameter) : parameter_text(parameter));
-  return text;
-}
+std::string text_of(const PlaneFault& fault, const FaultParameter& parameter) { return fault_text(fault, parameter); }
 
 PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                              const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only) {

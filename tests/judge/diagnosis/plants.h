@@ -5,5 +5,6 @@ namespace trueshade::testing {
 
 const std::vector<Plant>& plants_of_pictures();
 const std::vector<Plant>& plants_of_planes();
+const std::vector<Plant>& plants_of_scenes();
 
 }  // namespace trueshade::testing
