@@ -198,39 +198,42 @@ Suspects by_its_origin(const PlaneEvidence& e) {
 }
 
 using Fault = PlaneFault;
+constexpr double kOfExtent = -1e-4;
 
 constexpr PlaneFault of_camera(std::string_view name, std::string_view text,
                                bool (*edit)(Scene&, Pipeline&, const P&), Suspects (*suspects)(const PlaneEvidence&),
-                               int numbers, Fit fit = Fit::camera, double start = 0) {
+                               int numbers, double change_of, double start = 0) {
   return {.name = name,
           .text = text,
           .search = Fault::Search::suspected,
           .edit = edit,
           .suspects = suspects,
           .numbers = {false, false, numbers},
-          .fit = fit,
-          .start = start};
+          .fit = change_of != 0 ? Fit::camera : Fit::none,
+          .start = start,
+          .change_of = change_of};
 }
 
 constexpr PlaneFault kFaults[] = {
-    of_camera("camera-moved", "the camera is moved by %v", move_camera, from_nothing, 3),
-    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3),
-    of_camera("camera-target", "the camera's target is moved by %v", move_target, from_nothing, 3),
+    of_camera("camera-moved", "the camera is moved by %v", move_camera, from_nothing, 3, kOfExtent),
+    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3,
+              kOfExtent),
+    of_camera("camera-target", "the camera's target is moved by %v", move_target, from_nothing, 3, kOfExtent),
     of_camera("camera-turned", "the camera is turned by %v degrees about its axes right, up and back", turn_camera,
-              from_nothing, 3),
+              from_nothing, 3, 0.05),
     of_camera("camera-angle", "the camera's angle of view is %v times what it should be", other_angle, from_one, 1,
-              Fit::camera, 1),
+              1e-3, 1),
     of_camera("camera-aspect", "the picture is %v times as wide in its angle as it should be", other_aspect, from_one,
-              1, Fit::camera, 1),
+              1, 1e-3, 1),
     of_camera("camera-near", "the near plane is %v times as far as it should be", other_near, from_some_size, 1,
-              Fit::camera, 1),
+              1e-3, 1),
     of_camera("camera-far", "the far plane is %v times as far as it should be", other_far, from_some_size, 1,
-              Fit::camera, 1),
+              1e-3, 1),
     of_camera("picture-jitter", "all that is drawn is moved by %v pixels, to the right and up", jitter, from_nothing,
-              2),
-    of_camera("viewport-size", "the viewport has %v pixels", resize_viewport, by_its_size, 2, Fit::none),
+              2, 0.05),
+    of_camera("viewport-size", "the viewport has %v pixels", resize_viewport, by_its_size, 2, 0),
     of_camera("viewport-origin", "the viewport's lower left corner is at %v", move_viewport, by_its_origin, 2,
-              Fit::none),
+              0),
 };
 
 }  // namespace

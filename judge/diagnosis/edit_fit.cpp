@@ -15,7 +15,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kMostOfObject = 240, kMostOfCamera = 300;  ///< pixels
-constexpr double kScales[] = {0.1, 0.01, 1e-3, 1e-4, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
+constexpr double kScales[] = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Every n-th element, so that at most so many are left.
@@ -100,6 +100,7 @@ class ObjectFit {
     return out;
   }
   size_t pixels() const { return pixels_.size(); }
+  double extent() const { return extent_; }
 
  private:
   const PlaneEvidence& evidence_;
@@ -131,6 +132,7 @@ class CameraFit {
     return sketch_ ? sketched(scene, pipeline) : projected(scene, pipeline);
   }
   size_t pixels() const { return pixels_.size(); }
+  double extent() const { return extent_; }
 
  private:
   std::vector<double> projected(const Scene& scene, const Pipeline& p) const {
@@ -177,21 +179,26 @@ template <class Fitter>
 std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span<const FaultParameter> suspects,
                                               Fitter& fitter) {
   if (fitter.pixels() < 4) return {};
-  const FaultParameter* best = nullptr;
+  std::vector<std::pair<double, size_t>> starts;
+  for (size_t i = 0; i < suspects.size(); ++i)
+    starts.emplace_back(robust_error(fitter.residuals(fault, suspects[i]), kScales[1]), i);
+  std::stable_sort(starts.begin(), starts.end());
+  const double size = fault.change_of < 0 ? -fault.change_of * fitter.extent() : fault.change_of;
+  std::optional<FaultParameter> best;
   double least = HUGE_VAL;
-  for (const FaultParameter& s : suspects) {
-    const double error = robust_error(fitter.residuals(fault, s), kScales[1]);
-    if (error < least) least = error, best = &s;
+  for (size_t i = 0; i < std::min<size_t>(2, starts.size()); ++i) {
+    const FaultParameter& from = suspects[starts[i].second];
+    const auto at = [&](const Triple3& vector) { return FaultParameter(from.number, vector, from.part); };
+    const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
+    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales}, from.vector);
+    const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
+    if (!std::all_of(vector.begin(), vector.end(), is)) continue;
+    const double error = robust_error(residuals(vector), kScales[3]);
+    if (error < least) least = error, best = at(vector);
   }
-  if (best == nullptr) return {};
-  FaultParameter found = *best;
-  const auto at = [&](const Triple3& vector) { return FaultParameter(found.number, vector, found.part); };
-  const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
-  const LeastSquares problem{residuals, fault.numbers.vector, 1e-4 * std::max(1.0, fault.start), kScales};
-  const Triple3 vector = fitted(problem, found.vector);
-  const auto is = [&](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
-  if (!std::all_of(vector.begin(), vector.end(), is)) return {};
-  return {at(vector)};
+  if (best && getenv("FITDBG")) fprintf(stderr, "%s %g %g/%g: %.9g %.9g %.9g error %g size %g\n", std::string(fault.name).c_str(), double(fitter.pixels()), best->number, best->part, best->vector[0], best->vector[1], best->vector[2], least, size);
+  if (!best) return {};
+  return {*best};
 }
 
 }  // namespace

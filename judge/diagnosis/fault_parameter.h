@@ -21,6 +21,7 @@ struct ParameterForm {
   bool number = false, part = false;
   int vector = 0;  ///< numbers of the vector
   bool any() const { return number || vector > 0; }
+  int count() const { return (number ? 1 : 0) + (part ? 1 : 0) + vector; }
 };
 
 /// `N`, `N:X,Y,Z`, `N/P:X` or `X,Y`: as a name has them behind `=`, and as lists of faults show them.

@@ -33,7 +33,7 @@ NormalEquations equations_of(const LeastSquares& problem, const Triple3& at, con
 void descend(const LeastSquares& problem, double scale, Triple3& at) {
   std::vector<double> here = problem.residuals(at);
   double least = robust_error(here, scale), damping = 1e-3;
-  for (int i = 0; i < 14 && damping < 1e4; ++i) {
+  for (int i = 0; i < 20 && damping < 1e5; ++i) {
     const std::optional<Triple3> step = equations_of(problem, at, here, scale).solved(damping);
     if (!step) return;
     const Triple3 next = plus(at, *step);
@@ -43,7 +43,7 @@ void descend(const LeastSquares& problem, double scale, Triple3& at) {
       damping *= 16;
       continue;
     }
-    const bool done = least - error < 1e-4 * least;
+    const bool done = least - error < 1e-6 * least;
     at = next, least = error, here = std::move(there), damping = std::max(1e-9, damping / 16);
     if (done) return;
   }
@@ -52,7 +52,7 @@ void descend(const LeastSquares& problem, double scale, Triple3& at) {
 /// Steps along each number, ever smaller, for as long as they lead to less: what appears or vanishes has no slope.
 void look_about(const LeastSquares& problem, double scale, Triple3& at) {
   double least = robust_error(problem.residuals(at), scale);
-  for (double step = 256 * problem.size; step >= problem.size; step /= 4)
+  for (double step = 16 * problem.size; step >= problem.size; step /= 2)
     for (size_t k = 0; k < size_t(problem.numbers); ++k)
       for (const double sign : {-1.0, 1.0}) {
         Triple3 next = at;
@@ -81,7 +81,7 @@ Triple3 fitted(const LeastSquares& problem, Triple3 at) {
   for (const double unit : {1.0, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4, 1e-5}) {
     Triple3 rounded{};
     for (size_t k = 0; k < size_t(problem.numbers); ++k) rounded[k] = std::nearbyint(at[k] / unit) * unit + 0.0;
-    if (robust_error(problem.residuals(rounded), last) <= least * 1.001 + 1e-9) return rounded;
+    if (robust_error(problem.residuals(rounded), last) <= least * 1.01 + 1e-9) return rounded;
   }
   return at;
 }

@@ -219,10 +219,11 @@ Suspects that_have_another_material(const PlaneEvidence& e) {
 }
 
 using Fault = PlaneFault;
+constexpr double kOfExtent = -3e-4;
 
 constexpr PlaneFault of_object(std::string_view name, std::string_view text,
                                bool (*edit)(Scene&, Pipeline&, const P&), Suspects (*suspects)(const PlaneEvidence&),
-                               ParameterForm numbers, Fit fit = Fit::none, double start = 0) {
+                               ParameterForm numbers, Fit fit = Fit::none, double change_of = 0, double start = 0) {
   return {.name = name,
           .text = text,
           .search = Fault::Search::suspected,
@@ -230,15 +231,17 @@ constexpr PlaneFault of_object(std::string_view name, std::string_view text,
           .suspects = suspects,
           .numbers = numbers,
           .fit = fit,
-          .start = start};
+          .start = start,
+          .change_of = change_of};
 }
 
 constexpr PlaneFault kFaults[] = {
-    of_object("object-moved", "object %s is moved by %v", move_object, that_moved, {true, false, 3}, Fit::object),
+    of_object("object-moved", "object %s is moved by %v", move_object, that_moved, {true, false, 3}, Fit::object,
+              kOfExtent),
     of_object("object-turned", "object %s is turned about its own origin by %v, an axis as long as the angle in degrees",
-              turn_object, that_turned, {true, false, 3}, Fit::object),
+              turn_object, that_turned, {true, false, 3}, Fit::object, 0.05),
     of_object("object-scaled", "object %s is %v times as large along its own axes", scale_object,
-              that_have_another_size, {true, false, 3}, Fit::object, 1),
+              that_have_another_size, {true, false, 3}, Fit::object, 1e-3, 1),
     of_object("object-matrix-missing", "the matrix of object %s is not applied", drop_matrix, that_are_wrong,
               {true, false, 0}),
     of_object("object-wound", "the triangles of object %s are wound the other way", wind_other_way, that_are_wrong,
@@ -248,7 +251,7 @@ constexpr PlaneFault kFaults[] = {
     of_object("triangles-missing", "object %s lacks triangles: %v are the first and how many", drop_triangles,
               that_lack_triangles, {true, false, 2}),
     of_object("vertex-moved", "vertex %p of the mesh of object %s is moved by %v, in the object's space", move_vertex,
-              that_have_a_wrong_vertex, {true, true, 3}, Fit::object),
+              that_have_a_wrong_vertex, {true, true, 3}, Fit::object, kOfExtent),
     {.name = "indices-16-bits",
      .text = "indices of vertices are taken modulo 65,536",
      .redraw = wrap_indices},

@@ -62,6 +62,8 @@ void invert(Color& c, double, int, int) {
   each_of_rgb(c, [](double v) { return 1 - v; });
 }
 void set_alpha(Color& c, double alpha, int, int) { c[3] = alpha; }
+void encode_alpha(Color& c, double, int, int) { c[3] = encoded(c[3]); }
+void decode_alpha(Color& c, double, int, int) { c[3] = decoded(c[3]); }
 void nothing(Color&, double, int, int) {}
 
 void flip_y(Move& m, double) { m.flip_y = !m.flip_y; }
@@ -79,6 +81,9 @@ bool of_codes(const LightPass& p) { return !of_floats(p); }
 bool shows_dither(const LightPass& p) {
   return of_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
 }
+
+/// Whether alpha can be anything but 1.
+bool has_alpha(const LightPass& p) { return p.pipeline.light_model.alpha_from_albedo; }
 
 constexpr auto kNone = Search::none;
 constexpr auto kOneOf = Search::one_of;
@@ -107,8 +112,10 @@ constexpr PictureFault kFaults[] = {
      decode},
     {"picture-gamma", "the picture is raised to the power of %s", nullptr, power, nullptr, Search::smooth, kGammas,
      nullptr, 0.01},
-    {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply},
-    {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply},
+    {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply,
+     has_alpha},
+    {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply,
+     has_alpha},
     {"picture-exposure", "the picture is %s times as bright as it should be", nullptr, expose, nullptr, Search::smooth,
      kFactors},
     {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
@@ -118,6 +125,9 @@ constexpr PictureFault kFaults[] = {
     {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, kOneOf, kCodes,
      nullptr, 0.01},
     {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, kOneOf, kAlphas},
+    {"picture-alpha-srgb-encoded", "the picture's alpha is sRGB-encoded", nullptr, encode_alpha, has_alpha},
+    {"picture-alpha-srgb-decoded", "the picture's alpha is decoded as if it were sRGB", nullptr, decode_alpha,
+     has_alpha},
     {"picture-dithered",
      "the picture is dithered: each code is one of the two beside the value",
      nullptr,

@@ -46,6 +46,7 @@ struct PlaneFault {
     one_of,        ///< the best of `starts`
     depth_offset,  ///< the middle of what depths are off by
     object,        ///< an object that has pixels which are wrong
+    smooth,        ///< a factor, from the best of `starts`
     suspected      ///< what `suspects` names, and the numbers by least squares
   };
   std::string_view name, text;  ///< text: `%s` stands for the parameter
@@ -62,13 +63,18 @@ struct PlaneFault {
   bool (*edit)(Scene&, Pipeline&, const FaultParameter&) = nullptr;  ///< as redraw, by all numbers
   std::vector<FaultParameter> (*suspects)(const PlaneEvidence&) = nullptr;  ///< which, and from which numbers to start
   ParameterForm numbers{};
+  enum class Of : uint8_t { object, material } of = Of::object;  ///< what FaultParameter::number counts
   Fit fit = Fit::none;
-  double start = 0;  ///< of each number: what changes nothing
+  bool estimated = false;  ///< what `suspects` names are numbers of the pixels
+  double start = 0;     ///< of each number: what changes nothing
+  double change_of = 0;  ///< a small change of a number; below 0, that part of the scene's extent
 
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;
     return {search != Search::none, false, 0};
   }
+  /// Whether its numbers are estimates, and only as good as the pixels.
+  bool is_estimate() const { return fit != Fit::none || search == Search::smooth || estimated; }
   bool redraws() const { return redraw != nullptr || edit != nullptr; }
 };
 
@@ -76,5 +82,6 @@ std::span<const PlaneFault> plane_faults();   ///< plane_faults.cpp: encodings a
 std::span<const PlaneFault> redraw_faults();  ///< redraw_faults.cpp: states and scenes
 std::span<const PlaneFault> object_faults();  ///< object_faults.cpp: one object, its matrix and its triangles
 std::span<const PlaneFault> camera_faults();  ///< camera_faults.cpp
+std::span<const PlaneFault> material_faults();  ///< material_faults.cpp
 
 }  // namespace trueshade::oracle

@@ -60,7 +60,9 @@ class PlaneSearch {
     for (const double o : off) sum += cost_of(o);
     return sum / planes_.planes();
   }
-  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
+  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
+            const Steps* before = nullptr) const;
+  double smooth(const PlaneSupposition& base, const PlaneFault& fault) const;
   std::vector<FaultParameter> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
@@ -75,17 +77,24 @@ class PlaneSearch {
   double changed_ = 0, cost_few_ = 0, cost_ = 0;
 };
 
-PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const {
+/// Numbers that are fitted are as good as their pixels: what is left of a difference by less than its hundredth is.
+PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
+                                    const Steps* before) const {
+  constexpr double kOfDifference = 0.01;
+  const bool fits = std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                                [](const NamedPlaneFault& f) { return f.fault->is_estimate(); });
   Steps steps(pixels.size());
   parallel_for(int(pixels.size()), 0, [&](int i) {
     steps[size_t(i)] = planes_.steps_off(supposed, pixels[size_t(i)].x, pixels[size_t(i)].y);
+    for (size_t k = 0; fits && before != nullptr && k < kPlanes; ++k)
+      if (steps[size_t(i)][k] < kOfDifference * (*before)[size_t(i)][k]) steps[size_t(i)][k] = 0;
   });
   return steps;
 }
 
 Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   const std::vector<SampledPixel>& pixels = all ? planes_.sample() : planes_.few();
-  const Steps now = off(supposed, pixels), &before = all ? off_ : off_few_;
+  const Steps &before = all ? off_ : off_few_, now = off(supposed, pixels, &before);
   Candidate c;
   for (size_t i = 0; i < pixels.size(); ++i) {
     c.found.cost += pixels[i].weight * cost(now[i]);
@@ -94,7 +103,7 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
   for (const NamedPlaneFault& f : supposed.faults)
-    c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+    c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
   c.supposed = std::move(supposed);
   return c;
 }
@@ -105,10 +114,44 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   return changed_ >= kLeastChanged;
 }
 
+/// The best factor: that of the starts, and then golden sections about it.
+double PlaneSearch::smooth(const PlaneSupposition& base, const PlaneFault& fault) const {
+  constexpr double kRatio = 0.6180339887498949;
+  const auto cost_at = [&](double parameter) {  // what is far off counts more than what is less far off
+    const std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
+    double sum = 0;
+    const Steps now = s ? off(*s, planes_.few()) : Steps{};
+    for (size_t i = 0; i < now.size(); ++i)
+      sum += planes_.few()[i].weight * std::log2(1 + std::min(1e9, now[i][size_t(fault.plane)]));
+    return s ? sum : HUGE_VAL;
+  };
+  double best = 0, least = HUGE_VAL;
+  const auto better = [&](double parameter) {
+    const double c = cost_at(parameter);
+    if (c < least) least = c, best = parameter;
+    return c;
+  };
+  for (const double start : fault.starts) better(start);
+  double low = best / 2, high = best * 2, a = high - kRatio * (high - low), b = low + kRatio * (high - low);
+  double cost_a = better(a), cost_b = better(b);
+  for (int i = 0; i < 34; ++i) {
+    const bool left = cost_a <= cost_b;
+    (left ? high : low) = left ? b : a, (left ? b : a) = left ? a : b, (left ? cost_b : cost_a) = left ? cost_a : cost_b;
+    (left ? a : b) = left ? high - kRatio * (high - low) : low + kRatio * (high - low);
+    (left ? cost_a : cost_b) = better(left ? a : b);
+  }
+  for (const double unit : {0.1, 0.05, 0.01, 1e-3, 1e-4}) {
+    const double rounded = std::nearbyint(best / unit) * unit;
+    if (rounded > 0 && rounded != 1 && cost_at(rounded) <= least * 1.001) return rounded;
+  }
+  return best;
+}
+
 /// The parameters that are tried for a fault: its table's, or one that is estimated from the pixels.
 std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
   if (fault.search == Search::none) return {0};
   if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
+  if (fault.search == Search::smooth) return {smooth(base, fault)};
   if (fault.search == Search::suspected) return suspected_parameters(evidence_, fault);
   std::vector<double> differences;
   std::map<uint32_t, double> votes;
@@ -148,6 +191,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
         Candidate c = judged(std::move(*s), false);
         if (!best || c.cost < best->cost) best = std::move(c);
       }
+      if (best && getenv("FITDBG")) fprintf(stderr, "  %s cost %g\n", name_of(fault, best->supposed.faults.back().parameter).c_str(), best->cost);
       if (best) candidates.push_back(std::move(*best));
     }
   };
@@ -158,7 +202,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
     tries(redraw_faults());
     // What is estimated is estimated of captures with no other fault.
     if (base.faults.empty() && std::none_of(candidates.begin(), candidates.end(), explained))
-      tries(object_faults()), tries(camera_faults());
+      tries(object_faults()), tries(camera_faults()), tries(material_faults());
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
@@ -202,7 +246,7 @@ PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) 
 
 /// Of the pixels of one plane, or of all.
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
-  const Steps now = off(supposed, planes_.sample());
+  const Steps now = off(supposed, planes_.sample(), &off_);
   Share out;
   double same = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
@@ -222,13 +266,14 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
 Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const {
   Proof proof;
   double farthest = 0;
+  const Steps now = off(supposed, planes_.sample(), &off_);
   for (size_t i = 0; i < off_.size(); ++i) {
     const auto [x, y, weight] = planes_.sample()[i];
     const size_t worst = plane != Plane::all
                              ? size_t(plane)
                              : size_t(std::max_element(off_[i].begin(), off_[i].end()) - off_[i].begin());
     if (off_[i][worst] < kSameSteps || off_[i][worst] <= farthest) continue;
-    if (!agrees(planes_.steps_off(supposed, x, y), plane)) continue;
+    if (!agrees(now[i], plane)) continue;
     if (too_few != nullptr && agrees(planes_.steps_off(*too_few, x, y), plane)) continue;
     double most = 0;
     for (int k = 0; k < planes_.view(Plane(worst)).channels; ++k) {

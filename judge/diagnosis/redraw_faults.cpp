@@ -175,6 +175,31 @@ bool no_transforms(Scene& s, Pipeline&, double) {
   return true;
 }
 
+/// M n for M^-T n: the object's normals become M^T M n, which its own matrix takes there. Each object has a mesh then.
+bool normals_by_matrix(Scene& s, Pipeline&, double) {
+  bool any = false;
+  for (Instance& instance : s.instances) {
+    const glm::mat4x3& m = instance.world_from_object;
+    if (s.meshes[instance.mesh].normal[0].empty()) continue;
+    const auto inner = [](const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const float size = inner(m[0], m[0]);
+    const auto near = [size](float a, float b) { return std::fabs(a - b) <= 1e-5f * size; };
+    if (near(inner(m[1], m[1]), size) && near(inner(m[2], m[2]), size) && near(inner(m[0], m[1]), 0) &&
+        near(inner(m[0], m[2]), 0) && near(inner(m[1], m[2]), 0))
+      continue;  // a rotation, and one scale
+    any = true;
+    Mesh mesh = s.meshes[instance.mesh];
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const glm::vec3 n(mesh.normal[0][i], mesh.normal[1][i], mesh.normal[2][i]);
+      const glm::vec3 world = m[0] * n.x + m[1] * n.y + m[2] * n.z;
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = inner(m[int(k)], world);
+    }
+    instance.mesh = uint32_t(s.meshes.size());
+    s.meshes.push_back(std::move(mesh));
+  }
+  return any;
+}
+
 std::string face_name(double face) {
   constexpr const char* kNames[] = {"none", "front", "back"};
   return kNames[std::clamp(int(face), 0, 2)];
@@ -199,7 +224,7 @@ std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::cl
 constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
                  kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
-                 kBiases[] = {-1, -0.5, 0.5, 1}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
+                 kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
                  kNoPerspective[] = {2};
 
 using Fault2 = PlaneFault;
@@ -244,6 +269,8 @@ constexpr PlaneFault kFaults2[] = {
     {"texture-missing", "the colour maps are not read", Plane::all, nullptr, no_textures},
     {"base-color-missing", "the materials' base colours are not applied", Plane::all, nullptr, no_base_color},
     {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
+    {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
+     Plane::normal, nullptr, normals_by_matrix},
     {"transforms-missing", "the objects' matrices are not applied", Plane::all, nullptr, no_transforms},
 };
 

@@ -81,6 +81,7 @@ Range range_sought(const PictureFault& fault, const Scene& scene) {
   return {1, 0};
 }
 Range range_sought(const PlaneFault& fault, const Scene& scene) {
+  if (fault.search == PlaneFault::Search::smooth) return kFactors;
   if (fault.search == PlaneFault::Search::object) return numbers_of(scene.instances.size());
   return fault.search == PlaneFault::Search::depth_offset ? kDepths : Range{1, 0};
 }
@@ -133,7 +134,8 @@ bool can_be(const PictureFault& fault, const Scene& scene, const FaultParameter&
 /// Whether there is such an object with such a part, and the fault changes it.
 bool can_be(const PlaneFault& fault, const Scene& scene, const FaultParameter& p) {
   const ParameterForm form = fault.form();
-  if (form.number && !names_one(p.number, scene.instances.size())) return false;
+  const size_t count = fault.of == PlaneFault::Of::material ? scene.materials.size() : scene.instances.size();
+  if (form.number && !names_one(p.number, count)) return false;
   if (form.part && !(p.part >= 0 && p.part == std::floor(p.part))) return false;
   return true;
 }
@@ -179,7 +181,7 @@ SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& 
     const std::string after = given ? name.substr(equals + 1) : "";
     const std::string* text = given ? &after : nullptr;
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
-    const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults()});
+    const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
     if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name))
       throw no_fault(name);
   }

@@ -54,7 +54,7 @@ int main(int count, char** arguments) {
     int tries = 0;
     if (std::string(plant.name).find(part) == std::string::npos) continue;
     for (const std::string_view preset : plant.presets)
-      for (const Ground& ground : grounds(preset, views))
+      for (const Ground& ground : grounds(plant, preset, views))
         for (int variant = 0; variant < plant.variants; ++variant) {
           if (plant.loops_only && blends_lights(ground.strategy)) continue;
           if (tries++ % step != 0) continue;
