@@ -16,6 +16,7 @@ namespace {
 
 constexpr size_t kMostOfObject = 240, kMostOfCamera = 300;  ///< pixels
 constexpr double kScales[] = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
+constexpr double kNamed = 0.3;  ///< the share of wrong pixels that an object has which is to blame
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Every n-th element, so that at most so many are left.
@@ -205,8 +206,10 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
 
 std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence) {
   std::map<double, double> votes;
+  double wrong = 0;
   for (const EvidentPixel& p : evidence.pixels) {
     if (!p.wrong) continue;
+    wrong += p.at.weight;
     if (p.expected.covered) votes[p.expected.object] += p.at.weight;
     if (p.given.object > 0 && p.given.object != p.expected.object) votes[p.given.object] += p.at.weight;
   }
@@ -215,11 +218,16 @@ std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence) {
   std::sort(ranked.begin(), ranked.end());
   std::vector<uint32_t> objects;
   for (const auto& [weight, object] : ranked)
-    if (objects.size() < 2 && object <= double(evidence.scene.instances.size())) objects.push_back(uint32_t(object) - 1);
+    if (objects.size() < 2 && -weight >= kNamed * wrong && object <= double(evidence.scene.instances.size())) objects.push_back(uint32_t(object) - 1);
   return objects;
 }
 
 std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, const PlaneFault& fault) {
+  // What is wrong of a camera is wrong nearly everywhere.
+  double wrong = 0, covered = 0;
+  for (const EvidentPixel& p : evidence.pixels)
+    wrong += p.wrong ? p.at.weight : 0, covered += p.expected.covered || p.given.covered ? p.at.weight : 0;
+  if (fault.fit == Fit::camera && wrong < kNamed * covered) return {};
   const std::vector<FaultParameter> suspects = fault.suspects(evidence);
   if (suspects.empty() || fault.fit == Fit::none) return suspects;
   if (fault.fit == Fit::camera) {

@@ -132,6 +132,69 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
   return std::max(0.0, off / unit - room - reach) + (off / unit > room + reach ? kSameSteps : 0);
 }
 
+namespace {
+
+/// All numbers of two pixels, or of three.
+template <class Mix>
+void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, const Mix& mix) {
+  out.depth = mix(a.depth, b.depth);
+  for (size_t k = 0; k < 3; ++k) {
+    out.position[k] = mix(a.position[k], b.position[k]), out.normal[k] = mix(a.normal[k], b.normal[k]);
+  }
+  for (size_t k = 0; k < 4; ++k) out.albedo[k] = mix(a.albedo[k], b.albedo[k]);
+  for (size_t k = 0; k < 2; ++k) out.uv[k] = mix(a.uv[k], b.uv[k]);
+}
+
+/// So much of one surface, the rest of another; each may be as far off as it changes from a pixel to the next.
+ExpectedPixel averaged(const ExpectedPixel& a, const ExpectedPixel& b, const ExpectedPixel& beyond, double share) {
+  ExpectedPixel out = a;
+  const auto mixed = [share](double u, double v) { return share * u + (1 - share) * v; };
+  PlaneValues slope;
+  mix_numbers(slope, b.value, beyond.value, [](double u, double v) { return std::fabs(u - v); });
+  if (b.value.object != beyond.value.object) slope = PlaneValues{}, slope.depth = 0;
+  mix_numbers(out.value, a.value, b.value, mixed), mix_numbers(out.low, a.low, b.low, mixed);
+  mix_numbers(out.high, a.high, b.high, mixed);
+  mix_numbers(out.low, out.low, slope, [](double u, double v) { return u - v; });
+  mix_numbers(out.high, out.high, slope, [](double u, double v) { return u + v; });
+  return out;
+}
+
+}  // namespace
+
+/// Of the averages of 8 samples of the pixel's surface and a neighbour's, the one that comes nearest.
+std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes, int x, int y) const {
+  const ExpectedPixel here = planes.at(x, y);
+  const auto at = [&](int u, int v) {
+    return planes.at(std::clamp(u, 0, pipeline_.width - 1), std::clamp(v, 0, pipeline_.height - 1));
+  };
+  std::optional<ExpectedPixel> best;
+  double least = HUGE_VAL;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (dx == 0 && dy == 0) continue;
+      const ExpectedPixel there = at(x + dx, y + dy), beyond = at(x + 2 * dx, y + 2 * dy);
+      if (there.value.object == here.value.object && there.triangle == here.triangle) continue;
+      for (int samples = 0; samples < 8; ++samples) {
+        ExpectedPixel p = averaged(here, there, beyond, samples / 8.0);
+        const PlaneValues seen = given(x, y);
+        if (seen.object == there.value.object) p.value.object = p.low.object = p.high.object = seen.object;
+        if (seen.material == there.value.material) p.value.material = p.low.material = p.high.material = seen.material;
+        double cost = 0;
+        for (const double o : steps_off(p, x, y)) cost += cost_of(o);
+        if (cost < least) least = cost, best = p;
+      }
+    }
+  return best;
+}
+
+std::array<double, kPlanes> PlaneCase::steps_off(const ExpectedPixel& p, int x, int y) const {
+  std::array<double, kPlanes> off{};
+  for (size_t i = 0; i < kPlanes; ++i)
+    for (int k = 0; views_[i] && k < views_[i].channels; ++k)
+      off[i] = std::max(off[i], channel_off(Plane(i), p, 0, x, y, k));
+  return off;
+}
+
 std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& supposed, int x, int y) const {
   std::array<double, kPlanes> off{};
   bool moved = false;
@@ -152,7 +215,11 @@ std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& suppose
     if (moved && off[i] >= kSameSteps && Plane(i) == Plane::albedo && views_[i].unorm())
       off[i] = std::min(off[i], off_by(changed(supposed, Plane(i), x, y, true)));
   }
-  return off;
+  const bool averages = std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                                    [](const NamedPlaneFault& f) { return f.fault->averages; });
+  if (!averages || std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; })) return off;
+  const std::optional<ExpectedPixel> average = average_at(*supposed.drawn, x, y);
+  return average ? steps_off(*average, x, y) : off;
 }
 
 /// As numbers, of the planes that were captured.
@@ -190,6 +257,12 @@ PlaneEvidence PlaneCase::evidence() const {
 }
 
 double PlaneCase::predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const {
+  if (std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                  [](const NamedPlaneFault& f) { return f.fault->averages; }))
+    if (const std::optional<ExpectedPixel> average = average_at(*supposed.drawn, x, y)) {
+      const double v = stored(plane, number_of(average->value, plane, channel), channel);
+      return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
+    }
   const double v = stored(plane, number_of(changed(supposed, plane, x, y, false).value, plane, channel), channel);
   return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
 }

@@ -45,6 +45,8 @@ class PlaneCase {
   /// `after`: the fault comes after the plane's format has rounded its numbers.
   ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
   PlaneValues given(int x, int y) const;
+  std::array<double, kPlanes> steps_off(const ExpectedPixel& p, int x, int y) const;
+  std::optional<ExpectedPixel> average_at(const ExpectedPlanes& planes, int x, int y) const;
   double channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const;
   double stored(Plane plane, double value, int channel) const;
 

@@ -65,6 +65,7 @@ struct PlaneFault {
   ParameterForm numbers{};
   enum class Of : uint8_t { object, material } of = Of::object;  ///< what FaultParameter::number counts
   Fit fit = Fit::none;
+  bool averages = false;   ///< pixels that are off may be averages of two surfaces beside one another
   bool estimated = false;  ///< what `suspects` names are numbers of the pixels
   double start = 0;     ///< of each number: what changes nothing
   double change_of = 0;  ///< a small change of a number; below 0, that part of the scene's extent

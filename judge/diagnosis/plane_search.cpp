@@ -14,6 +14,7 @@ namespace {
 using Search = PlaneFault::Search;
 
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
+constexpr double kSure = 0.012;      ///< of what a G-buffer costs where nothing is wrong
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
 constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
@@ -184,6 +185,10 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
+      // What is estimated costs most, and rivals of what explains all say nothing.
+      if (fault.search == Search::suspected &&
+          std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.cost < kSure; }))
+        continue;
       std::optional<Candidate> best;
       for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
@@ -228,8 +233,13 @@ std::vector<Candidate> PlaneSearch::look() const {
   const auto explains = [&](const Candidate& c) {
     return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
   };
-  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front()))
+  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front())) {
+    // What explains more by itself comes first.
+    std::vector<NamedPlaneFault>& faults = pairs.front().supposed.faults;
+    const auto alone = [&](const NamedPlaneFault& f) { return share(supposed({&f, 1}), Plane::all).explained; };
+    if (faults.size() == 2 && alone(faults[1]) > alone(faults[0])) std::swap(faults[0], faults[1]);
     return {std::move(pairs.front())};
+  }
   const double most = singles.front().cost + kRival;
   singles.erase(
       std::remove_if(singles.begin(), singles.end(), [&](const Candidate& c) { return !explains(c) || c.cost > most; }),
@@ -339,6 +349,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
     for (size_t i = 0; i < c.supposed.faults.size(); ++i) named.push_back(search.finding(c.supposed.faults, i));
     const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
     if (only.empty() && std::any_of(named.begin(), named.end(), unproved)) continue;
+    if (out.findings.empty()) out.drawn = c.supposed.scene;
     for (Finding& f : named) out.findings.push_back(std::move(f));
   }
   return out;

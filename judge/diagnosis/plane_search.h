@@ -20,6 +20,7 @@ struct PlaneFindings {
   std::vector<Finding> findings;
   std::array<bool, kPlanes> wrong{};               ///< by Plane
   std::shared_ptr<const ExpectedPlanes> expected;  ///< of a right renderer; null where no plane is wrong
+  std::shared_ptr<const Scene> drawn;  ///< what the likeliest fault draws, where it draws another scene; or null
 };
 
 ///   only: faults that are supposed, all together; empty: look for the likeliest

@@ -271,6 +271,10 @@ constexpr PlaneFault kFaults2[] = {
     {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
     {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
      Plane::normal, nullptr, normals_by_matrix},
+    {.name = "edges-averaged",
+     .text = "edges hold averages of the surfaces at them, as a resolve of samples makes them",
+     .doubt = 0.05,
+     .averages = true},
     {"transforms-missing", "the objects' matrices are not applied", Plane::all, nullptr, no_transforms},
 };
 

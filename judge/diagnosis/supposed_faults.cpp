@@ -140,6 +140,10 @@ bool can_be(const PlaneFault& fault, const Scene& scene, const FaultParameter& p
   return true;
 }
 
+bool can_be(const GlassFault&, const Scene& scene, const FaultParameter& p) {
+  return names_one(p.number, scene.instances.size());
+}
+
 /// `3:0.5,0,-1`: a light or an object that the fault can be of, and the fault's own numbers.
 template <class Fault>
 FaultParameter several_numbers(const Fault& fault, const Scene& scene, const std::string* text,
@@ -163,10 +167,12 @@ bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene
   if (fault == nullptr) return false;
   const bool none = !fault->form().any();
   if (none && text != nullptr) throw refused(name, "has a parameter", std::string(fault->name) + " takes none");
-  if (!none && has_several(*fault))
-    to.push_back({fault, several_numbers(*fault, scene, text, name)});
-  else
-    to.push_back({fault, none ? 0 : parameter_of(*fault, scene, text, name)});
+  if constexpr (!std::is_same_v<Fault, GlassFault>)
+    if (!none && !has_several(*fault)) {
+      to.push_back({fault, parameter_of(*fault, scene, text, name)});
+      return true;
+    }
+  to.push_back({fault, none ? FaultParameter() : several_numbers(*fault, scene, text, name)});
   return true;
 }
 
@@ -182,7 +188,9 @@ SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& 
     const std::string* text = given ? &after : nullptr;
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
     const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
-    if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name))
+    const auto* glass = fault_named<GlassFault>(bare, {glass_faults()});
+    if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name) &&
+        !add_supposed(out.glass, glass, scene, text, name))
       throw no_fault(name);
   }
   return out;

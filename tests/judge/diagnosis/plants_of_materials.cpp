@@ -11,7 +11,7 @@ namespace {
 using Input = std::function<bool(Scene&, Pipeline&, int)>;
 using Names = std::vector<std::string_view>;
 
-constexpr std::string_view kTextured = "lecture", kGlazed = "atrium,glass=1,lights=40";
+constexpr std::string_view kTextured = "lecture";
 
 float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin()[size_t(variant) % sizes.size()]; }
 
@@ -72,7 +72,7 @@ void add_maps(std::vector<Plant>& all) {
       .scenes = {kTextured};
   in("albedo", "mip levels with a bias", {"texture-lod-bias", "texture-filter"},
      [](Scene& s, Pipeline&, int v) {
-       for (Material& m : s.materials) m.color_map.sampler.lod_bias += pick({1.0f, -0.5f, -2.0f}, v);
+       for (Material& m : s.materials) m.color_map.sampler.lod_bias += pick({2.0f, -1.0f, -2.0f}, v);
        return true;
      },
      3)
@@ -132,12 +132,73 @@ void add_maps(std::vector<Plant>& all) {
       .base = masked;
 }
 
+/// Some objects are of glass, half of it before others.
+void glazed(Scene& s, Pipeline&) {
+  const size_t count = s.instances.size();
+  for (size_t i = 1; i < count; ++i) {
+    if (i % 3 == 0 && count > 8) continue;
+    s.materials.push_back(s.materials[s.instances[i].material]);
+    s.materials.back().transparent = true, s.materials.back().base_color.a = 0.3f + 0.1f * float(i % 4);
+    s.instances[i].material = uint32_t(s.materials.size() - 1);
+  }
+}
+std::vector<size_t> glass_of(const Scene& s) {
+  std::vector<size_t> all;
+  for (size_t i = 0; i < s.instances.size(); ++i)
+    if (s.materials[s.instances[i].material].transparent) all.push_back(i);
+  return all;
+}
+
+void add_glass(std::vector<Plant>& all) {
+  const auto in = [&](std::string_view name, Names names, Input input, int variants = 1) {
+    all.push_back({name, std::move(names), "picture", {"many-lights", "touchdesigner"}, variants, std::move(input)});
+    all.back().base = glazed;
+  };
+  in("glass missing", {"glass-missing"}, [](Scene& s, Pipeline&, int) {
+    const auto nothing = uint32_t(s.meshes.size());
+    s.meshes.emplace_back();
+    for (const size_t i : glass_of(s)) s.instances[i].mesh = nothing;
+    return true;
+  });
+  in("a glass object missing", {"glass-object-missing"},
+     [](Scene& s, Pipeline&, int v) {
+       const std::vector<size_t> glass = glass_of(s);
+       const auto nothing = uint32_t(s.meshes.size());
+       s.meshes.emplace_back();
+       s.instances[glass[size_t(v) * 5 % glass.size()]].mesh = nothing;
+       return true;
+     },
+     3);
+  in("glass in the opposite order", {"glass-reversed", "glass-near-first", "glass-far-first"}, [](Scene& s, Pipeline&, int) {
+    const std::vector<size_t> glass = glass_of(s);
+    for (size_t a = 0, b = glass.size() - 1; a < b; ++a, --b) std::swap(s.instances[glass[a]], s.instances[glass[b]]);
+    return true;
+  });
+  in("glass not multiplied by its alpha", {"glass-unmultiplied"}, [](Scene&, Pipeline& p, int) {
+    p.transparency.blend.rgb.src = BlendFactor::one;
+    return true;
+  });
+  in("glass added", {"glass-added"}, [](Scene&, Pipeline& p, int) {
+    p.transparency.blend.rgb.dst = BlendFactor::one;
+    return true;
+  });
+  in("glass not blended", {"glass-opaque"}, [](Scene&, Pipeline& p, int) {
+    p.transparency.blend.enabled = false;
+    return true;
+  });
+  in("glass with alpha encoded as sRGB", {"glass-alpha-srgb-encoded"}, [](Scene& s, Pipeline&, int) {
+    for (Material& m : s.materials)
+      if (m.transparent) m.base_color.a = 1.055f * std::pow(m.base_color.a, 1 / 2.4f) - 0.055f;
+    return true;
+  });
+}
+
 }  // namespace
 
 const std::vector<Plant>& plants_of_materials() {
   static const std::vector<Plant> all = [] {
     std::vector<Plant> made;
-    add_maps(made);
+    add_maps(made), add_glass(made);
     return made;
   }();
   return all;

@@ -1,8 +1,11 @@
 // Faults of what is drawn: one object, its matrix, its triangles; the camera and the window.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "tests/judge/captured.h"
 #include "tests/judge/diagnosis/plants.h"
+#include "tests/judge/diagnosis/wrong_lights.h"
 
 namespace trueshade::testing {
 
@@ -213,6 +216,33 @@ void add_cameras(const std::function<Plant&(std::string_view, Names, Input, int)
      3);
 }
 
+/// Planes of four samples a pixel, drawn as two by two pixels each and averaged.
+void resolve_samples(const Scene& s, const Pipeline& p, oracle::Capture& c, int) {
+  Pipeline fine = p;
+  fine.width *= 2, fine.height *= 2;
+  const oracle::Capture samples = captured(s, fine);
+  for (NamedImage& plane : c.planes) {
+    const Image* from = samples.plane(plane.name);
+    if (from == nullptr || info(plane.image.format).number_class == NumberClass::integer) continue;
+    for (int y = 0; y < p.height; ++y)
+      for (int x = 0; x < p.width; ++x) {
+        const uint32_t first = samples.plane("id.object")->code(2 * x, 2 * y, 0);
+        bool edge = false;
+        for (int i = 1; i < 4; ++i) edge = edge || samples.plane("id.object")->code(2 * x + i % 2, 2 * y + i / 2, 0) != first;
+        for (int k = 0; edge && k < info(plane.image.format).channels; ++k) {
+          double sum = 0;
+          for (int i = 0; i < 4; ++i) sum += from->value(2 * x + i % 2, 2 * y + i / 2, k);
+          const auto mean = float(sum / 4);
+          if (plane.image.format == Format::rgba8)
+            plane.image.set_code(x, y, k, uint32_t(std::lround(mean * 255)));
+          else
+            std::memcpy(plane.image.texel(x, y) + 4 * k, &mean, 4);
+        }
+      }
+  }
+  c.color = slipped_picture(s, p, c, LightSlip::none);
+}
+
 std::vector<Plant> made() {
   std::vector<Plant> all;
   const auto in = [&](std::string_view name, Names names, Input input, int variants) -> Plant& {
@@ -220,6 +250,9 @@ std::vector<Plant> made() {
     return all.back();
   };
   add_objects(in), add_cameras(in);
+  all.push_back({"edges as means of samples", {"edges-averaged"}, "G-buffer", {"many-lights", "touchdesigner"}, 1,
+                 nullptr, resolve_samples});
+  all.back().lights_again = true;
   return all;
 }
 
