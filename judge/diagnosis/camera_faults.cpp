@@ -56,8 +56,9 @@ bool move_target(Scene& s, Pipeline&, const P& by) {
 bool turn_camera(Scene& s, Pipeline& p, const P& by) {
   if (by.vector == Triple3{}) return false;
   const std::array<Triple3, 3> axes = view_axes(s.camera, p);
-  const Triple3 eye = triple(s.camera.eye), degrees = plus(plus(times(axes[0], by.vector[0]), times(axes[1], by.vector[1])),
-                                                           times(axes[2], by.vector[2]));
+  const Triple3 eye = triple(s.camera.eye),
+                degrees = plus(plus(times(axes[0], by.vector[0]), times(axes[1], by.vector[1])),
+                               times(axes[2], by.vector[2]));
   const double angle = -std::sqrt(inner(degrees, degrees)) * std::acos(-1.0) / 180;  // the scene turns the other way
   const Triple3 axis = unit(degrees);
   const auto turned = [&](const Triple3& v) {
@@ -129,11 +130,13 @@ bool jitter(Scene& s, Pipeline& p, const P& by) {
   set_matrix(s, m);
   return true;
 }
-bool resize_viewport(Scene&, Pipeline& p, const P& to) {
+/// The projection stays, though its aspect would follow the viewport.
+bool resize_viewport(Scene& s, Pipeline& p, const P& to) {
   const Viewport now = resolved_viewport(p.geometry, p.width, p.height);
   const int width = int(to.vector[0]), height = int(to.vector[1]);
   if (width < 1 || height < 1 || width > 65536 || height > 65536 || (width == now.width && height == now.height))
     return false;
+  set_matrix(s, matrix_of(s, p));
   p.geometry.viewport = {now.x, now.y, width, height};
   return true;
 }
@@ -183,7 +186,7 @@ Window window_of(const PlaneEvidence& e) {
     const double spread = n * sum_xx - sum_x * sum_x;
     if (!(spread > 0)) return {};
     const double slope = (n * sum_xp - sum_x * sum_p) / spread, middle = (sum_p - slope * sum_x) / n;
-    w.size[axis] = std::nearbyint(2 * slope), w.origin[axis] = std::nearbyint(middle - slope);
+    w.size[axis] = std::nearbyint(2 * slope), w.origin[axis] = std::nearbyint(middle - slope) + 0.0;
   }
   w.known = true;
   return w;
@@ -200,9 +203,9 @@ Suspects by_its_origin(const PlaneEvidence& e) {
 using Fault = PlaneFault;
 constexpr double kOfExtent = -1e-4;
 
-constexpr PlaneFault of_camera(std::string_view name, std::string_view text,
-                               bool (*edit)(Scene&, Pipeline&, const P&), Suspects (*suspects)(const PlaneEvidence&),
-                               int numbers, double change_of, double start = 0) {
+constexpr PlaneFault of_camera(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
+                               Suspects (*suspects)(const PlaneEvidence&), int numbers, double change_of,
+                               double start = 0) {
   return {.name = name,
           .text = text,
           .search = Fault::Search::suspected,
@@ -216,8 +219,7 @@ constexpr PlaneFault of_camera(std::string_view name, std::string_view text,
 
 constexpr PlaneFault kFaults[] = {
     of_camera("camera-moved", "the camera is moved by %v", move_camera, from_nothing, 3, kOfExtent),
-    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3,
-              kOfExtent),
+    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3, kOfExtent),
     of_camera("camera-target", "the camera's target is moved by %v", move_target, from_nothing, 3, kOfExtent),
     of_camera("camera-turned", "the camera is turned by %v degrees about its axes right, up and back", turn_camera,
               from_nothing, 3, 0.05),
@@ -225,15 +227,13 @@ constexpr PlaneFault kFaults[] = {
               1e-3, 1),
     of_camera("camera-aspect", "the picture is %v times as wide in its angle as it should be", other_aspect, from_one,
               1, 1e-3, 1),
-    of_camera("camera-near", "the near plane is %v times as far as it should be", other_near, from_some_size, 1,
-              1e-3, 1),
-    of_camera("camera-far", "the far plane is %v times as far as it should be", other_far, from_some_size, 1,
-              1e-3, 1),
-    of_camera("picture-jitter", "all that is drawn is moved by %v pixels, to the right and up", jitter, from_nothing,
-              2, 0.05),
+    of_camera("camera-near", "the near plane is %v times as far as it should be", other_near, from_some_size, 1, 1e-3,
+              1),
+    of_camera("camera-far", "the far plane is %v times as far as it should be", other_far, from_some_size, 1, 1e-3, 1),
+    of_camera("picture-jitter", "all that is drawn is moved by %v pixels, to the right and up", jitter, from_nothing, 2,
+              0.05),
     of_camera("viewport-size", "the viewport has %v pixels", resize_viewport, by_its_size, 2, 0),
-    of_camera("viewport-origin", "the viewport's lower left corner is at %v", move_viewport, by_its_origin, 2,
-              0),
+    of_camera("viewport-origin", "the viewport's lower left corner is at %v", move_viewport, by_its_origin, 2, 0),
 };
 
 }  // namespace

@@ -53,8 +53,7 @@ class LightFit {
   void look_about(size_t light, double scale, Triple3& at) const;
   /// What a light adds, where it is drawn at all.
   Triple3 term_of(const PredictedTerms& terms, const PlainSurface& surface, const Light& light) const {
-    const bool bounded =
-        drawn_extent(light, supposed_.pass.pipeline.light_volumes) != LightExtent::unbounded;
+    const bool bounded = drawn_extent(light, supposed_.pass.pipeline.light_volumes) != LightExtent::unbounded;
     return bounded && !terms.in_range(surface, light) ? Triple3{} : terms.term(surface, light);
   }
   /// Whether the changed light adds anything to any pixel.
@@ -77,9 +76,9 @@ class LightFit {
   const std::vector<SampledPixel>& pixels_;
   const std::vector<double>& off_;
   bool codes_ = false, last_ = false;
-  double room_ = 0;            ///< steps that a store may be off
+  double room_ = 0;           ///< steps that a store may be off
   double farthest_ = kScale;  ///< steps that any pixel is off
-  std::vector<Seen> seen_;  ///< those that are not as they should be first
+  std::vector<Seen> seen_;    ///< those that are not as they should be first
 };
 
 void LightFit::see_pixels() {
@@ -119,8 +118,8 @@ double LightFit::size_of(size_t light) const {
   return 1e-3 * std::max(1e-3, std::sqrt(std::min(nearest, 1e12)));
 }
 
-/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts for
-/// little, and every pixel for as much as the others.
+/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts
+/// for little, and every pixel for as much as the others.
 double LightFit::off(const Seen& seen, const Color& value, int channel) const {
   constexpr double kShare = 0.05;
   const auto k = size_t(channel);
@@ -143,7 +142,8 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
   for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
     const Seen& s = seen_[at_pixel];
     const PredictedTerms terms(supposed_.pass, s.surface);
-    const Triple3 right = term_of(terms, s.surface, supposed_.pass.lights[light]), now = term_of(terms, s.surface, here);
+    const Triple3 right = term_of(terms, s.surface, supposed_.pass.lights[light]),
+                  now = term_of(terms, s.surface, here);
     std::array<Color, 3> along{};
     bool any = right != Triple3{} || now != Triple3{};
     for (size_t i = 0; i < 3; ++i) {
@@ -262,8 +262,8 @@ std::vector<FaultParameter> LightFit::best() const {
     if (!all([](double v) { return std::isfinite(v); })) continue;
     // Of a colour these are faults of their own: a light that is missing, or drawn twice.
     const bool colors = fault_.start == 1 && fault_.from.empty();
-    if (colors && (all([](double v) { return std::fabs(v) < 0.02; }) ||
-                   all([](double v) { return std::fabs(v - 2) < 0.02; })))
+    if (colors &&
+        (all([](double v) { return std::fabs(v) < 0.02; }) || all([](double v) { return std::fabs(v - 2) < 0.02; })))
       continue;
     if (fault_.start == 1 && !all([](double v) { return v >= 0; })) continue;
     if (!shines(size_t(found.number), found.vector)) continue;  // it might as well be missing

@@ -56,8 +56,8 @@ struct Shown {
   const StageVerdict& stage;
 };
 
-/// The picture beside what should be made of its own G-buffer: by the camera of what was drawn, or by planes before they
-/// were written wrongly, if it is nearer to that.
+/// The picture beside what should be made of its own G-buffer: by the camera of what was drawn, or by planes before
+/// they were written wrongly, if it is nearer to that.
 std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& planes) {
   auto picture = std::make_unique<PictureCase>(s.scene, s.pipeline, s.profile, s.capture, s.stage);
   const auto try_other = [&](std::unique_ptr<PictureCase> other) {
@@ -137,8 +137,8 @@ std::vector<KnownFault> known_faults() {
       faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
   for (const auto table : {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()})
     for (const PlaneFault& f : table)
-      faults.push_back({listed_name(f.name, f.form()), std::string(kPlaneNames[size_t(f.plane)]),
-                        listed_text(f.text, f.form())});
+      faults.push_back(
+          {listed_name(f.name, f.form()), std::string(kPlaneNames[size_t(f.plane)]), listed_text(f.text, f.form())});
   for (const GlassFault& f : glass_faults())
     faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
   return faults;
@@ -158,7 +158,8 @@ std::string findings_json(std::span<const Finding> findings) {
             ",\"right\":" + json_in_nine_digits(f.proof.right) +
             ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
             ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
-            ",\"anything\":" + (f.proof.anything ? "true" : "false") + "},\"partial\":" + (f.partial ? "true" : "false") + ",\"command\":" + json_string(f.command) + "}";
+            ",\"anything\":" + (f.proof.anything ? "true" : "false") +
+            "},\"partial\":" + (f.partial ? "true" : "false") + ",\"command\":" + json_string(f.command) + "}";
   }
   return json + "]";
 }

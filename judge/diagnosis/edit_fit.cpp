@@ -15,8 +15,9 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kMostOfObject = 240, kMostOfCamera = 300;  ///< pixels
-constexpr double kScales[] = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
-constexpr double kNamed = 0.3;  ///< the share of wrong pixels that an object has which is to blame
+constexpr double kScales[] = {0.1,  0.01, 1e-3,
+                              1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
+constexpr double kNamed = 0.3;                    ///< the share of wrong pixels that an object has which is to blame
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Every n-th element, so that at most so many are left.
@@ -83,7 +84,7 @@ class ObjectFit {
     Pipeline pipeline = evidence_.pipeline;
     const double number = object_ + 1.0;
     std::vector<double> out;
-    if (!fault.edit(scene, pipeline, parameter)) return std::vector<double>(6 * pixels_.size(), kNothing);
+    fault.edit(scene, pipeline, parameter);  // or it changes nothing
     sketch_->clear(pipeline);
     sketch_->draw(scene, pipeline, scene.meshes[scene.instances[object_].mesh], object_);
     for (size_t i = 0; i < pixels_.size(); ++i) {
@@ -129,7 +130,7 @@ class CameraFit {
   std::vector<double> residuals(const PlaneFault& fault, const FaultParameter& parameter) {
     Scene scene = bare_;
     Pipeline pipeline = evidence_.pipeline;
-    if (!fault.edit(scene, pipeline, parameter)) return std::vector<double>(6 * pixels_.size(), kNothing);
+    fault.edit(scene, pipeline, parameter);  // or it changes nothing
     return sketch_ ? sketched(scene, pipeline) : projected(scene, pipeline);
   }
   size_t pixels() const { return pixels_.size(); }
@@ -183,21 +184,20 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
   std::vector<std::pair<double, size_t>> starts;
   for (size_t i = 0; i < suspects.size(); ++i)
     starts.emplace_back(robust_error(fitter.residuals(fault, suspects[i]), kScales[1]), i);
-  std::stable_sort(starts.begin(), starts.end());
+  if (starts.size() > 3) std::stable_sort(starts.begin() + 1, starts.end());  // the first changes nothing, or little
   const double size = fault.change_of < 0 ? -fault.change_of * fitter.extent() : fault.change_of;
   std::optional<FaultParameter> best;
   double least = HUGE_VAL;
-  for (size_t i = 0; i < std::min<size_t>(2, starts.size()); ++i) {
+  for (size_t i = 0; i < std::min<size_t>(3, starts.size()); ++i) {
     const FaultParameter& from = suspects[starts[i].second];
     const auto at = [&](const Triple3& vector) { return FaultParameter(from.number, vector, from.part); };
     const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
     const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales}, from.vector);
     const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
     if (!std::all_of(vector.begin(), vector.end(), is)) continue;
-    const double error = robust_error(residuals(vector), kScales[3]);
+    const double error = robust_error(residuals(vector), kScales[2]);
     if (error < least) least = error, best = at(vector);
   }
-  if (best && getenv("FITDBG")) fprintf(stderr, "%s %g %g/%g: %.9g %.9g %.9g error %g size %g\n", std::string(fault.name).c_str(), double(fitter.pixels()), best->number, best->part, best->vector[0], best->vector[1], best->vector[2], least, size);
   if (!best) return {};
   return {*best};
 }
@@ -218,7 +218,8 @@ std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence) {
   std::sort(ranked.begin(), ranked.end());
   std::vector<uint32_t> objects;
   for (const auto& [weight, object] : ranked)
-    if (objects.size() < 2 && -weight >= kNamed * wrong && object <= double(evidence.scene.instances.size())) objects.push_back(uint32_t(object) - 1);
+    if (objects.size() < 2 && -weight >= kNamed * wrong && object <= double(evidence.scene.instances.size()))
+      objects.push_back(uint32_t(object) - 1);
   return objects;
 }
 

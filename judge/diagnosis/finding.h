@@ -37,7 +37,8 @@ struct Finding {
 };
 
 /// What explains a capture that does not pass, at most `most` findings, the likeliest first, those behind that are but
-/// `partial`; none where no known fault explains a third of what is wrong. Works on samples of some thousands of pixels, the same ones every time.
+/// `partial`; none where no known fault explains a third of what is wrong. Works on samples of some thousands of
+/// pixels, the same ones every time.
 ///   stages: of validate_capture(), by the same pipeline and profile
 ///   supposed: names of faults; if there are any, these are tried and no others
 /// Error(usage) for a name that no fault has, or a parameter that the fault does not take.

@@ -21,7 +21,11 @@ void leave_out(GlassPixel& p, double) { p.layers.clear(); }
 void leave_one_out(GlassPixel& p, double object) {
   std::erase_if(p.layers, [object](const GlassLayer& l) { return l.instance == uint32_t(object); });
 }
-void turn_order(GlassPixel& p, double) { std::reverse(p.layers.begin(), p.layers.end()); }
+/// Triangles of an object stay in their order.
+void turn_order(GlassPixel& p, double) {
+  std::stable_sort(p.layers.begin(), p.layers.end(),
+                   [](const GlassLayer& a, const GlassLayer& b) { return a.instance > b.instance; });
+}
 void near_first(GlassPixel& p, double) {
   std::stable_sort(p.layers.begin(), p.layers.end(),
                    [](const GlassLayer& a, const GlassLayer& b) { return a.distance < b.distance; });
@@ -209,8 +213,8 @@ Finding GlassCase::finding(const Candidate& c) const {
     farthest = s.off;
     for (int k = 0; k < picture_.channels(); ++k)
       if (channel_off(s, right, k) == s.off)
-        f.proof = {s.at.x, s.at.y, channel_of("color", k), picture_.given(s.at.x, s.at.y, k), right[size_t(k)],
-                   now[size_t(k)]};
+        f.proof = {s.at.x,           s.at.y,        channel_of("color", k), picture_.given(s.at.x, s.at.y, k),
+                   right[size_t(k)], now[size_t(k)]};
   }
   return f;
 }

@@ -33,7 +33,7 @@ NormalEquations equations_of(const LeastSquares& problem, const Triple3& at, con
 void descend(const LeastSquares& problem, double scale, Triple3& at) {
   std::vector<double> here = problem.residuals(at);
   double least = robust_error(here, scale), damping = 1e-3;
-  for (int i = 0; i < 20 && damping < 1e5; ++i) {
+  for (int i = 0; i < 12 && damping < 1e5; ++i) {
     const std::optional<Triple3> step = equations_of(problem, at, here, scale).solved(damping);
     if (!step) return;
     const Triple3 next = plus(at, *step);
@@ -65,10 +65,12 @@ void look_about(const LeastSquares& problem, double scale, Triple3& at) {
 }  // namespace
 
 double robust_error(const std::vector<double>& residuals, double scale) {
-  constexpr double kMost = 20;
+  constexpr double kMost = 20, kCoarse = 1e-3;
+  // Where little is left to fit, a sample more or less at an edge must not stand in the way.
+  const double missing = scale >= kCoarse ? kMost : 1;
   double sum = 0;
   for (const double r : residuals)
-    sum += std::isfinite(r) ? std::min(kMost, std::log1p(r * r / (scale * scale))) : kMost;
+    sum += std::isfinite(r) ? std::min(kMost, std::log1p(r * r / (scale * scale))) : missing;
   return sum;
 }
 
@@ -77,11 +79,16 @@ Triple3 fitted(const LeastSquares& problem, Triple3 at) {
     descend(problem, problem.scales[i], at);
     if (i == problem.scales.size() / 2) look_about(problem, problem.scales[i], at);
   }
-  const double last = problem.scales.back(), least = robust_error(problem.residuals(at), last);
+  const double last = problem.scales.back(), middle = problem.scales[problem.scales.size() / 2];
+  const std::vector<double> left = problem.residuals(at);
+  const auto fits_as_well = [&](const std::vector<double>& residuals) {
+    return robust_error(residuals, last) <= robust_error(left, last) * 1.01 + 1e-9 &&
+           robust_error(residuals, middle) <= robust_error(left, middle) * 1.01 + 1e-3;
+  };
   for (const double unit : {1.0, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4, 1e-5}) {
     Triple3 rounded{};
     for (size_t k = 0; k < size_t(problem.numbers); ++k) rounded[k] = std::nearbyint(at[k] / unit) * unit + 0.0;
-    if (robust_error(problem.residuals(rounded), last) <= least * 1.01 + 1e-9) return rounded;
+    if (fits_as_well(problem.residuals(rounded))) return rounded;
   }
   return at;
 }

@@ -87,6 +87,20 @@ void reverse_order(LightPass& p, double) { p.fault.reversed = !p.fault.reversed;
 void swap_colors(LightPass& p, double) { p.fault.swapped_colors = true; }
 void mirror_z(LightPass& p, double) { p.fault.mirrored_z = true; }
 void no_ambient(LightPass& p, double) { p.fault.no_ambient = true; }
+void scale_ambient(LightPass& p, double f) {
+  p.pipeline.light_model.global_ambient *= float(f);
+  for (Light& l : p.lights) {
+    l.ambient *= float(f);
+    if (l.type == LightType::ambient) l.color *= float(f);
+  }
+}
+void no_emission(LightPass& p, double) { p.pipeline.light_model.emission = false; }
+bool emits(const LightPass& p) { return p.pipeline.light_model.emission; }
+template <int K>
+void mirror(LightPass& p, double) {
+  for (Light& l : p.lights) l.position[K] = -l.position[K];
+}
+void no_range(LightPass& p, double) { p.fault.range = 1e6; }
 void drop_cones(LightPass& p, double) { p.fault.cone_dropped = true; }
 void newton_root(LightPass& p, double) { p.fault.root = F::Root::one_newton_step; }
 void short_root(LightPass& p, double) { p.fault.root = F::Root::twelve_bits; }
@@ -194,8 +208,8 @@ constexpr PictureFault stale_tiles(int side, std::string_view name, std::string_
 
 // What a light's numbers may be times, to begin with.
 constexpr Vector kReaches[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 1, 1}, {1.1, 1, 1}, {1.3, 1, 1}, {2, 1, 1}};
-constexpr Vector kCones[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 0.9, 1}, {1.1, 1.1, 1}, {1.25, 1, 1},
-                             {2, 1, 1},   {1, 0.5, 1},  {1, 2, 1},     {0.5, 0.5, 1}, {2, 2, 1}};
+constexpr Vector kCones[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 0.9, 1}, {1.1, 1.1, 1}, {1.25, 1, 1}, {2, 1, 1},
+                             {8, 1, 1},   {1, 0.5, 1},  {1, 2, 1},     {0.5, 0.5, 1}, {2, 2, 1}};
 constexpr Vector kExponents1[] = {{0.5, 1, 1}, {2, 1, 1}, {4, 1, 1}};
 constexpr Vector kFalloffs1[] = {{0.5, 0.5, 1}, {2, 2, 1}, {0.5, 1, 1}, {2, 1, 1}, {1, 0.5, 1}, {1, 2, 1}};
 
@@ -244,6 +258,12 @@ constexpr PictureFault kFaults[] = {
     {"diffuse-two-sided", "N.L counts by its magnitude", two_sided},
     {"diffuse-half-lambert", "N.L is replaced by (N.L / 2 + 1/2)^2", half_lambert},
     {"diffuse-missing", "N.L is missing", no_cosine},
+    {"ambient-factor", "the ambient light is %s times as bright as it should be", scale_ambient, nullptr, has_ambient,
+     kSmooth, kFactors},
+    {"emission-missing", "surfaces do not emit", no_emission, nullptr, emits},
+    {"light-mirrored-x", "the lights' x has the wrong sign", mirror<0>, nullptr, has_lamps},
+    {"light-mirrored-y", "the lights' y has the wrong sign", mirror<1>, nullptr, has_lamps},
+    {"light-range-missing", "the lights have no range", no_range, nullptr, has_range},
     {"ambient-missing", "there is no ambient light", no_ambient, nullptr, has_ambient},
     {"light-missing", "light %s is missing", leave_out, nullptr, nullptr, Search::missing_light},
     {"light-twice", "light %s is drawn twice", draw_twice, nullptr, nullptr, Search::doubled_light},

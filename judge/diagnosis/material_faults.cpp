@@ -144,6 +144,7 @@ std::vector<double> most_wrong(const PlaneEvidence& e, const Key& key) {
   return best;
 }
 double object_at(const EvidentPixel& p) { return p.expected.covered ? p.expected.object - 1 : -1; }
+double given_material_at(const EvidentPixel& p) { return p.given.material - 1; }
 double material_at(const EvidentPixel& p) { return p.expected.covered ? p.expected.material - 1 : -1; }
 
 /// Factors of the albedo's channels, by least squares.
@@ -172,11 +173,15 @@ Suspects tinted_materials(const PlaneEvidence& e) { return tinted(e, material_at
 
 Suspects masked_materials(const PlaneEvidence& e) {
   Suspects all;
-  for (size_t m = 0; m < e.scene.materials.size() && all.size() < 33; ++m) {
-    if (!e.scene.materials[m].masked()) continue;
-    for (const double cutoff : {0.0, 0.05, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9})
-      all.push_back(P(double(m), {cutoff, 0, 0}));
-  }
+  std::vector<double> materials;
+  for (const double m : most_wrong(e, material_at)) materials.push_back(m);
+  for (const double m : most_wrong(e, given_material_at)) materials.push_back(m);
+  std::sort(materials.begin(), materials.end());
+  materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+  for (const double m : materials)
+    if (m < double(e.scene.materials.size()) && e.scene.materials[size_t(m)].masked())
+      for (const double cutoff : {0.0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9})
+        all.push_back(P(m, {cutoff, 0, 0}));
   return all;
 }
 
@@ -189,8 +194,8 @@ Suspects with_another_map(const PlaneEvidence& e) {
 
 Suspects half_texels(const PlaneEvidence& e) {
   Suspects all;
-  const bool textured =
-      std::any_of(e.scene.materials.begin(), e.scene.materials.end(), [](const Material& m) { return m.color_map.used(); });
+  const bool textured = std::any_of(e.scene.materials.begin(), e.scene.materials.end(),
+                                    [](const Material& m) { return m.color_map.used(); });
   for (const double x : {-0.5, 0.0, 0.5})
     for (const double y : {-0.5, 0.0, 0.5})
       if (textured && (x != 0 || y != 0)) all.push_back(P(0, {x, y, 0}));
@@ -224,8 +229,8 @@ using Fault = PlaneFault;
 constexpr double kScales[] = {0.25, 0.5, 1.5, 2, 4, -1};
 
 constexpr PlaneFault suspected(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
-                               Suspects (*suspects)(const PlaneEvidence&), ParameterForm numbers,
-                               PlaneFault::Of of, bool estimated = false) {
+                               Suspects (*suspects)(const PlaneEvidence&), ParameterForm numbers, PlaneFault::Of of,
+                               bool estimated = false) {
   return {.name = name,
           .text = text,
           .search = Fault::Search::suspected,

@@ -38,7 +38,8 @@ bool move_object(Scene& s, Pipeline&, const P& p) {
 /// Rodrigues: by the vector's length in degrees about its direction.
 Triple3 turned(const Triple3& v, const Triple3& degrees) {
   const double angle = std::sqrt(inner(degrees, degrees)) * std::acos(-1.0) / 180;
-  const Triple3 axis = unit(degrees), across = cross(axis, v), along = times(axis, inner(axis, v) * (1 - std::cos(angle)));
+  const Triple3 axis = unit(degrees), across = cross(axis, v),
+                along = times(axis, inner(axis, v) * (1 - std::cos(angle)));
   return plus(plus(times(v, std::cos(angle)), times(across, std::sin(angle))), along);
 }
 
@@ -70,6 +71,14 @@ bool wind_other_way(Scene& s, Pipeline&, const P& p) {
   Mesh* mesh = own_mesh(s, p);
   if (mesh == nullptr) return false;
   for (size_t t = 0; t + 2 < mesh->indices.size(); t += 3) std::swap(mesh->indices[t + 1], mesh->indices[t + 2]);
+  return true;
+}
+
+bool turn_normals(Scene& s, Pipeline&, const P& p) {
+  Mesh* mesh = own_mesh(s, p);
+  if (mesh == nullptr) return false;
+  for (FloatStream& stream : mesh->normal)
+    for (float& n : stream) n = -n;
   return true;
 }
 
@@ -142,14 +151,26 @@ Suspects that_moved(const PlaneEvidence& e) {
 }
 
 Suspects that_turned(const PlaneEvidence& e) {
-  return every_object(e, {{0, 0, 0}, {0, 30, 0}, {0, -30, 0}, {30, 0, 0}, {-30, 0, 0}, {0, 0, 30}, {0, 0, -30},
-                          {0, 90, 0}, {0, -90, 0}, {90, 0, 0}, {-90, 0, 0}, {0, 0, 90}, {0, 0, -90}, {0, 180, 0},
-                          {180, 0, 0}, {0, 0, 180}, {0, 60, 0}, {0, -60, 0}});
+  return every_object(
+      e, {{0, 0, 0},   {0, 10, 0}, {0, -10, 0}, {10, 0, 0},  {-10, 0, 0}, {0, 0, 10},  {0, 0, -10}, {0, 30, 0},
+          {0, -30, 0}, {30, 0, 0}, {-30, 0, 0}, {0, 0, 30},  {0, 0, -30}, {0, 90, 0},  {0, -90, 0}, {90, 0, 0},
+          {-90, 0, 0}, {0, 0, 90}, {0, 0, -90}, {0, 180, 0}, {180, 0, 0}, {0, 0, 180}, {0, 60, 0},  {0, -60, 0}});
 }
 
 Suspects that_have_another_size(const PlaneEvidence& e) {
-  return every_object(e, {{1, 1, 1}, {0.5, 0.5, 0.5}, {0.75, 0.75, 0.75}, {1.5, 1.5, 1.5}, {2, 2, 2}, {-1, 1, 1},
-                          {1, -1, 1}, {1, 1, -1}, {1, 2, 1}, {1, 0.5, 1}, {2, 1, 1}, {1, 1, 2}, {0.5, 1, 1},
+  return every_object(e, {{1, 1, 1},
+                          {0.5, 0.5, 0.5},
+                          {0.75, 0.75, 0.75},
+                          {1.5, 1.5, 1.5},
+                          {2, 2, 2},
+                          {-1, 1, 1},
+                          {1, -1, 1},
+                          {1, 1, -1},
+                          {1, 2, 1},
+                          {1, 0.5, 1},
+                          {2, 1, 1},
+                          {1, 1, 2},
+                          {0.5, 1, 1},
                           {1, 1, 0.5}});
 }
 
@@ -211,8 +232,8 @@ Suspects that_have_another_material(const PlaneEvidence& e) {
       }
       votes[at] += p.at.weight;
     }
-    const auto best = std::max_element(votes.begin(), votes.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto best =
+        std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     if (best != votes.end() && best->first >= 0) all.push_back(P(double(object), {}, best->first));
   }
   return all;
@@ -221,9 +242,9 @@ Suspects that_have_another_material(const PlaneEvidence& e) {
 using Fault = PlaneFault;
 constexpr double kOfExtent = -3e-4;
 
-constexpr PlaneFault of_object(std::string_view name, std::string_view text,
-                               bool (*edit)(Scene&, Pipeline&, const P&), Suspects (*suspects)(const PlaneEvidence&),
-                               ParameterForm numbers, Fit fit = Fit::none, double change_of = 0, double start = 0) {
+constexpr PlaneFault of_object(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
+                               Suspects (*suspects)(const PlaneEvidence&), ParameterForm numbers, Fit fit = Fit::none,
+                               double change_of = 0, double start = 0) {
   return {.name = name,
           .text = text,
           .search = Fault::Search::suspected,
@@ -240,21 +261,22 @@ constexpr PlaneFault kFaults[] = {
               {true, false, 0}),
     of_object("object-wound", "the triangles of object %s are wound the other way", wind_other_way, that_are_wrong,
               {true, false, 0}),
+    of_object("object-normals-turned", "the normals of object %s point inward", turn_normals, that_are_wrong,
+              {true, false, 0}),
     of_object("object-material", "object %s has material %p", other_material, that_have_another_material,
               {true, true, 0}),
     of_object("object-moved", "object %s is moved by %v", move_object, that_moved, {true, false, 3}, Fit::object,
               kOfExtent),
-    of_object("object-turned", "object %s is turned about its own origin by %v, an axis as long as the angle in degrees",
-              turn_object, that_turned, {true, false, 3}, Fit::object, 0.05),
+    of_object("object-turned",
+              "object %s is turned about its own origin by %v, an axis as long as the angle in degrees", turn_object,
+              that_turned, {true, false, 3}, Fit::object, 0.05),
     of_object("object-scaled", "object %s is %v times as large along its own axes", scale_object,
               that_have_another_size, {true, false, 3}, Fit::object, 1e-3, 1),
     of_object("triangles-missing", "object %s lacks triangles: %v are the first and how many", drop_triangles,
               that_lack_triangles, {true, false, 2}),
     of_object("vertex-moved", "vertex %p of the mesh of object %s is moved by %v, in the object's space", move_vertex,
               that_have_a_wrong_vertex, {true, true, 3}, Fit::object, kOfExtent),
-    {.name = "indices-16-bits",
-     .text = "indices of vertices are taken modulo 65,536",
-     .redraw = wrap_indices},
+    {.name = "indices-16-bits", .text = "indices of vertices are taken modulo 65,536", .redraw = wrap_indices},
 };
 
 }  // namespace

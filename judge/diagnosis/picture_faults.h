@@ -20,14 +20,14 @@ struct Move {
 
 /// How a fault's parameter is found.
 enum class Search : uint8_t {
-  none,           ///< it has none
-  one_of,         ///< the best of `starts`
-  smooth,         ///< from the best of `starts` by least squares
-  missing_light,  ///< the light without which most pixels are as given
-  doubled_light,  ///< the same of one that is drawn twice
-  count,          ///< of lights, by sums of the first so many
-  count_at_pixel, ///< of lights that reach a pixel, the same
-  one_light       ///< a light and what is changed of it, by least squares
+  none,            ///< it has none
+  one_of,          ///< the best of `starts`
+  smooth,          ///< from the best of `starts` by least squares
+  missing_light,   ///< the light without which most pixels are as given
+  doubled_light,   ///< the same of one that is drawn twice
+  count,           ///< of lights, by sums of the first so many
+  count_at_pixel,  ///< of lights that reach a pixel, the same
+  one_light        ///< a light and what is changed of it, by least squares
 };
 
 struct PictureFault {
@@ -45,9 +45,9 @@ struct PictureFault {
   int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
   /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
-  bool (*of_light)(const Light&) = nullptr;  ///< whether it can be of that light
-  double start = 0;                          ///< of each component
-  int numbers = 3;                           ///< components that the fault has
+  bool (*of_light)(const Light&) = nullptr;       ///< whether it can be of that light
+  double start = 0;                               ///< of each component
+  int numbers = 3;                                ///< components that the fault has
   std::span<const std::array<double, 3>> from{};  ///< other vectors to start from
 
   ParameterForm form() const {

@@ -246,9 +246,7 @@ std::vector<Finding> PictureSearch::look() const {
 
 }  // namespace
 
-std::string name_of(const PictureFault& fault, const FaultParameter& parameter) {
-  return fault_name(fault, parameter);
-}
+std::string name_of(const PictureFault& fault, const FaultParameter& parameter) { return fault_name(fault, parameter); }
 std::string text_of(const PictureFault& fault, const FaultParameter& parameter) { return fault_text(fault, parameter); }
 
 double changed_pixels(const PictureCase& picture) {

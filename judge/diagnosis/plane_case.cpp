@@ -145,13 +145,23 @@ void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, c
   for (size_t k = 0; k < 2; ++k) out.uv[k] = mix(a.uv[k], b.uv[k]);
 }
 
-/// So much of one surface, the rest of another; each may be as far off as it changes from a pixel to the next.
-ExpectedPixel averaged(const ExpectedPixel& a, const ExpectedPixel& b, const ExpectedPixel& beyond, double share) {
+/// How far each number changes from a pixel to the next, where both show the same surface.
+PlaneValues slope_between(const ExpectedPixel& a, const ExpectedPixel& b) {
+  PlaneValues slope;
+  slope.depth = 0;
+  if (a.value.object == b.value.object)
+    mix_numbers(slope, a.value, b.value, [](double u, double v) { return std::fabs(u - v); });
+  return slope;
+}
+
+/// So much of one surface, the rest of another. Samples lie beside the pixel's middle, so that each may be as far off
+/// as it changes from a pixel to the next; `before` and `beyond` are the next ones of each.
+ExpectedPixel averaged(const ExpectedPixel& a, const ExpectedPixel& b, const ExpectedPixel& before,
+                       const ExpectedPixel& beyond, double share) {
   ExpectedPixel out = a;
   const auto mixed = [share](double u, double v) { return share * u + (1 - share) * v; };
   PlaneValues slope;
-  mix_numbers(slope, b.value, beyond.value, [](double u, double v) { return std::fabs(u - v); });
-  if (b.value.object != beyond.value.object) slope = PlaneValues{}, slope.depth = 0;
+  mix_numbers(slope, slope_between(a, before), slope_between(b, beyond), mixed);
   mix_numbers(out.value, a.value, b.value, mixed), mix_numbers(out.low, a.low, b.low, mixed);
   mix_numbers(out.high, a.high, b.high, mixed);
   mix_numbers(out.low, out.low, slope, [](double u, double v) { return u - v; });
@@ -172,10 +182,10 @@ std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes,
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       if (dx == 0 && dy == 0) continue;
-      const ExpectedPixel there = at(x + dx, y + dy), beyond = at(x + 2 * dx, y + 2 * dy);
+      const ExpectedPixel there = at(x + dx, y + dy), beyond = at(x + 2 * dx, y + 2 * dy), before = at(x - dx, y - dy);
       if (there.value.object == here.value.object && there.triangle == here.triangle) continue;
       for (int samples = 0; samples < 8; ++samples) {
-        ExpectedPixel p = averaged(here, there, beyond, samples / 8.0);
+        ExpectedPixel p = averaged(here, there, before, beyond, samples / 8.0);
         const PlaneValues seen = given(x, y);
         if (seen.object == there.value.object) p.value.object = p.low.object = p.high.object = seen.object;
         if (seen.material == there.value.material) p.value.material = p.low.material = p.high.material = seen.material;

@@ -9,10 +9,10 @@ namespace trueshade::oracle {
 
 struct EvidentPixel {
   SampledPixel at;
-  bool wrong = false;         ///< any plane is not as expected
-  PlaneValues given;          ///< of planes that were captured; `object` as id.object has it, or -1
+  bool wrong = false;  ///< any plane is not as expected
+  PlaneValues given;   ///< of planes that were captured; `object` as id.object has it, or -1
   PlaneValues expected;
-  uint32_t triangle = 0;      ///< that is expected, of the object's mesh
+  uint32_t triangle = 0;  ///< that is expected, of the object's mesh
 };
 
 struct PlaneEvidence {

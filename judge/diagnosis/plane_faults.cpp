@@ -16,9 +16,7 @@ using Context = PlaneContext;
 
 double inner3(const V3& a, const V3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 V3 rotated(const Context& c, const V3& v) { return {inner3(c.view[0], v), inner3(c.view[1], v), inner3(c.view[2], v)}; }
-V3 from_eye(const Context& c, const V3& p) {
-  return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]};
-}
+V3 from_eye(const Context& c, const V3& p) { return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]}; }
 double encoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double decoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
@@ -334,8 +332,8 @@ constexpr PlaneFault kFaults[] = {
     {"position-xzy", "the positions' components are in the order XZY", Plane::position, position_swapped},
     {"position-near", "the positions are rebuilt from depths with a near plane %s times as far as it is",
      Plane::position, position_by_near, nullptr, nullptr, kSmooth, kPlaneFactors},
-    {"position-far", "the positions are rebuilt from depths with a far plane %s times as far as it is",
-     Plane::position, position_by_far, nullptr, nullptr, kSmooth, kPlaneFactors},
+    {"position-far", "the positions are rebuilt from depths with a far plane %s times as far as it is", Plane::position,
+     position_by_far, nullptr, nullptr, kSmooth, kPlaneFactors},
     {"position-scaled", "the positions are %s times what they should be", Plane::position, position_scaled, nullptr,
      nullptr, kSmooth, kFactors},
     {"position-half",

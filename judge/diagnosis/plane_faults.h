@@ -60,15 +60,15 @@ struct PlaneFault {
   double reach = 0;  ///< steps of the plane, or of the values that it is rounded to, that it may be off
   std::string (*says)(double) = nullptr;
   // Of Search::suspected:
-  bool (*edit)(Scene&, Pipeline&, const FaultParameter&) = nullptr;  ///< as redraw, by all numbers
+  bool (*edit)(Scene&, Pipeline&, const FaultParameter&) = nullptr;         ///< as redraw, by all numbers
   std::vector<FaultParameter> (*suspects)(const PlaneEvidence&) = nullptr;  ///< which, and from which numbers to start
   ParameterForm numbers{};
   enum class Of : uint8_t { object, material } of = Of::object;  ///< what FaultParameter::number counts
   Fit fit = Fit::none;
   bool averages = false;   ///< pixels that are off may be averages of two surfaces beside one another
   bool estimated = false;  ///< what `suspects` names are numbers of the pixels
-  double start = 0;     ///< of each number: what changes nothing
-  double change_of = 0;  ///< a small change of a number; below 0, that part of the scene's extent
+  double start = 0;        ///< of each number: what changes nothing
+  double change_of = 0;    ///< a small change of a number; below 0, that part of the scene's extent
 
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;
@@ -79,10 +79,10 @@ struct PlaneFault {
   bool redraws() const { return redraw != nullptr || edit != nullptr; }
 };
 
-std::span<const PlaneFault> plane_faults();   ///< plane_faults.cpp: encodings and moves
-std::span<const PlaneFault> redraw_faults();  ///< redraw_faults.cpp: states and scenes
-std::span<const PlaneFault> object_faults();  ///< object_faults.cpp: one object, its matrix and its triangles
-std::span<const PlaneFault> camera_faults();  ///< camera_faults.cpp
+std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves
+std::span<const PlaneFault> redraw_faults();    ///< redraw_faults.cpp: states and scenes
+std::span<const PlaneFault> object_faults();    ///< object_faults.cpp: one object, its matrix and its triangles
+std::span<const PlaneFault> camera_faults();    ///< camera_faults.cpp
 std::span<const PlaneFault> material_faults();  ///< material_faults.cpp
 
 }  // namespace trueshade::oracle

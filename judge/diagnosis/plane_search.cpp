@@ -103,8 +103,7 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
     if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
-  for (const NamedPlaneFault& f : supposed.faults)
-    c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
+  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
   c.supposed = std::move(supposed);
   return c;
 }
@@ -137,7 +136,8 @@ double PlaneSearch::smooth(const PlaneSupposition& base, const PlaneFault& fault
   double cost_a = better(a), cost_b = better(b);
   for (int i = 0; i < 34; ++i) {
     const bool left = cost_a <= cost_b;
-    (left ? high : low) = left ? b : a, (left ? b : a) = left ? a : b, (left ? cost_b : cost_a) = left ? cost_a : cost_b;
+    (left ? high : low) = left ? b : a, (left ? b : a) = left ? a : b,
+                   (left ? cost_b : cost_a) = left ? cost_a : cost_b;
     (left ? a : b) = left ? high - kRatio * (high - low) : low + kRatio * (high - low);
     (left ? cost_a : cost_b) = better(left ? a : b);
   }
@@ -196,19 +196,23 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
         Candidate c = judged(std::move(*s), false);
         if (!best || c.cost < best->cost) best = std::move(c);
       }
-      if (best && getenv("FITDBG")) fprintf(stderr, "  %s cost %g\n", name_of(fault, best->supposed.faults.back().parameter).c_str(), best->cost);
       if (best) candidates.push_back(std::move(*best));
     }
   };
   tries(plane_faults());
   // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
   const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
-  if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) {
-    tries(redraw_faults());
-    // What is estimated is estimated of captures with no other fault.
-    if (base.faults.empty() && std::none_of(candidates.begin(), candidates.end(), explained))
-      tries(object_faults()), tries(camera_faults()), tries(material_faults());
-  }
+  const auto needs_more = [&] { return redraw && std::none_of(candidates.begin(), candidates.end(), explained); };
+  // What is estimated is estimated of captures with no other fault. Alpha tests make a redraw cost most, so theirs is
+  // looked at first.
+  const std::vector<Material>& materials = planes_.scene().materials;
+  const bool masked = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.masked(); });
+  const bool alone = base.faults.empty();
+  if (masked && alone && needs_more()) tries(material_faults());
+  if (needs_more()) tries(redraw_faults());
+  if (alone && needs_more()) tries(object_faults());
+  if (alone && needs_more()) tries(camera_faults());
+  if (!masked && alone && needs_more()) tries(material_faults());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   return candidates;
@@ -322,9 +326,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
 
 }  // namespace
 
-std::string name_of(const PlaneFault& fault, const FaultParameter& parameter) {
-  return fault_name(fault, parameter);
-}
+std::string name_of(const PlaneFault& fault, const FaultParameter& parameter) { return fault_name(fault, parameter); }
 std::string text_of(const PlaneFault& fault, const FaultParameter& parameter) { return fault_text(fault, parameter); }
 
 PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

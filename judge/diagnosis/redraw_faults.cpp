@@ -93,12 +93,16 @@ bool provoke(Scene&, Pipeline& p, double) {
          g.albedo.interpolation == Interpolation::flat;
 }
 template <class Change>
-bool change_samplers(Scene& s, const Change& change) {
+bool change_slots(Scene& s, const Change& change) {
   bool any = false;
   for (Material& m : s.materials)
     for (TextureSlot* slot : maps_of(m))
-      if (slot->used()) change(slot->sampler), any = true;
+      if (slot->used()) change(*slot), any = true;
   return any;
+}
+template <class Change>
+bool change_samplers(Scene& s, const Change& change) {
+  return change_slots(s, [&change](TextureSlot& slot) { change(slot.sampler); });
 }
 /// Filters that textures are read with by mistake. `nearest_mipmap_linear` is what OpenGL has where nobody sets one.
 struct TextureFilter {
@@ -169,6 +173,20 @@ bool leave_out(Scene& s, Pipeline&, double object) {
   s.instances[at].mesh = uint32_t(s.meshes.size());
   s.meshes.emplace_back();
   return true;
+}
+bool no_vertex_colors(Scene& s, Pipeline&, double) {
+  bool any = false;
+  for (Mesh& m : s.meshes)
+    for (FloatStream& stream : m.color) any = any || !stream.empty(), stream = {};
+  return any;
+}
+bool other_sides(Scene& s, Pipeline&, double) {
+  for (Material& m : s.materials) m.double_sided = !m.double_sided;
+  return !s.materials.empty();
+}
+bool other_uv_set(Scene& s, Pipeline&, double) {
+  if (std::all_of(s.meshes.begin(), s.meshes.end(), [](const Mesh& m) { return m.more_uv.empty(); })) return false;
+  return change_slots(s, [](TextureSlot& slot) { slot.uv_set = slot.uv_set == 0 ? 1 : 0; });
 }
 bool no_transforms(Scene& s, Pipeline&, double) {
   for (Instance& i : s.instances) i.world_from_object = glm::mat4x3(1.0f);
@@ -268,6 +286,10 @@ constexpr PlaneFault kFaults2[] = {
      Plane::all, nullptr, recode_textures},
     {"texture-missing", "the colour maps are not read", Plane::all, nullptr, no_textures},
     {"base-color-missing", "the materials' base colours are not applied", Plane::all, nullptr, no_base_color},
+    {"vertex-colors-missing", "the vertices' colours are not applied", Plane::all, nullptr, no_vertex_colors},
+    {"double-sided", "materials are of two sides that should be of one, or of one that should be of two", Plane::all,
+     nullptr, other_sides},
+    {"texture-uv-set", "maps are read by the other set of texture coordinates", Plane::all, nullptr, other_uv_set},
     {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
     {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
      Plane::normal, nullptr, normals_by_matrix},

@@ -41,8 +41,7 @@ void Sketch::draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh
   const GeometryState& state = pipeline.geometry;
   viewport_ = resolved_viewport(state, pipeline.width, pipeline.height);
   const Instance& drawn = scene.instances[instance];
-  const InstanceRows rows =
-      instance_rows(drawn, projection_of(scene.camera, state, pipeline.width, pipeline.height));
+  const InstanceRows rows = instance_rows(drawn, projection_of(scene.camera, state, pipeline.width, pipeline.height));
   vertices_.resize(mesh.vertex_count());
   for (size_t i = 0; i < vertices_.size(); ++i) {
     Triple3 p, n{};
@@ -57,15 +56,15 @@ void Sketch::draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh
     for (size_t r = 0; r < 4; ++r) v.clip[r] = affine(rows.clip[r]);
     for (size_t r = 0; r < 3; ++r) {
       v.position[r] = affine(rows.world[r]);
-      v.normal[r] = double(rows.normal[r][0]) * n[0] + double(rows.normal[r][1]) * n[1] + double(rows.normal[r][2]) * n[2];
+      v.normal[r] =
+          double(rows.normal[r][0]) * n[0] + double(rows.normal[r][1]) * n[1] + double(rows.normal[r][2]) * n[2];
     }
     v.normal = unit(v.normal);
   }
   // The sign of a front face's area, where y is up in clip space.
-  const int front = ((state.front_face == FrontFace::ccw) != drawn.mirrored) !=
-                            (state.clip_origin == ClipOrigin::upper_left)
-                        ? 1
-                        : -1;
+  const int front =
+      ((state.front_face == FrontFace::ccw) != drawn.mirrored) != (state.clip_origin == ClipOrigin::upper_left) ? 1
+                                                                                                                : -1;
   Faces faces;
   const bool both = scene.materials[drawn.material].double_sided;
   if (state.cull_face == CullFace::front) faces.culled = front;

@@ -125,9 +125,7 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
   throw refuse(text_of(range));
 }
 
-bool names_one(double index, size_t count) {
-  return index >= 0 && index == std::floor(index) && index < double(count);
-}
+bool names_one(double index, size_t count) { return index >= 0 && index == std::floor(index) && index < double(count); }
 bool can_be(const PictureFault& fault, const Scene& scene, const FaultParameter& p) {
   return names_one(p.number, scene.lights.size()) && fault.of_light(scene.lights[size_t(p.number)]);
 }
@@ -187,7 +185,8 @@ SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& 
     const std::string after = given ? name.substr(equals + 1) : "";
     const std::string* text = given ? &after : nullptr;
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
-    const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
+    const auto* plane = fault_named<PlaneFault>(
+        bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
     const auto* glass = fault_named<GlassFault>(bare, {glass_faults()});
     if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name) &&
         !add_supposed(out.glass, glass, scene, text, name))

@@ -45,7 +45,7 @@ std::vector<Ground> grounds(std::string_view preset, int views);  ///< of most p
 struct PlantedTry {
   uint64_t changed = 0;  ///< pixels of the blamed plane by a step of its format
   bool convicted = false, first = false, named = false, blamed = false;
-  uint64_t beyond = 0;  ///< of `changed`, those that the nearest picture of a right renderer has otherwise, too
+  uint64_t beyond = 0;       ///< of `changed`, those that the nearest picture of a right renderer has otherwise, too
   bool second = false;       ///< of two faults, the other one is named too
   uint64_t both_matter = 0;  ///< pixels that the lesser of the two changes beside the other
   double ms = 0;             ///< that the diagnosis took

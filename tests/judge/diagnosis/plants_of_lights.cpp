@@ -83,8 +83,10 @@ void add_lights(std::vector<Plant>& all) {
     all.push_back({name, std::move(names), "picture", std::move(presets), variants, std::move(input)});
     return all.back();
   };
-  in("one light's range", {"light-reach"}, {"many-lights", "punctual", "light-volumes"},
-     one_light([](Light& l, int v) { l.range *= pick({0.7f, 1.3f, 0.9f, 1.8f}, v); }), 4);
+  in("one light's range", {"light-reach"}, {"many-lights", "punctual", "light-volumes"}, one_light([](Light& l, int v) {
+       l.range *= pick({0.7f, 1.3f, 0.9f, 1.8f}, v);
+     }),
+     4);
   in("one light's cone", {"light-cone"}, {"punctual", "lecture", "redsdk"}, one_light([](Light& l, int v) {
        l.cone_rad *= pick({0.8f, 1.2f, 1.0f, 0.5f}, v), l.penumbra_rad *= pick({1.0f, 1.0f, 2.0f}, v);
      }),
@@ -95,12 +97,13 @@ void add_lights(std::vector<Plant>& all) {
        l.attenuation.y *= pick({0.5f, 2.0f, 1.0f}, v), l.attenuation.z *= pick({0.5f, 1.0f, 1.5f}, v);
      }),
      3);
-  in("all cones", {"light-cones"}, {"punctual", "redsdk"},
-     [](Scene& s, Pipeline&, int v) {
-       for (Light& l : s.lights) l.cone_rad *= pick({0.9f, 2.0f}, v), l.penumbra_rad *= pick({0.9f, 2.0f}, v);
-       return true;
-     },
-     2)
+  in(
+      "all cones", {"light-cones"}, {"punctual", "redsdk"},
+      [](Scene& s, Pipeline&, int v) {
+        for (Light& l : s.lights) l.cone_rad *= pick({0.9f, 2.0f}, v), l.penumbra_rad *= pick({0.9f, 2.0f}, v);
+        return true;
+      },
+      2)
       .base = spots;
   in("lights turned round", {"light-directions-turned"}, {"punctual"}, [](Scene& s, Pipeline&, int) {
     for (Light& l : s.lights) l.direction = -l.direction;
@@ -109,7 +112,8 @@ void add_lights(std::vector<Plant>& all) {
   in("light positions as halves", {"light-positions-half"}, {"many-lights", "touchdesigner"},
      [](Scene& s, Pipeline&, int) {
        for (Light& l : s.lights)
-         for (int k = 0; k < 3; ++k) l.position[k] = float_from_half(half_from_float(l.position[k], HalfRound::nearest));
+         for (int k = 0; k < 3; ++k)
+           l.position[k] = float_from_half(half_from_float(l.position[k], HalfRound::nearest));
        return true;
      });
   in("light positions in view space", {"light-positions-view"}, {"many-lights", "touchdesigner"},
@@ -121,13 +125,19 @@ void add_lights(std::vector<Plant>& all) {
        }
        return true;
      });
-  all.push_back({"positions rebuilt by another near plane", {"lighting-near"}, "picture", {"many-lights"}, 3, nullptr,
+  all.push_back({"positions rebuilt by another near plane",
+                 {"lighting-near"},
+                 "picture",
+                 {"many-lights"},
+                 3,
+                 nullptr,
                  [](const Scene& s, const Pipeline& p, Capture& c, int v) {
                    Capture moved = c;
                    Pipeline stored = p;
                    stored.gbuffer.position_from_depth = false;
-                   each_vector(moved, "position",
-                               [&](const V& at) { return by_near(s.camera, at, pick({0.9f, 2.0f, 1.03f}, v)); });
+                   each_vector(moved, "position", [&](const V& at) {
+                     return by_near(s.camera, at, pick({0.9f, 2.0f, 1.03f}, v));
+                   });
                    c.color = slipped_picture(s, stored, moved, LightSlip::none);
                  }});
   all.back().lights_again = true, all.back().base = rebuilt_positions;
@@ -139,9 +149,10 @@ void add_planes(std::vector<Plant>& all) {
         {name, std::move(names), plane, {"many-lights", "touchdesigner"}, variants, nullptr, std::move(output)});
   };
   out("position", "positions stored by another near plane", {"position-near", "position-scaled"},
-      vectors("position", [](const Scene& s, const V& p, int v) {
-        return by_near(s.camera, p, pick({0.9f, 2.0f, 1.03f}, v));
-      }),
+      vectors("position",
+              [](const Scene& s, const V& p, int v) {
+                return by_near(s.camera, p, pick({0.9f, 2.0f, 1.03f}, v));
+              }),
       3);
   out("normal", "normals written as unorm, read as snorm", {"normal-unorm-as-snorm"},
       vectors("normal", [](const Scene&, const V& n, int) {
@@ -178,41 +189,47 @@ void add_planes(std::vector<Plant>& all) {
         for (Material& m : s.materials) m.base_color.a = 0.6f;
       };
   };
-  albedo("albedo with a gain", {"albedo-scaled"}, [](float v, int k) { return k < 3 ? v * 0.8f : v; }, false);
-  albedo("alpha encoded as sRGB", {"albedo-alpha-srgb-encoded"},
-         [](float v, int k) { return k < 3 ? v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }, true);
+  albedo(
+      "albedo with a gain", {"albedo-scaled"}, [](float v, int k) { return k < 3 ? v * 0.8f : v; }, false);
+  albedo(
+      "alpha encoded as sRGB", {"albedo-alpha-srgb-encoded"},
+      [](float v, int k) { return k < 3 ? v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }, true);
   const auto in = [&](std::string_view plane, std::string_view name, Names names, Input input, int variants) -> Plant& {
     all.push_back({name, std::move(names), plane, {"many-lights", "touchdesigner"}, variants, std::move(input)});
     return all.back();
   };
   // The inverse transpose of a matrix D is undone where the mesh's normals are D^2 n.
-  in("normal", "normals by the model matrix", {"normal-matrix"},
-     [](Scene& s, Pipeline&, int) {
-       for (Instance& i : s.instances) {
-         Mesh mesh = s.meshes[i.mesh];
-         const glm::mat4x3& m = i.world_from_object;
-         for (size_t v = 0; v < mesh.vertex_count(); ++v) {
-           const V n(mesh.normal[0][v], mesh.normal[1][v], mesh.normal[2][v]), w = m[0] * n.x + m[1] * n.y + m[2] * n.z;
-           for (int k = 0; k < 3; ++k) mesh.normal[size_t(k)][v] = dot_of(m[k], w);
-         }
-         i.mesh = uint32_t(s.meshes.size());
-         s.meshes.push_back(std::move(mesh));
-       }
-       return true;
-     },
-     1)
+  in(
+      "normal", "normals by the model matrix", {"normal-matrix"},
+      [](Scene& s, Pipeline&, int) {
+        for (Instance& i : s.instances) {
+          Mesh mesh = s.meshes[i.mesh];
+          const glm::mat4x3& m = i.world_from_object;
+          for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+            const V n(mesh.normal[0][v], mesh.normal[1][v], mesh.normal[2][v]),
+                w = m[0] * n.x + m[1] * n.y + m[2] * n.z;
+            for (int k = 0; k < 3; ++k) mesh.normal[size_t(k)][v] = dot_of(m[k], w);
+          }
+          i.mesh = uint32_t(s.meshes.size());
+          s.meshes.push_back(std::move(mesh));
+        }
+        return true;
+      },
+      1)
       .base = [](Scene& s, Pipeline&) {
-        for (Instance& i : s.instances) i.world_from_object[1] *= 1.6f, i.world_from_object[0] += 0.3f * i.world_from_object[1];
-      };
-  in("G-buffer", "one object's colour", {"object-color", "material-color"},
-     [](Scene& s, Pipeline&, int v) {
-       Instance& object = s.instances[(size_t(v) * 7) % s.instances.size()];
-       s.materials.push_back(s.materials[object.material]);
-       object.material = uint32_t(s.materials.size() - 1);
-       s.materials.back().base_color *= glm::vec4(pick({0.5f, 1.2f, 0.9f}, v), 0.8f, pick({1.0f, 0.7f}, v), 1.0f);
-       return true;
-     },
-     4)
+    for (Instance& i : s.instances)
+      i.world_from_object[1] *= 1.6f, i.world_from_object[0] += 0.3f * i.world_from_object[1];
+  };
+  in(
+      "G-buffer", "one object's colour", {"object-color", "material-color"},
+      [](Scene& s, Pipeline&, int v) {
+        Instance& object = s.instances[(size_t(v) * 7) % s.instances.size()];
+        s.materials.push_back(s.materials[object.material]);
+        object.material = uint32_t(s.materials.size() - 1);
+        s.materials.back().base_color *= glm::vec4(pick({0.5f, 1.2f, 0.9f}, v), 0.8f, pick({1.0f, 0.7f}, v), 1.0f);
+        return true;
+      },
+      4)
       .plane = "albedo";
 }
 

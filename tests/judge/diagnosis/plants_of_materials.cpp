@@ -54,81 +54,90 @@ void add_maps(std::vector<Plant>& all) {
     all.push_back({name, std::move(names), plane, {"many-lights", "touchdesigner"}, variants, std::move(input)});
     return all.back();
   };
-  in("albedo", "texels offset by a half", {"texture-offset"},
-     [](Scene& s, Pipeline&, int v) {
-       for (const Instance& object : s.instances) {
-         TextureSlot& slot = s.materials[object.material].color_map;
-         Mesh& mesh = s.meshes[object.mesh];
-         if (!slot.used() || !mesh.more_uv.empty()) continue;
-         const TextureLevel& level = s.textures[size_t(slot.texture)].levels[0];
-         mesh.more_uv.push_back(mesh.uv);
-         for (float& u : mesh.more_uv[0][0]) u += (v == 1 ? 0.0f : 0.5f) / float(level.width);
-         for (float& w : mesh.more_uv[0][1]) w -= (v == 2 ? 0.0f : 0.5f) / float(level.height);
-       }
-       for (Material& m : s.materials) m.color_map.uv_set = 1;
-       return true;
-     },
-     3)
+  in(
+      "albedo", "texels offset by a half", {"texture-offset"},
+      [](Scene& s, Pipeline&, int v) {
+        for (const Instance& object : s.instances) {
+          TextureSlot& slot = s.materials[object.material].color_map;
+          Mesh& mesh = s.meshes[object.mesh];
+          if (!slot.used() || !mesh.more_uv.empty()) continue;
+          const TextureLevel& level = s.textures[size_t(slot.texture)].levels[0];
+          mesh.more_uv.push_back(mesh.uv);
+          for (float& u : mesh.more_uv[0][0]) u += (v == 1 ? 0.0f : 0.5f) / float(level.width);
+          for (float& w : mesh.more_uv[0][1]) w -= (v == 2 ? 0.0f : 0.5f) / float(level.height);
+        }
+        for (Material& m : s.materials) m.color_map.uv_set = 1;
+        return true;
+      },
+      3)
       .scenes = {kTextured};
-  in("albedo", "mip levels with a bias", {"texture-lod-bias", "texture-filter"},
-     [](Scene& s, Pipeline&, int v) {
-       for (Material& m : s.materials) m.color_map.sampler.lod_bias += pick({2.0f, -1.0f, -2.0f}, v);
-       return true;
-     },
-     3)
+  in(
+      "albedo", "mip levels with a bias", {"texture-lod-bias", "texture-filter"},
+      [](Scene& s, Pipeline&, int v) {
+        for (Material& m : s.materials) m.color_map.sampler.lod_bias += pick({2.0f, -1.0f, -2.0f}, v);
+        return true;
+      },
+      3)
       .scenes = {kTextured};
-  in("albedo", "a map with a gain", {"material-color", "object-color", "albedo-scaled"},
-     [](Scene& s, Pipeline&, int v) {
-       for (Material& m : s.materials)
-         if (m.color_map.texture == v) m.base_color *= glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
-       return true;
-     },
-     2)
+  in(
+      "albedo", "a map with a gain", {"material-color", "object-color", "albedo-scaled"},
+      [](Scene& s, Pipeline&, int v) {
+        for (Material& m : s.materials)
+          if (m.color_map.texture == v) m.base_color *= glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
+        return true;
+      },
+      2)
       .scenes = {kTextured};
-  in("albedo", "another colour map", {"material-color-map"},
-     [](Scene& s, Pipeline&, int v) {
-       for (Material& m : s.materials)
-         if (m.color_map.texture == v) m.color_map.texture = 1 - v;
-       return true;
-     },
-     2)
+  in(
+      "albedo", "another colour map", {"material-color-map"},
+      [](Scene& s, Pipeline&, int v) {
+        for (Material& m : s.materials)
+          if (m.color_map.texture == v) m.color_map.texture = 1 - v;
+        return true;
+      },
+      2)
       .scenes = {kTextured};
-  in("G-buffer", "texture coordinates offset", {"uv-offset"},
-     [](Scene& s, Pipeline&, int v) {
-       for (Mesh& mesh : s.meshes)
-         for (float& u : mesh.uv[0]) u += pick({0.1f, -0.5f}, v);
-       return true;
-     },
-     2)
+  in(
+      "G-buffer", "texture coordinates offset", {"uv-offset"},
+      [](Scene& s, Pipeline&, int v) {
+        for (Mesh& mesh : s.meshes)
+          for (float& u : mesh.uv[0]) u += pick({0.1f, -0.5f}, v);
+        return true;
+      },
+      2)
       .scenes = {kTextured};
-  in("normal", "a normal map's green turned", {"normal-map-green"},
-     [](Scene& s, Pipeline&, int) {
-       for (TextureLevel& level : s.textures.back().levels)
-         for (size_t i = 1; i < level.bytes.size(); i += 4) level.bytes[i] = uint8_t(255 - level.bytes[i]);
-       return true;
-     },
-     1)
+  in(
+      "normal", "a normal map's green turned", {"normal-map-green"},
+      [](Scene& s, Pipeline&, int) {
+        for (TextureLevel& level : s.textures.back().levels)
+          for (size_t i = 1; i < level.bytes.size(); i += 4) level.bytes[i] = uint8_t(255 - level.bytes[i]);
+        return true;
+      },
+      1)
       .base = bumpy;
-  in("normal", "a normal map decoded as sRGB", {"normal-map-srgb"},
-     [](Scene& s, Pipeline&, int) {
-       s.textures.back().format = TextureFormat::srgb8_a8;
-       return true;
-     },
-     1)
+  in(
+      "normal", "a normal map decoded as sRGB", {"normal-map-srgb"},
+      [](Scene& s, Pipeline&, int) {
+        s.textures.back().format = TextureFormat::srgb8_a8;
+        return true;
+      },
+      1)
       .base = bumpy;
-  in("normal", "normal maps not read", {"normal-map-missing"},
-     [](Scene& s, Pipeline&, int) {
-       for (Material& m : s.materials) m.normal_map.texture = -1;
-       return true;
-     },
-     1)
+  in(
+      "normal", "normal maps not read", {"normal-map-missing"},
+      [](Scene& s, Pipeline&, int) {
+        for (Material& m : s.materials) m.normal_map.texture = -1;
+        return true;
+      },
+      1)
       .base = bumpy;
-  in("G-buffer", "another cutoff of the alpha test", {"alpha-cutoff"},
-     [](Scene& s, Pipeline&, int v) {
-       s.materials[size_t(v) % s.materials.size()].alpha_cutoff = pick({0.3f, 0.0f, 0.6f, 0.4f}, v);
-       return true;
-     },
-     4)
+  in(
+      "G-buffer", "another cutoff of the alpha test", {"alpha-cutoff"},
+      [](Scene& s, Pipeline&, int v) {
+        s.materials[size_t(v) % s.materials.size()].alpha_cutoff = pick({0.3f, 0.0f, 0.6f, 0.4f}, v);
+        return true;
+      },
+      4)
       .base = masked;
 }
 
@@ -160,20 +169,23 @@ void add_glass(std::vector<Plant>& all) {
     for (const size_t i : glass_of(s)) s.instances[i].mesh = nothing;
     return true;
   });
-  in("a glass object missing", {"glass-object-missing"},
-     [](Scene& s, Pipeline&, int v) {
+  in(
+      "a glass object missing", {"glass-object-missing"},
+      [](Scene& s, Pipeline&, int v) {
+        const std::vector<size_t> glass = glass_of(s);
+        const auto nothing = uint32_t(s.meshes.size());
+        s.meshes.emplace_back();
+        s.instances[glass[size_t(v) * 5 % glass.size()]].mesh = nothing;
+        return true;
+      },
+      3);
+  in("glass in the opposite order", {"glass-reversed", "glass-near-first", "glass-far-first"},
+     [](Scene& s, Pipeline&, int) {
        const std::vector<size_t> glass = glass_of(s);
-       const auto nothing = uint32_t(s.meshes.size());
-       s.meshes.emplace_back();
-       s.instances[glass[size_t(v) * 5 % glass.size()]].mesh = nothing;
+       for (size_t a = 0, b = glass.size() - 1; a < b; ++a, --b)
+         std::swap(s.instances[glass[a]], s.instances[glass[b]]);
        return true;
-     },
-     3);
-  in("glass in the opposite order", {"glass-reversed", "glass-near-first", "glass-far-first"}, [](Scene& s, Pipeline&, int) {
-    const std::vector<size_t> glass = glass_of(s);
-    for (size_t a = 0, b = glass.size() - 1; a < b; ++a, --b) std::swap(s.instances[glass[a]], s.instances[glass[b]]);
-    return true;
-  });
+     });
   in("glass not multiplied by its alpha", {"glass-unmultiplied"}, [](Scene&, Pipeline& p, int) {
     p.transparency.blend.rgb.src = BlendFactor::one;
     return true;

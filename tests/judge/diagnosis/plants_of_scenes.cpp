@@ -51,7 +51,8 @@ void turn(Instance& object, float degrees, bool about_x) {
   const float a = degrees * std::acos(-1.0f) / 180, c = std::cos(a), s = std::sin(a);
   for (int k = 0; k < 3; ++k) {
     glm::vec3& v = object.world_from_object[k];
-    v = about_x ? glm::vec3(v.x, c * v.y - s * v.z, s * v.y + c * v.z) : glm::vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+    v = about_x ? glm::vec3(v.x, c * v.y - s * v.z, s * v.y + c * v.z)
+                : glm::vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
   }
 }
 
@@ -91,7 +92,8 @@ float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin
 
 void add_objects(const std::function<Plant&(std::string_view, Names, Input, int)>& in) {
   in("an object moved", {"object-moved"}, of_object([](Instance& i, int v) {
-       i.world_from_object[3] += glm::vec3(pick({0.3f, -0.1f, 0.05f}, v), pick({0.2f, 0.0f}, v), pick({0.1f, -0.4f, 0.0f}, v));
+       i.world_from_object[3] +=
+           glm::vec3(pick({0.3f, -0.1f, 0.05f}, v), pick({0.2f, 0.0f}, v), pick({0.1f, -0.4f, 0.0f}, v));
      }),
      6);
   in("an object turned", {"object-turned"}, of_object([](Instance& i, int v) {
@@ -114,15 +116,16 @@ void add_objects(const std::function<Plant&(std::string_view, Names, Input, int)
       },
       6)
       .base = culled_back;
-  in("an object of another material", {"object-material"},
-     [](Scene& s, Pipeline&, int v) {
-       Instance& object = object_of(s, v);
-       const uint32_t other = (object.material + 1) % uint32_t(s.materials.size());
-       const bool differs = s.materials[other].base_color != s.materials[object.material].base_color;
-       object.material = other;
-       return differs;
-     },
-     6);
+  in(
+      "an object of another material", {"object-material"},
+      [](Scene& s, Pipeline&, int v) {
+        Instance& object = object_of(s, v);
+        const uint32_t other = (object.material + 1) % uint32_t(s.materials.size());
+        const bool differs = s.materials[other].base_color != s.materials[object.material].base_color;
+        object.material = other;
+        return differs;
+      },
+      6);
   in(
       "triangles missing", {"triangles-missing"},
       [](Scene& s, Pipeline&, int v) {
@@ -142,58 +145,65 @@ void add_objects(const std::function<Plant&(std::string_view, Names, Input, int)
         return true;
       },
       6);
-  in("indices of 16 bits", {"indices-16-bits"},
-     [](Scene& s, Pipeline&, int) {
-       for (Mesh& mesh : s.meshes)
-         for (uint32_t& i : mesh.indices) i &= 0xffff;
-       return true;
-     },
-     1)
+  in(
+      "indices of 16 bits", {"indices-16-bits"},
+      [](Scene& s, Pipeline&, int) {
+        for (Mesh& mesh : s.meshes)
+          for (uint32_t& i : mesh.indices) i &= 0xffff;
+        return true;
+      },
+      1)
       .base = many_vertices;
 }
 
 void add_cameras(const std::function<Plant&(std::string_view, Names, Input, int)>& in) {
-  in("the camera moved", {"camera-moved"},
-     [](Scene& s, Pipeline&, int v) {
-       const glm::vec3 by = glm::vec3(0.1f, -0.05f, 0.2f) * pick({1.0f, 0.1f, -3.0f}, v);
-       s.camera.eye += by, s.camera.target += by;
-       return true;
-     },
-     3);
-  in("the eye moved", {"camera-eye"},
-     [](Scene& s, Pipeline&, int v) {
-       s.camera.eye += glm::vec3(0.2f, 0.1f, -0.1f) * pick({1.0f, 0.2f, -2.0f}, v);
-       return true;
-     },
-     3);
-  in("the camera turned", {"camera-target", "camera-turned"},
-     [](Scene& s, Pipeline&, int v) {
-       s.camera.target += glm::vec3(0.3f, 0.1f, 0.0f) * pick({1.0f, 0.1f, -2.0f}, v);
-       return true;
-     },
-     3);
-  in("another field of view", {"camera-angle"},
-     [](Scene& s, Pipeline&, int v) {
-       s.camera.fov_y_rad *= pick({1.02f, 0.9f, 1.001f, 1.2f}, v);
-       return true;
-     },
-     4);
+  in(
+      "the camera moved", {"camera-moved"},
+      [](Scene& s, Pipeline&, int v) {
+        const glm::vec3 by = glm::vec3(0.1f, -0.05f, 0.2f) * pick({1.0f, 0.1f, -3.0f}, v);
+        s.camera.eye += by, s.camera.target += by;
+        return true;
+      },
+      3);
+  in(
+      "the eye moved", {"camera-eye"},
+      [](Scene& s, Pipeline&, int v) {
+        s.camera.eye += glm::vec3(0.2f, 0.1f, -0.1f) * pick({1.0f, 0.2f, -2.0f}, v);
+        return true;
+      },
+      3);
+  in(
+      "the camera turned", {"camera-target", "camera-turned"},
+      [](Scene& s, Pipeline&, int v) {
+        s.camera.target += glm::vec3(0.3f, 0.1f, 0.0f) * pick({1.0f, 0.1f, -2.0f}, v);
+        return true;
+      },
+      3);
+  in(
+      "another field of view", {"camera-angle"},
+      [](Scene& s, Pipeline&, int v) {
+        s.camera.fov_y_rad *= pick({1.02f, 0.9f, 1.001f, 1.2f}, v);
+        return true;
+      },
+      4);
   in("another aspect", {"camera-aspect", "viewport-size"}, of_matrix([](std::array<float, 16>& m, Pipeline&, int v) {
        for (size_t c = 0; c < 4; ++c) m[4 * c] *= pick({0.75f, 1.01f}, v);
      }),
      2);
-  in("another near plane", {"camera-near"},
-     [](Scene& s, Pipeline&, int v) {
-       s.camera.near *= pick({0.5f, 1.1f, 10.0f}, v);
-       return s.camera.near < 1;
-     },
-     3);
-  in("another far plane", {"camera-far"},
-     [](Scene& s, Pipeline&, int v) {
-       s.camera.far *= pick({2.0f, 0.9f}, v);
-       return true;
-     },
-     2);
+  in(
+      "another near plane", {"camera-near"},
+      [](Scene& s, Pipeline&, int v) {
+        s.camera.near *= pick({0.5f, 1.1f, 10.0f}, v);
+        return s.camera.near < 1;
+      },
+      3);
+  in(
+      "another far plane", {"camera-far", "depth-bias"},
+      [](Scene& s, Pipeline&, int v) {
+        s.camera.far *= pick({2.0f, 0.9f}, v);
+        return true;
+      },
+      2);
   in("jitter below half a pixel", {"picture-jitter"}, of_matrix([](std::array<float, 16>& m, Pipeline& p, int v) {
        const float dx = pick({0.25f, -0.375f, 0.1f}, v), dy = pick({0.125f, 0.3f}, v);
        for (size_t c = 0; c < 4; ++c) {
@@ -202,18 +212,17 @@ void add_cameras(const std::function<Plant&(std::string_view, Names, Input, int)
        }
      }),
      3);
-  in("another viewport", {"viewport-size"},
-     [](Scene&, Pipeline& p, int v) {
+  in("another viewport", {"viewport-size"}, of_matrix([](std::array<float, 16>&, Pipeline& p, int v) {
        p.geometry.viewport = {0, 0, p.width + (v == 0 ? 1 : v == 1 ? -8 : 0), p.height + (v == 2 ? 2 : 0)};
-       return true;
-     },
+     }),
      3);
-  in("a viewport elsewhere", {"viewport-origin", "gbuffer-shift-x", "gbuffer-shift-y"},
-     [](Scene&, Pipeline& p, int v) {
-       p.geometry.viewport = {v == 0 ? 5 : v == 1 ? -1 : 3, v == 0 ? 0 : 2, p.width, p.height};
-       return true;
-     },
-     3);
+  in(
+      "a viewport elsewhere", {"viewport-origin", "gbuffer-shift-x", "gbuffer-shift-y"},
+      [](Scene&, Pipeline& p, int v) {
+        p.geometry.viewport = {v == 0 ? 5 : v == 1 ? -1 : 3, v == 0 ? 0 : 2, p.width, p.height};
+        return true;
+      },
+      3);
 }
 
 /// Planes of four samples a pixel, drawn as two by two pixels each and averaged.
@@ -228,7 +237,8 @@ void resolve_samples(const Scene& s, const Pipeline& p, oracle::Capture& c, int)
       for (int x = 0; x < p.width; ++x) {
         const uint32_t first = samples.plane("id.object")->code(2 * x, 2 * y, 0);
         bool edge = false;
-        for (int i = 1; i < 4; ++i) edge = edge || samples.plane("id.object")->code(2 * x + i % 2, 2 * y + i / 2, 0) != first;
+        for (int i = 1; i < 4; ++i)
+          edge = edge || samples.plane("id.object")->code(2 * x + i % 2, 2 * y + i / 2, 0) != first;
         for (int k = 0; edge && k < info(plane.image.format).channels; ++k) {
           double sum = 0;
           for (int i = 0; i < 4; ++i) sum += from->value(2 * x + i % 2, 2 * y + i / 2, k);
@@ -250,8 +260,13 @@ std::vector<Plant> made() {
     return all.back();
   };
   add_objects(in), add_cameras(in);
-  all.push_back({"edges as means of samples", {"edges-averaged"}, "G-buffer", {"many-lights", "touchdesigner"}, 1,
-                 nullptr, resolve_samples});
+  all.push_back({"edges as means of samples",
+                 {"edges-averaged"},
+                 "G-buffer",
+                 {"many-lights", "touchdesigner"},
+                 1,
+                 nullptr,
+                 resolve_samples});
   all.back().lights_again = true;
   return all;
 }
