@@ -134,7 +134,7 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
 
 namespace {
 
-/// All numbers of two pixels, or of three.
+/// Of each number of two pixels what `mix` makes.
 template <class Mix>
 void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, const Mix& mix) {
   out.depth = mix(a.depth, b.depth);
@@ -145,56 +145,28 @@ void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, c
   for (size_t k = 0; k < 2; ++k) out.uv[k] = mix(a.uv[k], b.uv[k]);
 }
 
-/// How far each number changes from a pixel to the next, where both show the same surface.
-PlaneValues slope_between(const ExpectedPixel& a, const ExpectedPixel& b) {
-  PlaneValues slope;
-  slope.depth = 0;
-  if (a.value.object == b.value.object)
-    mix_numbers(slope, a.value, b.value, [](double u, double v) { return std::fabs(u - v); });
-  return slope;
-}
-
-/// So much of one surface, the rest of another. Samples lie beside the pixel's middle, so that each may be as far off
-/// as it changes from a pixel to the next; `before` and `beyond` are the next ones of each.
-ExpectedPixel averaged(const ExpectedPixel& a, const ExpectedPixel& b, const ExpectedPixel& before,
-                       const ExpectedPixel& beyond, double share) {
-  ExpectedPixel out = a;
-  const auto mixed = [share](double u, double v) { return share * u + (1 - share) * v; };
-  PlaneValues slope;
-  mix_numbers(slope, slope_between(a, before), slope_between(b, beyond), mixed);
-  mix_numbers(out.value, a.value, b.value, mixed), mix_numbers(out.low, a.low, b.low, mixed);
-  mix_numbers(out.high, a.high, b.high, mixed);
-  mix_numbers(out.low, out.low, slope, [](double u, double v) { return u - v; });
-  mix_numbers(out.high, out.high, slope, [](double u, double v) { return u + v; });
-  return out;
-}
-
 }  // namespace
 
-/// Of the averages of 8 samples of the pixel's surface and a neighbour's, the one that comes nearest.
+/// Anything between the surfaces at a pixel and its neighbours; nothing where there is but one.
 std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes, int x, int y) const {
-  const ExpectedPixel here = planes.at(x, y);
-  const auto at = [&](int u, int v) {
-    return planes.at(std::clamp(u, 0, pipeline_.width - 1), std::clamp(v, 0, pipeline_.height - 1));
-  };
-  std::optional<ExpectedPixel> best;
-  double least = HUGE_VAL;
+  const auto least = [](double u, double v) { return std::min(u, v); };
+  const auto most = [](double u, double v) { return std::max(u, v); };
+  const PlaneValues seen = given(x, y);
+  ExpectedPixel hull = planes.at(x, y);
+  bool is_edge = false, is_one = false;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      if (dx == 0 && dy == 0) continue;
-      const ExpectedPixel there = at(x + dx, y + dy), beyond = at(x + 2 * dx, y + 2 * dy), before = at(x - dx, y - dy);
-      if (there.value.object == here.value.object && there.triangle == here.triangle) continue;
-      for (int samples = 0; samples < 8; ++samples) {
-        ExpectedPixel p = averaged(here, there, before, beyond, samples / 8.0);
-        const PlaneValues seen = given(x, y);
-        if (seen.object == there.value.object) p.value.object = p.low.object = p.high.object = seen.object;
-        if (seen.material == there.value.material) p.value.material = p.low.material = p.high.material = seen.material;
-        double cost = 0;
-        for (const double o : steps_off(p, x, y)) cost += cost_of(o);
-        if (cost < least) least = cost, best = p;
-      }
+      const ExpectedPixel p =
+          planes.at(std::clamp(x + dx, 0, pipeline_.width - 1), std::clamp(y + dy, 0, pipeline_.height - 1));
+      is_edge = is_edge || p.value.object != hull.value.object || p.triangle != hull.triangle;
+      is_one = is_one || (p.value.object == seen.object && p.value.material == seen.material);
+      mix_numbers(hull.low, hull.low, p.low, least), mix_numbers(hull.high, hull.high, p.high, most);
     }
-  return best;
+  if (!is_edge) return std::nullopt;
+  mix_numbers(hull.value, hull.low, hull.high, [](double u, double v) { return (u + v) / 2; });
+  if (is_one)  // identifiers are not averaged, but of any of them
+    for (PlaneValues* v : {&hull.value, &hull.low, &hull.high}) v->object = seen.object, v->material = seen.material;
+  return hull;
 }
 
 std::array<double, kPlanes> PlaneCase::steps_off(const ExpectedPixel& p, int x, int y) const {

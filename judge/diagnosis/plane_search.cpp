@@ -14,7 +14,6 @@ namespace {
 using Search = PlaneFault::Search;
 
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
-constexpr double kSure = 0.012;      ///< of what a G-buffer costs where nothing is wrong
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
 constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
@@ -185,10 +184,6 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
-      // What is estimated costs most, and rivals of what explains all say nothing.
-      if (fault.search == Search::suspected &&
-          std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.cost < kSure; }))
-        continue;
       std::optional<Candidate> best;
       for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});

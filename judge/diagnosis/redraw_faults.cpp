@@ -295,7 +295,7 @@ constexpr PlaneFault kFaults2[] = {
      Plane::normal, nullptr, normals_by_matrix},
     {.name = "edges-averaged",
      .text = "edges hold averages of the surfaces at them, as a resolve of samples makes them",
-     .doubt = 0.05,
+     .doubt = 0.08,
      .averages = true},
     {"transforms-missing", "the objects' matrices are not applied", Plane::all, nullptr, no_transforms},
 };
